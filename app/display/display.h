@@ -131,6 +131,7 @@ typedef struct DipEvent {
     int y;
     DipMouseButton button; // MOUSE_DOWN and MOUSE_UP.
     int clicks;            // MOUSE_DOWN: 2 for the second press of a double click.
+    bool focuses;          // MOUSE_DOWN: the press also gave the display the keyboard focus.
     double wheel_x;        // MOUSE_WHEEL: steps to the right.
     double wheel_y;        // MOUSE_WHEEL: steps away from the user.
 
@@ -179,6 +180,10 @@ typedef struct DipDisplay {
     // Returns the time in nanoseconds since an arbitrary moment. The clock advances while
     // next_event waits.
     int64_t (*now_ns)(void *context);
+
+    // Returns whether nobody can see the picture, because the display is minimised or hidden. An
+    // EXPOSE event comes when it shows again. NULL if the display cannot tell.
+    bool (*is_hidden)(void *context);
 
     // Turns full-screen mode on or off. NULL if the display has no such mode.
     void (*set_full_screen)(void *context, bool on);

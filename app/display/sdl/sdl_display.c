@@ -231,7 +231,7 @@ static bool next_event(void *context, int timeout_ms, DipEvent *event) {
         *event = dip_sdl_controller_translate(&sdl_event);
     }
     if (sdl->host && event->kind == DIP_EVENT_MOUSE_DOWN) {
-        dip_sdl_host_take_focus(sdl->host);
+        event->focuses = dip_sdl_host_take_focus(sdl->host);
     }
     if (event->kind == DIP_EVENT_DROP) {
         sdl->dropped_file = sdl_event.drop.file;
@@ -267,6 +267,13 @@ static double refresh_hz(void *context) {
 static int64_t now_ns(void *context) {
     (void)context;
     return dip_clock_ns();
+}
+
+static bool is_hidden(void *context) {
+    const SdlDisplay *sdl = context;
+    return sdl->host ? dip_sdl_host_is_hidden(sdl->host, dip_clock_ns())
+                     : (SDL_GetWindowFlags(sdl->window) &
+                        (SDL_WINDOW_HIDDEN | SDL_WINDOW_MINIMIZED)) != 0;
 }
 
 static bool set_clipboard(void *context, const char *text) {
@@ -310,6 +317,7 @@ static DipDisplay display_of(SdlDisplay *sdl) {
         .scale = scale,
         .refresh_hz = refresh_hz,
         .now_ns = now_ns,
+        .is_hidden = is_hidden,
         // The host decides about the size of its windows.
         .set_full_screen = sdl->host ? NULL : set_full_screen,
         .set_size = sdl->host ? NULL : set_size,

@@ -245,10 +245,13 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
     if (!needs_pictures(request->verb)) {
         remote->acted = true;
     } else if (!pictures_are_ready(remote, attempt)) {
+        remote->waits = true;
         return DIP_CONTROL_LATER;
     }
     if (request->verb == DIP_CONTROL_SCENE) {
-        return show_scene(remote->moment, request->name, attempt, err);
+        const DipControlAnswer answer = show_scene(remote->moment, request->name, attempt, err);
+        remote->waits |= answer == DIP_CONTROL_LATER;
+        return answer;
     }
     return act(remote->moment, request, reply, err) ? DIP_CONTROL_DONE : DIP_CONTROL_REFUSED;
 }
@@ -256,8 +259,9 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
 static bool turn(void *context, const DipPreviewMoment *moment) {
     DipRemote *remote = context;
     remote->moment = moment;
-    remote->acted = false;
+    remote->acted = remote->waits = false;
     dip_control_poll(remote->control);
+    moment->state->wants_picture = remote->waits;
     dip_remote_send_events(remote);
     remote->moment = NULL;
     return remote->acted;

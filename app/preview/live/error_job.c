@@ -344,6 +344,19 @@ const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job) {
     return &job->result;
 }
 
+int dip_error_job_next_samples(const DipErrorJob *job) {
+    const bool measures = job->truth_level >= 0 && job->measured >= 0;
+    return !job->has_still || is_drawn(job) || measures || job->level == DIP_ERROR_JOB_LEVELS
+               ? 0
+               : HALVES * dip_error_job_samples[job->level];
+}
+
+double dip_error_job_drawn(const DipErrorJob *job) {
+    return job->convergence
+               ? (double)job->drawn / (HALVES * dip_convergence_tile_count(job->convergence))
+               : 0.0;
+}
+
 const float *dip_error_job_flip(const DipErrorJob *job, int pane) {
     return job->still.unjudged[pane] ? NULL : job->flip[shown_pane(job, pane)];
 }

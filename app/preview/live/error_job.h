@@ -76,6 +76,13 @@ DipErrorJobStep dip_error_job_step(DipErrorJob *job, DipError *err);
 
 const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
 
+// Returns the samples per pixel of the truth that the next step draws at, both halves together, or
+// 0 if the next step draws no truth.
+int dip_error_job_next_samples(const DipErrorJob *job);
+
+// Returns how much of that truth is drawn, from 0 to 1.
+double dip_error_job_drawn(const DipErrorJob *job);
+
 // The pictures that belong to the result. They are complete between the step that returned
 // NEW_RESULT and the next step; later steps overwrite them. Rows are packed.
 

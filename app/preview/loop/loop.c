@@ -148,6 +148,22 @@ static void follow_layout(DipPreview *preview) {
     preview->pane_height = height;
 }
 
+// Finds out whether anything moves, when another path or scene plays.
+static void follow_motion(DipPreview *preview) {
+    const DipSession *session = preview->def.session;
+    const DipCamTrack *track = &session->track;
+    const DipCamPath *path = track->categories[track->active].path
+                                 ? track->categories[track->active].path
+                                 : track->categories[0].path;
+    if (path != preview->judged_path || session->scene != preview->judged_scene) {
+        preview->judged_path = path;
+        preview->judged_scene = session->scene;
+        preview->state.stands = !session->shows_gallery && session->scene &&
+                                !dip_scene_moves(session->scene) &&
+                                dip_preview_path_stands(&preview->state);
+    }
+}
+
 // Draws and presents the picture if something has changed. Sets *shown to whether something has
 // changed.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
@@ -156,6 +172,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     const int64_t since_ns = now_ns - preview->turn_ns;
     const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
     preview->turn_ns = now_ns;
+    follow_motion(preview);
     dip_loop_fly(preview, elapsed_ns);
     dip_preview_advance(state, elapsed_ns, now_ns);
     follow_full_screen(preview);
@@ -194,7 +211,7 @@ static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
         const bool busy = preview->live_prices &&
                           dip_live_prices_are_working(preview->live_prices) &&
-                          dip_prices_progress(preview->prices)[0] != '\0';
+                          dip_prices_progress(preview->prices)[0] != '\0'; // Not paused.
         dip_loop_take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;
     }
@@ -207,6 +224,27 @@ static void wait_for_turn(DipPreview *preview, bool shown) {
     }
 }
 
+// Returns whether nobody sees the window and nobody waits for its picture.
+static bool is_hidden(const DipPreview *preview) {
+    const DipDisplay *display = &preview->def.display;
+    return display->is_hidden && display->is_hidden(display->context) &&
+           !preview->state.wants_picture;
+}
+
+// A turn in which nothing is drawn or measured. Time stands still.
+static void rest_hidden(DipPreview *preview) {
+    if (preview->errors) {
+        dip_error_thread_pause(preview->errors);
+    }
+    if (preview->live_prices) {
+        dip_live_prices_pause(preview->live_prices);
+    }
+    preview->figures.presented_ns = 0; // The time until the next picture says nothing.
+    preview->exposed = true;
+    dip_loop_take_event(preview, IDLE_WAIT_MS);
+    preview->turn_ns = dip_loop_clock_ns(preview);
+}
+
 bool dip_preview_turn(DipPreview *preview, DipError *err) {
     bool shown = false;
     while (!preview->state.quit && dip_loop_take_event(preview, 0)) {
@@ -214,6 +252,10 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
     dip_loop_take_control(preview);
     if (preview->state.quit) {
         return true; // The user has quit, so no further frame is drawn.
+    }
+    if (is_hidden(preview)) {
+        rest_hidden(preview);
+        return true;
     }
     if (!draw_turn(preview, dip_loop_clock_ns(preview), &shown, err)) {
         return false;

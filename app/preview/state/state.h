@@ -78,6 +78,7 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
+    bool stands;           // Neither the camera nor the scene moves although time may run.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
@@ -94,6 +95,7 @@ typedef struct DipPreviewState {
     int next_advice;         // Index in costs->advice of the next advice to give.
     bool wants_errors;       // Another program has asked for the errors, shown or not.
     bool wants_prices;       // Another program has asked for the prices, shown or not.
+    bool wants_picture;      // Another program waits for a picture, even of a hidden window.
     bool measures_here;      // Prices are measured in this view although there is a report.
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
@@ -150,6 +152,9 @@ void dip_preview_follow_dock(DipPreviewState *state);
 
 // Goes to a play time.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
+
+// Returns whether all poses of the playing path are the same.
+bool dip_preview_path_stands(const DipPreviewState *state);
 
 // Returns whether camera and scene stand still. flying: the user is moving the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);

@@ -54,10 +54,11 @@ typedef struct DipToolState {
     int x; // The loupe's pixel, in pixels of a pane's picture. Below 0: the picture's middle.
     int y;
     DipComparison comparison;
-    double divider; // WIPE: 0 is the pane's left edge, 1 its right edge.
-    int gain;       // DIFFERENCE: 1, 2, 4, ... 64.
-    bool blinked;   // BLINK: shows the requested pane.
-    bool blinks;    // BLINK: changes between the panes by itself, twice a second.
+    double divider;     // WIPE: 0 is the pane's left edge, 1 its right edge.
+    int gain;           // DIFFERENCE: 1, 2, 4, ... 64.
+    bool against_truth; // WIPE, BLINK, DIFFERENCE: the converged picture in place of current.
+    bool blinked;       // BLINK: shows the requested pane.
+    bool blinks;        // BLINK: changes between the panes by itself, twice a second.
     DipMap map;
     double brightness; // Maps: the value that the end of the colour scale stands for is divided by
                        // this.

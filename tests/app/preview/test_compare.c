@@ -58,10 +58,12 @@ static void test_frame_size_is_the_room_of_the_picture(void **state) {
     int width, height;
     dip_compare_frame_size(&tw.layout, DIP_COMPARE_SIDE_BY_SIDE, &width, &height);
     assert_true(width == PANE_WIDTH && height == PANE_HEIGHT);
-    dip_compare_frame_size(&tw.layout, DIP_COMPARE_WIPE, &width, &height);
-    assert_true(width == PANE_WIDTH && height == PANE_HEIGHT);
-    dip_compare_frame_size(&tw.layout, DIP_COMPARE_ALONE, &width, &height);
-    assert_true(width == 2 * PANE_WIDTH + DIP_PANE_GAP_PX && height == PANE_HEIGHT);
+    static const DipComparison of_one_picture[] = {DIP_COMPARE_WIPE, DIP_COMPARE_BLINK,
+                                                   DIP_COMPARE_DIFFERENCE, DIP_COMPARE_ALONE};
+    for (int i = 0; i < 4; i++) {
+        dip_compare_frame_size(&tw.layout, of_one_picture[i], &width, &height);
+        assert_true(width == 2 * PANE_WIDTH + DIP_PANE_GAP_PX && height == PANE_HEIGHT);
+    }
 }
 
 // --- the difference ------------------------------------------------------------------------------
