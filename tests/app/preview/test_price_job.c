@@ -316,13 +316,13 @@ static void prices_of_a_busy_machine_are_doubtful(void **state) {
     }
 }
 
-// A few rounds wait. They are left out, or drawn again.
+// A few frames wait. They are left out, or drawn again.
 static void disturbed_frames_make_no_price(void **state) {
     (void)state;
     const DipQuality pane = settings("aa=4");
     follow("aa=none", "aa=4");
     while (dip_price_job_progress(job).working) {
-        slow = frames / 40 % 3 == 1 ? 2.0 : 1.0;
+        slow = frames % 11 == 3 ? 2.0 : 1.0;
         waits = slow > 1.0 ? 0.5 : 0.0;
         dip_price_job_step(job, 0.0);
     }
