@@ -291,7 +291,12 @@ static bool end_block(DipPriceJob *job) {
             *(before ? before : &job->timed[job->timed_count++]) = timed;
         }
     }
-    job->base_ms[job->blocks++ % LEVELS] = dip_stats_median(base_ms, times.rounds);
+    int kept = 0;
+    for (int r = 0; r < times.rounds; r++) {
+        base_ms[kept] = base_ms[r];
+        kept += !isnan(ms[r]);
+    }
+    job->base_ms[job->blocks++ % LEVELS] = dip_stats_median(base_ms, kept);
     judge(job, dip_driver_machine(job->driver, job->calls.threads).wait, disturbed,
           times.rounds * (job->member_count - 1));
     drop_block(job);

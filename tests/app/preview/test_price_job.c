@@ -319,10 +319,10 @@ static void prices_of_a_busy_machine_are_doubtful(void **state) {
 // A few frames wait. They are left out, or drawn again.
 static void disturbed_frames_make_no_price(void **state) {
     (void)state;
-    const DipQuality pane = settings("aa=4");
-    follow("aa=none", "aa=4");
+    const DipQuality pane = settings("aa=4,af=8,aaf=on");
+    follow("aa=none", "aa=4,af=8,aaf=on");
     while (dip_price_job_progress(job).working) {
-        slow = frames % 5 == 3 ? 2.0 : 1.0;
+        slow = frames % 7 == 3 ? 2.0 : 1.0;
         waits = slow > 1.0 ? 0.5 : 0.0;
         dip_price_job_step(job, 0.0);
     }
