@@ -4,24 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT] = {
-#define STAGE_NAME(name, text) #name,
-    DIP_STAGE_LIST(STAGE_NAME)
-#undef STAGE_NAME
-        "total"};
-
-void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash) {
-#define SET_STAGE(name, text) sample->ms[DIP_BENCH_STAGE_##name] = frame->stages.name##_ms;
-    DIP_STAGE_LIST(SET_STAGE)
-#undef SET_STAGE
-    sample->ms[DIP_BENCH_STAGE_total] = frame->stages.total_ms;
-    sample->counters = frame->counters;
-    sample->hash[0] = '\0';
-    if (hash) {
-        dip_frame_hash(frame, sample->hash);
-    }
-}
-
 static size_t values_per_stage(const DipBenchPlan *plan) {
     return (size_t)plan->options.rounds * (size_t)plan->options.frames;
 }
@@ -46,12 +28,6 @@ void dip_bench_result_free(DipBenchResult *result) {
 
 static size_t first_index(const DipBenchResult *result, int combination, DipBenchStage stage) {
     return ((size_t)combination * DIP_BENCH_STAGE_COUNT + stage) * values_per_stage(result->plan);
-}
-
-void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed) {
-    _Static_assert((int)DIP_BENCH_STAGE_total == (int)DIP_TIMED_PARTS, "each stage is a part");
-    timed->ms = sample->ms[DIP_BENCH_STAGE_total];
-    memcpy(timed->parts_ms, sample->ms, sizeof timed->parts_ms);
 }
 
 void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed) {

@@ -1,13 +1,12 @@
 // Running the programs, start by start, and estimating from their times.
 #include "app/cost/diff/diff_duel.h"
 
-#include "app/bench/child.h"
 #include "app/cli/interrupt.h"
-#include "app/measure/timing/thread_use.h"
+#include "app/measure/timing/child.h"
 #include "app/cli/drive.h"
 
 #include <math.h>
-#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,8 +45,7 @@ static const bool *disturbed_of(const DipCostDuel *duel, int pair) {
 // Subject i is side i % 2 of pair i / 2; side 0 is the base.
 typedef struct Programs {
     DipCostDuel *duel;
-    DipBenchChild *children[2];
-    DipThreadWatch *watches[2];
+    DipChild *children[2];
 } Programs;
 
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
@@ -57,20 +55,16 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     const int pair = turn->subject / 2, side = turn->subject % 2;
     const int program = def->program_of[pair][side];
     const bool first = turn->phase == DIP_DRIVER_WARM_UP && turn->start == 0;
-    const DipThreadUse before = dip_thread_watch_read(p->watches[program]);
+    char request[64];
     DipBenchSample sample;
-    if (!dip_bench_child_draw(p->children[program], def->combination_of[pair][side], turn->frame,
-                              first, &sample, err)) {
+    snprintf(request, sizeof request, "draw %d %d %d", def->combination_of[pair][side], turn->frame,
+             first);
+    if (!dip_child_draw(p->children[program], request, &sample, timed, err)) {
         return false;
     }
-    const DipThreadUse after = dip_thread_watch_read(p->watches[program]);
     if (first) {
         duel->first[(side * def->pair_count + pair) * frame_count(duel) + turn->frame] = sample;
     }
-    dip_bench_sample_time(&sample, timed);
-    timed->wait =
-        after.has_wait ? 1e-6 * (double)(after.wait_ns - before.wait_ns) / timed->ms : NAN;
-    timed->cpu_ms = 1e-6 * (double)(after.cpu_ns - before.cpu_ns);
     return true;
 }
 
@@ -78,29 +72,26 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
 
 // The number of threads that draw. If it was not given, the programs' ini decides, and the threads
 // are counted: bench has a pool of its own beside the session's, and the main thread is in both.
-static int thread_count(const DipCostDuelDef *def, const DipThreadWatch *watch) {
-    const int threads = (dip_thread_watch_count(watch) + 1) / 2;
+static int thread_count(const DipCostDuelDef *def, const DipChild *child) {
+    const int threads = (dip_child_thread_count(child) + 1) / 2;
     return def->threads > 0 ? def->threads : threads > 0 ? threads : 1;
 }
 
 static void stop_programs(Programs *p) {
-    for (int i = 0; i < 2; i++) {
-        dip_thread_watch_close(&p->watches[i]);
-        if (p->children[i] && dip_interrupted()) {
-            // Its answer is no longer read, so it must not complain that it cannot be written.
-            kill((pid_t)dip_bench_child_pid(p->children[i]), SIGTERM);
-        }
-        dip_bench_child_stop(&p->children[i]);
-    }
+    dip_child_stop(&p->children[0], dip_interrupted());
+    dip_child_stop(&p->children[1], dip_interrupted());
 }
 
 // Starts the programs anew. A program that does not answer is a mistake on the command line.
 static bool start_programs(void *context, int start, DipError *err) {
     Programs *p = context;
     DipCostDuel *duel = p->duel;
+    const DipBenchOptions *options = &duel->def->plan->options;
     stop_programs(p);
     for (int i = 0; i < duel->def->program_count; i++) {
-        p->children[i] = dip_bench_child_start(duel->def->programs[i], duel->def->plan, err);
+        const DipChildDef def = {duel->def->programs[i], options->argv,   options->argc, "bench",
+                                 duel->def->plan->count, options->frames, "--vs"};
+        p->children[i] = dip_child_start(&def, err);
         if (!p->children[i]) {
             if (err && err->code != DIP_ERROR_MEMORY) {
                 err->origin = start == 0 ? DIP_ORIGIN_INPUT : DIP_ORIGIN_RUNTIME;
@@ -108,8 +99,7 @@ static bool start_programs(void *context, int start, DipError *err) {
             }
             return false;
         }
-        p->watches[i] = dip_thread_watch_open_process(dip_bench_child_pid(p->children[i]));
-        duel->threads = thread_count(duel->def, p->watches[i]);
+        duel->threads = thread_count(duel->def, p->children[i]);
     }
     return true;
 }

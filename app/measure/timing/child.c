@@ -1,11 +1,13 @@
 // Starting another program and talking with it through pipes.
-#include "app/bench/child.h"
+#include "app/measure/timing/child.h"
 
+#include "app/measure/timing/thread_use.h"
 #include "renderer/base/number.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <math.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -18,23 +20,24 @@ enum { LINE_SIZE = 1024 };
 
 extern char **environ;
 
-struct DipBenchChild {
-    const char *program; // borrowed
-    pid_t pid;           // 0 if there is no process
+struct DipChild {
+    DipChildDef def; // Its texts are borrowed.
+    pid_t pid;       // 0 if there is no process
     FILE *to;
     FILE *from;
+    DipThreadWatch *watch; // NULL if the machine does not tell.
 };
 
 // --- starting ----------------------------------------------------------------------------------
 
-// Returns this program's command line with `program` as argv[0] and --serve at the end. The texts
-// are borrowed; the caller frees the array.
-static char **child_arguments(const char *program, const DipBenchOptions *options) {
-    char **arguments = calloc((size_t)options->argc + 2, sizeof *arguments);
+// Returns the command line with the program as argv[0] and --serve at the end. The texts are
+// borrowed; the caller frees the array.
+static char **child_arguments(const DipChildDef *def) {
+    char **arguments = calloc((size_t)def->argc + 2, sizeof *arguments);
     if (arguments) {
-        memcpy(arguments, options->argv, (size_t)options->argc * sizeof *arguments);
-        arguments[0] = (char *)program;
-        arguments[options->argc] = (char *)"--serve";
+        memcpy(arguments, def->argv, (size_t)def->argc * sizeof *arguments);
+        arguments[0] = (char *)def->program;
+        arguments[def->argc] = (char *)"--serve";
     }
     return arguments;
 }
@@ -42,8 +45,8 @@ static char **child_arguments(const char *program, const DipBenchOptions *option
 // Starts the child with `in` as its standard input and `out` as its standard output. The child does
 // not inherit the other ends of the pipes, because these ends are close-on-exec. Returns 0 or an
 // errno.
-static int spawn(DipBenchChild *child, const DipBenchOptions *options, int in, int out) {
-    char **arguments = child_arguments(child->program, options);
+static int spawn(DipChild *child, int in, int out) {
+    char **arguments = child_arguments(&child->def);
     posix_spawn_file_actions_t actions;
     if (!arguments || posix_spawn_file_actions_init(&actions) != 0) {
         free(arguments);
@@ -52,7 +55,7 @@ static int spawn(DipBenchChild *child, const DipBenchOptions *options, int in, i
     posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
     const int failure =
-        posix_spawn(&child->pid, child->program, &actions, NULL, arguments, environ);
+        posix_spawn(&child->pid, child->def.program, &actions, NULL, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     free(arguments);
     child->pid = failure ? 0 : child->pid;
@@ -64,12 +67,12 @@ static bool close_on_exec(const int pipe_ends[2]) {
            fcntl(pipe_ends[1], F_SETFD, FD_CLOEXEC) == 0;
 }
 
-static bool start(DipBenchChild *child, const DipBenchOptions *options, DipError *err) {
+static bool start(DipChild *child, DipError *err) {
     int down[2] = {-1, -1};
     int up[2] = {-1, -1};
     int failure = ENFILE;
     if (pipe(down) == 0 && pipe(up) == 0 && close_on_exec(down) && close_on_exec(up)) {
-        failure = spawn(child, options, down[0], up[1]);
+        failure = spawn(child, down[0], up[1]);
         child->to = fdopen(down[1], "w");
         child->from = fdopen(up[0], "r");
     }
@@ -80,60 +83,67 @@ static bool start(DipBenchChild *child, const DipBenchOptions *options, DipError
         }
     }
     return (failure == 0 && child->to && child->from) ||
-           dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "--vs", "%s cannot be started: %s",
-                         child->program, strerror(failure));
+           dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, child->def.key,
+                         "%s cannot be started: %s", child->def.program, strerror(failure));
 }
 
-static bool read_line(DipBenchChild *child, char line[LINE_SIZE], DipError *err) {
+static bool read_line(DipChild *child, char line[LINE_SIZE], DipError *err) {
     return fgets(line, LINE_SIZE, child->from) ||
-           dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "--vs",
-                         "%s has ended; see its own message above", child->program);
+           dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, child->def.key,
+                         "%s has ended; see its own message above", child->def.program);
 }
 
-static bool check_greeting(DipBenchChild *child, const DipBenchPlan *plan, DipError *err) {
-    char line[LINE_SIZE];
-    int count;
-    int frames;
+static bool check_greeting(DipChild *child, DipError *err) {
+    const DipChildDef *def = &child->def;
+    char line[LINE_SIZE], what[32];
+    int count, frames;
     if (!read_line(child, line, err)) {
         return false;
     }
-    if (sscanf(line, "diptych-bench 1 %d %d", &count, &frames) != 2) {
+    if (sscanf(line, "diptych-%31s 1 %d %d", what, &count, &frames) != 3 ||
+        strcmp(what, def->what) != 0) {
         return dip_error_set_runtime(
-            err, DIP_ERROR_FORMAT, NULL, 0, "--vs",
-            "%s did not answer as diptych's bench does; is it a diptych of another version?",
-            child->program);
+            err, DIP_ERROR_FORMAT, NULL, 0, def->key,
+            "%s did not answer as diptych's %s does; is it a diptych of another version?",
+            def->program, def->what);
     }
-    return (count == plan->count && frames == plan->options.frames) ||
-           dip_error_set_runtime(err, DIP_ERROR_CONFLICT, NULL, 0, "--vs",
+    return (count == def->count && frames == def->frames) ||
+           dip_error_set_runtime(err, DIP_ERROR_CONFLICT, NULL, 0, def->key,
                                  "%s has %d combinations of %d frames, but this program has %d "
                                  "combinations of %d frames",
-                                 child->program, count, frames, plan->count, plan->options.frames);
+                                 def->program, count, frames, def->count, def->frames);
 }
 
-DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *plan, DipError *err) {
-    DipBenchChild *child = calloc(1, sizeof *child);
+DipChild *dip_child_start(const DipChildDef *def, DipError *err) {
+    DipChild *child = calloc(1, sizeof *child);
     if (!child) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--vs", "out of memory");
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, def->key, "out of memory");
         return NULL;
     }
-    child->program = program;
+    child->def = *def;
     // With SIGPIPE ignored, writing to a child that has ended does not end this program. The next
     // read finds the end of the file, which is then reported.
     signal(SIGPIPE, SIG_IGN);
-    if (!start(child, &plan->options, err) || !check_greeting(child, plan, err)) {
-        dip_bench_child_stop(&child);
+    if (!start(child, err) || !check_greeting(child, err)) {
+        dip_child_stop(&child, false);
+        return NULL;
     }
+    child->watch = dip_thread_watch_open_process((long)child->pid);
     return child;
 }
 
-long dip_bench_child_pid(const DipBenchChild *child) {
-    return (long)child->pid;
+int dip_child_thread_count(const DipChild *child) {
+    return dip_thread_watch_count(child->watch);
 }
 
-void dip_bench_child_stop(DipBenchChild **child_pointer) {
-    DipBenchChild *child = *child_pointer;
+void dip_child_stop(DipChild **child_pointer, bool at_once) {
+    DipChild *child = *child_pointer;
     if (!child) {
         return;
+    }
+    dip_thread_watch_close(&child->watch);
+    if (at_once && child->pid) {
+        kill(child->pid, SIGTERM);
     }
     if (child->to) {
         fclose(child->to);
@@ -173,23 +183,27 @@ static void store_word(const char *word, DipBenchSample *sample) {
 #undef STORE_COUNTER
 }
 
-bool dip_bench_child_draw(void *context, int combination, int frame, bool hash,
-                          DipBenchSample *sample, DipError *err) {
-    DipBenchChild *child = context;
+bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample, DipTimed *timed,
+                    DipError *err) {
     char line[LINE_SIZE];
     *sample = (DipBenchSample){.hash = ""};
-    fprintf(child->to, "draw %d %d %d\n", combination, frame, hash);
+    const DipThreadUse before = dip_thread_watch_read(child->watch);
+    fprintf(child->to, "%s\n", request);
     fflush(child->to);
     if (!read_line(child, line, err)) {
         return false;
     }
+    const DipThreadUse after = dip_thread_watch_read(child->watch);
     char *rest = NULL;
     for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {
         store_word(word, sample);
     }
-    return sample->ms[DIP_BENCH_STAGE_total] > 0.0 ||
-           dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--vs",
-                                 "%s answered without a time", child->program);
+    dip_bench_sample_time(sample, timed);
+    timed->wait = child->watch ? 1e-6 * (double)(after.wait_ns - before.wait_ns) / timed->ms : NAN;
+    timed->cpu_ms = child->watch ? 1e-6 * (double)(after.cpu_ns - before.cpu_ns) : 0.0;
+    return timed->ms > 0.0 ||
+           dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, child->def.key,
+                                 "%s answered without a time", child->def.program);
 }
 
 // --- answering ---------------------------------------------------------------------------------
@@ -205,23 +219,17 @@ static void answer(const DipBenchSample *sample) {
     fflush(stdout);
 }
 
-bool dip_bench_serve(const DipBenchPlan *plan, const DipBenchSource *source, DipError *err) {
+bool dip_child_serve(const char *what, int count, int frames,
+                     bool (*draw)(void *context, const char *request, DipBenchSample *sample,
+                                  DipError *err),
+                     void *context, DipError *err) {
     char line[LINE_SIZE];
-    printf("diptych-bench 1 %d %d\n", plan->count, plan->options.frames);
+    printf("diptych-%s 1 %d %d\n", what, count, frames);
     fflush(stdout);
     while (fgets(line, sizeof line, stdin)) {
-        int combination;
-        int frame;
-        int hash;
         DipBenchSample sample;
-        if (sscanf(line, "draw %d %d %d", &combination, &frame, &hash) != 3 || combination < 0 ||
-            combination >= plan->count || frame < 0 || frame >= plan->options.frames) {
-            line[strcspn(line, "\n")] = '\0';
-            return dip_error_set_runtime(
-                err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
-                "'%.60s' is not a request; give draw COMBINATION FRAME 0|1", line);
-        }
-        if (!source->draw(source->context, combination, frame, hash != 0, &sample, err)) {
+        line[strcspn(line, "\n")] = '\0';
+        if (!draw(context, line, &sample, err)) {
             return false;
         }
         answer(&sample);
