@@ -286,7 +286,7 @@ static void open_run(Run *run) {
     run->arguments.session.config = run->config;
     run->arguments.session.has_size = true;
     run->arguments.session.size = (DipOptionSize){WIDTH, HEIGHT};
-    run->arguments.cost.rounds = ROUNDS;
+    run->arguments.measure.rounds = ROUNDS;
     run->arguments.cost.timed_frames = TIMED;
     run->arguments.cost.places = PLACES;
     run->arguments.cost.samples = 4;
