@@ -1,7 +1,7 @@
 // A cost report: its measurements, and the values computed from them. Errors are measured against
 // truths (converged pictures, app/measure/metrics/truth.h), at a few viewpoints of each camera
 // path. Times are measured along each path, each beside a time of the path's baseline
-// (app/measure/timing/paired_timing.h).
+// (app/measure/timing/driver.h).
 #ifndef DIP_APP_REPORT_REPORT_H
 #define DIP_APP_REPORT_REPORT_H
 
@@ -9,7 +9,8 @@
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
 #include "app/measure/stats/paired.h"
-#include "app/measure/timing/paired_timing.h"
+#include "app/measure/timing/driver.h"
+#include "app/measure/timing/pairs.h"
 #include "app/report/choice.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
@@ -184,7 +185,7 @@ typedef struct DipCostReport {
     char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps that were left out, with reasons.
     int refused_count;
     int rounds;                    // Number of rounds timed; 0 if the report has no times.
-    DipPairedTimingResult machine; // What the timing tells about the machine.
+    DipDriverMachine machine; // What the timing tells about the machine.
     DipCostLevelSpread level_spread;
     DipCostVerdict verdict; // Valid if the report has times.
     char verdict_reason[DIP_COST_REASON];

@@ -158,6 +158,7 @@ bool dip_cost_axes_plan(DipCostAxes *axes, const DipSession *session,
                         const DipCostAxesArguments *arguments, DipError *err) {
     *axes = (DipCostAxes){.report = {.options = arguments->cost}};
     DipCostReport *report = &axes->report;
+    dip_cost_set_measure(&report->options, &arguments->measure, 1);
     report->rows = calloc(DIP_COST_AXES_MAX_ROWS, sizeof *report->rows);
     if (!report->rows) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost axes", "out of memory");

@@ -45,7 +45,7 @@ typedef struct DipCostDuel {
     int threads; // Threads of a program.
 } DipCostDuel;
 
-// Fails as dip_bench_child_start does, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with
+// Fails as dip_child_start does, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with
 // DIP_ERROR_MEMORY. On success the caller frees the duel.
 bool dip_cost_duel_run(const DipCostDuelDef *def, DipCostDuel *duel, DipError *err);
 void dip_cost_duel_free(DipCostDuel *duel);

@@ -19,6 +19,7 @@
 #ifndef DIP_APP_MEASURE_STATS_PAIRED_H
 #define DIP_APP_MEASURE_STATS_PAIRED_H
 
+#include "app/measure/stats/estimate.h"
 #include "app/measure/stats/statistics.h"
 #include "app/measure/stats/estimate.h"
 #include "renderer/base/error.h"
