@@ -32,7 +32,7 @@ static int list_undecided(const DipCostReport *report, double budget_ms, Candida
         int viewpoints;
         dip_cost_row_sums(report, r, &viewpoints);
         const double flip = dip_cost_ranking_flip(report, r);
-        const DipStatsEstimate time = dip_cost_budget_time(report, r);
+        const DipEstimate time = dip_cost_budget_time(report, r);
         if (viewpoints > 0 && time.low <= budget_ms && time.high > budget_ms &&
             (chosen < 0 || flip < 0.99 * dip_cost_ranking_flip(report, chosen))) {
             candidates[count++] = (Candidate){r, flip};
@@ -108,8 +108,7 @@ static bool add_odds(const DipCostReport *report, DipCostAdvice *advice, DipErro
 static bool choose(const DipCostReport *report, double budget_ms, DipCostAdvice *advice,
                    DipError *err) {
     const int row = dip_cost_choose(report, budget_ms);
-    const DipStatsEstimate time =
-        row >= 0 ? dip_cost_budget_time(report, row) : (DipStatsEstimate){0};
+    const DipEstimate time = row >= 0 ? dip_cost_budget_time(report, row) : (DipEstimate){0};
     *advice = (DipCostAdvice){
         .budget_ms = budget_ms,
         .row = row,

@@ -120,7 +120,7 @@ static void fill_values(const DipCostReport *report, const double *ms, double *s
         const DipCostSegment *segment = &segments->list[s];
         for (int i = 0; i < segments->row_count; i++) {
             const int row = segments->rows[i];
-            const DipStatsEstimate whole = dip_cost_budget_time(report, row);
+            const DipEstimate whole = dip_cost_budget_time(report, row);
             DipCostSegmentValue *value = &segments->values[s * segments->row_count + i];
             value->ms = time_of(report, ms + (size_t)i * (size_t)frames + segment->first_frame,
                                 segment->end_frame - segment->first_frame, scratch);
@@ -141,8 +141,8 @@ bool dip_cost_segments_make(const DipCostReport *report, int count, DipCostSegme
     double *ms = malloc((rows + 1) * frames * sizeof *ms);
     segments->values = malloc(rows * (size_t)count * sizeof *segments->values);
     bool done = (ms && segments->values) || out_of_memory(err);
-    done = done && dip_cost_frame_times(report, segments->rows, segments->row_count, ms, err);
     if (done) {
+        dip_cost_frame_times(report, segments->rows, segments->row_count, ms);
         fill_values(report, ms, ms + rows * frames, segments);
     }
     free(ms);
@@ -264,7 +264,7 @@ static void take_fixed(const DipCostReport *report, const DipCostSegments *segme
         advice->chosen[s] = advice->fixed;
     }
     if (advice->fixed >= 0) {
-        const DipStatsEstimate time = dip_cost_budget_time(report, segments->rows[advice->fixed]);
+        const DipEstimate time = dip_cost_budget_time(report, segments->rows[advice->fixed]);
         advice->flip = advice->fixed_flip;
         advice->ms = time.value;
         advice->bound = time.high;

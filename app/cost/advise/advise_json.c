@@ -22,7 +22,7 @@ static void add_settings(cJSON *to, const char *name, const DipQuality *quality)
     cJSON_AddStringToObject(to, name, text);
 }
 
-static void add_time(cJSON *to, const DipStatsEstimate *time) {
+static void add_time(cJSON *to, const DipEstimate *time) {
     cJSON_AddNumberToObject(to, "ms", time->value);
     cJSON_AddNumberToObject(to, "ms_low", time->low);
     cJSON_AddNumberToObject(to, "ms_high", time->high);
@@ -53,12 +53,12 @@ static void add_line(cJSON *list, const DipCostCommon *common, const DipCostComm
     const DipCostReport *report = &common->reports[index];
     cJSON *line = cJSON_CreateObject();
     if (advice->chosen >= 0) {
-        const DipStatsEstimate time = dip_cost_common_time(common, advice->chosen, index);
+        const DipEstimate time = dip_cost_common_time(common, advice->chosen, index);
         add_time(line, &time);
         cJSON_AddNumberToObject(line, "flip", dip_cost_common_flip(common, advice->chosen, index));
     }
     if (advice->alone[index] >= 0) {
-        const DipStatsEstimate time = dip_cost_budget_time(report, advice->alone[index]);
+        const DipEstimate time = dip_cost_budget_time(report, advice->alone[index]);
         cJSON *alone = cJSON_AddObjectToObject(line, "alone");
         add_settings(alone, "settings", &report->rows[advice->alone[index]].quality);
         add_time(alone, &time);

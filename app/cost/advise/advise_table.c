@@ -39,7 +39,7 @@ static void print_reports(const DipCostCommon *common, FILE *out) {
 
 static void print_line(const DipCostCommon *common, const DipCostCommonAdvice *advice, int report,
                        FILE *out) {
-    const DipStatsEstimate time = dip_cost_common_time(common, advice->chosen, report);
+    const DipEstimate time = dip_cost_common_time(common, advice->chosen, report);
     const double loss = dip_cost_common_share_lost(common, advice, report);
     const int alone = advice->alone[report];
     const int row = common->rows[advice->chosen * common->report_count + report];

@@ -180,7 +180,7 @@ static int row_of(const DipCostCommon *common, int combination, int report) {
     return common->rows[combination * common->report_count + report];
 }
 
-DipStatsEstimate dip_cost_common_time(const DipCostCommon *common, int combination, int report) {
+DipEstimate dip_cost_common_time(const DipCostCommon *common, int combination, int report) {
     return dip_cost_budget_time(&common->reports[report], row_of(common, combination, report));
 }
 
@@ -218,23 +218,26 @@ static double greatest_low(const DipCostCommon *common, int combination) {
 }
 
 // The geometric means of the value and of both bounds over the reports.
-static DipStatsEstimate mean_time(const DipCostCommon *common, int combination) {
-    DipStatsEstimate logs = {0};
+static DipEstimate mean_time(const DipCostCommon *common, int combination) {
+    DipEstimate logs = {0};
     for (int i = 0; i < common->report_count; i++) {
-        const DipStatsEstimate time = dip_cost_common_time(common, combination, i);
+        const DipEstimate time = dip_cost_common_time(common, combination, i);
         logs.value += log(time.value) / common->report_count;
         logs.low += log(time.low) / common->report_count;
         logs.high += log(time.high) / common->report_count;
     }
-    return (DipStatsEstimate){exp(logs.value), exp(logs.low), exp(logs.high)};
+    DipEstimate mean = dip_estimate_unknown(exp(logs.value));
+    mean.low = exp(logs.low);
+    mean.high = exp(logs.high);
+    return mean;
 }
 
 // --- choosing ------------------------------------------------------------------------------------
 
 // True if combination a is to be preferred to combination b, whose errors are alike.
 static bool is_preferred(const DipCostCommon *common, int a, int b) {
-    const DipStatsEstimate x = mean_time(common, a);
-    const DipStatsEstimate y = mean_time(common, b);
+    const DipEstimate x = mean_time(common, a);
+    const DipEstimate y = mean_time(common, b);
     const bool apart = x.high < y.low || y.high < x.low;
     const int changes = dip_cost_count_changes(&common->qualities[a]) -
                         dip_cost_count_changes(&common->qualities[b]);

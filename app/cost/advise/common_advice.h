@@ -54,7 +54,7 @@ bool dip_cost_common_match(DipCostCommon *common, DipError *err);
 void dip_cost_common_free(DipCostCommon *common);
 
 // The time of a combination in one report, of the kind that budgets are meant for.
-DipStatsEstimate dip_cost_common_time(const DipCostCommon *common, int combination, int report);
+DipEstimate dip_cost_common_time(const DipCostCommon *common, int combination, int report);
 
 // The FLIP of a combination in one report.
 double dip_cost_common_flip(const DipCostCommon *common, int combination, int report);

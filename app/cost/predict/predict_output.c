@@ -60,7 +60,7 @@ static void print_combination(const DipCostElsewherePrediction *p, const DipCost
     dip_cost_settings_text(&c->quality, text);
     fprintf(out, "  %-34s %9.2f %9.2f", text, c->report_ms, c->ms);
     if (c->timed >= 0) {
-        const DipStatsEstimate *ms = &p->timed[c->timed].ms;
+        const DipEstimate *ms = &p->timed[c->timed].ms;
         fprintf(out, " %9.2f %8.2f to %.2f", ms->value, ms->low, ms->high);
     }
     fprintf(out, "\n");
@@ -178,7 +178,7 @@ static void print_csv(const DipCostElsewherePrediction *p, FILE *out) {
                 p->there.paths[0], p->there.threads, settings, role_of(p, c), c->report_ms,
                 c->as_is_ms, c->ms);
         if (c->timed >= 0) {
-            const DipStatsEstimate *ms = &p->timed[c->timed].ms;
+            const DipEstimate *ms = &p->timed[c->timed].ms;
             fprintf(out, ",%.6g,%.6g,%.6g\n", ms->value, ms->low, ms->high);
         } else {
             fprintf(out, ",,,\n");

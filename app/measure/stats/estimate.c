@@ -61,7 +61,12 @@ DipEstimate dip_estimate_make(double value, double log_error, double degrees) {
         return dip_estimate_unknown(value);
     }
     const double half = dip_student_quantile(0.975, degrees) * log_error;
-    return (DipEstimate){value, value * exp(-half), value * exp(half), log_error, degrees};
+    DipEstimate estimate = {value, value * exp(-half), value * exp(half), log_error, degrees};
+    if (isinf(estimate.high)) { // What may be anything has no interval.
+        estimate.low = NAN;
+        estimate.high = NAN;
+    }
+    return estimate;
 }
 
 DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error) {

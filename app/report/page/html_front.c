@@ -98,7 +98,7 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
 
 // Writes FLIP with its interval, which a single viewpoint does not have.
 static void write_flip(const DipCostReport *report, int row, FILE *out) {
-    const DipStatsEstimate flip = dip_cost_flip(report, row);
+    const DipEstimate flip = dip_cost_flip(report, row);
     fprintf(out, "<td>%.4f</td>", flip.value);
     if (isfinite(flip.low) && isfinite(flip.high)) {
         fprintf(out, "<td>%.4f to %.4f</td>", flip.low, flip.high);
@@ -170,19 +170,21 @@ static void write_front_table(const DipCostReport *report, const DipHtmlPoints *
 }
 
 static void write_combination(const DipCostReport *report, int row, FILE *out) {
-    char all[256];
+    char all[256], of_mean[DIP_COST_INTERVAL], of_ratio[DIP_COST_INTERVAL];
     const DipPathEstimate *time = &report->rows[row].time;
     const DipMetrics f = dip_cost_row_metrics(report, row, 0);
     dip_quality_format(&report->rows[row].quality, all, sizeof all);
+    dip_cost_interval_text(&time->mean_ms, 2, of_mean);
+    dip_cost_interval_text(&time->ratio, 3, of_ratio);
     fprintf(out, "<tr data-row=\"%d\" data-settings=\"%s\"><th scope=\"row\">", row, all);
     dip_html_settings(report, row, out);
     fprintf(out,
-            "</th><td>%.2f</td><td>%.2f to %.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to "
-            "%.3f</td><td>%.4f</td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
+            "</th><td>%.2f</td><td>%s</td><td>%.2f</td><td>%.3f</td><td>%s</td><td>%.4f</"
+            "td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
             "class=\"l\">%s</td></tr>\n",
-            time->mean_ms.value, time->mean_ms.low, time->mean_ms.high, time->p95_ms.value,
-            time->ratio.value, time->ratio.low, time->ratio.high, f.flip, flicker_of(report, row),
-            f.psnr_db, f.ssim, f.rmse_lin, dip_cost_floor_mark(report, row));
+            time->mean_ms.value, of_mean, time->p95_ms.value, time->ratio.value, of_ratio, f.flip,
+            flicker_of(report, row), f.psnr_db, f.ssim, f.rmse_lin,
+            dip_cost_floor_mark(report, row));
 }
 
 static void write_all_table(const DipCostReport *report, FILE *out) {

@@ -17,8 +17,10 @@ void dip_html_settings(const DipCostReport *report, int row, FILE *out) {
 
 static void write_time(const DipCostReport *report, int row, FILE *out) {
     const DipPathEstimate *time = &report->rows[row].time;
-    fprintf(out, "%.2f ms (%.2f to %.2f), 95th percentile %.2f ms", time->mean_ms.value,
-            time->mean_ms.low, time->mean_ms.high, time->p95_ms.value);
+    char interval[DIP_COST_INTERVAL];
+    dip_cost_interval_text(&time->mean_ms, 2, interval);
+    fprintf(out, "%.2f ms%s%s%s, 95th percentile %.2f ms", time->mean_ms.value,
+            interval[0] ? " (" : "", interval, interval[0] ? ")" : "", time->p95_ms.value);
 }
 
 static void write_errors(const DipMetrics *f, FILE *out) {

@@ -42,7 +42,7 @@ static DipQuality quality_of(int c) {
 
 // Sets the time that budgets are meant for, with bounds.
 static void set_time(DipCostReport *report, int row, double ms, double low, double high) {
-    report->rows[row].time.p95_ms = (DipStatsEstimate){ms, low, high};
+    report->rows[row].time.p95_ms = (DipEstimate){.value = ms, .low = low, .high = high};
 }
 
 // Adds a combination with a time that is known to 0.1 %.
