@@ -96,17 +96,6 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
 
 // --- tables ------------------------------------------------------------------------------------
 
-// Writes FLIP with its interval, which a single viewpoint does not have.
-static void write_flip(const DipCostReport *report, int row, FILE *out) {
-    const DipEstimate flip = dip_cost_flip(report, row);
-    fprintf(out, "<td>%.4f</td>", flip.value);
-    if (isfinite(flip.low) && isfinite(flip.high)) {
-        fprintf(out, "<td>%.4f to %.4f</td>", flip.low, flip.high);
-    } else {
-        fprintf(out, "<td></td>");
-    }
-}
-
 static double flicker_of(const DipCostReport *report, int row) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
@@ -118,7 +107,14 @@ static void write_changes(const DipCostReport *report, int row, int before, FILE
     const double ms = dip_cost_ms(report, row) - dip_cost_ms(report, before);
     const double flip = dip_cost_row_metrics(report, row, 0).flip;
     const double flip_before = dip_cost_row_metrics(report, before, 0).flip;
+    // Viewpoints differ more than settings do, so the interval is that of the viewpoints' changes.
+    const DipEstimate change = dip_cost_flip_change(report, row, before);
     fprintf(out, "<td>%+.2f</td><td>%+.4f</td>", ms, flip - flip_before);
+    if (isfinite(change.low) && isfinite(change.high)) {
+        fprintf(out, "<td>%+.4f to %+.4f</td>", change.low, change.high);
+    } else {
+        fprintf(out, "<td></td>");
+    }
     if (flip > 0.0) {
         fprintf(out, "<td>%.3f</td>", ms / (100.0 * log(flip_before / flip)));
     } else {
@@ -134,13 +130,13 @@ static void write_front_row(const DipCostReport *report, const DipHtmlPoints *fr
     dip_html_settings(report, row, out);
     fprintf(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1, is_knee ? ", knee" : "",
             front->x[index]);
-    write_flip(report, row, out);
-    fprintf(out, "<td>%.5f</td><td>%.5f</td>", flicker_of(report, row),
-            dip_cost_row_metrics(report, row, 0).rmse_lin);
+    const DipMetrics metrics = dip_cost_row_metrics(report, row, 0);
+    fprintf(out, "<td>%.4f</td><td>%.5f</td><td>%.5f</td>", metrics.flip, flicker_of(report, row),
+            metrics.rmse_lin);
     if (index > 0) {
         write_changes(report, row, front->rows[index - 1], out);
     } else {
-        fprintf(out, "<td></td><td></td><td></td>");
+        fprintf(out, "<td></td><td></td><td></td><td></td>");
     }
     fprintf(out, "</tr>\n");
 }
@@ -156,11 +152,11 @@ static void write_front_table(const DipCostReport *report, const DipHtmlPoints *
     dip_html_column(out, "number", "in the plot");
     dip_html_column(out, "mean", "ms");
     dip_html_column(out, "FLIP", NULL);
-    dip_html_column(out, "95 % interval", "of FLIP");
     dip_html_column(out, "flicker", "linear");
     dip_html_column(out, "RMSE", "linear");
     dip_html_column(out, "change of time", "ms");
     dip_html_column(out, "change of FLIP", NULL);
+    dip_html_column(out, "95 % interval", "of the change");
     dip_html_column(out, "price of 1 % less FLIP", "ms");
     dip_html_columns_end(out);
     for (int i = 0; i < front->count; i++) {

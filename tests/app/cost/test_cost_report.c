@@ -481,6 +481,55 @@ static void json_keeps_everything(void **state) {
     remove(file);
 }
 
+// A log of two starts, in which each frame of a path is timed in one round.
+static void add_log(DipCostReport *report) {
+    const int frames = dip_cost_frame_count(report), rounds = report->options.rounds / 2;
+    DipTimed *list = calloc((size_t)(report->row_count * frames), sizeof *list);
+    int rows[8], count = 0;
+    assert_true(list && report->row_count <= 8);
+    for (int r = 0; r < report->row_count; r++) {
+        rows[r] = r;
+        for (int f = 0; f < frames; f++) {
+            const int round = (f + f / 3) % (2 * rounds);
+            list[count++] = (DipTimed){.subject = r,
+                                       .start = round / rounds,
+                                       .round = round % rounds,
+                                       .frame = f,
+                                       .begin_ns = 1000000 * r,
+                                       .ms = (1.0 + r) * (1.0 + 0.01 * random_share()),
+                                       .wait = f == 1 ? NAN : 0.01};
+        }
+    }
+    const DipTimes times = {list, count, report->row_count, 2, rounds, frames, NULL};
+    assert_true(dip_cost_log_add(report, &times, rows, NULL));
+    free(list);
+    assert_true(dip_cost_estimate_times(report, NULL));
+}
+
+static void json_keeps_the_log(void **state) {
+    (void)state;
+    DipCostReport report, read;
+    dip_made_report(&report, 4);
+    add_log(&report);
+    assert_true(fabs(report.rows[3].time.ratio.value - 4.0) < 0.1);
+    assert_true(report.rows[3].time.ratio.low < report.rows[3].time.ratio.high);
+    assert_true(dip_cost_write_json(&report, file, NULL));
+    assert_true(dip_cost_read_json(&read, file, NULL));
+    assert_true(read.starts == 2 && read.log_count == report.log_count);
+    int found = 0;
+    for (int i = 0; i < read.log_count; i++) {
+        const DipTimed *a = &report.log[i], *b = &read.log[i];
+        found += a->subject == b->subject && a->start == b->start && a->round == b->round &&
+                 a->block == b->block && a->frame == b->frame && a->begin_ns == b->begin_ns &&
+                 fabs(a->ms - b->ms) <= 4e-16 * a->ms && (a->wait == b->wait || isnan(b->wait));
+    }
+    assert_int_equal(found, read.log_count);
+    check_values(&report.rows[3].time.ratio, &read.rows[3].time.ratio, sizeof(DipEstimate));
+    dip_cost_report_free(&report);
+    dip_cost_report_free(&read);
+    remove(file);
+}
+
 static char *read_whole(size_t *size) {
     FILE *in = fopen(file, "rb");
     assert_non_null(in);
@@ -626,6 +675,7 @@ int main(void) {
         cmocka_unit_test(rows_below_the_floor_rank_alike),
         cmocka_unit_test(the_knee_is_farthest_below_the_line),
         cmocka_unit_test(json_keeps_everything),
+        cmocka_unit_test(json_keeps_the_log),
         cmocka_unit_test(json_without_a_date_is_read),
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(csv_and_page_are_complete),
