@@ -5,7 +5,6 @@
 #include "app/cost/drawn_frames.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
-#include "app/report/levels.h"
 #include "app/report/page/report_pictures.h"
 #include "app/report/same_pictures.h"
 #include "app/cost/starts.h"
@@ -112,7 +111,6 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     bool done = measure(&cost, err);
     if (done) {
         set_date(report);
-        dip_cost_remember_level(report, cost.cache);
         const DipCostFrameSource source = dip_cost_drawn_frames(&cost);
         done =
             save_truths(&cost, err) && dip_cost_write_report(report, &source, arguments->out, err);

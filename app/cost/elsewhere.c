@@ -59,7 +59,8 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
-static bool run(Elsewhere *e, int count, const int *base_of, DipTimePair *pairs,
+// Times the rows, and estimates their ratios to the baseline.
+static bool run(Elsewhere *e, int count, const int *base_of, DipTimePair *pairs, DipTimesFit **fit,
                 const char *progress, DipDriverMachine *machine, DipError *err) {
     const DipCostReport *report = e->cost->report;
     DipDriverDef def = dip_cost_driver_def(report, count + 1, BLOCK_ROWS);
@@ -72,24 +73,24 @@ static bool run(Elsewhere *e, int count, const int *base_of, DipTimePair *pairs,
         const DipTimes times = dip_driver_times(driver);
         *machine = dip_driver_machine(driver, report->threads);
         done = dip_times_pairs(&times, pairs, err);
+        *fit = done ? dip_times_fit(&times, err) : NULL;
+        done = *fit != NULL;
     }
     dip_driver_destroy(&driver);
     return done;
 }
 
-static bool estimate(Elsewhere *e, int count, const DipTimePair *pairs, DipError *err) {
+static void estimate(Elsewhere *e, int count, const DipTimePair *pairs, const DipTimesFit *fit) {
     const DipCostReport *report = e->cost->report;
     const int frames = dip_cost_frame_count(report);
-    bool done = true;
-    for (int i = 0; done && i < count; i++) {
+    for (int i = 0; i < count; i++) {
+        const DipEstimate ratio = dip_times_ratio(fit, i + 1);
         DipCostElsewhere *row = &e->rows[i];
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
             row->counters[c] /= frames;
         }
-        done =
-            dip_cost_estimate_elsewhere(report, pairs + (size_t)(i + 1) * (size_t)frames, row, err);
+        dip_cost_estimate_elsewhere(report, &ratio, pairs + (size_t)(i + 1) * (size_t)frames, row);
     }
-    return done;
 }
 
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
@@ -106,8 +107,12 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
     }
     const bool made = (base_of && pairs && e.counted) ||
                       dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-    const bool done = made && run(&e, count, base_of, pairs, progress, machine, err) &&
-                      estimate(&e, count, pairs, err);
+    DipTimesFit *fit = NULL;
+    const bool done = made && run(&e, count, base_of, pairs, &fit, progress, machine, err);
+    if (done) {
+        estimate(&e, count, pairs, fit);
+    }
+    dip_times_fit_free(&fit);
     free(base_of);
     free(pairs);
     free(e.counted);

@@ -141,7 +141,8 @@ static bool drive(RowTiming *t, DipDriverDef *def, bool keep, const char *progre
                 dip_drive(driver, progress, "cost", DIP_COST_INTERRUPTED, err);
     if (done) {
         const DipTimes times = dip_driver_times(driver);
-        done = dip_times_pairs(&times, t->pairs, err);
+        done = dip_times_pairs(&times, t->pairs, err) &&
+               dip_cost_log_add(report, &times, t->rows, err);
         if (keep) {
             report->machine = dip_driver_machine(driver, report->threads);
             report->options.starts = times.starts;
@@ -181,6 +182,7 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     DipDriverDef def = dip_cost_driver_def(report, report->row_count, BLOCK_ROWS);
     def.base_of = rows ? rows + report->row_count : NULL;
     def.settle = true;
+    dip_cost_log_clear(report);
     bool done = (rows || out_of_memory(err)) && open_timing(&t, err) &&
                 drive(&t, &def, true, "frames timed", err);
     for (int r = 0; done && r < report->row_count; r++) {

@@ -25,7 +25,7 @@ static void add_number(cJSON *to, const char *name, double value) {
     }
 }
 
-static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *estimate) {
+static void add_estimate(cJSON *to, const char *name, const DipEstimate *estimate) {
     cJSON *object = cJSON_AddObjectToObject(to, name);
     add_number(object, "value", estimate->value);
     add_number(object, "low", estimate->low);
@@ -69,13 +69,13 @@ static void add_errors(cJSON *object, const DipCostReport *report, int row) {
     cJSON *errors = cJSON_AddObjectToObject(object, "errors");
     for (int m = 0; m < DIP_COST_METRIC_COUNT; m++) {
         if (m != DIP_COST_FLICKER) { // A burst of one frame has no flicker.
-            const DipStatsEstimate value = dip_cost_metric(report, row, (DipCostMetric)m);
+            const DipEstimate value = dip_cost_metric(report, row, (DipCostMetric)m);
             add_estimate(errors, dip_cost_metric_names[m], &value);
         }
     }
     if (row > 0) {
-        const DipStatsEstimate flip = dip_cost_metric_change(report, row, 0, DIP_COST_FLIP);
-        const DipStatsEstimate rmse = dip_cost_metric_change(report, row, 0, DIP_COST_RMSE);
+        const DipEstimate flip = dip_cost_metric_change(report, row, 0, DIP_COST_FLIP);
+        const DipEstimate rmse = dip_cost_metric_change(report, row, 0, DIP_COST_RMSE);
         add_estimate(errors, "flip_change", &flip);
         add_estimate(errors, "rmse_lin_change", &rmse);
     }

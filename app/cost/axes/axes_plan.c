@@ -203,7 +203,7 @@ bool dip_cost_axes_check_picture(const DipCostAxes *axes, int row, int frame, co
                          frame, dip_cost_axis_titles[r->axis], r->name, hash, base_hash);
 }
 
-bool dip_cost_axes_compare_threads(DipCostAxes *axes, DipError *err) {
+void dip_cost_axes_compare_threads(DipCostAxes *axes) {
     int fewest = -1;
     for (int r = 0; r < axes->report.row_count; r++) {
         if (axes->rows[r].axis == DIP_COST_AXIS_THREADS &&
@@ -216,10 +216,7 @@ bool dip_cost_axes_compare_threads(DipCostAxes *axes, DipError *err) {
         if (row->axis != DIP_COST_AXIS_THREADS) {
             continue;
         }
-        if (!dip_cost_ratio(&axes->report, fewest, r, &row->speed_up, err)) {
-            return false;
-        }
+        row->speed_up = dip_cost_ratio(&axes->report, fewest, r);
         row->efficiency = row->speed_up.value * axes->rows[fewest].threads / row->threads;
     }
-    return true;
 }

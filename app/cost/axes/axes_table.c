@@ -99,7 +99,7 @@ static void print_known(double value, int digits, FILE *out) {
     }
 }
 
-static void print_estimate(const DipStatsEstimate *estimate, int digits, FILE *out) {
+static void print_estimate(const DipEstimate *estimate, int digits, FILE *out) {
     char interval[48];
     snprintf(interval, sizeof interval, "%.*f to %.*f", digits, estimate->low, digits,
              estimate->high);
@@ -171,7 +171,7 @@ static void write_known(double value, FILE *out) {
     }
 }
 
-static void write_estimate(const DipStatsEstimate *estimate, FILE *out) {
+static void write_estimate(const DipEstimate *estimate, FILE *out) {
     write_known(estimate->value, out);
     write_known(estimate->low, out);
     write_known(estimate->high, out);
@@ -181,7 +181,7 @@ static void write_row(const DipCostAxes *axes, int row, FILE *out) {
     const DipCostReport *report = &axes->report;
     const DipCostAxisRow *r = &axes->rows[row];
     const bool scaled = r->axis == DIP_COST_AXIS_SCALE, threads = r->axis == DIP_COST_AXIS_THREADS;
-    const DipStatsEstimate none = {NAN, NAN, NAN};
+    const DipEstimate none = dip_estimate_unknown(NAN);
     DipMetrics errors = {.rmse_lin = NAN, .flip = NAN};
     if (is_judged(axes, row)) {
         errors = dip_cost_row_metrics(report, row, 0);

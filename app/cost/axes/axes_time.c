@@ -85,7 +85,12 @@ static bool keep_times(AxesTiming *t, const DipDriver *driver, DipTimePair *pair
     DipCostReport *report = &t->drawing->axes->report;
     const size_t frames = (size_t)dip_cost_frame_count(report);
     const DipTimes times = dip_driver_times(driver);
-    if (!dip_times_pairs(&times, pairs, err)) {
+    int rows[DIP_COST_AXES_MAX_ROWS];
+    for (int r = 0; r < report->row_count; r++) {
+        rows[r] = r;
+    }
+    dip_cost_log_clear(report);
+    if (!dip_times_pairs(&times, pairs, err) || !dip_cost_log_add(report, &times, rows, err)) {
         return false;
     }
     for (int r = 0; r < report->row_count; r++) {
@@ -94,8 +99,11 @@ static bool keep_times(AxesTiming *t, const DipDriver *driver, DipTimePair *pair
     report->rounds = report->options.rounds;
     report->machine = dip_driver_machine(driver, report->threads);
     report->machine.wait = wait_share(t->drawing->axes, &times, report->machine.has_wait);
-    return dip_cost_estimate_times(report, err) &&
-           dip_cost_axes_compare_threads(t->drawing->axes, err);
+    if (!dip_cost_estimate_times(report, err)) {
+        return false;
+    }
+    dip_cost_axes_compare_threads(t->drawing->axes);
+    return true;
 }
 
 bool dip_cost_axes_time(DipCostAxesDrawing *drawing, const DipEnergyMeter *meter, DipError *err) {

@@ -201,7 +201,7 @@ static DipPairedStarts list_times(const DipCostDuel *duel, int pair, DipBenchSta
 }
 
 bool dip_cost_duel_change(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                          DipStatsEstimate *change, DipError *err) {
+                          DipEstimate *change, DipError *err) {
     double *ms = malloc((size_t)time_count(duel) * sizeof *ms);
     if (!ms) {
         return out_of_memory(err);
@@ -240,7 +240,7 @@ bool dip_cost_duel_signs(const DipCostDuel *duel, DipCostSigns *signs, DipError 
     const DipPairedTimes times = {dip_cost_duel_ms(duel, 1, same, DIP_BENCH_STAGE_total),
                                   dip_cost_duel_ms(duel, 0, same, DIP_BENCH_STAGE_total),
                                   duel->def->starts * duel->def->rounds, frame_count(duel)};
-    DipStatsEstimate ratio;
+    DipEstimate ratio;
     if (!dip_cost_duel_change(duel, same, DIP_BENCH_STAGE_total, &ratio, err)) {
         return false;
     }

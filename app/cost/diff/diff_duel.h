@@ -57,7 +57,7 @@ const double *dip_cost_duel_ms(const DipCostDuel *duel, int side, int pair, DipB
 // difference of the stage's times) / (side 0's time of the frame). Disturbed pairs of times take no
 // part unless more than half are disturbed.
 bool dip_cost_duel_change(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                          DipStatsEstimate *change, DipError *err);
+                          DipEstimate *change, DipError *err);
 
 // Writes the difference of each start in a stage, in milliseconds, and estimates their mean.
 bool dip_cost_duel_difference(const DipCostDuel *duel, int pair, DipBenchStage stage,

@@ -23,7 +23,7 @@ static void add_number(cJSON *to, const char *name, double value) {
     }
 }
 
-static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *estimate) {
+static void add_estimate(cJSON *to, const char *name, const DipEstimate *estimate) {
     cJSON *object = cJSON_AddObjectToObject(to, name);
     add_number(object, "value", estimate->value);
     add_number(object, "low", estimate->low);

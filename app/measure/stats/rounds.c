@@ -55,7 +55,7 @@ typedef struct Variance {
 static Variance add_variance(Variance a, Variance b) {
     const double sum = a.value + b.value;
     const double parts = a.value * a.value / a.degrees + b.value * b.value / b.degrees;
-    return (Variance){sum, parts > 0.0 ? sum * sum / parts : a.degrees};
+    return (Variance){sum, parts > 0.0 ? sum * sum / parts : INFINITY};
 }
 
 // The variance of a unit's own luck, drawn towards that of all subjects of the base.
@@ -119,6 +119,10 @@ DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject) {
     return dip_times_ratio_of(fit, subject, fit->subjects[subject].base);
 }
 
+double dip_times_spread(const DipTimesFit *fit, int subject) {
+    return fit->subjects[subject].spread;
+}
+
 // An estimate of milliseconds: the error of the base's level comes on top.
 static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
     const DipTimesSubject *s = &fit->subjects[subject];
@@ -126,7 +130,7 @@ static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
     if (!(base->level_error > 0.0)) {
         return dip_estimate_unknown(base->level_ms * exp(s->logs[v]));
     }
-    const Variance level = {fit->units * base->level_error * base->level_error,
+    const Variance level = {jackknife_excess * fit->units * base->level_error * base->level_error,
                             base->level_degrees};
     const Variance variance = variance_of(fit, subject, v);
     return estimate_of(fit, log(base->level_ms) + s->logs[v],

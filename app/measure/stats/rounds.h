@@ -83,6 +83,12 @@ DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject);
 // The same of two subjects that share a base; `other` may be the base.
 DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other);
 
+// Returns how far a subject's ratio lies apart from visit to visit: 1.4826 times the median
+// distance of the visits' log ratios from their median, after what changes along the path was taken
+// off. For a subject that draws what its base draws (A/A), it tells how noisy the machine is. NAN
+// for fewer than two visits.
+double dip_times_spread(const DipTimesFit *fit, int subject);
+
 // A subject's times along the path, in milliseconds at the machine's usual speed in this log.
 typedef struct DipAlong {
     DipEstimate mean_ms;

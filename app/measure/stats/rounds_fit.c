@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+// More visits of a subject have their median taken instead of the mean of pairs.
+enum { MOST_VISITS = 512 };
+
 // The variance that all subjects of a base have in the mean counts for at most this many degrees of
 // freedom beside a subject's own: subjects differ in how much luck they have.
 static const double most_pooled_degrees = 12.0;
@@ -220,8 +223,9 @@ static void median_of_frames(const double *values, const int *frames, int count,
 }
 
 // Returns what smoothing leaves that is common to all pairs: Hodges and Lehmann's estimate of the
-// visits' medians. Frames of a visit share their luck, so a visit counts once.
-static double common_rest(DipTimesWork *w, int count, const int *visits, double *rest) {
+// visits' medians; and in w->spread, how far these lie apart. Frames of a visit share their
+// luck, so a visit counts once.
+static double common_rest(DipTimesWork *w, int count, const int *visits, const double *rest) {
     int found = 0;
     double *of_visits = w->logs; // No longer needed.
     for (int v = 0; v < w->visit_count; v++) {
@@ -235,7 +239,17 @@ static double common_rest(DipTimesWork *w, int count, const int *visits, double 
             of_visits[found++] = dip_stats_median(w->of_visit, in_visit);
         }
     }
-    return hodges_lehmann(of_visits, found, w->means);
+    w->spread = NAN;
+    if (found > 1) {
+        memcpy(w->of_visit, of_visits, (size_t)found * sizeof *of_visits);
+        const double middle = dip_stats_median(w->of_visit, found);
+        for (int i = 0; i < found; i++) {
+            w->of_visit[i] = fabs(of_visits[i] - middle);
+        }
+        w->spread = DIP_TIMES_MAD_TO_SD * dip_stats_median(w->of_visit, found);
+    }
+    return found <= MOST_VISITS ? hodges_lehmann(of_visits, found, w->means)
+                                : dip_stats_median(of_visits, found);
 }
 
 // Takes what noise adds to the differences between frames off their times: a percentile would be
@@ -338,7 +352,9 @@ static void fit_subject(DipTimesWork *w, int s) {
     for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
         subject->logs[v] = NAN;
     }
+    w->spread = NAN;
     const bool known = find_values(w, -1, subject->logs);
+    subject->spread = w->spread;
     for (int f = 0; f < fit->frames; f++) {
         fit->frame_ms[(size_t)s * (size_t)fit->frames + (size_t)f] = known ? w->time[f] : NAN;
     }
@@ -466,6 +482,7 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, DipTimesFit *fit) 
         const size_t length = (size_t)(w->first_of[s + 1] - w->first_of[s]);
         visits = times->base_of[s] != s && length > visits ? length : visits;
     }
+    visits = visits < MOST_VISITS ? visits : MOST_VISITS;
     w->means = malloc(visits * (visits + 1) / 2 * sizeof(double));
     return w->means;
 }

@@ -53,6 +53,7 @@ typedef struct DipTimesBase {
 typedef struct DipTimesSubject {
     int base;
     int timed, kept;
+    double spread;                          // See dip_times_spread.
     double logs[DIP_TIMES_VALUE_COUNT];     // Logarithms of the values.
     double variance[DIP_TIMES_VALUE_COUNT]; // Variance of a unit, of the subject's own luck.
 } DipTimesSubject;
@@ -83,6 +84,7 @@ typedef struct DipTimesWork {
     bool is_base;  // The subject is the base itself: it has no pairs.
     double *level; // [(1 + units) * frames]: log ms, with all units and with each left out.
     double *noise; // [1 + units]: mean variance of the levels' noise.
+    double spread; // Of the subject's visits.
     DipTimesMoment *moments; // [count]
     int moment_count, base_visits;
     double *speed;                           // [count]: of moments.

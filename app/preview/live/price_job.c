@@ -22,7 +22,7 @@ enum {
 // A combination that was timed.
 typedef struct Timed {
     DipQuality quality;
-    DipStatsEstimate ratio; // Of its time to that of the base.
+    DipEstimate ratio; // Of its time to that of the base.
     int rounds;             // In which it was timed.
 } Timed;
 

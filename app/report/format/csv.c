@@ -45,7 +45,7 @@ static void write_empty(int fields, FILE *out) {
 // Writes the intervals over the viewpoints, which a single viewpoint does not have.
 static void write_intervals(const DipCostReport *report, int row, FILE *out) {
     for (int m = 0; m < DIP_COST_METRIC_COUNT; m++) {
-        const DipStatsEstimate estimate = dip_cost_metric(report, row, (DipCostMetric)m);
+        const DipEstimate estimate = dip_cost_metric(report, row, (DipCostMetric)m);
         if (isfinite(estimate.low) && isfinite(estimate.high)) {
             fprintf(out, ",%.8g,%.8g", estimate.low, estimate.high);
         } else {
@@ -109,7 +109,7 @@ static void write_report(const DipCostReport *report, FILE *out) {
 
 // Writes one line.
 static void write_row(const DipCostReport *report, const char *kind, const char *title, int row,
-                      const DipStatsEstimate *ratio, FILE *out) {
+                      const DipEstimate *ratio, FILE *out) {
     char settings[256];
     dip_quality_format(&report->rows[row].quality, settings, sizeof settings);
     fputs(kind, out);
@@ -118,10 +118,16 @@ static void write_row(const DipCostReport *report, const char *kind, const char 
     write_text(settings, out);
     if (dip_cost_is_timed(report, row)) {
         const DipPathEstimate *time = &report->rows[row].time;
-        fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", ratio->value, ratio->low, ratio->high,
-                time->mean_ms.value, time->mean_ms.low, time->mean_ms.high);
-        fprintf(out, ",%.6g,%.6g,%.6g,%.6g", time->p95_ms.value, time->p95_ms.high,
-                time->worst_ms.value, time->worst_ms.high);
+        const double values[] = {ratio->value,        ratio->low,        ratio->high,
+                                 time->mean_ms.value, time->mean_ms.low, time->mean_ms.high,
+                                 time->p95_ms.value,  time->p95_ms.high, time->worst_ms.value,
+                                 time->worst_ms.high};
+        for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+            fputc(',', out);
+            if (!isnan(values[i])) { // An unknown end is an empty field.
+                fprintf(out, "%.6g", values[i]);
+            }
+        }
     } else {
         fprintf(out, ",,,,,,,,,,");
     }

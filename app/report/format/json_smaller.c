@@ -5,12 +5,20 @@
 
 #include <cjson/cJSON.h>
 
+#include <math.h>
+
 enum { MOST_SIDE = 16384 }; // Pixels.
+
+// An end that no reader accepts tells nothing.
+static double end_of(double high) {
+    return high <= DIP_JSON_MAX_MS ? high : NAN;
+}
 
 void dip_cost_elsewhere_add_times(struct cJSON *object, const DipCostElsewhere *row) {
     cJSON_AddNumberToObject(object, "ms", row->ms.value);
+    // cJSON writes null for what is not a number, which stands for an end that is not known.
     cJSON_AddNumberToObject(object, "ms_low", row->ms.low);
-    cJSON_AddNumberToObject(object, "ms_high", row->ms.high);
+    cJSON_AddNumberToObject(object, "ms_high", end_of(row->ms.high));
     cJSON *stages = cJSON_AddObjectToObject(object, "stages_ms");
     for (int i = 0; i < DIP_COST_STAGE_COUNT; i++) {
         cJSON_AddNumberToObject(stages, dip_cost_stage_names[i], row->stage_ms[i]);
@@ -45,13 +53,19 @@ void dip_cost_smaller_add(struct cJSON *root, const DipCostReport *report) {
     }
 }
 
+static double read_end(const cJSON *object, const char *name, bool *ok) {
+    const bool known = !cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(object, name));
+    return known ? dip_json_number(object, name, DIP_JSON_MAX_MS, ok) : NAN;
+}
+
 bool dip_cost_elsewhere_read_times(const struct cJSON *object, DipCostElsewhere *row) {
     bool ok = true;
     const cJSON *stages = cJSON_GetObjectItemCaseSensitive(object, "stages_ms");
     const cJSON *counters = cJSON_GetObjectItemCaseSensitive(object, "counters");
     row->ms.value = dip_json_number(object, "ms", DIP_JSON_MAX_MS, &ok);
-    row->ms.low = dip_json_number(object, "ms_low", DIP_JSON_MAX_MS, &ok);
-    row->ms.high = dip_json_number(object, "ms_high", DIP_JSON_MAX_MS, &ok);
+    row->ms = dip_estimate_unknown(row->ms.value);
+    row->ms.low = read_end(object, "ms_low", &ok);
+    row->ms.high = read_end(object, "ms_high", &ok);
     for (int i = 0; i < DIP_COST_STAGE_COUNT; i++) {
         row->stage_ms[i] = dip_json_number(stages, dip_cost_stage_names[i], DIP_JSON_MAX_MS, &ok);
     }

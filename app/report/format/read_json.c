@@ -50,22 +50,6 @@ static bool read_machine(const cJSON *root, DipCostReport *report) {
     report->machine.repeated = dip_json_integer(machine, "repeated", 0, INT_MAX, &ok);
     report->machine.has_wait = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(machine, "has_wait"));
     report->machine.settled = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(machine, "settled"));
-    const cJSON *level = cJSON_GetObjectItemCaseSensitive(machine, "runs");
-    if (level) {
-        report->level_spread = (DipCostLevelSpread){
-            .runs = dip_json_integer(level, "runs", 0, INT_MAX, &ok),
-            .least_ms = dip_json_number(level, "least_ms", DIP_JSON_MAX_MS, &ok),
-            .most_ms = dip_json_number(level, "most_ms", DIP_JSON_MAX_MS, &ok),
-            .deviation = dip_json_number(level, "deviation", DIP_JSON_MAX_MS, &ok),
-            .factor = dip_json_number(level, "factor", DIP_JSON_MAX_MS, &ok),
-        };
-        if (cJSON_GetObjectItemCaseSensitive(level, "ratio_factor")) { // Not in older reports.
-            report->level_spread.ratio_deviation =
-                dip_json_number(level, "ratio_deviation", DIP_JSON_MAX_MS, &ok);
-            report->level_spread.ratio_factor =
-                dip_json_number(level, "ratio_factor", DIP_JSON_MAX_MS, &ok);
-        }
-    }
     return ok;
 }
 
@@ -245,7 +229,7 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
         return true;
     }
     return (read_machine(root, report) || dip_json_missing(file, "machine", err)) &&
-           dip_cost_estimate_times(report, err);
+           dip_cost_read_visits(root, report, file, err) && dip_cost_estimate_times(report, err);
 }
 
 bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) {

@@ -13,6 +13,11 @@ bool dip_cost_read_sums(const struct cJSON *object, const char *name, DipMetricS
 // false if a part of a row is missing or wrong.
 bool dip_cost_read_rows(const struct cJSON *root, DipCostReport *report);
 
+// Reads the log of timed frames of a report whose rows were read, if there is one. Fails with
+// DIP_ERROR_MISSING or DIP_ERROR_MEMORY.
+bool dip_cost_read_visits(const struct cJSON *root, DipCostReport *report, const char *file,
+                          DipError *err);
+
 // Reads the predictions, if there are any. The counters of combinations that were not measured are
 // not in the file. Fails with DIP_ERROR_FORMAT or DIP_ERROR_MEMORY.
 bool dip_cost_read_predictions(const struct cJSON *root, DipCostReport *report, const char *file,

@@ -58,7 +58,7 @@ static void add_flicker(cJSON *to, const DipMetricSums *sums) {
     cJSON_AddNumberToObject(to, "two_frame_mean_rms_lin", flicker.two_mean);
 }
 
-static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *estimate) {
+static void add_estimate(cJSON *to, const char *name, const DipEstimate *estimate) {
     char low[48], high[48];
     snprintf(low, sizeof low, "%s_low", name);
     snprintf(high, sizeof high, "%s_high", name);
@@ -67,19 +67,8 @@ static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *es
     cJSON_AddNumberToObject(to, high, estimate->high);
 }
 
-// Adds the ends of the interval over runs, or null if too few runs are known.
-static void add_over_runs(cJSON *to, const DipCostReport *report, const DipStatsEstimate *ratio) {
-    DipStatsEstimate over_runs;
-    if (dip_cost_ratio_over_runs(report, ratio, &over_runs)) {
-        const double ends[2] = {over_runs.low, over_runs.high};
-        cJSON_AddItemToObject(to, "ratio_over_runs", cJSON_CreateDoubleArray(ends, 2));
-    } else {
-        cJSON_AddNullToObject(to, "ratio_over_runs");
-    }
-}
-
 // Adds an estimate of a metric. Without an interval, nothing is added.
-static void add_metric(cJSON *to, const char *what, int metric, DipStatsEstimate estimate) {
+static void add_metric(cJSON *to, const char *what, int metric, DipEstimate estimate) {
     char name[40];
     if (isfinite(estimate.low) && isfinite(estimate.high)) {
         snprintf(name, sizeof name, "%s_%s", dip_cost_metric_names[metric], what);
@@ -159,6 +148,31 @@ static void add_rows(cJSON *root, const DipCostReport *report) {
     }
 }
 
+// Adds the log, a visit per object.
+static void add_visits(cJSON *root, const DipCostReport *report) {
+    cJSON *visits = report->log ? cJSON_AddArrayToObject(root, "visits") : NULL;
+    cJSON *frames = NULL, *ms = NULL, *wait = NULL;
+    for (int i = 0; visits && i < report->log_count; i++) {
+        const DipTimed *t = &report->log[i], *last = i > 0 ? t - 1 : NULL;
+        if (!last || last->subject != t->subject || last->start != t->start ||
+            last->round != t->round || last->block != t->block) {
+            cJSON *visit = cJSON_CreateObject();
+            cJSON_AddNumberToObject(visit, "row", t->subject);
+            cJSON_AddNumberToObject(visit, "start", t->start);
+            cJSON_AddNumberToObject(visit, "round", t->round);
+            cJSON_AddNumberToObject(visit, "block", t->block);
+            cJSON_AddNumberToObject(visit, "begin_ms", 1e-6 * (double)t->begin_ns);
+            frames = cJSON_AddArrayToObject(visit, "frames");
+            ms = cJSON_AddArrayToObject(visit, "ms");
+            wait = cJSON_AddArrayToObject(visit, "wait");
+            add_to_array(visits, visit);
+        }
+        add_to_array(frames, cJSON_CreateNumber(t->frame));
+        add_to_array(ms, cJSON_CreateNumber(t->ms));
+        add_to_array(wait, cJSON_CreateNumber(t->wait));
+    }
+}
+
 static void add_same(cJSON *root, const DipCostReport *report) {
     cJSON *same = cJSON_AddArrayToObject(root, "same_pictures");
     for (int i = 0; i < report->same_count; i++) {
@@ -203,7 +217,6 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
             cJSON_AddNumberToObject(step, "row", sweep->rows[i]);
             if (dip_cost_is_timed(report, sweep->rows[i])) {
                 add_estimate(step, "ratio", &sweep->ratios[i]);
-                add_over_runs(step, report, &sweep->ratios[i]);
             }
             for (int m = 0; m < DIP_COST_METRIC_COUNT; m++) {
                 add_metric(
@@ -335,14 +348,8 @@ static void add_machine(cJSON *root, const DipCostReport *report) {
     cJSON_AddNumberToObject(machine, "repeated", (double)report->machine.repeated);
     cJSON_AddBoolToObject(machine, "has_wait", report->machine.has_wait);
     cJSON_AddBoolToObject(machine, "settled", report->machine.settled);
-    cJSON *level = cJSON_AddObjectToObject(machine, "runs");
-    cJSON_AddNumberToObject(level, "runs", report->level_spread.runs);
-    cJSON_AddNumberToObject(level, "least_ms", report->level_spread.least_ms);
-    cJSON_AddNumberToObject(level, "most_ms", report->level_spread.most_ms);
-    cJSON_AddNumberToObject(level, "deviation", report->level_spread.deviation);
-    cJSON_AddNumberToObject(level, "factor", report->level_spread.factor);
-    cJSON_AddNumberToObject(level, "ratio_deviation", report->level_spread.ratio_deviation);
-    cJSON_AddNumberToObject(level, "ratio_factor", report->level_spread.ratio_factor);
+    cJSON_AddNumberToObject(machine, "doubt", report->doubt);
+    cJSON_AddNumberToObject(machine, "starts", report->starts);
 }
 
 // Adds the noise floor of a path's truths in every metric.
@@ -396,6 +403,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_header(root, report);
     add_floors(root, report);
     add_rows(root, report);
+    add_visits(root, report);
     add_same(root, report);
     add_sweeps(root, report);
     add_interactions(root, report);
