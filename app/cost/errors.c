@@ -122,7 +122,9 @@ static bool open_judge(Judge *j, DipCostContext *cost, DipError *err) {
     bool made =
         j->meters && j->bursts && dip_flip_init(&j->flip, report->width, report->height, ppd);
     for (int i = 0; made && i < j->meter_count; i++) {
-        made = dip_meter_init(&j->meters[i], report->width, report->height, ppd);
+        made = dip_meter_init(&j->meters[i],
+                              report->options.burst > 1 ? DIP_METER_BURSTS : DIP_METER_PICTURES,
+                              report->width, report->height, ppd);
     }
     for (int i = 0; made && i < j->burst_room; i++) {
         j->bursts[i].rgba8 = malloc(picture_bytes(j) * (size_t)report->options.burst);
@@ -152,8 +154,8 @@ static void judge_burst(void *context, int index, int worker) {
     dip_meter_begin_burst(meter);
     for (int f = 0; f < j->cost->report->options.burst; f++) {
         const DipSrgbPicture test = picture_of(j, drawn->rgba8 + (size_t)f * picture_bytes(j));
-        const DipMeterStandard standard = {picture_of(j, j->truths[f].rgba8), j->truths[f].rgb_lin,
-                                           &j->analyses[f], j->truths[f].classes};
+        DipMeterStandard standard = dip_truth_standard(&j->truths[f]);
+        standard.analysis = &j->analyses[f];
         if (!dip_meter_add(meter, &test, NULL, &standard, &drawn->errors.sums)) {
             drawn->failed = true;
         }

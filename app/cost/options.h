@@ -26,6 +26,7 @@ typedef struct DipCostMergeArguments {
 } DipCostMergeArguments;
 
 extern const DipOptionParts dip_cost_option_parts;
+extern const DipOptionTable dip_viewing_option_table; // For the pixels per degree, a double.
 extern const DipOptionParts dip_cost_merge_option_parts;
 
 // Read the value of --samples, a value of --budget-ms, and the value of --budget-of, into

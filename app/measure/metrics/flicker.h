@@ -18,26 +18,29 @@ extern "C" {
 
 // Running sums over a burst of successive frames. Owns its arrays. Use one per thread.
 typedef struct DipFlicker {
-    double *mean;      // Mean of e so far, per value.
+    double *mean;      // Mean of e so far, per value. NULL: bursts have one frame.
     double *deviation; // Sum of squared deviations of e from its mean, per value.
     float *last;       // e of the previous frame.
     size_t value_count;
+    size_t added; // Values of the last frame so far.
     int frame_count;
     double squares;      // Sum of e^2 over all values and frames.
     double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.
+    double mean_squares; // Sum of the mean of e^2; used if bursts have one frame.
     double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and pairs of frames.
 } DipFlicker;
 
-// value_count is the number of pixels times the number of channels. Returns false when memory runs
-// out; *flicker then owns nothing.
-bool dip_flicker_init(DipFlicker *flicker, size_t value_count);
+// value_count is the number of pixels times the number of channels. If no burst has more than one
+// frame, `single` saves the memory. Returns false when memory runs out; *flicker then owns nothing.
+bool dip_flicker_init(DipFlicker *flicker, size_t value_count, bool single);
 void dip_flicker_free(DipFlicker *flicker);
 
 // Begins a new burst.
 void dip_flicker_restart(DipFlicker *flicker);
 
-// Adds the next frame: value_count differences as dip_difference_lin writes them.
-void dip_flicker_add(DipFlicker *flicker, const float *error_lin);
+// Adds the next values of a frame, as dip_difference_lin writes them. A frame may come in parts; it
+// ends with its value number value_count.
+void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count);
 
 // Mean squares over all values of the burst. A single frame has no previous frame, so its
 // squared_step and squared_two_mean are 0.

@@ -3,7 +3,9 @@
 // who alternates between them. FLIP gives each pixel a value in 0..1.
 //
 // Each picture is analysed on its own, so that a picture is filtered once and can be compared with
-// many others. A DipFlip is not thread-safe; use one per thread.
+// many others. The work is done in blocks (picture.h). Each block is filtered with a margin as wide
+// as the filters, so its pixels get the same bits as if the whole picture were filtered at once. A
+// DipFlip is not thread-safe; use one per thread.
 #ifndef DIP_APP_MEASURE_METRICS_FLIP_H
 #define DIP_APP_MEASURE_METRICS_FLIP_H
 
@@ -25,35 +27,39 @@ typedef struct DipFlip {
     struct DipFlipKernels *kernels; // Owned.
     int width;
     int height;
-    float *scratch;   // Owned.
+    int reach_px;     // Greatest distance, along x or y, at which a pixel influences another one.
+    float *scratch;   // Owned; for one block with its margin.
     float light[256]; // Linear light of each 8-bit sRGB value.
 } DipFlip;
 
-// The result of analysing a picture. Each plane has width * height values.
+// The result of analysing a picture, or a block of it.
 typedef struct DipFlipAnalysis {
     float *planes[7]; // L*, a*, b* as the eye resolves them, with Hunt's effect; edges in x and y;
                       // points in x and y.
     float *memory;    // Owned; holds all planes.
+    bool of_block;    // It holds one block at a time.
 } DipFlipAnalysis;
 
-// pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions
-// return false when memory runs out. Even then, the caller must free the object.
+// pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. These
+// functions return false when memory runs out. Even then, the caller must free the object.
 bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree);
 bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
+bool dip_flip_block_analysis_init(DipFlipAnalysis *analysis);
 void dip_flip_free(DipFlip *flip);
 void dip_flip_analysis_free(DipFlipAnalysis *analysis);
 
-// Analyses a picture, which must have the size that dip_flip_init received.
+// Analyses a picture, which must have the size that dip_flip_init received, or a block of it.
 void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnalysis *analysis);
+void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                            DipFlipAnalysis *analysis);
 
-// Writes width * height FLIP values; 0 where the pictures look the same. Swapping `a` and `b` does
-// not change the values.
+// Writes the FLIP values of all pixels, or of a block, at their places in `map`, which has
+// width * height values; 0 where the pictures look the same. Swapping `a` and `b` does not change
+// the values. What holds one block at a time must hold this one.
 void dip_flip_compare(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
                       float *map);
-
-// Returns the greatest distance in pixels, along x or y, at which one pixel influences the FLIP
-// value of another.
-int dip_flip_reach_px(double pixels_per_degree);
+void dip_flip_compare_block(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
+                            int block, float *map);
 
 #ifdef __cplusplus
 }

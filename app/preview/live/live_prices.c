@@ -3,7 +3,7 @@
 
 #include "app/cost/plan.h"
 #include "app/cli/machine.h"
-#include "app/preview/live/price_errors.h"
+#include "app/measure/metrics/meter.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>
@@ -26,7 +26,9 @@ struct DipLivePrices {
     char scene[DIP_COST_TEXT];
     char processor[DIP_COST_TEXT];
 
-    DipPriceErrors errors;
+    DipMeter meter;
+    uint8_t *rgba8; // Copy of the picture that is judged, rows packed. Owned; NULL: no meter yet.
+    const uint8_t *truth_rgba8;
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
     DipQuality judged; // Settings of this picture.
@@ -69,6 +71,9 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
 
 static void forget(DipLivePrices *live) {
     dip_price_job_forget(live->job);
+    dip_meter_free(&live->meter);
+    free(live->rgba8);
+    live->rgba8 = NULL;
     live->measures_errors = live->errors_failed = false;
     live->errors_left = 0;
     live->has_picture = false;
@@ -118,7 +123,8 @@ DipLivePrices *dip_live_prices_create(DipSession *session, DipPrices *prices, Di
 void dip_live_prices_destroy(DipLivePrices **live) {
     if (*live) {
         destroy_painters(*live);
-        dip_price_errors_free(&(*live)->errors);
+        dip_meter_free(&(*live)->meter);
+        free((*live)->rgba8);
         dip_price_job_destroy(&(*live)->job);
         free(*live);
         *live = NULL;
@@ -129,7 +135,8 @@ void dip_live_prices_destroy(DipLivePrices **live) {
 
 static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
     return memcmp(&a->pose, &b->pose, sizeof a->pose) == 0 && a->time_ns == b->time_ns &&
-           a->width == b->width && a->height == b->height && a->look == b->look;
+           a->width == b->width && a->height == b->height && a->look == b->look &&
+           a->pixels_per_degree == b->pixels_per_degree;
 }
 
 // Forgets the prices of another picture. A painter that cannot have the new size is destroyed; the
@@ -151,43 +158,59 @@ static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
 
 // --- errors --------------------------------------------------------------------------------------
 
-static void begin_errors(DipLivePrices *live) {
+// Begins to judge a copy of the frame, since the painter draws over its own picture.
+static bool begin_judging(DipLivePrices *live, const DipSrgbPicture *truth) {
+    const DipLivePicture *picture = &live->picture;
+    const size_t row_bytes = 4 * (size_t)picture->width;
+    if (!live->rgba8) {
+        live->rgba8 = malloc(row_bytes * (size_t)picture->height);
+        if (!live->rgba8 || !dip_meter_init(&live->meter, DIP_METER_FLIP, picture->width,
+                                            picture->height, picture->pixels_per_degree)) {
+            free(live->rgba8);
+            live->rgba8 = NULL;
+            return false;
+        }
+    }
+    for (size_t y = 0; y < (size_t)picture->height; y++) {
+        memcpy(live->rgba8 + y * row_bytes, live->frame.rgba8 + y * live->frame.stride_bytes,
+               row_bytes);
+    }
+    const DipSrgbPicture copy = {live->rgba8, row_bytes, picture->width, picture->height};
+    const DipMeterStandard standard = {.picture = *truth};
+    dip_meter_begin(&live->meter, &copy, NULL, &standard);
+    return true;
+}
+
+static void begin_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
     DipQuality list[MOST_ERRORS];
     dip_prices_list_without_flip(live->prices, list, MOST_ERRORS);
     live->judged = list[0];
-    live->measures_errors = draw(live, &live->judged, 0, NULL);
-    if (live->measures_errors) {
-        const DipSrgbPicture picture = {live->frame.rgba8, live->frame.stride_bytes,
-                                        live->frame.width, live->frame.height};
-        live->measures_errors = dip_price_errors_begin(&live->errors, &picture);
-    }
+    live->measures_errors = draw(live, &live->judged, 0, NULL) && begin_judging(live, truth);
     live->errors_failed = !live->measures_errors;
     live->errors_left = live->errors_failed ? 0 : live->errors_left;
 }
 
-// Draws a picture or measures a block of it; there is a combination whose error is not known.
+// Draws a picture or measures a part of it; there is a combination whose error is not known.
 // Returns whether an error has become known.
 static bool step_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
-    double flip;
     if (!live->measures_errors) {
-        begin_errors(live);
+        begin_errors(live, truth);
         return false;
     }
-    switch (dip_price_errors_step(&live->errors, truth, &flip)) {
-    case DIP_PRICE_ERRORS_WORKING:
+    const DipStep step = dip_meter_step(&live->meter);
+    if (step == DIP_STEP_WORKING) {
         return false;
-    case DIP_PRICE_ERRORS_DONE:
-        dip_prices_add_rough_flip(live->prices, &live->judged, flip);
-        live->measures_errors = false;
-        live->errors_left--;
-        return true;
-    case DIP_PRICE_ERRORS_FAILED:
-        live->measures_errors = false;
-        live->errors_failed = true;
+    }
+    live->measures_errors = false;
+    live->errors_failed = step == DIP_STEP_FAILED;
+    if (live->errors_failed) {
         live->errors_left = 0;
         return false;
     }
-    return false;
+    const DipMetricSums sums = dip_meter_sums(&live->meter);
+    dip_prices_add_rough_flip(live->prices, &live->judged, dip_metrics_of(&sums, 0).flip);
+    live->errors_left--;
+    return true;
 }
 
 static bool measure_errors(DipLivePrices *live, const DipSrgbPicture *truth, int64_t end_ns) {
@@ -202,7 +225,13 @@ static bool fits(const DipSrgbPicture *truth, const DipLivePicture *picture) {
     return truth && truth->width == picture->width && truth->height == picture->height;
 }
 
-static void follow_truth(DipLivePrices *live, uint64_t truth_version) {
+// The picture that is being judged is judged again if the truth has moved in memory.
+static void follow_truth(DipLivePrices *live, const DipSrgbPicture *truth, uint64_t truth_version) {
+    const uint8_t *rgba8 = truth ? truth->rgba8 : NULL;
+    if (live->truth_rgba8 != rgba8) {
+        live->truth_rgba8 = rgba8;
+        live->measures_errors = false;
+    }
     if (live->truth_version != truth_version) {
         live->truth_version = truth_version;
         live->measures_errors = live->errors_failed = false;
@@ -259,7 +288,7 @@ bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
     follow_picture(live, picture);
     dip_price_job_follow(live->job, &quality[DIP_PANE_CURRENT], &quality[DIP_PANE_REQUESTED]);
     if (fits(truth, picture)) {
-        follow_truth(live, truth_version);
+        follow_truth(live, truth, truth_version);
     }
     const bool news = measure(live, truth, budget_ms);
     return show_progress(live) || news;

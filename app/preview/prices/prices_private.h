@@ -44,6 +44,7 @@ typedef struct DipPriceReport {
     bool has_times;
     bool has_errors;
     bool doubtful;
+    double pixels_per_degree;
     DipQuality base;
     DipPriceList known; // Combinations on path 0, measured or predicted.
     DipPriceTag *tags;  // Owned.
@@ -58,6 +59,7 @@ struct DipPrices {
     bool prefers_rough;
     DipPriceList rough;
     DipPriceConditions conditions;
+    double pixels_per_degree; // 0: none was set.
     char progress[DIP_PRICE_PROGRESS];
 };
 

@@ -36,7 +36,10 @@ static int set_up(void **state) {
     prices = dip_prices_create(NULL);
     live = dip_live_prices_create(&session, prices, NULL);
     assert_true(session.pool && session.scene && prices && live);
-    picture = (DipLivePicture){.pose = scene.pose, .width = WIDTH, .height = HEIGHT};
+    picture = (DipLivePicture){.pose = scene.pose,
+                               .width = WIDTH,
+                               .height = HEIGHT,
+                               .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE};
     quality[DIP_PANE_CURRENT] = dip_quality_default();
     assert_true(
         dip_quality_parse("aa=4,aaa=on,asd=2,af=4,aaf=on", &quality[DIP_PANE_REQUESTED], NULL));
