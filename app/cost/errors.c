@@ -82,7 +82,6 @@ typedef struct Judge {
     DipCostContext *cost;
     int path;
     int viewpoint;
-    DipFlip flip; // analyses the truths
     DipTruth truths[DIP_COST_MAX_BURST];
     DipFlipAnalysis analyses[DIP_COST_MAX_BURST];
     DipMeter *meters; // one per thread
@@ -108,7 +107,6 @@ static void close_judge(Judge *j) {
     for (int i = 0; i < DIP_COST_MAX_BURST; i++) {
         dip_flip_analysis_free(&j->analyses[i]);
     }
-    dip_flip_free(&j->flip);
     free(j->meters);
     free(j->bursts);
 }
@@ -119,8 +117,7 @@ static bool open_judge(Judge *j, DipCostContext *cost, DipError *err) {
     *j = (Judge){.cost = cost, .meter_count = report->threads, .burst_room = 2 * report->threads};
     j->meters = calloc((size_t)j->meter_count, sizeof *j->meters);
     j->bursts = calloc((size_t)j->burst_room, sizeof *j->bursts);
-    bool made =
-        j->meters && j->bursts && dip_flip_init(&j->flip, report->width, report->height, ppd);
+    bool made = j->meters && j->bursts;
     for (int i = 0; made && i < j->meter_count; i++) {
         made = dip_meter_init(&j->meters[i],
                               report->options.burst > 1 ? DIP_METER_BURSTS : DIP_METER_PICTURES,
@@ -131,7 +128,7 @@ static bool open_judge(Judge *j, DipCostContext *cost, DipError *err) {
         made = j->bursts[i].rgba8 != NULL;
     }
     for (int i = 0; made && i < report->options.burst; i++) {
-        made = dip_flip_analysis_init(&j->flip, &j->analyses[i]);
+        made = dip_flip_analysis_init(&j->meters[0].flip, &j->analyses[i]);
     }
     if (!made) {
         close_judge(j);
@@ -251,7 +248,7 @@ static bool judge_viewpoint(Judge *j, DipError *err) {
     while (got < burst && dip_cost_context_truth(j->cost, j->path, j->viewpoint, got, no_progress,
                                                  NULL, &j->truths[got], err)) {
         const DipSrgbPicture picture = picture_of(j, j->truths[got].rgba8);
-        dip_flip_analyse(&j->flip, &picture, &j->analyses[got]);
+        dip_flip_analyse(&j->meters[0].flip, &picture, &j->analyses[got]);
         got++;
     }
     const bool judged = got == burst && judge_rows(j, err);

@@ -4,14 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool dip_flicker_init(DipFlicker *flicker, size_t value_count, bool single) {
-    *flicker = (DipFlicker){.value_count = value_count};
-    if (single) {
-        return true;
-    }
-    flicker->mean = calloc(value_count, sizeof *flicker->mean);
-    flicker->deviation = calloc(value_count, sizeof *flicker->deviation);
-    flicker->last = calloc(value_count, sizeof *flicker->last);
+bool dip_flicker_init(DipFlicker *flicker, size_t value_count) {
+    *flicker = (DipFlicker){
+        .mean = calloc(value_count, sizeof *flicker->mean),
+        .deviation = calloc(value_count, sizeof *flicker->deviation),
+        .last = calloc(value_count, sizeof *flicker->last),
+        .value_count = value_count,
+    };
     if (!flicker->mean || !flicker->deviation || !flicker->last) {
         dip_flicker_free(flicker);
         return false;
@@ -27,23 +26,21 @@ void dip_flicker_free(DipFlicker *flicker) {
 }
 
 void dip_flicker_restart(DipFlicker *flicker) {
-    if (flicker->mean) {
-        memset(flicker->mean, 0, flicker->value_count * sizeof *flicker->mean);
-        memset(flicker->deviation, 0, flicker->value_count * sizeof *flicker->deviation);
-    }
+    memset(flicker->mean, 0, flicker->value_count * sizeof *flicker->mean);
+    memset(flicker->deviation, 0, flicker->value_count * sizeof *flicker->deviation);
     flicker->added = 0;
     flicker->frame_count = 0;
     flicker->squares = 0.0;
     flicker->step_squares = 0.0;
-    flicker->mean_squares = 0.0;
     flicker->pair_squares = 0.0;
 }
 
 // Uses Welford's update, which finds mean and deviation without subtracting large sums.
-static void add_to_burst(DipFlicker *flicker, const float *error_lin, size_t count) {
+void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count) {
     double *mean = flicker->mean + flicker->added;
     double *deviation = flicker->deviation + flicker->added;
     float *last = flicker->last + flicker->added;
+    flicker->frame_count += flicker->added == 0;
     for (size_t i = 0; i < count; i++) {
         const double e = (double)error_lin[i];
         const double before = (double)last[i];
@@ -57,33 +54,14 @@ static void add_to_burst(DipFlicker *flicker, const float *error_lin, size_t cou
         }
     }
     memcpy(last, error_lin, count * sizeof *error_lin);
-}
-
-static void add_single(DipFlicker *flicker, const float *error_lin, size_t count) {
-    const double values = (double)flicker->value_count;
-    for (size_t i = 0; i < count; i++) {
-        const double square = (double)error_lin[i] * (double)error_lin[i];
-        flicker->squares += square;
-        flicker->mean_squares += square / values;
-    }
-}
-
-void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count) {
-    flicker->frame_count += flicker->added == 0;
-    if (flicker->mean) {
-        add_to_burst(flicker, error_lin, count);
-    } else {
-        add_single(flicker, error_lin, count);
-    }
     flicker->added = (flicker->added + count) % flicker->value_count;
 }
 
 DipFlickerResult dip_flicker_result(const DipFlicker *flicker) {
     const double frames = flicker->frame_count;
     const double values = (double)flicker->value_count;
-    DipFlickerResult result = {.squared = flicker->squares / (values * frames),
-                               .squared_static = flicker->mean_squares};
-    for (size_t i = 0; flicker->mean && i < flicker->value_count; i++) {
+    DipFlickerResult result = {.squared = flicker->squares / (values * frames)};
+    for (size_t i = 0; i < flicker->value_count; i++) {
         result.squared_static += flicker->mean[i] * flicker->mean[i] / values;
         result.squared_flicker += flicker->deviation[i] / (values * frames);
     }

@@ -18,7 +18,7 @@ extern "C" {
 
 // Running sums over a burst of successive frames. Owns its arrays. Use one per thread.
 typedef struct DipFlicker {
-    double *mean;      // Mean of e so far, per value. NULL: bursts have one frame.
+    double *mean;      // Mean of e so far, per value.
     double *deviation; // Sum of squared deviations of e from its mean, per value.
     float *last;       // e of the previous frame.
     size_t value_count;
@@ -26,13 +26,12 @@ typedef struct DipFlicker {
     int frame_count;
     double squares;      // Sum of e^2 over all values and frames.
     double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.
-    double mean_squares; // Sum of the mean of e^2; used if bursts have one frame.
     double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and pairs of frames.
 } DipFlicker;
 
-// value_count is the number of pixels times the number of channels. If no burst has more than one
-// frame, `single` saves the memory. Returns false when memory runs out; *flicker then owns nothing.
-bool dip_flicker_init(DipFlicker *flicker, size_t value_count, bool single);
+// value_count is the number of pixels times the number of channels. Returns false when memory runs
+// out; *flicker then owns nothing.
+bool dip_flicker_init(DipFlicker *flicker, size_t value_count);
 void dip_flicker_free(DipFlicker *flicker);
 
 // Begins a new burst.

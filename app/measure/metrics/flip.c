@@ -79,21 +79,13 @@ void dip_flip_free(DipFlip *flip) {
     flip->scratch = NULL;
 }
 
-static bool alloc_planes(DipFlipAnalysis *analysis, size_t plane, bool of_block) {
-    *analysis = (DipFlipAnalysis){.of_block = of_block};
+bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis) {
+    const size_t plane = (size_t)flip->width * (size_t)flip->height;
     analysis->memory = malloc(PLANE_COUNT * plane * sizeof(float));
-    for (size_t i = 0; analysis->memory && i < PLANE_COUNT; i++) {
-        analysis->planes[i] = analysis->memory + i * plane;
+    for (size_t i = 0; i < PLANE_COUNT; i++) {
+        analysis->planes[i] = analysis->memory ? analysis->memory + i * plane : NULL;
     }
     return analysis->memory != NULL;
-}
-
-bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis) {
-    return alloc_planes(analysis, (size_t)flip->width * (size_t)flip->height, false);
-}
-
-bool dip_flip_block_analysis_init(DipFlipAnalysis *analysis) {
-    return alloc_planes(analysis, (size_t)DIP_PICTURE_BLOCK * DIP_PICTURE_BLOCK, true);
 }
 
 void dip_flip_analysis_free(DipFlipAnalysis *analysis) {
@@ -160,26 +152,32 @@ static void to_lab(float luma, float red_green, float blue, float lab[3]) {
     lab[2] = 200.0f * (f[1] - f[2]) * (0.01f * lab[0]);
 }
 
-// What filtering a block with its margin needs. Planes are packed.
-typedef struct Scratch {
-    int width; // Size of the block with its margin.
+// A block while it is analysed, with its margin. Planes are packed.
+typedef struct Block {
+    DipPixelRect own; // Without the margin.
+    int x;            // Where it begins in the picture.
+    int y;
+    int width;
     int height;
-    size_t pixels;
     float *opponent[3];
     float *rows;
     float *other;
     float *grey;
-    float *out[PLANE_COUNT];
     float *padded;
-} Scratch;
+    DipFlipAnalysis out;
+} Block;
 
-static Scratch scratch_of(const DipFlip *flip, const DipPixelRect *rect) {
+static Block block_of(const DipFlip *flip, int block) {
+    const DipPixelRect rect =
+        dip_picture_block_with_margin(flip->width, flip->height, block, flip->reach_px);
     const size_t plane = block_size(flip);
     float *at = flip->scratch;
-    Scratch s = {
-        .width = rect->width,
-        .height = rect->height,
-        .pixels = (size_t)rect->width * (size_t)rect->height,
+    Block b = {
+        .own = dip_picture_block(flip->width, flip->height, block),
+        .x = rect.x,
+        .y = rect.y,
+        .width = rect.width,
+        .height = rect.height,
         .opponent = {at, at + plane, at + 2 * plane},
         .rows = at + 3 * plane,
         .other = at + 4 * plane,
@@ -187,85 +185,81 @@ static Scratch scratch_of(const DipFlip *flip, const DipPixelRect *rect) {
         .padded = at + SCRATCH_PLANES * plane,
     };
     for (size_t i = 0; i < PLANE_COUNT; i++) {
-        s.out[i] = at + (6 + i) * plane;
+        b.out.planes[i] = at + (6 + i) * plane;
     }
-    return s;
+    return b;
 }
 
-static void filter(const Scratch *s, const DipKernel1D *across, const DipKernel1D *down,
+static void filter(const Block *b, const DipKernel1D *across, const DipKernel1D *down,
                    const float *in, float *out) {
-    dip_convolve_rows(across, in, s->width, s->height, s->padded, s->rows);
-    dip_convolve_columns(down, s->rows, s->width, s->height, out);
+    dip_convolve_rows(across, in, b->width, b->height, b->padded, b->rows);
+    dip_convolve_columns(down, b->rows, b->width, b->height, out);
 }
 
-static void analyse_colours(const DipFlipKernels *k, const Scratch *s) {
-    float *const *lab = s->out;
-    filter(s, &k->luma, &k->luma, s->opponent[0], lab[0]);
-    filter(s, &k->red_green, &k->red_green, s->opponent[1], lab[1]);
-    filter(s, &k->blue[0], &k->blue[0], s->opponent[2], lab[2]);
-    filter(s, &k->blue[1], &k->blue[1], s->opponent[2], s->other);
+static void analyse_colours(const DipFlipKernels *k, const Block *b) {
+    float *const *lab = b->out.planes;
+    filter(b, &k->luma, &k->luma, b->opponent[0], lab[0]);
+    filter(b, &k->red_green, &k->red_green, b->opponent[1], lab[1]);
+    filter(b, &k->blue[0], &k->blue[0], b->opponent[2], lab[2]);
+    filter(b, &k->blue[1], &k->blue[1], b->opponent[2], b->other);
 }
 
 // Each feature detector is a derivative along one axis and a Gaussian along the other.
-static void analyse_features(const DipFlipKernels *k, const Scratch *s) {
-    filter(s, &k->edge, &k->gauss, s->grey, s->out[PLANE_EDGE_X]);
-    filter(s, &k->point, &k->gauss, s->grey, s->out[PLANE_POINT_X]);
-    filter(s, &k->gauss, &k->edge, s->grey, s->out[PLANE_EDGE_Y]);
-    dip_convolve_columns(&k->point, s->rows, s->width, s->height, s->out[PLANE_POINT_Y]);
+static void analyse_features(const DipFlipKernels *k, const Block *b) {
+    float *const *out = b->out.planes;
+    filter(b, &k->edge, &k->gauss, b->grey, out[PLANE_EDGE_X]);
+    filter(b, &k->point, &k->gauss, b->grey, out[PLANE_POINT_X]);
+    filter(b, &k->gauss, &k->edge, b->grey, out[PLANE_EDGE_Y]);
+    dip_convolve_columns(&k->point, b->rows, b->width, b->height, out[PLANE_POINT_Y]);
 }
 
-static void convert(const DipFlip *flip, const DipSrgbPicture *part, const Scratch *s) {
+// Returns where row `y` of the picture begins within the block, without the margin on the left.
+static size_t row_in_block(const Block *b, int y) {
+    return (size_t)(y - b->y) * (size_t)b->width + (size_t)(b->own.x - b->x);
+}
+
+// Returns where row `y` of the block begins within the picture.
+static size_t row_in_picture(const DipFlip *flip, const Block *b, int y) {
+    return (size_t)y * (size_t)flip->width + (size_t)b->own.x;
+}
+
+// Fills in the planes of the block. Only its own pixels have CIELab colours.
+static void analyse(const DipFlip *flip, const DipSrgbPicture *picture, const Block *b) {
     size_t i = 0;
-    for (int y = 0; y < s->height; y++) {
-        const uint8_t *row = part->rgba8 + (size_t)y * part->stride_bytes;
-        for (int x = 0; x < s->width; x++, i++) {
+    for (int y = b->y; y < b->y + b->height; y++) {
+        const uint8_t *row = picture->rgba8 + (size_t)y * picture->stride_bytes + 4 * b->x;
+        for (int x = 0; x < b->width; x++, i++) {
             const float rgb[3] = {flip->light[row[4 * x]], flip->light[row[4 * x + 1]],
                                   flip->light[row[4 * x + 2]]};
-            to_opponent(rgb, &s->opponent[0][i], &s->opponent[1][i], &s->opponent[2][i]);
-            s->grey[i] = (s->opponent[0][i] + 16.0f) / 116.0f;
+            to_opponent(rgb, &b->opponent[0][i], &b->opponent[1][i], &b->opponent[2][i]);
+            b->grey[i] = (b->opponent[0][i] + 16.0f) / 116.0f;
         }
     }
-}
-
-// Returns where the first pixel of a block's row `y` lies in the planes of an analysis.
-static size_t place_in(const DipFlipAnalysis *analysis, const DipFlip *flip,
-                       const DipPixelRect *block, int y) {
-    return analysis->of_block ? (size_t)y * DIP_PICTURE_BLOCK
-                              : (size_t)(block->y + y) * (size_t)flip->width + (size_t)block->x;
-}
-
-// Copies the block's own pixels out of the planes with the margin, and converts their colours.
-static void keep_block(const DipFlip *flip, const Scratch *s, const DipPixelRect *rect,
-                       const DipPixelRect *own, DipFlipAnalysis *analysis) {
-    for (int y = 0; y < own->height; y++) {
-        const size_t from =
-            (size_t)(own->y + y - rect->y) * (size_t)rect->width + (size_t)(own->x - rect->x);
-        const size_t to = place_in(analysis, flip, own, y);
-        for (size_t x = 0; x < (size_t)own->width; x++) {
-            float lab[3];
-            to_lab(s->out[0][from + x], s->out[1][from + x],
-                   s->out[2][from + x] + s->other[from + x], lab);
-            for (int i = 0; i < 3; i++) {
-                analysis->planes[i][to + x] = lab[i];
-            }
-        }
-        for (int i = PLANE_EDGE_X; i < PLANE_COUNT; i++) {
-            memcpy(analysis->planes[i] + to, s->out[i] + from, (size_t)own->width * sizeof(float));
+    analyse_colours(flip->kernels, b);
+    analyse_features(flip->kernels, b);
+    float *const *lab = b->out.planes;
+    for (int y = b->own.y; y < b->own.y + b->own.height; y++) {
+        i = row_in_block(b, y);
+        for (const size_t end = i + (size_t)b->own.width; i < end; i++) {
+            float pixel[3];
+            to_lab(lab[0][i], lab[1][i], lab[2][i] + b->other[i], pixel);
+            lab[0][i] = pixel[0];
+            lab[1][i] = pixel[1];
+            lab[2][i] = pixel[2];
         }
     }
 }
 
 void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                             DipFlipAnalysis *analysis) {
-    const DipPixelRect own = dip_picture_block(flip->width, flip->height, block);
-    const DipPixelRect rect =
-        dip_picture_block_with_margin(flip->width, flip->height, block, flip->reach_px);
-    const DipSrgbPicture part = dip_picture_part(picture, &rect);
-    const Scratch s = scratch_of(flip, &rect);
-    convert(flip, &part, &s);
-    analyse_colours(flip->kernels, &s);
-    analyse_features(flip->kernels, &s);
-    keep_block(flip, &s, &rect, &own, analysis);
+    const Block b = block_of(flip, block);
+    analyse(flip, picture, &b);
+    for (int y = b.own.y; y < b.own.y + b.own.height; y++) {
+        for (int i = 0; i < PLANE_COUNT; i++) {
+            memcpy(analysis->planes[i] + row_in_picture(flip, &b, y),
+                   b.out.planes[i] + row_in_block(&b, y), (size_t)b.own.width * sizeof(float));
+        }
+    }
 }
 
 void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnalysis *analysis) {
@@ -320,24 +314,24 @@ static float feature_error(const DipFlipAnalysis *a, size_t i, const DipFlipAnal
     return powf(fmaxf(edge, point) / sqrtf(2.0f), feature_exponent);
 }
 
-void dip_flip_compare_block(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
-                            int block, float *map) {
-    const DipPixelRect own = dip_picture_block(flip->width, flip->height, block);
+void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                            const DipFlipAnalysis *with, float *map) {
+    const Block b = block_of(flip, block);
     const float greatest = greatest_distance();
-    for (int y = 0; y < own.height; y++) {
-        size_t i = place_in(a, flip, &own, y), k = place_in(b, flip, &own, y);
-        float *to = map + (size_t)(own.y + y) * (size_t)flip->width + own.x;
-        for (int x = 0; x < own.width; x++, i++, k++) {
-            const float colour = colour_error(a, i, b, k, greatest);
-            to[x] = colour > 0.0f ? powf(colour, 1.0f - feature_error(a, i, b, k)) : 0.0f;
+    analyse(flip, picture, &b);
+    for (int y = b.own.y; y < b.own.y + b.own.height; y++) {
+        size_t i = row_in_block(&b, y), k = row_in_picture(flip, &b, y);
+        for (const size_t end = k + (size_t)b.own.width; k < end; i++, k++) {
+            const float colour = colour_error(&b.out, i, with, k, greatest);
+            map[k] = colour > 0.0f ? powf(colour, 1.0f - feature_error(&b.out, i, with, k)) : 0.0f;
         }
     }
 }
 
-void dip_flip_compare(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
+void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFlipAnalysis *with,
                       float *map) {
     const int blocks = dip_picture_block_count(flip->width, flip->height);
     for (int block = 0; block < blocks; block++) {
-        dip_flip_compare_block(flip, a, b, block, map);
+        dip_flip_compare_block(flip, picture, block, with, map);
     }
 }

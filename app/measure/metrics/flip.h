@@ -32,19 +32,17 @@ typedef struct DipFlip {
     float light[256]; // Linear light of each 8-bit sRGB value.
 } DipFlip;
 
-// The result of analysing a picture, or a block of it.
+// The result of analysing a picture. Each plane has width * height values.
 typedef struct DipFlipAnalysis {
     float *planes[7]; // L*, a*, b* as the eye resolves them, with Hunt's effect; edges in x and y;
                       // points in x and y.
     float *memory;    // Owned; holds all planes.
-    bool of_block;    // It holds one block at a time.
 } DipFlipAnalysis;
 
-// pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. These
-// functions return false when memory runs out. Even then, the caller must free the object.
+// pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions
+// return false when memory runs out. Even then, the caller must free the object.
 bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree);
 bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
-bool dip_flip_block_analysis_init(DipFlipAnalysis *analysis);
 void dip_flip_free(DipFlip *flip);
 void dip_flip_analysis_free(DipFlipAnalysis *analysis);
 
@@ -53,13 +51,13 @@ void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnaly
 void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                             DipFlipAnalysis *analysis);
 
-// Writes the FLIP values of all pixels, or of a block, at their places in `map`, which has
-// width * height values; 0 where the pictures look the same. Swapping `a` and `b` does not change
-// the values. What holds one block at a time must hold this one.
-void dip_flip_compare(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
+// Compares a picture, or a block of it, with a picture that was analysed. Writes the FLIP values at
+// their places in `map`, which has width * height values; 0 where the pictures look the same.
+// Exchanging the pictures does not change the values.
+void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFlipAnalysis *with,
                       float *map);
-void dip_flip_compare_block(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
-                            int block, float *map);
+void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                            const DipFlipAnalysis *with, float *map);
 
 #ifdef __cplusplus
 }

@@ -23,15 +23,12 @@ bool dip_meter_init(DipMeter *meter, DipMeterKind kind, int width, int height,
     bool made = meter->band;
     if (made && kind >= DIP_METER_FLIP) {
         meter->flip_map = malloc(count * sizeof *meter->flip_map);
-        made = meter->flip_map && dip_flip_init(&meter->flip, width, height, pixels_per_degree) &&
-               dip_flip_block_analysis_init(&meter->sides[0]) &&
-               dip_flip_block_analysis_init(&meter->sides[1]);
+        made = meter->flip_map && dip_flip_init(&meter->flip, width, height, pixels_per_degree);
     }
     if (made && kind >= DIP_METER_PICTURES) {
         meter->ssim_map = malloc(count * sizeof *meter->ssim_map);
-        made = meter->ssim_map &&
-               dip_flicker_init(&meter->flicker, 3 * count, kind == DIP_METER_PICTURES) &&
-               dip_flip_tail_init(&meter->tail);
+        made = meter->ssim_map && dip_flip_tail_init(&meter->tail) &&
+               (kind == DIP_METER_PICTURES || dip_flicker_init(&meter->flicker, 3 * count));
     }
     if (!made) {
         dip_meter_free(meter);
@@ -43,8 +40,7 @@ void dip_meter_free(DipMeter *meter) {
     free(meter->band);
     free(meter->flip_map);
     free(meter->ssim_map);
-    dip_flip_analysis_free(&meter->sides[0]);
-    dip_flip_analysis_free(&meter->sides[1]);
+    dip_flip_analysis_free(&meter->analysis);
     dip_flip_free(&meter->flip);
     dip_flicker_free(&meter->flicker);
     dip_flip_tail_free(&meter->tail);
@@ -52,16 +48,22 @@ void dip_meter_free(DipMeter *meter) {
 }
 
 void dip_meter_begin_burst(DipMeter *meter) {
-    dip_flicker_restart(&meter->flicker);
+    if (meter->kind == DIP_METER_BURSTS) {
+        dip_flicker_restart(&meter->flicker);
+    }
     dip_flip_tail_restart(&meter->tail);
 }
 
-void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
-                     const DipMeterStandard *standard) {
+void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard) {
+    meter->standard = *standard;
+    meter->analysed = 0;
+}
+
+void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin) {
     meter->test = *test;
     meter->test_lin = test_lin;
-    meter->standard = *standard;
     meter->steps = 0;
+    meter->squared_static = 0.0;
     memset(meter->squared_lin, 0, sizeof meter->squared_lin);
     memset(meter->squared_codes, 0, sizeof meter->squared_codes);
     memset(meter->ssim, 0, sizeof meter->ssim);
@@ -70,14 +72,20 @@ void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *t
 
 // --- blocks --------------------------------------------------------------------------------------
 
-static void measure_flip(DipMeter *meter, int block) {
+static bool measure_flip(DipMeter *meter, int block) {
     const DipFlipAnalysis *standard = meter->standard.analysis;
     if (!standard) {
-        dip_flip_analyse_block(&meter->flip, &meter->standard.picture, block, &meter->sides[1]);
-        standard = &meter->sides[1];
+        standard = &meter->analysis;
+        if (!standard->memory && !dip_flip_analysis_init(&meter->flip, &meter->analysis)) {
+            return false;
+        }
+        if (block == meter->analysed) {
+            dip_flip_analyse_block(&meter->flip, &meter->standard.picture, block, &meter->analysis);
+            meter->analysed++;
+        }
     }
-    dip_flip_analyse_block(&meter->flip, &meter->test, block, &meter->sides[0]);
-    dip_flip_compare_block(&meter->flip, &meter->sides[0], standard, block, meter->flip_map);
+    dip_flip_compare_block(&meter->flip, &meter->test, block, standard, meter->flip_map);
+    return true;
 }
 
 // A block with its margin holds every window around its own pixels.
@@ -100,8 +108,8 @@ static bool measure_ssim(DipMeter *meter, int block) {
 }
 
 static bool measure_block(DipMeter *meter, int block) {
-    measure_flip(meter, block);
-    return meter->kind < DIP_METER_PICTURES || measure_ssim(meter, block);
+    return measure_flip(meter, block) &&
+           (meter->kind < DIP_METER_PICTURES || measure_ssim(meter, block));
 }
 
 // --- bands ---------------------------------------------------------------------------------------
@@ -125,8 +133,13 @@ static void measure_light(DipMeter *meter, const DipSrgbPicture *test, size_t fi
     } else {
         dip_difference_lin(test, standard_lin, meter->band);
     }
-    if (meter->kind >= DIP_METER_PICTURES) {
+    if (meter->kind == DIP_METER_BURSTS) {
         dip_flicker_add(&meter->flicker, meter->band, 3 * count);
+    } else {
+        const double values = 3.0 * meter->width * meter->height;
+        for (size_t i = 0; i < 3 * count; i++) {
+            meter->squared_static += (double)meter->band[i] * (double)meter->band[i] / values;
+        }
     }
     dip_difference_squared_map(meter->band, count, meter->band);
     add_map(meter, meter->band, first, count, meter->squared_lin);
@@ -192,7 +205,8 @@ DipMetricSums dip_meter_sums(const DipMeter *meter) {
 bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
                    const DipMeterStandard *standard, DipMetricSums *sums) {
     DipStep step;
-    dip_meter_begin(meter, test, test_lin, standard);
+    dip_meter_set_standard(meter, standard);
+    dip_meter_begin(meter, test, test_lin);
     do {
         step = dip_meter_step(meter);
     } while (step == DIP_STEP_WORKING);
@@ -202,7 +216,10 @@ bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *tes
 }
 
 void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums) {
-    const DipFlickerResult result = dip_flicker_result(&meter->flicker);
+    const DipFlickerResult result =
+        meter->kind == DIP_METER_BURSTS
+            ? dip_flicker_result(&meter->flicker)
+            : (DipFlickerResult){.squared_static = meter->squared_static};
     sums->bursts += 1.0;
     sums->squared_static += result.squared_static;
     sums->squared_flicker += result.squared_flicker;

@@ -45,10 +45,12 @@ typedef struct DipMeter {
     int width;
     int height;
     DipFlip flip;
-    DipFlipAnalysis sides[2]; // Of one block of the picture and of the standard.
-    DipFlicker flicker;
-    DipFlipTailMeter tail; // The distribution of FLIP in the burst so far.
-    float *flip_map;       // FLIP of each pixel of the last picture.
+    DipFlipAnalysis analysis; // Of the standard, if the meter analyses it.
+    int analysed;             // Blocks of the standard that the meter has analysed.
+    DipFlicker flicker;       // Of bursts of several frames.
+    double squared_static;    // Of the last frame, if bursts have one.
+    DipFlipTailMeter tail;    // The distribution of FLIP in the burst so far.
+    float *flip_map;          // FLIP of each pixel of the last picture.
     float *ssim_map;
     float *band; // Three values for each pixel of a band, which is a few rows.
     DipSrgbPicture test;
@@ -69,11 +71,14 @@ void dip_meter_free(DipMeter *meter);
 // Begins a burst, a series of successive frames (flicker.h). A new meter has begun its first burst.
 void dip_meter_begin_burst(DipMeter *meter);
 
+// Sets the standard of the next pictures. A standard that the meter has to analyse is analysed
+// once, with the first of these pictures.
+void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard);
+
 // Begins the next picture of the burst, in place of one that is not done. If the caller has more
 // precise values than the 8-bit codes of `test`, test_lin is the picture in linear light; otherwise
-// it is NULL. The pictures are borrowed until the last step.
-void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
-                     const DipMeterStandard *standard);
+// it is NULL. Picture and standard are borrowed until the last step.
+void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin);
 
 // Measures a block or a band of the picture. The values are to the bit those of the whole picture.
 // Returns DONE after the last one, and FAILED when memory runs out.
@@ -82,8 +87,8 @@ DipStep dip_meter_step(DipMeter *meter);
 // Returns the sums of a picture that is done.
 DipMetricSums dip_meter_sums(const DipMeter *meter);
 
-// Begins a picture, steps to its end and adds its sums to *sums. Returns false when memory runs
-// out.
+// Sets the standard, begins a picture, steps to its end and adds its sums to *sums. Returns false
+// when memory runs out.
 bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
                    const DipMeterStandard *standard, DipMetricSums *sums);
 

@@ -233,7 +233,8 @@ static bool begin_floor(DipTruthJob *job, DipError *err) {
                         def->height, def->pixels_per_degree)) {
         return out_of_memory(err);
     }
-    dip_meter_begin(&job->meter, &first, job->half_lin[0], &standard);
+    dip_meter_set_standard(&job->meter, &standard);
+    dip_meter_begin(&job->meter, &first, job->half_lin[0]);
     job->phase = MEASURE_FLOOR;
     return true;
 }

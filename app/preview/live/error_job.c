@@ -11,9 +11,9 @@ struct DipErrorJob {
     const char *cache;
     DipStill still;
     DipTruthJob *truth; // NULL: there is no still.
-    DipMeter meters[DIP_PANE_COUNT];
-    bool has_meters;
-    double meters_pixels_per_degree;
+    DipMeter meter;
+    float *flip[DIP_PANE_COUNT]; // FLIP of each pixel of a pane.
+    DipMetricSums sums[DIP_PANE_COUNT];
     bool judges; // A pane's picture is not judged by the newest truth yet.
     int pane;    // The pane that is judged next, or now if has_begun.
     bool has_begun;
@@ -43,46 +43,26 @@ DipErrorJob *dip_error_job_create(DipReference *reference, const char *scene_has
     return job;
 }
 
-static void free_meters(DipErrorJob *job) {
+static void forget_truth(DipErrorJob *job) {
+    dip_truth_job_destroy(&job->truth);
+    dip_meter_free(&job->meter);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        dip_meter_free(&job->meters[p]);
+        free(job->flip[p]);
+        job->flip[p] = NULL;
     }
-    job->has_meters = false;
 }
 
 void dip_error_job_destroy(DipErrorJob **job) {
-    if (!*job) {
-        return;
+    if (*job) {
+        forget_truth(*job);
+        free(*job);
+        *job = NULL;
     }
-    dip_truth_job_destroy(&(*job)->truth);
-    free_meters(*job);
-    free(*job);
-    *job = NULL;
-}
-
-static bool make_meters(DipErrorJob *job, DipError *err) {
-    const DipStill *still = &job->still;
-    const DipMeter *old = &job->meters[0];
-    if (job->has_meters && old->width == still->width && old->height == still->height &&
-        job->meters_pixels_per_degree == still->pixels_per_degree) {
-        return true;
-    }
-    free_meters(job);
-    job->has_meters = true;
-    job->meters_pixels_per_degree = still->pixels_per_degree;
-    for (int p = 0; job->has_meters && p < DIP_PANE_COUNT; p++) {
-        job->has_meters = dip_meter_init(&job->meters[p], DIP_METER_FLIP, still->width,
-                                         still->height, still->pixels_per_degree);
-    }
-    if (!job->has_meters) {
-        free_meters(job);
-        return out_of_memory(err);
-    }
-    return true;
 }
 
 static bool begin_truth(DipErrorJob *job, DipError *err) {
     const DipStill *still = &job->still;
+    const size_t pixels = (size_t)still->width * (size_t)still->height;
     const DipTruthDef def = {
         .reference = job->reference,
         .scene_hash = job->scene_hash,
@@ -93,8 +73,16 @@ static bool begin_truth(DipErrorJob *job, DipError *err) {
         .samples = DIP_TRUTH_SAMPLES,
         .pixels_per_degree = still->pixels_per_degree,
     };
-    if (make_meters(job, err)) {
-        job->truth = dip_truth_job_create(&def, job->cache, NULL, true, err);
+    bool made = dip_meter_init(&job->meter, DIP_METER_FLIP, still->width, still->height,
+                               still->pixels_per_degree);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        job->flip[p] = malloc(pixels * sizeof *job->flip[p]);
+        made = made && job->flip[p];
+    }
+    made = made || out_of_memory(err);
+    job->truth = made ? dip_truth_job_create(&def, job->cache, NULL, true, err) : NULL;
+    if (!job->truth) {
+        forget_truth(job);
     }
     return job->truth != NULL;
 }
@@ -113,7 +101,7 @@ bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err)
     if (same) {
         return true;
     }
-    dip_truth_job_destroy(&job->truth);
+    forget_truth(job);
     return begin_truth(job, err);
 }
 
@@ -134,21 +122,30 @@ static void publish(DipErrorJob *job, const DipTruth *truth) {
         if (job->still.unjudged[p]) {
             continue;
         }
-        const DipMetricSums sums = dip_meter_sums(&job->meters[shown_pane(job, p)]);
-        const DipMetrics metrics = dip_metrics_of(&sums, 0);
+        const DipMetricSums *sums = &job->sums[shown_pane(job, p)];
+        const DipMetrics metrics = dip_metrics_of(sums, 0);
         job->result.panes[p].rmse_lin = metrics.rmse_lin;
         job->result.panes[p].psnr_db = metrics.psnr_db;
         job->result.panes[p].flip = metrics.flip;
-        job->result.panes[p].at_floor = dip_truth_hides(&truth->floor, &sums);
+        job->result.panes[p].at_floor = dip_truth_hides(&truth->floor, sums);
     }
 }
 
-static void begin_pane(DipErrorJob *job, const DipTruth *truth) {
+static void begin_pane(DipErrorJob *job) {
     const DipSrgbPicture test = {job->still.rgba8[job->pane], job->still.stride_bytes,
                                  job->still.width, job->still.height};
-    const DipMeterStandard standard = dip_truth_standard(truth);
-    dip_meter_begin(&job->meters[job->pane], &test, NULL, &standard);
+    dip_meter_begin(&job->meter, &test, NULL);
     job->has_begun = true;
+}
+
+// Keeps the errors of the pane. The meter gets the memory of its old map.
+static void end_pane(DipErrorJob *job) {
+    float *map = job->flip[job->pane];
+    job->flip[job->pane] = job->meter.flip_map;
+    job->meter.flip_map = map;
+    job->sums[job->pane] = dip_meter_sums(&job->meter);
+    job->pane++;
+    job->has_begun = false;
 }
 
 // Judges the next part of a pane's picture. After the last pane, or if no pane is judged, publishes
@@ -163,16 +160,15 @@ static DipStep judge(DipErrorJob *job, const DipTruth *truth, DipError *err) {
         return DIP_STEP_RESULT;
     }
     if (!job->has_begun) {
-        begin_pane(job, truth);
+        begin_pane(job);
     }
-    const DipStep step = dip_meter_step(&job->meters[job->pane]);
+    const DipStep step = dip_meter_step(&job->meter);
     if (step == DIP_STEP_FAILED) {
         out_of_memory(err);
         return step;
     }
     if (step == DIP_STEP_DONE) {
-        job->pane++;
-        job->has_begun = false;
+        end_pane(job);
     }
     return DIP_STEP_WORKING;
 }
@@ -187,6 +183,8 @@ DipStep dip_error_job_step(DipErrorJob *job, DipError *err) {
     }
     const DipStep step = dip_truth_job_step(job->truth, err);
     if (step == DIP_STEP_RESULT) {
+        const DipMeterStandard standard = dip_truth_standard(dip_truth_job_truth(job->truth));
+        dip_meter_set_standard(&job->meter, &standard);
         judge_again(job);
         return DIP_STEP_WORKING;
     }
@@ -198,7 +196,7 @@ const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job) {
 }
 
 const float *dip_error_job_flip(const DipErrorJob *job, int pane) {
-    return job->still.unjudged[pane] ? NULL : job->meters[shown_pane(job, pane)].flip_map;
+    return job->still.unjudged[pane] ? NULL : job->flip[shown_pane(job, pane)];
 }
 
 const uint8_t *dip_error_job_truth(const DipErrorJob *job) {

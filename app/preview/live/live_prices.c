@@ -28,7 +28,6 @@ struct DipLivePrices {
 
     DipMeter meter;
     uint8_t *rgba8; // Copy of the picture that is judged, rows packed. Owned; NULL: no meter yet.
-    const uint8_t *truth_rgba8;
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
     DipQuality judged; // Settings of this picture.
@@ -171,13 +170,15 @@ static bool begin_judging(DipLivePrices *live, const DipSrgbPicture *truth) {
             return false;
         }
     }
+    if (live->meter.standard.picture.rgba8 != truth->rgba8) {
+        dip_meter_set_standard(&live->meter, &(DipMeterStandard){.picture = *truth});
+    }
     for (size_t y = 0; y < (size_t)picture->height; y++) {
         memcpy(live->rgba8 + y * row_bytes, live->frame.rgba8 + y * live->frame.stride_bytes,
                row_bytes);
     }
     const DipSrgbPicture copy = {live->rgba8, row_bytes, picture->width, picture->height};
-    const DipMeterStandard standard = {.picture = *truth};
-    dip_meter_begin(&live->meter, &copy, NULL, &standard);
+    dip_meter_begin(&live->meter, &copy, NULL);
     return true;
 }
 
@@ -225,15 +226,15 @@ static bool fits(const DipSrgbPicture *truth, const DipLivePicture *picture) {
     return truth && truth->width == picture->width && truth->height == picture->height;
 }
 
-// The picture that is being judged is judged again if the truth has moved in memory.
+// If the truth has moved in memory, the picture that is being judged is judged again.
 static void follow_truth(DipLivePrices *live, const DipSrgbPicture *truth, uint64_t truth_version) {
     const uint8_t *rgba8 = truth ? truth->rgba8 : NULL;
-    if (live->truth_rgba8 != rgba8) {
-        live->truth_rgba8 = rgba8;
+    if (live->meter.standard.picture.rgba8 != rgba8) {
         live->measures_errors = false;
     }
     if (live->truth_version != truth_version) {
         live->truth_version = truth_version;
+        live->meter.standard.picture.rgba8 = NULL; // Another picture in the same memory.
         live->measures_errors = live->errors_failed = false;
         dip_prices_forget_rough_flip(live->prices);
     }

@@ -198,7 +198,7 @@ static float errors[FRAMES][VALUES];
 
 static DipFlickerResult flicker_of(int frames) {
     DipFlicker flicker;
-    assert_true(dip_flicker_init(&flicker, VALUES, frames == 1));
+    assert_true(dip_flicker_init(&flicker, VALUES));
     dip_flicker_add(&flicker, errors[3], VALUES);
     dip_flicker_restart(&flicker);
     for (int t = 0; t < frames; t++) {

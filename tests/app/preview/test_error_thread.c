@@ -29,6 +29,8 @@ static DipTestScene scene;
 static DipReference *reference;
 static uint8_t pictures[DIP_PANE_COUNT][STRIDE * HEIGHT];
 
+static double viewing = DIP_FLIP_PIXELS_PER_DEGREE;
+
 static bool go_on(void *context, double done) {
     (void)context;
     (void)done;
@@ -72,8 +74,7 @@ static DipStill make_still(bool copied) {
 static DipMetricSums judged(const DipTruth *truth, const uint8_t *picture) {
     DipMeter meter;
     DipMetricSums sums = {0};
-    assert_true(
-        dip_meter_init(&meter, DIP_METER_PICTURES, WIDTH, HEIGHT, DIP_FLIP_PIXELS_PER_DEGREE));
+    assert_true(dip_meter_init(&meter, DIP_METER_PICTURES, WIDTH, HEIGHT, viewing));
     const DipSrgbPicture test = {picture, STRIDE, WIDTH, HEIGHT};
     const DipMeterStandard standard = dip_truth_standard(truth);
     assert_true(dip_meter_add(&meter, &test, NULL, &standard, &sums));
@@ -167,6 +168,12 @@ static void a_truth_is_kept_until_the_pose_changes(void **state) {
     assert_true(dip_error_job_begin(job, &still, NULL));
     assert_true(step_to_news(job, &again) == DIP_STEP_RESULT);
     assert_int_equal(again, first);
+    DipTruth truth = truth_of(&still.pose, dip_truth_level_samples[0]);
+    viewing = still.pixels_per_degree;
+    assert_true(dip_error_job_result(job)->panes[0].flip ==
+                measured_whole(&truth, pictures[1]).flip);
+    viewing = DIP_FLIP_PIXELS_PER_DEGREE;
+    dip_truth_free(&truth);
     dip_error_job_destroy(&job);
 }
 
