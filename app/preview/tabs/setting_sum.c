@@ -412,7 +412,8 @@ static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
                                     (DipRect){room.x, room.y, room.width, bottom - room.y}, source);
     }
     if (room.y + line <= bottom) {
-        dip_quality_format_changes(&window->state->quality[DIP_PANE_REQUESTED], settings, sizeof settings);
+        dip_quality_format_changes(&window->state->quality[DIP_PANE_REQUESTED], settings,
+                                   sizeof settings);
         dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, room.x, room.y, room.width,
                     settings);
         room.y += line;
