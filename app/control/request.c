@@ -17,6 +17,7 @@ static const double largest_id = 9007199254740992.0; // 2^53: doubles hold all w
 
 #define NAME_OF(name, NAME) #name,
 static const char *const pane_names[] = {"current", "requested"};
+static const char *const switch_names[] = {"on", "off"};
 static const char *const topic_names[] = {DIP_CONTROL_TOPIC_LIST(NAME_OF)};
 static const char *const part_names[] = {DIP_CONTROL_PART_LIST(NAME_OF)};
 
@@ -28,12 +29,30 @@ static const char *const part_names[] = {DIP_CONTROL_PART_LIST(NAME_OF)};
 #define NAMES_FIELD(name, field, names)                                                            \
     { name, DIP_FIELD_NAMES, AT(field), DIP_ARRAY_COUNT(names), 0, 0, names }
 
-enum { PANE, SETTINGS, CHANGE, CATEGORY, SCENE, FILE_NAME, TIME, WIDTH, HEIGHT, X, Y, TO, WHAT };
+enum {
+    PANE,
+    SETTINGS,
+    CHANGE,
+    NOTICES,
+    CATEGORY,
+    SCENE,
+    FILE_NAME,
+    TIME,
+    WIDTH,
+    HEIGHT,
+    SHOW,
+    X,
+    Y,
+    TO,
+    WHAT
+};
 
 static const DipField fields[] = {
     [PANE] = NAMES_FIELD("pane", panes, pane_names),
     [SETTINGS] = TEXT_FIELD(settings),
     [CHANGE] = TEXT_FIELD(change),
+    [NOTICES] = NAMES_FIELD("notices", notices, switch_names),
+    [SHOW] = NAMES_FIELD("show", show, switch_names),
     [CATEGORY] = TEXT_FIELD(category),
     [SCENE] = TEXT_FIELD(name),
     [FILE_NAME] = TEXT_FIELD(file),
@@ -56,7 +75,7 @@ typedef struct Row {
 } Row;
 
 static const Row rows[DIP_CONTROL_VERB_COUNT] = {
-    [DIP_CONTROL_SET] = {"set", BIT(PANE), BIT(PANE) | BIT(SETTINGS) | BIT(CHANGE)},
+    [DIP_CONTROL_SET] = {"set", BIT(PANE), BIT(PANE) | BIT(SETTINGS) | BIT(CHANGE) | BIT(NOTICES)},
     [DIP_CONTROL_APPLY] = {"apply", 0, 0},
     [DIP_CONTROL_PATH] = {"path", BIT(CATEGORY), BIT(CATEGORY)},
     [DIP_CONTROL_PAUSE] = {"pause", 0, 0},
@@ -64,6 +83,7 @@ static const Row rows[DIP_CONTROL_VERB_COUNT] = {
     [DIP_CONTROL_SEEK] = {"seek", BIT(TIME), BIT(TIME)},
     [DIP_CONTROL_SCENE] = {"scene", BIT(SCENE), BIT(SCENE)},
     [DIP_CONTROL_SIZE] = {"size", BIT(WIDTH) | BIT(HEIGHT), BIT(WIDTH) | BIT(HEIGHT)},
+    [DIP_CONTROL_PANEL] = {"panel", BIT(SHOW), BIT(SHOW)},
     [DIP_CONTROL_SUBSCRIBE] = {"subscribe", BIT(TO), BIT(TO)},
     [DIP_CONTROL_UNSUBSCRIBE] = {"unsubscribe", BIT(TO), BIT(TO)},
     [DIP_CONTROL_PICK] = {"pick", BIT(X) | BIT(Y), BIT(X) | BIT(Y)},

@@ -34,6 +34,7 @@ enum {
     X(seek, SEEK)                                                                                  \
     X(scene, SCENE)                                                                                \
     X(size, SIZE)                                                                                  \
+    X(panel, PANEL)                                                                                \
     X(subscribe, SUBSCRIBE)                                                                        \
     X(unsubscribe, UNSUBSCRIBE)                                                                    \
     X(pick, PICK)                                                                                  \
@@ -90,6 +91,9 @@ const char *dip_control_part_name(int part);   // "state"
 // The panes by their names, as bits.
 enum { DIP_CONTROL_PANE_CURRENT = 1, DIP_CONTROL_PANE_REQUESTED = 2 };
 
+// The words "on" and "off", as bits.
+enum { DIP_CONTROL_ON = 1, DIP_CONTROL_OFF = 2 };
+
 // The id that a client gives a request, and that the reply repeats.
 typedef enum DipControlIdKind {
     DIP_CONTROL_ID_NONE, // The reply's id is null.
@@ -112,6 +116,8 @@ typedef struct DipControlRequest {
     // checked; `change` names only the settings to change (dip_control_change_settings).
     char settings[DIP_CONTROL_TEXT_SIZE];
     char change[DIP_CONTROL_TEXT_SIZE];
+    unsigned notices; // SET: DIP_CONTROL_OFF: the status line says nothing about it.
+    unsigned show;    // PANEL: whether the panel shows.
     char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
     char name[DIP_CONTROL_NAME_SIZE];     // SCENE: name of a scene.
     char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT.

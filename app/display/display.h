@@ -131,6 +131,7 @@ typedef struct DipEvent {
     int y;
     DipMouseButton button; // MOUSE_DOWN and MOUSE_UP.
     int clicks;            // MOUSE_DOWN: 2 for the second press of a double click.
+    bool focuses;          // MOUSE_DOWN: the press also gave the display the keyboard focus.
     double wheel_x;        // MOUSE_WHEEL: steps to the right.
     double wheel_y;        // MOUSE_WHEEL: steps away from the user.
 
@@ -180,8 +181,15 @@ typedef struct DipDisplay {
     // next_event waits.
     int64_t (*now_ns)(void *context);
 
+    // Returns whether nobody can see the picture, because the display is minimised or hidden. An
+    // EXPOSE event comes when it shows again. NULL if the display cannot tell.
+    bool (*is_hidden)(void *context);
+
     // Turns full-screen mode on or off. NULL if the display has no such mode.
     void (*set_full_screen)(void *context, bool on);
+
+    // Gives the window a title. NULL if it has none.
+    void (*set_title)(void *context, const char *title);
 
     // Gives the clipboard a text. Returns false if that failed. NULL if the display has no
     // clipboard.

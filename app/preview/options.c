@@ -47,6 +47,17 @@ static bool read_display(void *fields, const DipOptionRow *row, const char *valu
     return true;
 }
 
+static bool read_panel(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    static const char *const names[] = {"on", "off"};
+    const int choice = find_name(value, names, (int)DIP_ARRAY_COUNT(names));
+    if (choice < 0) {
+        return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value,
+                                 "a state of the panel; give on or off");
+    }
+    ((DipPreviewOptions *)fields)->hides_panel = choice == 1;
+    return true;
+}
+
 static bool read_colours(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     static const char *const names[] = {"auto", "true", "256", "none"}; // By DipTerminalColours.
     DipPreviewOptions *options = fields;
@@ -101,6 +112,12 @@ static const DipOptionRow rows[] = {
      .field = FIELD(ui_scale),
      .least = 0.75,
      .most = 4},
+    {.name = "--panel",
+     .argument = "on|off",
+     .text = "Show the panel with all settings, which is the default, or nothing but the panes, "
+             "for programs that have a panel of their own. The key / changes it in the window.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_panel},
     {.name = "--display",
      .argument = "auto|window|terminal",
      .text = "Where the preview shows. `terminal` draws half blocks and characters into the "

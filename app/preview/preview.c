@@ -44,6 +44,7 @@ typedef struct Parts {
     double ui_scale;
     const char *notice; // Shown at first, or NULL.
     char cache[PATH_MAX];
+    bool hides_panel;
 } Parts;
 
 static bool run_loop(DipSession *session, const DipDisplay *display, const Parts *parts,
@@ -59,6 +60,7 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const Parts
         .flying_speed_m_per_s = dip_flying_speed(session),
         .ui_scale = parts->ui_scale,
         .notice = parts->notice,
+        .hides_panel = parts->hides_panel,
         .control = parts->remote ? dip_remote_control(parts->remote) : (DipPreviewControl){0},
         .load_scene_def = load_scene_def,
         .context = session,
@@ -104,12 +106,18 @@ static void close_parts(Parts *parts) {
 
 static bool open_window(DipDisplay *display, const DipSession *session,
                         const DipPreviewOptions *options, DipError *err) {
-    const double scale = options->ui_scale > 0.0 ? options->ui_scale : 1.0;
-    const int dock = (int)(scale * dip_layout_dock_height() + 0.5);
+    const DipToolState tools = {.ui_scale = options->ui_scale > 0.0 ? options->ui_scale : 1.0,
+                                .fixed_scale = options->ui_scale > 0.0};
+    const int pane_height = session->pane_size.height;
+    int height = pane_height;
+    for (int i = 0; i < 4 && !options->hides_panel; ++i) { // The dock follows the height's scale.
+        const double scale = dip_layout_scale(1.0, &tools, height);
+        height = pane_height + (int)(scale * dip_layout_dock_height() + 0.5);
+    }
     return options->window_id
                ? dip_sdl_display_open_in(display, options->window_id, err)
                : dip_sdl_display_open(display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
-                                      session->pane_size.height + dock, err);
+                                      height, err);
 }
 
 // Opens the terminal, which must not be where requests come from.
@@ -149,7 +157,7 @@ static bool open_display(DipDisplay *display, const DipSession *session,
 }
 
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err) {
-    Parts parts = {.ui_scale = options->ui_scale};
+    Parts parts = {.ui_scale = options->ui_scale, .hides_panel = options->hides_panel};
     DipDisplay display;
     bool done = open_parts(&parts, session, options, err) &&
                 open_display(&display, session, options, &parts.notice, err);

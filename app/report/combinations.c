@@ -1,4 +1,4 @@
-// Listing combinations.
+// Lists combinations of settings.
 #include "app/report/combinations.h"
 
 typedef struct List {

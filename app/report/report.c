@@ -89,8 +89,19 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->floors);
     free(report->has_floor);
     free(report->predicted.list);
-    dip_cost_kept_frames_free(&report->kept);
     *report = (DipCostReport){0};
+}
+
+void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep,
+                          char text[DIP_COST_TEXT]) {
+    const DipSettingInfo *info = dip_setting_info(sweep->setting);
+    DipQuality others = report->rows[sweep->base].quality;
+    char with[DIP_COST_TEXT];
+    others.step[sweep->setting] = (uint8_t)info->default_step;
+    dip_cost_settings_text(&others, with);
+    const bool has_others = dip_quality_count_changes(&others) > 0;
+    snprintf(text, DIP_COST_TEXT, "%s%s%.100s", info->title, has_others ? " with " : "",
+             has_others ? with : "");
 }
 
 void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,

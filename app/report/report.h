@@ -5,7 +5,6 @@
 #ifndef DIP_APP_REPORT_REPORT_H
 #define DIP_APP_REPORT_REPORT_H
 
-#include "app/report/kept_frames.h"
 #include "app/report/report_plan.h"
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
@@ -72,7 +71,6 @@ typedef struct DipCostSame {
 
 // A sweep: all steps of one setting on one path, with every other setting held constant.
 typedef struct DipCostSweep {
-    char title[DIP_COST_TEXT]; // "Adaptive AA with aa=4"
     DipSetting setting;
     int path;
     int base; // Row of the step that the baseline has, with which the other steps are compared.
@@ -203,7 +201,6 @@ typedef struct DipCostReport {
     int smaller_count; // 0 if they were not timed.
     int smaller_width; // Pixels.
     int smaller_height;
-    DipCostKeptFrames kept; // Frames that a part keeps for the merged page. Owned.
 } DipCostReport;
 
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
@@ -232,6 +229,11 @@ static inline void dip_cost_settings_text(const DipQuality *quality, char text[D
 static inline const char *dip_cost_plural(int count) {
     return count == 1 ? "" : "s";
 }
+
+// Writes the sweep's setting, and the others that differ from their defaults in its base: "Adaptive
+// AA with aa=4". Reports that were read have their titles from here, too.
+void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep,
+                          char text[DIP_COST_TEXT]);
 
 // Writes the name of a row's step in its sweep: "4", "high-quality"; for adaptive AA "off" or
 // "on, asd=2".

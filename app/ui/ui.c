@@ -42,6 +42,7 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass) {
     ui->before_count = ui->placed_count;
     ui->placed_count = 0;
     ui->tip[0] = '\0';
+    ui->tip_off = (DipRect){0};
     if (pass->event && is_mouse(pass->event)) {
         ui->pointer_x = pass->event->x;
         ui->pointer_y = pass->event->y;
@@ -63,6 +64,7 @@ static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *inpu
     input->began = event->button == DIP_MOUSE_LEFT;
     input->right = event->button == DIP_MOUSE_RIGHT;
     input->clicks = event->clicks;
+    input->focuses = event->focuses;
     ui->taken = true;
 }
 

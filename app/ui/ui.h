@@ -98,6 +98,7 @@ typedef struct DipUiInput {
     bool released; // The mouse button that was held is up again, wherever the pointer is.
     DipMouseButton button; // With `held` and `released`: the button.
     int clicks;            // With `began`: 2 for the second press of a double click.
+    bool focuses;          // With `began`: the press also brought the window the keyboard focus.
     int steps;     // Steps by wheel (away from the user is +1) or by arrow keys (right is +1).
     bool to_first; // Home was pressed.
     bool to_last;  // End was pressed.
@@ -119,6 +120,10 @@ typedef enum DipUiLook {
 // A button with a text in its middle. Returns true when it is pressed.
 bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiLook look,
                    const char *tip);
+
+// Keeps the tips of all controls in a rectangle out of it, so that they cover none of its rows.
+// Holds until the end of the pass.
+void dip_ui_keep_tips_off(DipUi *ui, DipRect rect);
 
 // --- drawing -----------------------------------------------------------------------------------
 // In an event pass, these functions do nothing.
@@ -155,6 +160,10 @@ void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, i
 // Shows a text in lines that are as wide as `room`; '\n' breaks a line, too. Lines that do not fit
 // are left out. Returns the height of the lines in pixels.
 int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text);
+
+// Returns the height that dip_ui_text_block needs for all lines of a text of this width; both
+// passes give the same.
+int dip_ui_text_block_height(const DipUi *ui, int size, int width, const char *text);
 
 // Returns the width and height of a line of text in pixels; both passes give the same.
 int dip_ui_text_width(const DipUi *ui, int size, const char *line);

@@ -1,4 +1,5 @@
-// Drawing of the user interface: what a drawing pass records, and the tip.
+// Draws for the user interface: gives a drawing pass what it draws with, shows the tip of a
+// control, and moves the focus at the end of a pass.
 #include "app/ui/style.h"
 #include "app/ui/ui_private.h"
 
@@ -137,12 +138,50 @@ int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const
     return count * line_height;
 }
 
+int dip_ui_text_block_height(const DipUi *ui, int size, int width, const char *text) {
+    char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
+    return break_lines(ui, size, text, width, lines) * dip_ui_line_height(ui, size);
+}
+
+void dip_ui_keep_tips_off(DipUi *ui, DipRect rect) {
+    ui->tip_off = rect;
+}
+
 static bool shows_tip(const DipUi *ui) {
     return ui->tip[0] && !ui->held && !ui->tip_hidden &&
            ui->pass.now_ns >= ui->hovered_ns + tip_delay_ns;
 }
 
-// Draws the tip beneath its control, or above it where the window ends.
+// Moves a box into the window along one axis.
+static int moved_inside(int at, int size, int room) {
+    return dip_style_max(0, dip_style_min(at, room - size));
+}
+
+// Finds a place for a box outside of `off`: above it, right or left of it, or below it. Returns
+// false if the window has no such place.
+static bool place_beside(const DipUi *ui, DipRect off, DipRect *box) {
+    const int gap = dip_ui_px(ui, TIP_PAD) / 2;
+    const DipRect window = {0, 0, dip_draw_list_width(ui->pass.list),
+                            dip_draw_list_height(ui->pass.list)};
+    const int x = moved_inside(ui->tip_rect.x, box->width, window.width);
+    const int y = moved_inside(ui->tip_rect.y, box->height, window.height);
+    const DipRect places[] = {
+        {x, off.y - gap - box->height, box->width, box->height},
+        {off.x + off.width + gap, y, box->width, box->height},
+        {off.x - gap - box->width, y, box->width, box->height},
+        {x, off.y + off.height + gap, box->width, box->height},
+    };
+    for (size_t i = 0; i < sizeof places / sizeof *places; ++i) {
+        if (dip_rect_equals(dip_rect_intersect(places[i], window), places[i])) {
+            *box = places[i];
+            return true;
+        }
+    }
+    return false;
+}
+
+// Draws the tip beside what it must not cover: the rows around its control or, if the window has no
+// room for that, the control itself.
 static void draw_tip(DipUi *ui) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
     const int count = break_lines(
@@ -151,19 +190,16 @@ static void draw_tip(DipUi *ui) {
         lines);
     const int pad = dip_ui_px(ui, TIP_PAD);
     const int line_height = dip_ui_line_height(ui, TIP_SIZE);
-    const int window_width = dip_draw_list_width(ui->pass.list);
-    const int window_height = dip_draw_list_height(ui->pass.list);
     int width = 0;
     for (int i = 0; i < count; i++) {
         width = dip_style_max(width, dip_ui_text_width(ui, TIP_SIZE, lines[i]));
     }
-    DipRect box = {ui->tip_rect.x, ui->tip_rect.y + ui->tip_rect.height + pad / 2, width + 2 * pad,
-                   count * line_height + 2 * pad};
-    if (box.y + box.height > window_height) {
-        box.y = ui->tip_rect.y - pad / 2 - box.height;
+    DipRect box = {0, 0, width + 2 * pad, count * line_height + 2 * pad};
+    const bool in_rows = dip_rect_holds(ui->tip_off, ui->pointer_x, ui->pointer_y);
+    if (!(in_rows && place_beside(ui, ui->tip_off, &box)) &&
+        !place_beside(ui, ui->tip_rect, &box)) {
+        box.x = moved_inside(ui->tip_rect.x, box.width, dip_draw_list_width(ui->pass.list));
     }
-    box.x = dip_style_max(0, dip_style_min(box.x, window_width - box.width));
-    box.y = dip_style_max(0, box.y);
     dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), tip_ground);
     dip_ui_outline(ui, box, dip_ui_px(ui, 4), 1, tip_line);
     for (int i = 0; i < count; i++) {

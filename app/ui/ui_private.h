@@ -36,6 +36,7 @@ struct DipUi {
     bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
     bool tip_seen;    // The tip has been drawn.
     DipRect tip_rect; // The control whose tip may show.
+    DipRect tip_off;  // Tips of controls in here stay out of it.
     char tip[DIP_UI_TIP_BYTES];
 };
 

@@ -440,6 +440,11 @@ DipSceneTimes dip_scene_times(const DipScene *scene) {
     return scene->times;
 }
 
+bool dip_scene_moves(const DipScene *scene) {
+    return scene->has_sky &&
+           (scene->sky.layers[0].speed_per_min != 0.0 || scene->sky.layers[1].speed_per_min != 0.0);
+}
+
 bool dip_scene_water_level(const DipScene *scene, double *level_m) {
     *level_m = scene->water_level;
     return scene->has_water;

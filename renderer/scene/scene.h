@@ -154,6 +154,9 @@ typedef struct DipSceneTimes {
 } DipSceneTimes;
 DIP_API DipSceneTimes dip_scene_times(const DipScene *scene);
 
+// Returns whether the picture of a still camera changes with time, because clouds drift.
+DIP_API bool dip_scene_moves(const DipScene *scene);
+
 // Axis-aligned bounds in world space of all objects that are not sky, so that a camera placed by
 // these bounds does not look at a sky dome from outside. If the scene has nothing but sky, these
 // are the sky's bounds; if it has no triangles, all coordinates are 0.

@@ -19,6 +19,7 @@ struct DipFakeDisplay {
     int present_count;
     int64_t damaged_pixels;
     bool full_screen;
+    bool hidden;
     char clipboard[512];
 };
 
@@ -71,6 +72,10 @@ static void set_full_screen(void *context, bool on) {
     ((DipFakeDisplay *)context)->full_screen = on;
 }
 
+static bool is_hidden(void *context) {
+    return ((const DipFakeDisplay *)context)->hidden;
+}
+
 static bool set_clipboard(void *context, const char *text) {
     DipFakeDisplay *fake = context;
     snprintf(fake->clipboard, sizeof fake->clipboard, "%s", text);
@@ -116,6 +121,7 @@ DipFakeDisplay *dip_fake_display_open(DipDisplay *display, int width, int height
         .scale = scale,
         .refresh_hz = refresh_hz,
         .now_ns = now_ns,
+        .is_hidden = is_hidden,
         .set_full_screen = set_full_screen,
         .set_size = change_size,
         .set_clipboard = set_clipboard,
@@ -155,6 +161,13 @@ bool dip_fake_display_resize(DipFakeDisplay *fake, int width, int height) {
 void dip_fake_display_rescale(DipFakeDisplay *fake, double scale_factor) {
     fake->scale = scale_factor;
     dip_fake_display_push(fake, &(DipEvent){.kind = DIP_EVENT_RESIZE});
+}
+
+void dip_fake_display_hide(DipFakeDisplay *fake, bool hidden) {
+    fake->hidden = hidden;
+    if (!hidden) {
+        dip_fake_display_push(fake, &(DipEvent){.kind = DIP_EVENT_EXPOSE});
+    }
 }
 
 void dip_fake_display_advance(DipFakeDisplay *fake, int64_t elapsed_ns) {

@@ -32,6 +32,9 @@ bool dip_fake_display_resize(DipFakeDisplay *fake, int width, int height);
 // Changes the scale, which is 1 at first, and appends a RESIZE event.
 void dip_fake_display_rescale(DipFakeDisplay *fake, double scale);
 
+// Hides the display, or shows it and appends an EXPOSE event.
+void dip_fake_display_hide(DipFakeDisplay *fake, bool hidden);
+
 // Advances the clock.
 void dip_fake_display_advance(DipFakeDisplay *fake, int64_t elapsed_ns);
 

@@ -231,7 +231,7 @@ static bool next_event(void *context, int timeout_ms, DipEvent *event) {
         *event = dip_sdl_controller_translate(&sdl_event);
     }
     if (sdl->host && event->kind == DIP_EVENT_MOUSE_DOWN) {
-        dip_sdl_host_take_focus(sdl->host);
+        event->focuses = dip_sdl_host_take_focus(sdl->host);
     }
     if (event->kind == DIP_EVENT_DROP) {
         sdl->dropped_file = sdl_event.drop.file;
@@ -269,6 +269,13 @@ static int64_t now_ns(void *context) {
     return dip_clock_ns();
 }
 
+static bool is_hidden(void *context) {
+    const SdlDisplay *sdl = context;
+    return sdl->host ? dip_sdl_host_is_hidden(sdl->host, dip_clock_ns())
+                     : (SDL_GetWindowFlags(sdl->window) &
+                        (SDL_WINDOW_HIDDEN | SDL_WINDOW_MINIMIZED)) != 0;
+}
+
 static bool set_clipboard(void *context, const char *text) {
     (void)context;
     return SDL_SetClipboardText(text) == 0;
@@ -281,6 +288,11 @@ static bool get_clipboard(void *context, char *text, size_t size_bytes) {
     snprintf(text, size_bytes, "%s", found ? held : "");
     SDL_free(held);
     return found;
+}
+
+static void set_title(void *context, const char *title) {
+    const SdlDisplay *sdl = context;
+    SDL_SetWindowTitle(sdl->window, title);
 }
 
 static void set_full_screen(void *context, bool on) {
@@ -310,9 +322,11 @@ static DipDisplay display_of(SdlDisplay *sdl) {
         .scale = scale,
         .refresh_hz = refresh_hz,
         .now_ns = now_ns,
+        .is_hidden = is_hidden,
         // The host decides about the size of its windows.
         .set_full_screen = sdl->host ? NULL : set_full_screen,
         .set_size = sdl->host ? NULL : set_size,
+        .set_title = sdl->host ? NULL : set_title,
         .set_clipboard = set_clipboard,
         .get_clipboard = get_clipboard,
         .close = close_display,

@@ -6,6 +6,8 @@
 
 #include <stdlib.h>
 
+static const int64_t ask_period_ns = 250000000;
+
 struct DipSdlHost {
     Display *display; // A connection for the host's window; SDL has another.
     Window window;    // The host's window.
@@ -13,6 +15,8 @@ struct DipSdlHost {
     int width; // Size of the child.
     int height;
     bool gone;
+    bool hidden;
+    int64_t asked_ns; // When the X server last said whether the child is hidden.
 };
 
 static int ignore_error(Display *display, XErrorEvent *event) {
@@ -134,7 +138,22 @@ void dip_sdl_host_hide_child(const DipSdlHost *host) {
     XSync(host->display, False); // SDL's connection has now been told, too.
 }
 
-void dip_sdl_host_take_focus(const DipSdlHost *host) {
+// No event tells that a window around the host's window was unmapped, so the X server is asked.
+bool dip_sdl_host_is_hidden(DipSdlHost *host, int64_t now_ns) {
+    XWindowAttributes attributes;
+    if (now_ns - host->asked_ns >= ask_period_ns) {
+        host->asked_ns = now_ns;
+        host->hidden = XGetWindowAttributes(host->display, host->child, &attributes) &&
+                       attributes.map_state != IsViewable;
+    }
+    return host->hidden;
+}
+
+bool dip_sdl_host_take_focus(const DipSdlHost *host) {
+    Window before = None;
+    int revert;
+    XGetInputFocus(host->display, &before, &revert);
     XSetInputFocus(host->display, host->child, RevertToParent, CurrentTime);
     XFlush(host->display);
+    return before != host->child;
 }

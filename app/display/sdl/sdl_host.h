@@ -12,6 +12,7 @@
 #include <SDL2/SDL.h>
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct DipSdlHost DipSdlHost;
 
@@ -39,7 +40,11 @@ bool dip_sdl_host_is_gone(DipSdlHost *host);
 // Hides the child before it is destroyed.
 void dip_sdl_host_hide_child(const DipSdlHost *host);
 
-// Gives the child the keyboard focus.
-void dip_sdl_host_take_focus(const DipSdlHost *host);
+// Returns whether the child cannot be seen, because the host's window or a window around it is
+// unmapped. Asks the X server four times a second. now_ns: time on any clock.
+bool dip_sdl_host_is_hidden(DipSdlHost *host, int64_t now_ns);
+
+// Gives the child the keyboard focus. Returns whether it did not have the focus before.
+bool dip_sdl_host_take_focus(const DipSdlHost *host);
 
 #endif

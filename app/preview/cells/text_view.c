@@ -94,7 +94,8 @@ static void draw_label(DipTextView *view, const DipPreviewState *state, int pane
     } else if (figures->fps > 0 && area.columns >= 60) {
         snprintf(text, sizeof text, "  %4.1f ms  %d fps", figures->ms, figures->fps);
     } else {
-        snprintf(text, sizeof text, "  %4.1f ms", figures->ms);
+        snprintf(text, sizeof text, "  %s%4.1f ms", figures->frames == 1 ? "one frame: " : "",
+                 figures->ms);
     }
     column = dip_text_put(&view->screen, 0, column, end, title, text);
     const int room = end - column - 2;

@@ -27,10 +27,17 @@ static bool set(const DipPreviewMoment *moment, const DipControlRequest *request
             return false;
         }
     }
+    char notice[DIP_NOTICE_SIZE];
+    const int64_t notice_end_ns = state->notice_end_ns;
+    memcpy(notice, state->notice, sizeof notice);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         if (request->panes >> p & 1) {
             dip_preview_set_quality(state, p, &quality[p], moment->now_ns);
         }
+    }
+    if (request->notices & DIP_CONTROL_OFF) { // What the status line said before stays.
+        memcpy(state->notice, notice, sizeof notice);
+        state->notice_end_ns = notice_end_ns;
     }
     return true;
 }
@@ -104,7 +111,8 @@ static DipControlAnswer show_scene(const DipPreviewMoment *moment, const char *n
 
 DipLayout dip_remote_layout(const DipPreviewMoment *moment, int width, int height) {
     const DipToolState *tools = &moment->state->tools;
-    const double scale = moment->display->scale(moment->display->context) * tools->ui_scale;
+    const double scale =
+        dip_layout_scale(moment->display->scale(moment->display->context), tools, height);
     return dip_layout_make(width, height, scale, tools->open, tools->bare);
 }
 
@@ -112,14 +120,17 @@ static bool resize(const DipPreviewMoment *moment, const DipControlRequest *requ
                    DipError *err) {
     const DipDisplay *display = moment->display;
     const DipToolState *tools = &moment->state->tools;
-    const double scale = display->scale(display->context) * tools->ui_scale;
-    int width, height;
+    const double display_scale = display->scale(display->context);
+    int width, height = request->height;
     if (!display->set_size) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request",
                              "the host's window decides about the size");
     }
-    dip_layout_window_size(request->width, request->height, scale, tools->open, tools->bare, &width,
-                           &height);
+    for (int i = 0; i < 4; ++i) { // The scale follows the height, and the height the scale.
+        const double scale = dip_layout_scale(display_scale, tools, height);
+        dip_layout_window_size(request->width, request->height, scale, tools->open, tools->bare,
+                               &width, &height);
+    }
     display->set_size(display->context, width, height);
     display->size(display->context, &width, &height);
     const DipRect pane = dip_remote_layout(moment, width, height).panes[DIP_PANE_CURRENT];
@@ -224,6 +235,10 @@ static bool act(const DipPreviewMoment *moment, const DipControlRequest *request
         return true;
     case DIP_CONTROL_SIZE:
         return resize(moment, request, reply, err);
+    case DIP_CONTROL_PANEL:
+        state->tools.bare = (request->show & DIP_CONTROL_OFF) != 0;
+        dip_preview_follow_dock(state);
+        return true;
     case DIP_CONTROL_PICK:
         return pick(moment, request, reply, err);
     case DIP_CONTROL_GET:
@@ -245,10 +260,13 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
     if (!needs_pictures(request->verb)) {
         remote->acted = true;
     } else if (!pictures_are_ready(remote, attempt)) {
+        remote->waits = true;
         return DIP_CONTROL_LATER;
     }
     if (request->verb == DIP_CONTROL_SCENE) {
-        return show_scene(remote->moment, request->name, attempt, err);
+        const DipControlAnswer answer = show_scene(remote->moment, request->name, attempt, err);
+        remote->waits |= answer == DIP_CONTROL_LATER;
+        return answer;
     }
     return act(remote->moment, request, reply, err) ? DIP_CONTROL_DONE : DIP_CONTROL_REFUSED;
 }
@@ -256,8 +274,9 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
 static bool turn(void *context, const DipPreviewMoment *moment) {
     DipRemote *remote = context;
     remote->moment = moment;
-    remote->acted = false;
+    remote->acted = remote->waits = false;
     dip_control_poll(remote->control);
+    moment->state->wants_picture = remote->waits;
     dip_remote_send_events(remote);
     remote->moment = NULL;
     return remote->acted;

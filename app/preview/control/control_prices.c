@@ -12,8 +12,20 @@ static const char *state_name(DipPriceState state) {
     return names[state];
 }
 
-static void add_time(cJSON *object, DipPriceState state, double ms, double low, double high) {
+static const char *trust_name(DipPriceTrust trust) {
+    static const char *const names[] = {
+        [DIP_PRICE_TRUST_UNKNOWN] = "unknown",
+        [DIP_PRICE_TRUST_DOUBTFUL] = "doubtful",
+        [DIP_PRICE_TRUST_ZERO] = "zero",
+        [DIP_PRICE_TRUST_KNOWN] = "known",
+    };
+    return names[trust];
+}
+
+static void add_time(cJSON *object, DipPriceState state, DipPriceTrust trust, double ms, double low,
+                     double high) {
     cJSON_AddStringToObject(object, "state", state_name(state));
+    cJSON_AddStringToObject(object, "trust", trust_name(trust));
     if (state != DIP_PRICE_UNKNOWN) {
         cJSON_AddNumberToObject(object, "ms", ms);
         cJSON_AddNumberToObject(object, "ms_low", low);
@@ -23,7 +35,7 @@ static void add_time(cJSON *object, DipPriceState state, double ms, double low, 
 
 static void add_pane(cJSON *object, const char *name, const DipPriceSum *sum) {
     cJSON *pane = cJSON_AddObjectToObject(object, name);
-    add_time(pane, sum->state, sum->ms, sum->ms_low, sum->ms_high);
+    add_time(pane, sum->state, dip_price_sum_trust(sum), sum->ms, sum->ms_low, sum->ms_high);
     if (sum->has_flip) {
         cJSON_AddNumberToObject(pane, "flip", sum->flip);
     }
@@ -32,7 +44,7 @@ static void add_pane(cJSON *object, const char *name, const DipPriceSum *sum) {
 static void add_step(cJSON *steps, const char *name, const DipPrice *price) {
     cJSON *step = cJSON_CreateObject();
     cJSON_AddStringToObject(step, "step", name);
-    add_time(step, price->state, price->ms, price->ms_low, price->ms_high);
+    add_time(step, price->state, dip_price_trust(price), price->ms, price->ms_low, price->ms_high);
     if (price->has_flip) {
         cJSON_AddNumberToObject(step, "flip", price->flip);
     }

@@ -29,6 +29,7 @@ struct DipRemote {
     DipControl *control;
     const DipPreviewMoment *moment; // Of the call that is running; NULL between calls.
     bool acted;                     // A request has been carried out in this turn.
+    bool waits;                     // A request waits for the next picture.
     unsigned topics;
     unsigned subscriptions;
     Told told;

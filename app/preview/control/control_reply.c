@@ -64,6 +64,7 @@ static void add_pane_times(cJSON *object, const char *name, const DipPaneFigures
     };
     cJSON *pane = cJSON_AddObjectToObject(object, name);
     add_time(pane, "ms", figures->ms);
+    cJSON_AddNumberToObject(pane, "frames", figures->frames);
     cJSON_AddNumberToObject(pane, "fps", figures->fps);
     cJSON_AddBoolToObject(pane, "copied", figures->copied);
     cJSON *times = cJSON_AddObjectToObject(pane, "stages_ms");

@@ -195,6 +195,19 @@ const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job) {
     return &job->result;
 }
 
+int dip_error_job_next_samples(const DipErrorJob *job) {
+    int samples = 0;
+    if (job->truth && !(job->judges && dip_truth_job_truth(job->truth))) {
+        dip_truth_job_drawn(job->truth, &samples);
+    }
+    return samples;
+}
+
+double dip_error_job_drawn(const DipErrorJob *job) {
+    int samples;
+    return job->truth ? dip_truth_job_drawn(job->truth, &samples) : 0.0;
+}
+
 const float *dip_error_job_flip(const DipErrorJob *job, int pane) {
     return job->still.unjudged[pane] ? NULL : job->flip[shown_pane(job, pane)];
 }

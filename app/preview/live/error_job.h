@@ -31,7 +31,7 @@ typedef struct DipStill {
 // Returns whether two stills are compared with the same truth.
 bool dip_still_has_same_truth(const DipStill *a, const DipStill *b);
 
-// One pane's errors, as docs/cost.md defines them.
+// One pane's errors, as docs/cost-methods.md defines them.
 typedef struct DipPaneError {
     double rmse_lin;
     double psnr_db;
@@ -67,6 +67,13 @@ bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err)
 DipStep dip_error_job_step(DipErrorJob *job, DipError *err);
 
 const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
+
+// Returns the samples per pixel of the truth that the next step draws at, both halves together, or
+// 0 if the next step draws no truth.
+int dip_error_job_next_samples(const DipErrorJob *job);
+
+// Returns how much of that truth is drawn, from 0 to 1.
+double dip_error_job_drawn(const DipErrorJob *job);
 
 // The pictures that belong to the result. They are complete between the step that returned
 // RESULT and the next step; later steps overwrite them. Rows are packed.

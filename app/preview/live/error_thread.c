@@ -1,15 +1,24 @@
 // Runs the thread that measures errors, passes stills (DipStill) to it, and reads its results.
-#define _GNU_SOURCE // SCHED_IDLE
+#define _GNU_SOURCE // syscall
 
 #include "app/preview/live/error_thread.h"
 
 #include "app/cost/scene_hash.h"
 
+#include "app/preview/live/processor_share.h"
+
+#include <limits.h>
 #include <pthread.h>
-#include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+// The thread's priority below that of other threads. Where all compete for a processor, the thread
+// gets 0.4 of what another thread gets; an idle priority would get nothing.
+enum { NICE = 4 };
 
 // A still that owns its pictures.
 typedef struct Still {
@@ -42,6 +51,8 @@ struct DipErrorThread {
     unsigned last_number;
     pthread_t thread;
     bool running;
+    DipProcessorShare share;
+    bool working; // In the last reading, the thread was drawing a truth.
     atomic_bool stop;
 
     // The lock guards everything below. The caller and the thread hold it only to copy a few bytes,
@@ -51,6 +62,7 @@ struct DipErrorThread {
     Still asked;
     unsigned asked_number; // Number of the last still; results of older stills are dropped.
     bool resting;
+    int limit; // Samples of the truths that may be drawn.
     DipErrorReading reading;
     bool news;
     Pictures newest;
@@ -72,14 +84,11 @@ typedef struct Worker {
     uint64_t version;
 } Worker;
 
-static void yield_to_all(pthread_t thread, bool yields) {
-    const struct sched_param param = {0};
-#ifdef SCHED_IDLE
-    pthread_setschedparam(thread, yields ? SCHED_IDLE : SCHED_OTHER, &param);
-#else
-    (void)thread;
-    (void)yields;
-    (void)param;
+// Gives the calling thread a lower priority. On Linux, priorities belong to threads; elsewhere they
+// belong to processes, so nothing is done there.
+static void lower_priority(void) {
+#ifdef __linux__
+    setpriority(PRIO_PROCESS, (id_t)syscall(SYS_gettid), NICE);
 #endif
 }
 
@@ -172,13 +181,31 @@ static void pass_pictures(Worker *worker) {
     worker->pictures = swap;
 }
 
+// Returns whether the worker must wait: the owner rests, nothing is left to do for the still, or
+// the owner does not want the next truth yet.
+static bool must_wait(const Worker *worker) {
+    const DipErrorThread *owner = worker->owner;
+    const bool fresh = owner->asked_number != worker->number;
+    return owner->resting ||
+           (!fresh && (worker->idle ||
+                       (worker->job && dip_error_job_next_samples(worker->job) > owner->limit)));
+}
+
+// Tells the owner how far the truth is. The caller holds the lock.
+static void tell_progress(const Worker *worker) {
+    DipErrorReading *reading = &worker->owner->reading;
+    const bool works = worker->job && !worker->idle && !must_wait(worker);
+    reading->next_samples = works ? dip_error_job_next_samples(worker->job) : 0;
+    reading->drawn = works ? dip_error_job_drawn(worker->job) : 0.0;
+}
+
 // Waits while there is nothing to do. Sets *fresh if there is a new still. Returns false if the
 // thread must end.
 static bool wait_for_still(Worker *worker, bool *fresh) {
     DipErrorThread *owner = worker->owner;
     pthread_mutex_lock(&owner->lock);
-    while (!atomic_load(&owner->stop) &&
-           (owner->resting || (worker->idle && owner->asked_number == worker->number))) {
+    tell_progress(worker);
+    while (!atomic_load(&owner->stop) && must_wait(worker)) {
         pthread_cond_wait(&owner->changed, &owner->lock);
     }
     *fresh = owner->asked_number != worker->number;
@@ -242,7 +269,7 @@ static void work(Worker *worker, bool fresh) {
 static void *run(void *context) {
     Worker worker = {.owner = context, .idle = true};
     bool fresh = false;
-    yield_to_all(pthread_self(), true);
+    lower_priority();
     while (wait_for_still(&worker, &fresh)) {
         work(&worker, fresh);
     }
@@ -268,6 +295,7 @@ DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
     owner->reflection = *reflection;
     owner->cache = cache;
     owner->resting = true;
+    owner->limit = INT_MAX;
     pthread_mutex_init(&owner->lock, NULL);
     pthread_cond_init(&owner->changed, NULL);
     return owner;
@@ -284,8 +312,6 @@ void dip_error_thread_destroy(DipErrorThread **owner_pointer) {
         atomic_store(&owner->stop, true);
         pthread_cond_signal(&owner->changed);
         pthread_mutex_unlock(&owner->lock);
-        // The caller waits for the thread, so the thread should end soon.
-        yield_to_all(owner->thread, false);
         pthread_join(owner->thread, NULL);
     }
     pthread_cond_destroy(&owner->changed);
@@ -352,6 +378,15 @@ void dip_error_thread_measure(DipErrorThread *owner, const DipStill *still,
     pthread_mutex_unlock(&owner->lock);
 }
 
+void dip_error_thread_limit(DipErrorThread *owner, int samples) {
+    pthread_mutex_lock(&owner->lock);
+    if (owner->limit != samples) {
+        owner->limit = samples;
+        pthread_cond_signal(&owner->changed);
+    }
+    pthread_mutex_unlock(&owner->lock);
+}
+
 void dip_error_thread_pause(DipErrorThread *owner) {
     if (!owner->shown) {
         return;
@@ -370,6 +405,14 @@ bool dip_error_thread_read(DipErrorThread *owner, DipErrorReading *reading) {
     *reading = owner->reading;
     owner->news = false;
     pthread_mutex_unlock(&owner->lock);
+    if (owner->running && owner->working) {
+        dip_processor_share_end(&owner->share, owner->thread);
+    }
+    owner->working = reading->next_samples > 0;
+    if (owner->running && owner->working) {
+        dip_processor_share_begin(&owner->share, owner->thread);
+    }
+    reading->waits = owner->working && owner->share.low;
     return news;
 }
 

@@ -1,8 +1,9 @@
 // Measures the errors of both panes' pictures on a thread of its own while the camera rests.
 //
-// The thread runs only when no other thread needs the processor. Its work is a DipErrorJob, in
-// steps of a few milliseconds. When the pictures change, the thread drops the work after the
-// current step.
+// The thread has a slightly lower priority than the threads that draw frames. It gets a share of
+// the processors even if other programs keep all of them busy. Its work is a DipErrorJob, in steps
+// of a few milliseconds. When the pictures change, the thread drops the work after the current
+// step.
 #ifndef DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
 #define DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
 
@@ -26,6 +27,10 @@ void dip_error_thread_destroy(DipErrorThread **thread);
 void dip_error_thread_measure(DipErrorThread *thread, const DipStill *still,
                               unsigned picture_number);
 
+// Lets the thread draw truths of at most this many samples per pixel. Errors against a truth that
+// is drawn already are measured at once. At first there is no limit.
+void dip_error_thread_limit(DipErrorThread *thread, int samples);
+
 // Stops measuring and forgets all results. Call it while the camera moves.
 void dip_error_thread_pause(DipErrorThread *thread);
 
@@ -39,9 +44,13 @@ typedef enum DipErrorStatus {
 typedef struct DipErrorReading {
     DipErrorStatus status;
     DipErrorJobResult result;
+    int next_samples; // Samples per pixel of the truth that is being drawn; 0: none is.
+    double drawn;     // How much of that truth is drawn, from 0 to 1.
+    bool waits;       // Other threads have the processors most of the time.
 } DipErrorReading;
 
-// Reads the result for the last still. Returns whether the result is new since the previous call.
+// Reads the result for the last still. Returns whether the result is new since the previous call;
+// the members after the result may change without that.
 bool dip_error_thread_read(DipErrorThread *thread, DipErrorReading *reading);
 
 // Bins of FLIP from 0 to 1 in which pixels are counted.

@@ -9,6 +9,7 @@ void dip_figures_forget(DipFigures *figures, int pane) {
     for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
         dip_timing_clear(&figures->stages[pane][s]);
     }
+    figures->shown[pane].frames = 0;
     figures->outdated = true;
 }
 
@@ -56,6 +57,18 @@ static int count_dropped(const DipFigures *figures, int64_t now_ns) {
     return (int)dropped;
 }
 
+// Takes the median of the last second. If no frame was drawn in it, the median before stays, unless
+// the settings have changed since. Returns whether the median is new.
+static bool follow_median(DipPaneFigures *shown, const DipTiming *total, int64_t now_ns) {
+    const int frames = dip_timing_per_second(total, now_ns);
+    if (frames == 0 && shown->frames > 0) {
+        return false;
+    }
+    shown->ms = dip_timing_median_ms(total, now_ns);
+    shown->frames = frames == 0 && total->count > 0 ? 1 : frames;
+    return true;
+}
+
 void dip_figures_update(DipFigures *figures, bool moving, int64_t now_ns) {
     if (!figures->outdated && now_ns - figures->updated_ns < period_ns) {
         return;
@@ -65,11 +78,13 @@ void dip_figures_update(DipFigures *figures, bool moving, int64_t now_ns) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         DipPaneFigures *shown = &figures->shown[p];
         shown->times = &figures->total[p];
+        shown->fps = moving ? dip_timing_per_second(&figures->presented, now_ns) : 0;
         shown->dropped = count_dropped(figures, now_ns);
-        shown->ms = dip_timing_median_ms(&figures->total[p], now_ns);
+        if (!follow_median(shown, &figures->total[p], now_ns)) {
+            continue;
+        }
         for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
             shown->stage_ms[s] = dip_timing_median_ms(&figures->stages[p][s], now_ns);
         }
-        shown->fps = moving ? dip_timing_per_second(&figures->presented, now_ns) : 0;
     }
 }

@@ -4,6 +4,7 @@
 #include "app/cost/plan.h"
 #include "app/cli/machine.h"
 #include "app/measure/metrics/meter.h"
+#include "app/preview/live/processor_share.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>
@@ -30,10 +31,11 @@ struct DipLivePrices {
     uint8_t *rgba8; // Copy of the picture that is judged, rows packed. Owned; NULL: no meter yet.
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
-    DipQuality judged; // Settings of this picture.
-    uint64_t truth_version;
-    int errors_left;     // Combinations whose errors are not known, if there is a truth.
-    int64_t progress_ns; // When the text of the progress was written last.
+    DipQuality judged;       // Settings of this picture.
+    DipLiveTruth truth;      // That of the last step.
+    int errors_left;         // Combinations whose errors are not known, if there is a truth.
+    DipProcessorShare share; // Of this thread, while it measures errors.
+    int64_t progress_ns;     // When the text of the progress was written last.
 };
 
 // --- painters ------------------------------------------------------------------------------------
@@ -182,20 +184,21 @@ static bool begin_judging(DipLivePrices *live, const DipSrgbPicture *truth) {
     return true;
 }
 
-static void begin_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
+static void begin_errors(DipLivePrices *live) {
     DipQuality list[MOST_ERRORS];
-    dip_prices_list_without_flip(live->prices, list, MOST_ERRORS);
+    dip_prices_list_without_flip(live->prices, live->truth.samples, list, MOST_ERRORS);
     live->judged = list[0];
-    live->measures_errors = draw(live, &live->judged, 0, NULL) && begin_judging(live, truth);
+    live->measures_errors =
+        draw(live, &live->judged, 0, NULL) && begin_judging(live, &live->truth.picture);
     live->errors_failed = !live->measures_errors;
     live->errors_left = live->errors_failed ? 0 : live->errors_left;
 }
 
 // Draws a picture or measures a part of it; there is a combination whose error is not known.
 // Returns whether an error has become known.
-static bool step_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
+static bool step_errors(DipLivePrices *live) {
     if (!live->measures_errors) {
-        begin_errors(live, truth);
+        begin_errors(live);
         return false;
     }
     const DipStep step = dip_meter_step(&live->meter);
@@ -209,52 +212,73 @@ static bool step_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
         return false;
     }
     const DipMetricSums sums = dip_meter_sums(&live->meter);
-    dip_prices_add_rough_flip(live->prices, &live->judged, dip_metrics_of(&sums, 0).flip);
+    dip_prices_add_rough_flip(live->prices, &live->judged, dip_metrics_of(&sums, 0).flip,
+                              live->truth.samples);
     live->errors_left--;
     return true;
 }
 
-static bool measure_errors(DipLivePrices *live, const DipSrgbPicture *truth, int64_t end_ns) {
+static bool measure_errors(DipLivePrices *live, int64_t end_ns) {
     bool news = false;
+    dip_processor_share_begin(&live->share, pthread_self());
     do {
-        news |= step_errors(live, truth);
+        news |= step_errors(live);
     } while (live->errors_left > 0 && dip_clock_ns() < end_ns);
+    dip_processor_share_end(&live->share, pthread_self());
     return news;
 }
 
-static bool fits(const DipSrgbPicture *truth, const DipLivePicture *picture) {
-    return truth && truth->width == picture->width && truth->height == picture->height;
+static bool has_truth(const DipLivePrices *live) {
+    const DipSrgbPicture *truth = &live->truth.picture;
+    return truth->rgba8 && truth->width == live->picture.width &&
+           truth->height == live->picture.height;
 }
 
 // If the truth has moved in memory, the picture that is being judged is judged again.
-static void follow_truth(DipLivePrices *live, const DipSrgbPicture *truth, uint64_t truth_version) {
-    const uint8_t *rgba8 = truth ? truth->rgba8 : NULL;
-    if (live->meter.standard.picture.rgba8 != rgba8) {
+static void follow_truth(DipLivePrices *live, const DipLiveTruth *truth) {
+    if (live->meter.standard.picture.rgba8 != truth->picture.rgba8) {
         live->measures_errors = false;
     }
-    if (live->truth_version != truth_version) {
-        live->truth_version = truth_version;
+    if (live->truth.samples != truth->samples) {
         live->meter.standard.picture.rgba8 = NULL; // Another picture in the same memory.
         live->measures_errors = live->errors_failed = false;
-        dip_prices_forget_rough_flip(live->prices);
     }
+    live->truth = *truth;
 }
 
-static void count_errors_left(DipLivePrices *live, const DipSrgbPicture *truth) {
+static void count_errors_left(DipLivePrices *live) {
     DipQuality list[MOST_ERRORS];
-    live->errors_left = fits(truth, &live->picture) && !live->errors_failed
-                            ? dip_prices_list_without_flip(live->prices, list, MOST_ERRORS)
-                            : 0;
+    live->errors_left =
+        has_truth(live) && !live->errors_failed
+            ? dip_prices_list_without_flip(live->prices, live->truth.samples, list, MOST_ERRORS)
+            : 0;
 }
 
 // --- progress ------------------------------------------------------------------------------------
 
-// Writes "3 of 8 frames, 4 s left", "errors of 5 pictures left", or "" if nothing is left.
+// Returns whether another thread draws the next truth now, or is about to.
+static bool truth_draws(const DipLivePrices *live) {
+    return live->truth.next_samples > 0 || live->truth.comes_first;
+}
+
+// Writes "times: 12 steps left, 4 s", "errors: the converged picture is 40 % drawn", "errors: 3 of
+// 24", or "" if nothing is left.
 static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
+    const int count = dip_prices_rough_count(live->prices);
+    bool waits = false;
     dip_price_job_describe(live->job, text, size_bytes);
-    if (text[0] == '\0' && live->errors_left > 0) {
-        snprintf(text, size_bytes, "errors of %d picture%s left", live->errors_left,
-                 live->errors_left == 1 ? "" : "s");
+    if (truth_draws(live)) {
+        waits = live->truth.waits;
+        snprintf(text, size_bytes, "errors: the %s picture is %.0f %% drawn",
+                 has_truth(live) ? "next, finer converged" : "converged",
+                 100.0 * live->truth.drawn);
+    } else if (live->errors_left > 0 && !dip_price_job_progress(live->job).first) {
+        waits = live->share.low;
+        snprintf(text, size_bytes, "errors: %d of %d", count - live->errors_left, count);
+    }
+    if (waits) {
+        const size_t length = strlen(text);
+        snprintf(text + length, size_bytes - length, ", waiting for a free processor");
     }
 }
 
@@ -262,7 +286,8 @@ static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
 static bool show_progress(DipLivePrices *live) {
     const int64_t now_ns = dip_clock_ns();
     char text[DIP_PRICE_PROGRESS];
-    if (dip_live_prices_are_working(live) && now_ns - live->progress_ns < progress_period_ns) {
+    if ((dip_live_prices_are_working(live) || truth_draws(live)) &&
+        now_ns - live->progress_ns < progress_period_ns) {
         return false;
     }
     live->progress_ns = now_ns;
@@ -272,26 +297,23 @@ static bool show_progress(DipLivePrices *live) {
 
 // --- the whole -----------------------------------------------------------------------------------
 
-static bool measure(DipLivePrices *live, const DipSrgbPicture *truth, double budget_ms) {
+static bool measure(DipLivePrices *live, double budget_ms) {
     const int64_t end_ns = dip_clock_ns() + (int64_t)(1e6 * budget_ms);
-    if (dip_price_job_progress(live->job).working) {
-        const bool news = dip_price_job_step(live->job, budget_ms);
-        count_errors_left(live, truth);
-        return news;
+    const DipPriceProgress times = dip_price_job_progress(live->job);
+    count_errors_left(live);
+    if (live->errors_left > 0 && !times.first) {
+        return measure_errors(live, end_ns);
     }
-    count_errors_left(live, truth);
-    return live->errors_left > 0 && measure_errors(live, truth, end_ns);
+    return times.working && !truth_draws(live) && dip_price_job_step(live->job, budget_ms);
 }
 
 bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
-                          const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
-                          uint64_t truth_version, double budget_ms) {
+                          const DipQuality quality[DIP_PANE_COUNT], const DipLiveTruth *truth,
+                          double budget_ms) {
     follow_picture(live, picture);
     dip_price_job_follow(live->job, &quality[DIP_PANE_CURRENT], &quality[DIP_PANE_REQUESTED]);
-    if (fits(truth, picture)) {
-        follow_truth(live, truth, truth_version);
-    }
-    const bool news = measure(live, truth, budget_ms);
+    follow_truth(live, truth);
+    const bool news = measure(live, budget_ms);
     return show_progress(live) || news;
 }
 
@@ -302,10 +324,19 @@ void dip_live_prices_pause(DipLivePrices *live) {
 }
 
 bool dip_live_prices_have_times(const DipLivePrices *live) {
+    return live->has_picture && !dip_price_job_progress(live->job).first;
+}
+
+bool dip_live_prices_have_final_times(const DipLivePrices *live) {
     return live->has_picture && !dip_price_job_progress(live->job).working;
 }
 
+bool dip_live_prices_lack_errors(const DipLivePrices *live) {
+    return live->has_picture && live->errors_left > 0;
+}
+
 bool dip_live_prices_are_working(const DipLivePrices *live) {
+    const DipPriceProgress times = dip_price_job_progress(live->job);
     return live->has_picture &&
-           (dip_price_job_progress(live->job).working || live->errors_left > 0);
+           ((live->errors_left > 0 && !times.first) || (times.working && !truth_draws(live)));
 }

@@ -2,7 +2,8 @@
 //
 // The loop calls dip_live_prices_step in each turn in which camera and scene rest and no event is
 // waiting. A step draws one frame or more within its budget. First come the times (price_job.h),
-// then, if the loop has the truth of the picture, the errors.
+// then, if the loop has the truth of the picture, the errors. Nothing is timed while another thread
+// draws a truth, which would disturb the times.
 #ifndef DIP_APP_PREVIEW_LIVE_LIVE_PRICES_H
 #define DIP_APP_PREVIEW_LIVE_LIVE_PRICES_H
 
@@ -35,26 +36,40 @@ void dip_live_prices_leave_scene(DipLivePrices *live);
 // opened and after its scene was replaced.
 void dip_live_prices_enter_scene(DipLivePrices *live);
 
+// What is known of the converged picture, and how far the next, better one is.
+typedef struct DipLiveTruth {
+    // Of the size and pose of the live picture. No pixels while there is none.
+    DipSrgbPicture picture;
+    int samples;      // Per pixel. Errors against a truth of more samples replace those before.
+    bool comes_first; // No time is taken until there is this truth, or a better one.
+    int next_samples; // Samples of the truth that is being drawn; 0: none is.
+    double drawn;     // How much of that truth is drawn, from 0 to 1.
+    bool waits;       // The thread that draws it waits for a free processor.
+} DipLiveTruth;
+
 // Measures for about budget_ms milliseconds: the frame or block that is begun is finished. Forgets
-// the prices of any other picture first. truth: the converged picture, of the same size and from
-// the same pose, or NULL while there is none. truth_version: a number that changes with the truth;
-// errors against another truth are measured anew. Returns whether the panel must be drawn again,
-// because prices or the text of their progress (dip_prices_progress) have changed; the text changes
-// four times a second at most.
+// the prices of any other picture first. Errors against a truth of fewer samples stay until all
+// errors against the new one are known, because only errors against one truth can be compared.
+// Returns whether the panel must be drawn again, because prices or the text of their progress
+// (dip_prices_progress) have changed; the text changes four times a second at most.
 bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
-                          const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
-                          uint64_t truth_version, double budget_ms);
+                          const DipQuality quality[DIP_PANE_COUNT], const DipLiveTruth *truth,
+                          double budget_ms);
 
 // Drops what is being measured, because something moves. Prices are kept until the next step finds
 // another picture.
 void dip_live_prices_pause(DipLivePrices *live);
 
-// Returns whether all times of the last picture are known, so that its truth may be drawn beside
-// without disturbing them.
+// Return whether all times of the last picture are known at least roughly, so that its truth may be
+// drawn beside without disturbing them; and whether no better times will come.
 bool dip_live_prices_have_times(const DipLivePrices *live);
+bool dip_live_prices_have_final_times(const DipLivePrices *live);
 
-// Returns whether there is anything left to measure for the last picture, so that the loop need not
-// wait for an event.
+// Returns whether errors are left that can be measured against the truth of the last step.
+bool dip_live_prices_lack_errors(const DipLivePrices *live);
+
+// Returns whether the next step would measure something, so that the loop need not wait for an
+// event.
 bool dip_live_prices_are_working(const DipLivePrices *live);
 
 #endif

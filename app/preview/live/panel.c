@@ -30,7 +30,8 @@ static void add_times(Lines *lines, const DipPaneFigures *figures) {
     for (int s = 0; s < DIP_STAGE_COUNT; s++) {
         sum += figures->stage_ms[s];
     }
-    add(lines, true, "Frame", "%.2f ms", figures->ms);
+    add(lines, true, figures->frames == 1 ? "One frame" : "Frame, last second", "%.1f ms",
+        figures->ms);
     for (int s = 0; s < DIP_STAGE_COUNT; s++) {
         add(lines, false, names[s], "%.2f ms %3.0f %%", figures->stage_ms[s],
             sum > 0.0 ? 100.0 * figures->stage_ms[s] / sum : 0.0);

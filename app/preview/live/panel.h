@@ -18,7 +18,8 @@ enum {
 
 // The figures of a pane as the window shows them.
 typedef struct DipPaneFigures {
-    double ms; // Median frame time.
+    double ms;  // Median frame time of the last second in which frames were drawn.
+    int frames; // Number of these frames. 1: the time is that of a single frame.
     double stage_ms[DIP_STAGE_COUNT];
     int fps; // Pictures shown in the last second; 0 if no rate is shown.
     DipEffects effects;

@@ -21,6 +21,7 @@ enum {
 typedef struct Timed {
     DipQuality quality;
     DipStatsEstimate ratio; // Of its time to that of the base.
+    int rounds;             // In which it was timed.
 } Timed;
 
 struct DipPriceJob {
@@ -34,11 +35,13 @@ struct DipPriceJob {
     bool idle;        // Every combination is known.
     DipQuality wanted[DIP_PRICE_MAX_WANTED];
     int wanted_count;
+    int rounds; // That each combination gets now: the first rounds, until all have them.
 
     // The block.
     DipQuality members[VISITS];
     int member_count; // 0: there is no block. Member 0 is the base.
     int order[VISITS];
+    int block_rounds;
     int round;
     int visit;
     int frame; // Within the visit.
@@ -62,6 +65,7 @@ DipPriceJob *dip_price_job_create(const DipPriceJobCalls *calls, DipPrices *pric
     job->calls = *calls;
     job->prices = prices;
     job->random = 1;
+    job->rounds = DIP_PRICE_JOB_FIRST_ROUNDS;
     return job;
 }
 
@@ -83,31 +87,41 @@ void dip_price_job_forget(DipPriceJob *job) {
     job->drawn = 0;
     job->failed = false;
     job->idle = false;
+    job->rounds = DIP_PRICE_JOB_FIRST_ROUNDS;
 }
 
 // --- what to time --------------------------------------------------------------------------------
 
-static bool is_timed(const DipPriceJob *job, const DipQuality *quality) {
+static Timed *find_timed(DipPriceJob *job, const DipQuality *quality) {
     for (int i = 0; i < job->timed_count; i++) {
         if (dip_quality_equal(&job->timed[i].quality, quality)) {
-            return true;
+            return &job->timed[i];
         }
     }
-    return false;
+    return NULL;
 }
 
-// Lists the combinations that are not timed yet. The base is part of every block, so it is not in
-// the list.
-static void list_wanted(DipPriceJob *job) {
+// Lists the combinations that are not timed yet in `rounds` rounds. The base is part of every
+// block, so it is not in the list.
+static void list_with_rounds(DipPriceJob *job, int rounds) {
     const DipQuality base = dip_prices_base(job->prices);
     DipQuality all[DIP_PRICE_MAX_WANTED];
     const int count =
         dip_price_list_wanted(&base, &job->current, &job->requested, all, DIP_PRICE_MAX_WANTED);
+    job->rounds = rounds;
     job->wanted_count = 0;
     for (int i = 0; i < count; i++) {
-        if (!dip_quality_equal(&all[i], &base) && !is_timed(job, &all[i])) {
+        const Timed *timed = find_timed(job, &all[i]);
+        if (!dip_quality_equal(&all[i], &base) && (!timed || timed->rounds < rounds)) {
             job->wanted[job->wanted_count++] = all[i];
         }
+    }
+}
+
+static void list_wanted(DipPriceJob *job) {
+    list_with_rounds(job, DIP_PRICE_JOB_FIRST_ROUNDS);
+    if (job->wanted_count == 0) {
+        list_with_rounds(job, DIP_PRICE_JOB_ROUNDS);
     }
     job->idle = job->wanted_count == 0;
 }
@@ -155,6 +169,7 @@ static bool begin_block(DipPriceJob *job) {
         job->members[job->member_count] = job->wanted[job->member_count - 1];
         job->member_count++;
     }
+    job->block_rounds = job->rounds;
     job->round = job->visit = job->frame = 0;
     shuffle(job);
     return true;
@@ -185,15 +200,17 @@ static bool publish(DipPriceJob *job) {
 static bool end_block(DipPriceJob *job) {
     bool done = true;
     for (int m = 1; done && m < job->member_count; m++) {
-        const DipPairedTimes times = {job->ms[m], job->ms[0], DIP_PRICE_JOB_ROUNDS, 1};
-        Timed *timed = &job->timed[job->timed_count];
-        timed->quality = job->members[m];
-        done = dip_paired_ratio(&times, &timed->ratio, &job->failure);
-        job->timed_count += done;
+        const DipPairedTimes times = {job->ms[m], job->ms[0], job->round, 1};
+        Timed *before = find_timed(job, &job->members[m]);
+        Timed timed = {.quality = job->members[m], .rounds = job->round};
+        done = dip_paired_ratio(&times, &timed.ratio, &job->failure);
+        if (done) {
+            *(before ? before : &job->timed[job->timed_count++]) = timed;
+        }
     }
     double base_ms[DIP_PRICE_JOB_ROUNDS];
     memcpy(base_ms, job->ms[0], sizeof base_ms);
-    job->base_ms[job->blocks++ % LEVELS] = dip_stats_median(base_ms, DIP_PRICE_JOB_ROUNDS);
+    job->base_ms[job->blocks++ % LEVELS] = dip_stats_median(base_ms, job->round);
     job->member_count = 0;
     done = done && publish(job);
     job->failed = !done;
@@ -234,7 +251,7 @@ static bool move_on(DipPriceJob *job) {
     }
     job->visit = 0;
     shuffle(job);
-    return ++job->round == DIP_PRICE_JOB_ROUNDS;
+    return ++job->round == job->block_rounds;
 }
 
 bool dip_price_job_step(DipPriceJob *job, double budget_ms) {
@@ -265,8 +282,9 @@ DipPriceProgress dip_price_job_progress(const DipPriceJob *job) {
     }
     const int blocks = (job->wanted_count + BLOCK - 1) / BLOCK; // With the one that is being timed.
     const int visits = job->wanted_count + blocks;
-    const int frames = visits * FRAMES_OF_A_VISIT * DIP_PRICE_JOB_ROUNDS;
+    const int frames = visits * FRAMES_OF_A_VISIT * job->rounds;
     const int done = FRAMES_OF_A_VISIT * (job->round * job->member_count + job->visit) + job->frame;
+    progress.first = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS;
     progress.rounds = job->member_count > 0 ? job->round : 0;
     progress.combinations = job->wanted_count;
     if (job->drawn > 0) {
@@ -283,7 +301,8 @@ void dip_price_job_describe(const DipPriceJob *job, char *text, size_t size_byte
     } else if (!progress.working) {
         snprintf(text, size_bytes, "%s", "");
     } else {
-        snprintf(text, size_bytes, "%d of %d frames, %.0f s left", progress.rounds,
-                 DIP_PRICE_JOB_ROUNDS, ceil(progress.seconds_left));
+        snprintf(text, size_bytes, "%s %d step%s left, %.0f s",
+                 progress.first ? "times:" : "times again, more exactly:", progress.combinations,
+                 progress.combinations == 1 ? "" : "s", ceil(progress.seconds_left));
     }
 }

@@ -2,9 +2,10 @@
 //
 // The job times combinations of settings in blocks: the base and a few combinations, each drawn
 // once in every round, in an order that is shuffled anew. A visit draws one frame untimed, because
-// the previous combination has used the caches, and times the next one. After eight rounds the
-// ratios of each combination to the base give its price with an interval
-// (app/measure/stats/paired.h). The combinations nearest to the requested settings come first.
+// the previous combination has used the caches, and times the next one. The ratios of each
+// combination to the base give its price with an interval (app/measure/stats/paired.h). At first
+// every combination gets three rounds, so that all prices are soon known roughly; then each gets a
+// block of eight rounds. The combinations nearest to the requested settings come first.
 //
 // What draws and what tells the time are functions of the caller, so that tests need neither.
 #ifndef DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
@@ -17,7 +18,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { DIP_PRICE_JOB_ROUNDS = 8 };
+enum { DIP_PRICE_JOB_FIRST_ROUNDS = 3, DIP_PRICE_JOB_ROUNDS = 8 };
 
 typedef struct DipPriceJobCalls {
     // Draws a frame with these settings. frame_index: see dip_painter_set_frame_index. If it
@@ -48,15 +49,16 @@ bool dip_price_job_step(DipPriceJob *job, double budget_ms);
 
 typedef struct DipPriceProgress {
     bool working;        // There are combinations left to time.
+    bool first;          // Among them are some that have no time at all.
     bool failed;         // A frame could not be drawn, or memory ran out.
     int rounds;          // Rounds of the block that are complete.
     int combinations;    // Combinations that are left, with those of the block.
-    double seconds_left; // Of drawing, with the frames' times so far; 0 before the first frame.
+    double seconds_left; // Of drawing all of these; 0 before the first frame.
 } DipPriceProgress;
 
 DipPriceProgress dip_price_job_progress(const DipPriceJob *job);
 
-// Writes "3 of 8 frames, 4 s left", or "" if there is nothing to measure.
+// Writes "times: 12 steps left, 4 s", or "" if there is nothing to measure.
 void dip_price_job_describe(const DipPriceJob *job, char *text, size_t size_bytes);
 
 #endif

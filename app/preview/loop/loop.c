@@ -1,8 +1,10 @@
 // Runs the turns of the preview.
 #include "app/preview/loop/loop_private.h"
 
+#include "app/cost/plan.h"
 #include "app/preview/tools/compare.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,7 +71,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     }
     if (def->ui_scale > 0.0) {
         preview->state.tools.ui_scale = def->ui_scale;
+        preview->state.tools.fixed_scale = true;
     }
+    preview->state.tools.bare = def->hides_panel;
     // An open drawer would cover the current pane.
     preview->state.tools.open = dip_preview_layout(preview).side == DIP_DOCK_BELOW;
     return preview;
@@ -148,6 +152,43 @@ static void follow_layout(DipPreview *preview) {
     preview->pane_height = height;
 }
 
+// Names the scene in the window's title.
+static void follow_title(DipPreview *preview) {
+    const DipSession *session = preview->def.session;
+    const DipDisplay *display = &preview->def.display;
+    char scene[DIP_COST_TEXT], title[sizeof preview->title];
+    if (!display->set_title || !session->options) {
+        return;
+    }
+    if (session->shows_gallery) {
+        snprintf(scene, sizeof scene, "%s",
+                 dip_session_scene_title(session, preview->state.play_ns));
+    } else {
+        dip_cost_scene_name(session, scene);
+    }
+    snprintf(title, sizeof title, "Diptych: %.*s", (int)sizeof title - 16, scene);
+    if (strcmp(title, preview->title) != 0) {
+        memcpy(preview->title, title, sizeof title);
+        display->set_title(display->context, title);
+    }
+}
+
+// Finds out whether anything moves, when another path or scene plays.
+static void follow_motion(DipPreview *preview) {
+    const DipSession *session = preview->def.session;
+    const DipCamTrack *track = &session->track;
+    const DipCamPath *path = track->categories[track->active].path
+                                 ? track->categories[track->active].path
+                                 : track->categories[0].path;
+    if (path != preview->judged_path || session->scene != preview->judged_scene) {
+        preview->judged_path = path;
+        preview->judged_scene = session->scene;
+        preview->state.stands = !session->shows_gallery && session->scene &&
+                                !dip_scene_moves(session->scene) &&
+                                dip_preview_path_stands(&preview->state);
+    }
+}
+
 // Draws and presents the picture if something has changed. Sets *shown to whether something has
 // changed.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
@@ -156,6 +197,8 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     const int64_t since_ns = now_ns - preview->turn_ns;
     const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
     preview->turn_ns = now_ns;
+    follow_motion(preview);
+    follow_title(preview);
     dip_loop_fly(preview, elapsed_ns);
     dip_preview_advance(state, elapsed_ns, now_ns);
     follow_full_screen(preview);
@@ -194,7 +237,7 @@ static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
         const bool busy = preview->live_prices &&
                           dip_live_prices_are_working(preview->live_prices) &&
-                          dip_prices_progress(preview->prices)[0] != '\0';
+                          dip_prices_progress(preview->prices)[0] != '\0'; // Not paused.
         dip_loop_take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;
     }
@@ -207,6 +250,27 @@ static void wait_for_turn(DipPreview *preview, bool shown) {
     }
 }
 
+// Returns whether nobody sees the window and nobody waits for its picture.
+static bool is_hidden(const DipPreview *preview) {
+    const DipDisplay *display = &preview->def.display;
+    return display->is_hidden && display->is_hidden(display->context) &&
+           !preview->state.wants_picture;
+}
+
+// A turn in which nothing is drawn or measured. Time stands still.
+static void rest_hidden(DipPreview *preview) {
+    if (preview->errors) {
+        dip_error_thread_pause(preview->errors);
+    }
+    if (preview->live_prices) {
+        dip_live_prices_pause(preview->live_prices);
+    }
+    preview->figures.presented_ns = 0; // The time until the next picture says nothing.
+    preview->exposed = true;
+    dip_loop_take_event(preview, IDLE_WAIT_MS);
+    preview->turn_ns = dip_loop_clock_ns(preview);
+}
+
 bool dip_preview_turn(DipPreview *preview, DipError *err) {
     bool shown = false;
     while (!preview->state.quit && dip_loop_take_event(preview, 0)) {
@@ -214,6 +278,10 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
     dip_loop_take_control(preview);
     if (preview->state.quit) {
         return true; // The user has quit, so no further frame is drawn.
+    }
+    if (is_hidden(preview)) {
+        rest_hidden(preview);
+        return true;
     }
     if (!draw_turn(preview, dip_loop_clock_ns(preview), &shown, err)) {
         return false;

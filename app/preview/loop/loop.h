@@ -15,9 +15,9 @@
 
 typedef struct DipPreview DipPreview;
 
-// What a control of the preview sees between two turns.
+// What a program that controls the preview sees between two turns.
 typedef struct DipPreviewMoment {
-    DipPreviewState *state; // The control may change it, as keys do.
+    DipPreviewState *state; // The program may change it, as keys do.
     DipSession *session;
     const DipDisplay *display;
     const DipPaneFigures *figures; // One for each pane.
@@ -49,6 +49,7 @@ typedef struct DipPreviewDef {
     double flying_speed_m_per_s; // Speed of the free camera.
     DipPreviewControl control;   // Its context is borrowed.
     double ui_scale;             // Factor by which controls are enlarged; 0 stands for 1.
+    bool hides_panel;            // The window shows nothing but the panes at first.
     const char *notice;          // Shown at first for a few seconds; may be NULL. Copied.
 
     // Loads session->scene_def, which is needed to measure errors. Called when the user first asks

@@ -46,7 +46,9 @@ static void drop_file(DipPreview *preview, const char *file, int64_t now_ns) {
 static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
     const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
     DipUi *ui = dip_view_ui(preview->view);
-    dip_keys_hold(&preview->held, event);
+    if (!preview->state.help) { // What is typed there does not fly the camera.
+        dip_keys_hold(&preview->held, event);
+    }
     if (handle_in_window(preview, event, now_ns)) {
         return;
     }

@@ -3,6 +3,8 @@
 
 #include "app/preview/tools/maps.h"
 
+#include <limits.h>
+
 // Rough prices are measured for about this time in each turn.
 static const double price_budget_ms = 8.0;
 static const int least_truth_samples = 32; // Errors of prices against a coarser truth mislead.
@@ -22,18 +24,39 @@ static bool wants_prices(const DipPreview *preview) {
 }
 
 // Returns whether the tags of the settings or the advice wait for the truth, from which their
-// errors are measured. It is drawn only once all times are known, because it would disturb them.
+// errors are measured. The thread that draws it begins only once all times are known, because it
+// would disturb them.
 static bool prices_need_truth(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     const bool shown = state->tools.tab == DIP_TAB_SETTINGS || state->tools.tab == DIP_TAB_ADVICE;
     return (shown || state->wants_prices) && !preview->no_truth && wants_prices(preview) &&
-           dip_live_prices_have_times(preview->live_prices);
+           (preview->errors || dip_live_prices_have_times(preview->live_prices));
 }
 
-// Returns whether the user looks at errors or at the truth.
+// Returns whether the window shows errors of the panes or the truth.
+static bool looks_at_errors(const DipPreview *preview) {
+    return preview->state.panel || dip_maps_need_errors(&preview->state.tools);
+}
+
+// Returns whether the user or another program asks for errors or the truth.
 static bool shows_errors(const DipPreview *preview) {
-    const DipPreviewState *state = &preview->state;
-    return state->panel || state->wants_errors || dip_maps_need_errors(&state->tools);
+    return looks_at_errors(preview) || preview->state.wants_errors;
+}
+
+// Returns the samples of the finest truth that may be drawn now. Times and truths take turns, the
+// cheapest useful one first: rough times, then the first truth that prices can be compared with and
+// the errors against it, then better times, then finer truths. Where the user looks at errors, that
+// first truth comes before the times.
+static int truth_limit(const DipPreview *preview) {
+    if (!wants_prices(preview)) {
+        return INT_MAX;
+    }
+    if (!dip_live_prices_have_times(preview->live_prices)) {
+        return looks_at_errors(preview) ? least_truth_samples : 0;
+    }
+    const bool settled = !dip_live_prices_lack_errors(preview->live_prices) &&
+                         dip_live_prices_have_final_times(preview->live_prices);
+    return settled ? INT_MAX : least_truth_samples;
 }
 
 static bool wants_errors(const DipPreview *preview) {
@@ -98,6 +121,7 @@ bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns) {
     }
     if (measures) {
         const DipStill still = still_of(preview);
+        dip_error_thread_limit(preview->errors, truth_limit(preview));
         dip_error_thread_measure(preview->errors, &still, preview->picture_number);
     } else {
         dip_error_thread_pause(preview->errors);
@@ -111,12 +135,24 @@ bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns) {
     return news;
 }
 
-// Returns the truth of the picture that the panes show, or NULL while it is too noisy for prices.
-static const DipErrorPictures *truth_for_prices(const DipPreview *preview) {
-    const DipErrorPictures *pictures = preview->errors && wants_errors(preview)
-                                           ? dip_error_thread_pictures(preview->errors)
-                                           : NULL;
-    return pictures && pictures->result.samples >= least_truth_samples ? pictures : NULL;
+// Returns the truth of the picture that the panes show. It has no pixels while it is too noisy for
+// prices.
+static DipLiveTruth truth_for_prices(const DipPreview *preview) {
+    if (!preview->errors || !wants_errors(preview)) {
+        return (DipLiveTruth){.samples = 0};
+    }
+    const DipErrorReading *reading = &preview->figures.shown[DIP_PANE_CURRENT].errors;
+    const DipErrorPictures *pictures = dip_error_thread_pictures(preview->errors);
+    DipLiveTruth truth = {
+        .next_samples = reading->next_samples, .drawn = reading->drawn, .waits = reading->waits};
+    if (pictures && pictures->result.samples >= least_truth_samples) {
+        truth.picture = (DipSrgbPicture){pictures->truth_rgba8, 4 * (size_t)pictures->width,
+                                         pictures->width, pictures->height};
+        truth.samples = pictures->result.samples;
+    }
+    truth.comes_first = truth.samples == 0 && reading->status == DIP_ERROR_STATUS_WORKING &&
+                        truth_limit(preview) >= least_truth_samples;
+    return truth;
 }
 
 bool dip_loop_measure_prices(DipPreview *preview) {
@@ -137,13 +173,7 @@ bool dip_loop_measure_prices(DipPreview *preview) {
         .look = preview->drawn.look,
         .pixels_per_degree = dip_prices_viewing(preview->prices),
     };
-    const DipErrorPictures *pictures = truth_for_prices(preview);
-    const DipSrgbPicture truth =
-        pictures ? (DipSrgbPicture){pictures->truth_rgba8, 4 * (size_t)pictures->width,
-                                    pictures->width, pictures->height}
-                 : (DipSrgbPicture){.width = 0};
-    // A picture has one truth for each number of samples.
-    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality,
-                                pictures ? &truth : NULL,
-                                pictures ? (uint64_t)pictures->result.samples : 0, price_budget_ms);
+    const DipLiveTruth truth = truth_for_prices(preview);
+    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality, &truth,
+                                price_budget_ms);
 }

@@ -54,9 +54,12 @@ struct DipPreview {
     int pane_height;
     int tried_width; // Size that the renderers last got, or were refused for lack of memory.
     int tried_height;
-    int64_t blinks_ns;     // When the comparison shows another picture, or INT64_MAX.
-    bool redraw;           // The overlay may have changed.
-    bool exposed;          // The display lost its picture, so all of it must be presented.
+    int64_t blinks_ns;       // When the comparison shows another picture, or INT64_MAX.
+    bool redraw;             // The overlay may have changed.
+    bool exposed;            // The display lost its picture, so all of it must be presented.
+    char title[128];         // The window's title.
+    const void *judged_path; // The path and the scene for which state.stands was found out.
+    const void *judged_scene;
     bool flying;           // The user moved the camera in this turn.
     DipPose pose;          // Pose of the frame.
     DipSessionFrame frame; // The frame that was drawn last.

@@ -29,6 +29,7 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
         dip_live_prices_enter_scene(preview->live_prices);
     }
     state->shows_gallery = session->shows_gallery;
+    preview->judged_path = NULL;
     preview->tried_width = 0; // the new renderers do not have the panes' size yet
     state->look = preview->drawn_look = 0;
     state->play_ns = 0;
@@ -44,6 +45,7 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
 static void use_new_session(DipPreview *preview, bool dropped) {
     const DipErrorReading nothing = {.status = DIP_ERROR_STATUS_PAUSED};
     DipSession *session = preview->def.session;
+    preview->judged_path = NULL; // The new path may lie where the old one lay.
     dip_error_thread_destroy(&preview->errors);
     preview->no_truth = false;
     dip_loop_show_errors(preview, &nothing); // The pictures of the errors were the thread's.

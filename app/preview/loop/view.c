@@ -63,7 +63,8 @@ DipLayout dip_view_layout(const DipViewInput *input) {
         dip_text_view_panes(input->text, input->state, input->width, input->height, layout.panes);
         return layout;
     }
-    return dip_layout_make(input->width, input->height, input->scale * tools->ui_scale, tools->open,
+    return dip_layout_make(input->width, input->height,
+                           dip_layout_scale(input->scale, tools, input->height), tools->open,
                            tools->bare);
 }
 

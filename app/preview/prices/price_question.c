@@ -1,4 +1,4 @@
-// Finding the company of each setting, and listing the combinations that prices are made of.
+// Finds the company of each setting, and lists the combinations that prices are made of.
 #include "app/preview/prices/price_question.h"
 
 #include <stdio.h>

@@ -180,7 +180,7 @@ static bool fill_step(DipPrice *price, const DipCostReport *report, int row, int
         price->ms = dip_cost_ms(report, row) - base_ms;
         price->ms_low = price->ms - (ratio.value - ratio.low) * base_ms;
         price->ms_high = price->ms + (ratio.high - ratio.value) * base_ms;
-        price->ms_is_zero = price->ms_low <= 0.0 && price->ms_high >= 0.0;
+        price->without_ms = base_ms;
     }
     price->has_flip = !isnan(change.value);
     if (price->has_flip) {

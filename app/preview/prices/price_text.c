@@ -45,30 +45,46 @@ const char *dip_step_explanation(DipSetting setting, int step) {
     return texts[setting][step];
 }
 
-bool dip_price_is_doubtful(const DipPrice *price) {
-    return price->state == DIP_PRICE_ROUGH && !price->ms_is_zero && price->ms_low <= 0.0 &&
-           price->ms_high >= 0.0;
+void dip_ms_text(double ms, DipPriceTrust trust, char text[DIP_STEP_NAME_BYTES]) {
+    if (trust != DIP_PRICE_TRUST_DOUBTFUL) {
+        snprintf(text, DIP_STEP_NAME_BYTES, "%.1f", ms);
+        return;
+    }
+    const double size = fmin(fabs(ms), 1e9);
+    if (size < 0.05) {
+        snprintf(text, DIP_STEP_NAME_BYTES, "0?");
+        return;
+    }
+    const double unit = size >= 0.1 ? pow(10.0, floor(log10(size))) : 0.1;
+    snprintf(text, DIP_STEP_NAME_BYTES, "%s%.*f?", ms < 0.0 ? "\u2212" : "", unit < 1.0,
+             unit * round(size / unit));
 }
 
 void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
-    const char *rough = price->state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "";
-    if (price->state == DIP_PRICE_UNKNOWN) {
+    const DipPriceTrust trust = dip_price_trust(price);
+    char digits[DIP_STEP_NAME_BYTES];
+    if (trust == DIP_PRICE_TRUST_UNKNOWN) {
         snprintf(text, DIP_STEP_NAME_BYTES, "%s",
                  price->needs_company ? "\u2013" : "\u00b7 \u00b7 \u00b7");
     } else if (price->state == DIP_PRICE_BASE) {
         snprintf(text, DIP_STEP_NAME_BYTES, "base");
-    } else if (price->ms_is_zero) {
+    } else if (trust == DIP_PRICE_TRUST_ZERO) {
         snprintf(text, DIP_STEP_NAME_BYTES, "\u2248 0");
     } else {
-        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.1f%s", rough, price->ms < 0.0 ? "\u2212" : "+",
-                 fabs(price->ms), dip_price_is_doubtful(price) ? "?" : "");
+        const char *mark = trust == DIP_PRICE_TRUST_DOUBTFUL     ? ""
+                           : price->state == DIP_PRICE_ROUGH     ? DIP_ROUGH_MARK
+                           : price->state == DIP_PRICE_PREDICTED ? "~"
+                                                                 : "";
+        const char *sign = fabs(price->ms) < 0.05 ? "" : price->ms < 0.0 ? "\u2212" : "+";
+        dip_ms_text(fabs(price->ms), trust, digits);
+        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.16s", mark, sign, digits);
     }
 }
 
 void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]) {
     char digits[16];
     snprintf(digits, sizeof digits, "%.4f", fabs(flip) < 99.0 ? fabs(flip) : 99.0);
-    const char *sign = !change ? "" : flip > 0.0 ? "+" : "\u2212";
+    const char *sign = !change || strcmp(digits, "0.0000") == 0 ? "" : flip > 0.0 ? "+" : "\u2212";
     snprintf(text, DIP_STEP_NAME_BYTES, "%s%s", sign, digits[0] == '0' ? digits + 1 : digits);
 }
 
@@ -79,6 +95,19 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) 
     } else {
         snprintf(text, DIP_STEP_NAME_BYTES, "%s",
                  price->needs_company ? "\u2013" : "\u00b7 \u00b7 \u00b7");
+    }
+}
+
+// Writes what is known of a doubtful time. An interval that is wider than the whole frame says
+// nothing.
+static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
+    const char *why = price->doubtful ? "the machine was too busy while the report was measured"
+                                      : "other programs disturbed the frames that timed it";
+    if (price->ms_high - price->ms_low <= price->without_ms) {
+        snprintf(text, size_bytes, "\nIts time is doubtful, between %+.1f and %+.1f ms: %s.",
+                 price->ms_low, price->ms_high, why);
+    } else {
+        snprintf(text, size_bytes, "\nIts time cannot be told: %s.", why);
     }
 }
 
@@ -102,6 +131,10 @@ static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
     case DIP_PRICE_MEASURED:
     case DIP_PRICE_PREDICTED:
     case DIP_PRICE_ROUGH:
+        if (dip_price_trust(price) == DIP_PRICE_TRUST_DOUBTFUL) {
+            format_doubt(price, text, size_bytes);
+            break;
+        }
         snprintf(text, size_bytes, "\n%+.2f ms (%.2f to %.2f)%s%s%s%s, %s.", price->ms,
                  price->ms_low, price->ms_high, flip[0] ? ", FLIP " : "", flip, beside, where,
                  price->state == DIP_PRICE_ROUGH       ? "roughly measured just now"
@@ -121,13 +154,10 @@ void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const cha
                   char text[DIP_STEP_TEXT_BYTES]) {
     char cost[240];
     format_price(price, cost, sizeof cost);
-    snprintf(
-        text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s%s%s",
-        dip_setting_info(setting)->labels[step], dip_step_explanation(setting, step),
-        why[0] ? "\n" : "", why, setting == DIP_SETTING_MIPDEBUG ? "" : cost,
-        dip_price_is_doubtful(price) ? "\nToo noisy to tell a cost from a gain." : "",
-        price->doubtful && price->state != DIP_PRICE_UNKNOWN
-            ? "\nThe machine was too busy while the report was measured: do not trust this time."
-            : "",
-        price->has_flip ? "\nFLIP is the error that people see, from 0 to 1." : "");
+    snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s",
+             dip_setting_info(setting)->labels[step], dip_step_explanation(setting, step),
+             why[0] ? "\n" : "", why, setting == DIP_SETTING_MIPDEBUG ? "" : cost,
+             price->has_flip ? "\nFLIP is the error that people see, from 0 (the same picture as "
+                               "the converged one) to 1. A minus sign is a gain."
+                             : "");
 }

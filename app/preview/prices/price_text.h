@@ -16,12 +16,12 @@ enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
 // Returns a sentence about what a step does.
 const char *dip_step_explanation(DipSetting setting, int step);
 
-// Returns whether a rough price cannot tell a gain from a cost: its interval holds 0 and is wide.
-bool dip_price_is_doubtful(const DipPrice *price);
+// Writes a time without its unit: "8.4", or its first digit and a question mark if it is doubtful:
+// "8?", "70?".
+void dip_ms_text(double ms, DipPriceTrust trust, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes a price's time without its unit: "+1.2", "≈ +1.2", "≈ +1.2?" if it is
-// doubtful, "≈ 0", "base", or dots if it is
-// unknown.
+// Writes a price's time without its unit, by its trust: "+1.2", "≈ +1.2" if it is rough, "~+1.2" if
+// a model predicts it, "+1?" if it is doubtful, "≈ 0", "base", or dots if it is unknown.
 void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.

@@ -13,6 +13,11 @@
 // The widest interval that holds 0 and stands for a price of 0, as a share of the time without the
 // step. A wider interval comes from a busy machine or from a prediction, and tells nothing.
 static const double widest_zero = 0.2;
+// The widest interval of a time that is not doubtful, as a share of the time; and the interval that
+// is always narrow enough, because the panel shows times to a tenth of a millisecond.
+static const double widest_share = 0.5;
+static const double narrow_ms = 0.2;
+static const double least_shown_ms = 0.05; // Smaller times would be shown as 0.0.
 
 DipPrices *dip_prices_create(DipError *err) {
     DipPrices *prices = calloc(1, sizeof *prices);
@@ -29,6 +34,33 @@ void dip_prices_destroy(DipPrices **prices) {
         free(*prices);
         *prices = NULL;
     }
+}
+
+static bool is_wide(double ms, double low, double high) {
+    return !(high - low <= fmax(widest_share * fabs(ms), narrow_ms));
+}
+
+DipPriceTrust dip_price_trust(const DipPrice *price) {
+    const double width = price->ms_high - price->ms_low;
+    if (price->state == DIP_PRICE_UNKNOWN) {
+        return DIP_PRICE_TRUST_UNKNOWN;
+    }
+    if (price->doubtful) {
+        return DIP_PRICE_TRUST_DOUBTFUL;
+    }
+    if (price->state != DIP_PRICE_BASE && price->ms_low <= 0.0 && price->ms_high >= 0.0) {
+        return width <= widest_zero * price->without_ms ? DIP_PRICE_TRUST_ZERO
+                                                        : DIP_PRICE_TRUST_DOUBTFUL;
+    }
+    return is_wide(price->ms, price->ms_low, price->ms_high) ? DIP_PRICE_TRUST_DOUBTFUL
+           : fabs(price->ms) < least_shown_ms                ? DIP_PRICE_TRUST_ZERO
+                                                             : DIP_PRICE_TRUST_KNOWN;
+}
+
+DipPriceTrust dip_price_sum_trust(const DipPriceSum *sum) {
+    return sum->state == DIP_PRICE_UNKNOWN                                ? DIP_PRICE_TRUST_UNKNOWN
+           : sum->doubtful || is_wide(sum->ms, sum->ms_low, sum->ms_high) ? DIP_PRICE_TRUST_DOUBTFUL
+                                                                          : DIP_PRICE_TRUST_KNOWN;
 }
 
 void dip_prices_set_conditions(DipPrices *prices, const DipPriceConditions *conditions) {
@@ -102,8 +134,7 @@ static DipPrice difference(const DipPriceKnown *with, const DipPriceKnown *witho
         price.ms = with->ms - without->ms;
         price.ms_low = price.ms - hypot(with->ms - with->ms_low, without->ms_high - without->ms);
         price.ms_high = price.ms + hypot(with->ms_high - with->ms, without->ms - without->ms_low);
-        price.ms_is_zero = price.ms_low <= 0.0 && price.ms_high >= 0.0 &&
-                           price.ms_high - price.ms_low <= widest_zero * without->ms;
+        price.without_ms = without->ms;
     }
     if (price.has_flip) {
         price.flip = with->flip - without->flip;

@@ -27,6 +27,16 @@ typedef enum DipPriceState {
     DIP_PRICE_ROUGH      // Measured live, from a few frames.
 } DipPriceState;
 
+// What may be shown of a time. Every part of the program that shows or uses a price asks one of the
+// two functions below, so that no number looks surer in one place than in another.
+typedef enum DipPriceTrust {
+    DIP_PRICE_TRUST_UNKNOWN,  // There is no number.
+    DIP_PRICE_TRUST_DOUBTFUL, // The interval is too wide, or the report is: one digit and "?". It
+                              // has no bar and enters no sum.
+    DIP_PRICE_TRUST_ZERO,     // The time is 0 as far as anyone can tell: "≈ 0".
+    DIP_PRICE_TRUST_KNOWN
+} DipPriceTrust;
+
 // One step's price. `state` tells about the time: an UNKNOWN price can have an error, because a
 // report can have errors without times, and the other way round. Intervals hold 95 % as the
 // report's do; a rough price's interval is that of its few frames.
@@ -35,11 +45,9 @@ typedef struct DipPrice {
     double ms; // Added to the base, in milliseconds; of the base itself: the whole time.
     double ms_low;
     double ms_high;
-    // The interval holds 0, so the panel says "≈ 0". The interval of a rough or predicted price
-    // must also be narrow: at most a fifth of the time without the step.
-    bool ms_is_zero;
-    bool has_flip; // The error is known. (The truth takes longer than the times.)
-    double flip;   // Added to the base's FLIP; of the base itself: its FLIP.
+    double without_ms; // The whole time without the step; 0 for the base.
+    bool has_flip;     // The error is known. (The truth takes longer than the times.)
+    double flip;       // Added to the base's FLIP; of the base itself: its FLIP.
     bool flip_at_floor;
     bool needs_company; // The step does nothing with the quality that the price was asked for;
                         // `needs` says what it needs, such as "AF".
@@ -65,9 +73,13 @@ typedef struct DipPriceSum {
     // Each setting's own price at its step. The group size (asd) has no part of its own: that of
     // adaptive AA holds it.
     double parts_ms[DIP_SETTING_COUNT];
+    DipPriceTrust parts_trust[DIP_SETTING_COUNT];
     double together_ms; // What the sum adds to the base and the parts; it may be negative.
     bool doubtful;      // As in DipPrice.
 } DipPriceSum;
+
+DipPriceTrust dip_price_trust(const DipPrice *price);
+DipPriceTrust dip_price_sum_trust(const DipPriceSum *sum);
 
 typedef struct DipPrices DipPrices;
 
@@ -121,15 +133,18 @@ DipQuality dip_prices_base(const DipPrices *prices);
 bool dip_prices_add_rough(DipPrices *prices, const DipQuality *quality, double ms, double ms_low,
                           double ms_high, double flip);
 
-// Adds the FLIP of a combination whose rough time is known.
-void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, double flip);
+// Adds the FLIP of a combination whose rough time is known, against a truth of `samples` samples
+// per pixel. If errors against a coarser truth are known, they hold until all are known against the
+// finer one, since errors against two truths must not be compared.
+void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, double flip,
+                               int samples);
 
-// Forgets the errors of all combinations that were measured live, because the truth has changed.
-void dip_prices_forget_rough_flip(DipPrices *prices);
+// Writes the combinations whose rough times are known but whose errors against a truth of `samples`
+// samples or more are not, at most `room`. Returns their number.
+int dip_prices_list_without_flip(const DipPrices *prices, int samples, DipQuality *list, int room);
 
-// Writes the combinations whose rough times are known but whose errors are not, at most `room`.
-// Returns their number.
-int dip_prices_list_without_flip(const DipPrices *prices, DipQuality *list, int room);
+// Returns the number of combinations whose rough times are known.
+int dip_prices_rough_count(const DipPrices *prices);
 
 // Returns whether a rough time of this combination is known, or of one with the same picture.
 bool dip_prices_has_rough(const DipPrices *prices, const DipQuality *quality);
@@ -151,6 +166,9 @@ DipPrice dip_prices_step(const DipPrices *prices, DipSetting setting, int step,
 // model; its interval is the share by which 90 % of such predictions miss. What the model does not
 // know is the sum of the parts, whose intervals are added as independent errors.
 DipPriceSum dip_prices_sum(const DipPrices *prices, const DipQuality *quality);
+
+// Returns whether all times are doubtful, because the report's machine was too busy.
+bool dip_prices_are_doubtful(const DipPrices *prices);
 
 // Says where the prices come from and for what they hold: "Prices: report of this scene, path
 // DEFAULT, 640x480, 2 threads. The panes are 320x240." width and height: size of a pane in pixels.

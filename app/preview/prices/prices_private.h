@@ -16,6 +16,8 @@ typedef struct DipPriceKnown {
     bool has_flip;
     double flip;
     bool flip_at_floor;
+    int next_samples; // Samples of the finest truth that the error was measured against live.
+    double next_flip; // The error against that truth.
 } DipPriceKnown;
 
 typedef struct DipPriceList {

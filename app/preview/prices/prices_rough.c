@@ -1,6 +1,7 @@
 // Keeping the whole times and errors that were measured live.
 #include "app/preview/prices/prices_private.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,6 +16,8 @@ bool dip_prices_add_rough(DipPrices *prices, const DipQuality *quality, double m
         .ms_high = ms_high,
         .has_flip = flip >= 0.0,
         .flip = flip,
+        .next_samples = flip >= 0.0 ? INT_MAX : 0,
+        .next_flip = flip,
     };
     const DipPriceKnown *before = dip_price_list_find(&prices->rough, &known.quality);
     if (!before) {
@@ -23,36 +26,56 @@ bool dip_prices_add_rough(DipPrices *prices, const DipQuality *quality, double m
     if (!known.has_flip) {
         known.has_flip = before->has_flip;
         known.flip = before->flip;
+        known.next_samples = before->next_samples;
+        known.next_flip = before->next_flip;
     }
     prices->rough.items[before - prices->rough.items] = known;
     return true;
 }
 
-void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, double flip) {
+// Returns whether errors show that were measured against a coarser truth.
+static bool shows_coarser(const DipPrices *prices, int samples) {
+    for (int i = 0; i < prices->rough.count; i++) {
+        const DipPriceKnown *item = &prices->rough.items[i];
+        if (item->has_flip && item->next_samples < samples) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, double flip,
+                               int samples) {
     const DipQuality base = dip_prices_base(prices);
     const DipQuality normal = dip_price_normal(&base, quality);
     const DipPriceKnown *known = dip_price_list_find(&prices->rough, &normal);
-    if (known) {
-        DipPriceKnown *item = &prices->rough.items[known - prices->rough.items];
-        item->has_flip = true;
-        item->flip = flip;
+    if (!known) {
+        return;
+    }
+    DipPriceKnown *added = &prices->rough.items[known - prices->rough.items];
+    added->next_flip = flip;
+    added->next_samples = samples;
+    for (int i = 0; !shows_coarser(prices, samples) && i < prices->rough.count; i++) {
+        DipPriceKnown *item = &prices->rough.items[i];
+        if (item->next_samples == samples) {
+            item->has_flip = true;
+            item->flip = item->next_flip;
+        }
     }
 }
 
-void dip_prices_forget_rough_flip(DipPrices *prices) {
-    for (int i = 0; i < prices->rough.count; i++) {
-        prices->rough.items[i].has_flip = false;
-    }
-}
-
-int dip_prices_list_without_flip(const DipPrices *prices, DipQuality *list, int room) {
+int dip_prices_list_without_flip(const DipPrices *prices, int samples, DipQuality *list, int room) {
     int count = 0;
     for (int i = 0; i < prices->rough.count && count < room; i++) {
-        if (!prices->rough.items[i].has_flip) {
+        if (prices->rough.items[i].next_samples < samples) {
             list[count++] = prices->rough.items[i].quality;
         }
     }
     return count;
+}
+
+int dip_prices_rough_count(const DipPrices *prices) {
+    return prices->rough.count;
 }
 
 bool dip_prices_has_rough(const DipPrices *prices, const DipQuality *quality) {

@@ -61,6 +61,10 @@ bool dip_prices_are_of_other_scene(const DipPrices *prices) {
     return prices->has_report && differs(prices->conditions.scene, prices->report.scene);
 }
 
+bool dip_prices_are_doubtful(const DipPrices *prices) {
+    return !dip_prices_are_rough(prices) && prices->report.doubtful;
+}
+
 bool dip_prices_source(const DipPrices *prices, int width, int height, char *out,
                        size_t size_bytes) {
     const DipPriceReport *report = &prices->report;

@@ -111,11 +111,13 @@ DipPriceSum dip_prices_sum(const DipPrices *prices, const DipQuality *quality) {
         .has_flip = whole.has_flip,
         .flip = whole.flip,
         .base_ms = alone ? alone->ms : 0.0,
-        .doubtful = !dip_prices_are_rough(prices) && prices->report.doubtful,
+        .doubtful = dip_prices_are_doubtful(prices),
     };
     double known_ms = sum.base_ms;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         sum.parts_ms[s] = parts.is_part[s] ? parts.prices[s].ms : 0.0;
+        sum.parts_trust[s] =
+            parts.is_part[s] ? dip_price_trust(&parts.prices[s]) : DIP_PRICE_TRUST_ZERO;
         known_ms += sum.parts_ms[s];
     }
     sum.together_ms = whole.ms - known_ms;

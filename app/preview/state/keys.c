@@ -3,6 +3,8 @@
 
 #include "renderer/base/assert.h"
 
+#include <string.h>
+
 #define SETTING_KEY(key, other, NAME, label)                                                       \
     { key, other, DIP_ACTION_SETTING, DIP_SETTING_##NAME, false, label, NULL }
 #define PATH_KEY(digit)                                                                            \
@@ -180,12 +182,37 @@ static bool leave_tool(DipPreviewState *state) {
     return shows;
 }
 
+// While the help shows in a window, what the user types is searched there. Escape takes the words
+// back before it closes the help. Returns whether the key was such a key.
+static bool type_words(DipPreviewState *state, const DipEvent *event) {
+    const size_t length = strlen(state->help_words);
+    if (!state->help || state->in_terminal) {
+        return false;
+    }
+    if (event->key == DIP_KEYCODE_BACKSPACE || event->key == DIP_KEYCODE_ESCAPE) {
+        const bool had_words = length > 0;
+        state->help_words[event->key == DIP_KEYCODE_ESCAPE || !had_words ? 0 : length - 1] = '\0';
+        return had_words || event->key == DIP_KEYCODE_BACKSPACE;
+    }
+    if (event->key < DIP_KEYCODE_SPACE || event->key > (DipKeycode)'~') {
+        return false;
+    }
+    if (length + 1 < sizeof state->help_words) {
+        state->help_words[length] = (char)event->key;
+        state->help_words[length + 1] = '\0';
+    }
+    return true;
+}
+
 bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_ns) {
     if (event->key == DIP_KEYCODE_NONE) {
         return false;
     }
     if (event->modifiers & command_modifiers) {
         return press_with_modifier(state, event, now_ns);
+    }
+    if (type_words(state, event)) {
+        return true;
     }
     // Escape goes back by one level: a sheet, a tool, full screen, the program.
     if (event->key == DIP_KEYCODE_ESCAPE && (state->help || state->show_costs)) {

@@ -104,6 +104,7 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         break;
     case DIP_ACTION_HELP:
         state->help = !state->help;
+        state->help_words[0] = '\0';
         break;
     case DIP_ACTION_PANEL:
         dip_state_open_tab(state, DIP_TAB_TIMES);
@@ -140,11 +141,11 @@ void dip_preview_seek(DipPreviewState *state, int64_t play_ns) {
 }
 
 bool dip_preview_rests(const DipPreviewState *state, bool flying) {
-    return state->manual ? !flying : state->paused;
+    return state->manual ? !flying : state->paused || state->stands;
 }
 
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns) {
-    if (!state->paused && !state->manual) {
+    if (!state->paused && !state->manual && !state->stands) {
         state->play_ns += elapsed_ns;
         ++state->scene_changes;
     }

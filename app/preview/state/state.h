@@ -57,7 +57,7 @@ typedef enum DipAction {
     DIP_ACTION_QUIT
 } DipAction;
 
-enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32 };
+enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32, DIP_HELP_WORDS = 32 };
 
 // Settings that a user can ask for by name.
 typedef enum DipPreset {
@@ -78,6 +78,7 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
+    bool stands;           // Neither the camera nor the scene moves although time may run.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
@@ -88,13 +89,15 @@ typedef struct DipPreviewState {
     const char *scene_title; // Of the gallery's scene; NULL if the panes show models.
     const char *scene_look;  // Name of its variant.
     bool help;               // The help shows.
-    bool panel;              // Each pane shows its times, errors and work.
-    const DipCosts *costs;   // Borrowed; NULL if there is no cost report.
-    bool show_costs;         // The table of costs shows.
-    int next_advice;         // Index in costs->advice of the next advice to give.
-    bool wants_errors;       // Another program has asked for the errors, shown or not.
-    bool wants_prices;       // Another program has asked for the prices, shown or not.
-    bool measures_here;      // Prices are measured in this view although there is a report.
+    char help_words[DIP_HELP_WORDS]; // The help shows only keys with this text.
+    bool panel;                      // Each pane shows its times, errors and work.
+    const DipCosts *costs;           // Borrowed; NULL if there is no cost report.
+    bool show_costs;                 // The table of costs shows.
+    int next_advice;                 // Index in costs->advice of the next advice to give.
+    bool wants_errors;               // Another program has asked for the errors, shown or not.
+    bool wants_prices;               // Another program has asked for the prices, shown or not.
+    bool wants_picture; // Another program waits for a picture, even of a hidden window.
+    bool measures_here; // Prices are measured in this view although there is a report.
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
     int pane_height;
@@ -150,6 +153,9 @@ void dip_preview_follow_dock(DipPreviewState *state);
 
 // Goes to a play time.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
+
+// Returns whether all poses of the playing path are the same.
+bool dip_preview_path_stands(const DipPreviewState *state);
 
 // Returns whether camera and scene stand still. flying: the user is moving the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);

@@ -1,6 +1,8 @@
 // Chooses camera paths and moves the time on them.
 #include "app/preview/state/state_private.h"
 
+#include <string.h>
+
 const char *dip_preview_category_name(int category) {
     static const char *const names[] = {
 #define PATH_NAME(NAME, fallback, text) #NAME,
@@ -36,6 +38,17 @@ const char *dip_preview_path_title(const DipPreviewState *state, int category) {
 const DipCamPath *dip_state_playing_path(const DipPreviewState *state) {
     const DipCamPath *path = state->track->categories[state->track->active].path;
     return path ? path : state->track->categories[0].path;
+}
+
+bool dip_preview_path_stands(const DipPreviewState *state) {
+    const DipCamPath *path = dip_state_playing_path(state);
+    const size_t count = path ? dip_campath_info(path).key_count : 0;
+    bool stands = count > 0;
+    for (size_t i = 1; stands && i < count; ++i) {
+        const DipCamKey first = dip_campath_key(path, 0), key = dip_campath_key(path, i);
+        stands = memcmp(&first, &key, sizeof key) == 0;
+    }
+    return stands;
 }
 
 static bool has_path(const DipPreviewState *state, int category) {

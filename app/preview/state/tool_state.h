@@ -45,19 +45,21 @@ enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32 };
 // What the user has chosen. Plain data; part of the preview's state.
 typedef struct DipToolState {
     DipTab tab;
-    bool open;       // The dock shows its tab.
-    bool bare;       // The window shows nothing but the panes.
-    double ui_scale; // 0.5..4; multiplies the display's scale.
-    bool loupe;      // The loupe follows the pointer or shows the pinned pixel.
-    int zoom;        // 2, 4, 8, 16 or 32.
+    bool open;        // The dock shows its tab.
+    bool bare;        // The window shows nothing but the panes.
+    double ui_scale;  // 0.5..4; multiplies the display's scale.
+    bool fixed_scale; // The user gave a scale, so that the window's size does not change it.
+    bool loupe;       // The loupe follows the pointer or shows the pinned pixel.
+    int zoom;         // 2, 4, 8, 16 or 32.
     bool pinned;
     int x; // The loupe's pixel, in pixels of a pane's picture. Below 0: the picture's middle.
     int y;
     DipComparison comparison;
-    double divider; // WIPE: 0 is the pane's left edge, 1 its right edge.
-    int gain;       // DIFFERENCE: 1, 2, 4, ... 64.
-    bool blinked;   // BLINK: shows the requested pane.
-    bool blinks;    // BLINK: changes between the panes by itself, twice a second.
+    double divider;     // WIPE: 0 is the pane's left edge, 1 its right edge.
+    int gain;           // DIFFERENCE: 1, 2, 4, ... 64.
+    bool against_truth; // WIPE, BLINK, DIFFERENCE: the converged picture in place of current.
+    bool blinked;       // BLINK: shows the requested pane.
+    bool blinks;        // BLINK: changes between the panes by itself, twice a second.
     DipMap map;
     double brightness; // Maps: the value that the end of the colour scale stands for is divided by
                        // this.

@@ -17,7 +17,7 @@ enum {
     STRIP_MOST = 96,  // Greatest height of a thumbnail.
 };
 
-enum { ID_COMPARISON, ID_OPTION = 16, ID_DIVIDER = 32, ID_THUMBNAIL = 40 };
+enum { ID_COMPARISON, ID_LEFT = 10, ID_OPTION = 16, ID_DIVIDER = 32, ID_THUMBNAIL = 40 };
 
 // Where the next control of the tab lies: rows are filled from the left, and begin anew below.
 typedef struct Flow {
@@ -87,6 +87,30 @@ static void flow_text(Flow *flow, DipColour colour, const char *text) {
     }
 }
 
+// Declares the choice of what the requested pane is compared with.
+static void declare_left(Flow *flow, DipWindow *window) {
+    DipToolState *tools = &window->state->tools;
+    const DipErrorReading *errors = &window->figures[DIP_PANE_CURRENT].errors;
+    char text[80];
+    if (flow_button(flow, ID_LEFT, "Current", !tools->against_truth,
+                    "Compares the requested pane with the current pane.")) {
+        tools->against_truth = false;
+    }
+    if (flow_button(flow, ID_LEFT + 1, "Truth", tools->against_truth,
+                    "Compares the requested pane with the converged picture.")) {
+        tools->against_truth = true;
+    }
+    if (!tools->against_truth || window->truth) {
+        return;
+    }
+    snprintf(text, sizeof text, "The converged picture comes at rest.");
+    if (errors->next_samples > 0) {
+        snprintf(text, sizeof text, "The converged picture is %.0f %% drawn%s.",
+                 100.0 * errors->drawn, errors->waits ? ", waiting for a free processor" : "");
+    }
+    flow_text(flow, dip_tool_soft, text);
+}
+
 static void declare_wipe(Flow *flow, DipWindow *window) {
     DipToolState *tools = &window->state->tools;
     DipUi *ui = flow->ui;
@@ -118,7 +142,10 @@ static void declare_wipe(Flow *flow, DipWindow *window) {
     if (flow_button(flow, ID_OPTION, "Middle", false, "Puts the line in the middle.")) {
         tools->divider = 0.5;
     }
-    flow_text(flow, dip_tool_dim, "Left of the line: current. Right of it: requested. Drag it.");
+    flow_text(flow, dip_tool_dim,
+              window->state->tools.against_truth
+                  ? "Left of the line: truth. Right of it: requested. Drag it."
+                  : "Left of the line: current. Right of it: requested. Drag it.");
 }
 
 static void declare_blink(Flow *flow, DipWindow *window) {
@@ -193,12 +220,15 @@ static void declare_truth(Flow *flow, const DipWindow *window) {
 static void declare_options(Flow *flow, DipWindow *window) {
     switch (window->state->tools.comparison) {
     case DIP_COMPARE_WIPE:
+        declare_left(flow, window);
         declare_wipe(flow, window);
         break;
     case DIP_COMPARE_BLINK:
+        declare_left(flow, window);
         declare_blink(flow, window);
         break;
     case DIP_COMPARE_DIFFERENCE:
+        declare_left(flow, window);
         declare_difference(flow, window);
         break;
     case DIP_COMPARE_ALONE:

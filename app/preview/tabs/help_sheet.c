@@ -3,7 +3,9 @@
 #include "app/preview/tabs/sheet.h"
 #include "app/ui/style.h"
 
+#include <ctype.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char help_title[] = "Keys";
 static const char help_shift[] = "With Shift: backwards";
@@ -29,6 +31,33 @@ static int help_rows(HelpRow rows[MAX_HELP_ROWS]) {
         }
     }
     return count;
+}
+
+// Returns whether a text holds words in any case.
+static bool holds(const char *text, const char *words) {
+    const size_t length = strlen(words);
+    for (; strlen(text) >= length; ++text) {
+        size_t same = 0;
+        while (same < length &&
+               tolower((unsigned char)text[same]) == tolower((unsigned char)words[same])) {
+            ++same;
+        }
+        if (same == length) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Keeps the rows that hold the words. Returns their number.
+static int search(HelpRow rows[MAX_HELP_ROWS], int count, const char *words) {
+    int kept = 0;
+    for (int i = 0; i < count; ++i) {
+        if (holds(rows[i].label, words) || holds(rows[i].text, words)) {
+            rows[kept++] = rows[i];
+        }
+    }
+    return kept;
 }
 
 typedef struct HelpLayout {
@@ -122,17 +151,22 @@ static void draw_rows(DipDrawList *list, const HelpLayout *l, const HelpRow *row
     }
 }
 
-void dip_sheet_draw_help(DipDrawList *list, double scale) {
+void dip_sheet_draw_help(DipDrawList *list, double scale, const char *words) {
     HelpRow rows[MAX_HELP_ROWS];
-    const int count = help_rows(rows);
-    const HelpLayout l = choose_layout(list, rows, count, scale);
+    int count = help_rows(rows);
+    const HelpLayout l =
+        choose_layout(list, rows, count, scale); // It stands still while one types.
     const DipRect sheet = dip_sheet_draw(list, l.width, l.height);
     const int x = sheet.x + l.size, y = sheet.y + l.size;
     const int room = sheet.width - 2 * l.size;
-    const int title_width = dip_font_width(dip_draw_list_font(list), l.size, help_title);
-    dip_draw_list_text(list, l.size, dip_style_white, DIP_ALIGN_LEFT, x, y, room, help_title);
+    char title[64];
+    count = search(rows, count, words);
+    snprintf(title, sizeof title, "%s: %s", help_title, words[0] ? words : "type to search");
+    const int title_width = dip_font_width(dip_draw_list_font(list), l.size, title);
+    dip_draw_list_text(list, l.size, words[0] ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
+                       x, y, room, title);
     dip_draw_list_text(list, l.size, dip_style_soft, DIP_ALIGN_RIGHT, x + room, y,
-                       room - title_width - l.gap, help_shift);
+                       room - title_width - l.gap, count ? help_shift : "No key has these words");
     draw_rows(list, &l, rows, count, x, y + l.line + l.line / 2);
     dip_draw_list_text(list, l.size, dip_style_soft, DIP_ALIGN_LEFT, x,
                        sheet.y + sheet.height - l.size - l.line, room, help_note);

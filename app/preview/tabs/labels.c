@@ -1,6 +1,8 @@
 // The labels over the panes, and notices.
 #include "app/preview/tabs/labels.h"
 
+#include "app/preview/prices/price_text.h"
+#include "app/preview/tabs/pane_time.h"
 #include "app/preview/tools/compare.h"
 #include "app/ui/style.h"
 
@@ -9,75 +11,108 @@
 
 enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
 
-// Writes the time of a pane's frames: "4.6 ms  60 fps", or that of the frame that shows while time
-// stands still, or that the pane is a copy. If frames come
-// too slowly for temporal antialiasing, says so instead.
-static void format_time(const DipPaneFigures *figures, bool brief, char *text, size_t size_bytes) {
+// Writes the time of a pane: "4.6 ms  60 fps", or "one frame: 44.0 ms", or that the pane is a copy.
+// If frames come too slowly for temporal antialiasing, says so instead.
+static void format_time(const DipWindow *window, int pane, char *text, size_t size_bytes) {
+    const DipPaneFigures *figures = &window->figures[pane];
+    const DipPaneTime time = dip_pane_time(window, pane);
+    char ms[DIP_PANE_TIME_BYTES];
+    dip_pane_time_text(&time, ms);
     if (figures->taa_speed.too_slow) {
         snprintf(text, size_bytes, "too slow for temporal AA: %d of %d frames a second",
                  figures->taa_speed.shown, figures->taa_speed.wanted);
     } else if (figures->copied) {
         snprintf(text, size_bytes, "same as current");
     } else if (figures->fps > 0) {
-        snprintf(text, size_bytes, "%.1f ms  %d fps", figures->ms, figures->fps);
+        snprintf(text, size_bytes, "%s  %d fps", ms, figures->fps);
     } else {
-        snprintf(text, size_bytes, "%.1f ms%s", figures->ms, brief ? "" : " this frame");
+        snprintf(text, size_bytes, "%s", ms);
     }
 }
 
-// Returns the width that a time takes: that of the longest usual text, so that the settings beside
-// it stay where they are when the preview pauses or a time has a digit more. If there is no room
-// for that, returns the width of the text itself.
-static int reserve_time(const DipUi *ui, const char *time, int most) {
-    const int width = dip_ui_text_width(ui, LABEL_SIZE, time);
-    const int usual = dip_ui_text_width(ui, LABEL_SIZE, "88.8 ms this frame");
-    return width < usual && usual <= most ? usual : width;
-}
+// What a label says: a title, the time or a warning beside it, and the settings.
+typedef struct Label {
+    const char *title;
+    char time[96];
+    char settings[400];
+} Label;
 
-// Writes the settings with the words that fit: in full, briefly, or not at all.
-static void format_settings(const DipUi *ui, const DipQuality *quality, int room, char *text,
-                            size_t size_bytes) {
-    dip_preview_describe(quality, false, text, size_bytes);
-    if (dip_ui_text_width(ui, LABEL_SIZE, text) > room) {
-        dip_preview_describe(quality, true, text, size_bytes);
-    }
-    if (dip_ui_text_width(ui, LABEL_SIZE, text) > room) {
-        text[0] = '\0';
-    }
-}
-
-static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
+static Label label_of(const DipUi *ui, const DipWindow *window, int pane, int room) {
     static const char *const long_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
     static const char *const short_titles[DIP_PANE_COUNT] = {"Cur.", "Req."};
+    Label label = {.title = long_titles[pane]};
+    if (pane == DIP_PANE_CURRENT && dip_compare_shows_truth(window)) {
+        label.title = "Truth";
+        snprintf(label.time, sizeof label.time, "converged");
+        snprintf(label.settings, sizeof label.settings, "%d samples per pixel",
+                 window->figures[pane].errors.result.samples);
+        return label;
+    }
+    if (dip_ui_text_width(ui, LABEL_SIZE, label.title) > room) {
+        label.title = short_titles[pane];
+    }
+    format_time(window, pane, label.time, sizeof label.time);
+    dip_preview_describe(&window->state->quality[pane], false, label.settings,
+                         sizeof label.settings);
+    return label;
+}
+
+// Draws a label of one line. What does not fit goes to lines of its own: first the settings, then
+// the time, since a warning that stands there must not be cut.
+static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const DipRect rect = dip_compare_visible(window, pane);
     const bool edited = window->state->edited[pane];
     const int margin = dip_ui_px(ui, LABEL_MARGIN), pad = dip_ui_px(ui, LABEL_PAD);
-    const int height = dip_ui_px(ui, LABEL_HEIGHT);
-    const int title_room = rect.width - 2 * margin - 2 * pad;
-    const bool narrow = dip_ui_text_width(ui, LABEL_SIZE, long_titles[pane]) > title_room;
-    const char *const title = narrow ? short_titles[pane] : long_titles[pane];
-    const int title_width = dip_ui_text_width(ui, LABEL_SIZE, title);
-    char time[64], settings[400];
-    const int most = rect.width - 2 * margin - title_width - 3 * pad;
-    format_time(&window->figures[pane], false, time, sizeof time);
-    if (dip_ui_text_width(ui, LABEL_SIZE, time) > most) {
-        format_time(&window->figures[pane], true, time, sizeof time);
+    const int room = rect.width - 2 * margin - 2 * pad;
+    Label label = label_of(ui, window, pane, room);
+    const int line = dip_ui_line_height(ui, LABEL_SIZE);
+    const int title_width = dip_ui_text_width(ui, LABEL_SIZE, label.title) + pad;
+    const int usual = dip_ui_text_width(ui, LABEL_SIZE,
+                                        window->figures[pane].fps > 0 ? "88.8 ms  60 fps"
+                                                                      : DIP_ROUGH_MARK "88.8 ms");
+    const bool time_fits = title_width + dip_ui_text_width(ui, LABEL_SIZE, label.time) <= room;
+    // The settings stay where they are while the time has a digit more or less.
+    const int time_width =
+        dip_style_max(dip_ui_text_width(ui, LABEL_SIZE, label.time), usual) + pad;
+    int width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
+    if (width > room) {
+        dip_preview_describe(&window->state->quality[pane], true, label.settings,
+                             sizeof label.settings);
+        width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
     }
-    const int time_width = reserve_time(ui, time, most);
-    const int used = title_width + time_width + 3 * pad;
-    const int room = rect.width - 2 * margin - used - pad;
-    format_settings(ui, &window->state->quality[pane], room, settings, sizeof settings);
-    const int settings_width = settings[0] ? dip_ui_text_width(ui, LABEL_SIZE, settings) + pad : 0;
-    const DipRect strip = {rect.x + margin, rect.y + margin,
-                           dip_style_min(used + settings_width, rect.width - 2 * margin), height};
-    const int y = strip.y + (height - dip_ui_line_height(ui, LABEL_SIZE)) / 2;
+    const bool settings_fit = time_fits && width <= room;
+    int time_height = time_fits ? 0 : dip_ui_text_block_height(ui, LABEL_SIZE, room, label.time);
+    if (3 * (line + time_height) > rect.height) {
+        time_height = 0; // The picture matters more.
+    }
+    int settings_height =
+        settings_fit ? 0 : dip_ui_text_block_height(ui, LABEL_SIZE, room, label.settings);
+    if (3 * (line + time_height + settings_height) > rect.height) {
+        settings_height = 0;
+    }
+    if (!settings_fit) {
+        width = time_height + settings_height > 0 ? room : title_width + time_width - pad;
+    }
+    const DipRect strip = {rect.x + margin, rect.y + margin, dip_style_min(width, room) + 2 * pad,
+                           dip_ui_px(ui, LABEL_HEIGHT) + time_height + settings_height};
+    const int x = strip.x + pad;
+    int y = strip.y + (dip_ui_px(ui, LABEL_HEIGHT) - line) / 2;
     dip_ui_fill_round(ui, strip, dip_ui_px(ui, 4), dip_style_glass);
-    dip_ui_text(ui, LABEL_SIZE, edited ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
-                strip.x + pad, y, strip.width - 2 * pad, title);
-    dip_ui_text(ui, LABEL_SIZE, dip_style_white, DIP_ALIGN_LEFT, strip.x + 2 * pad + title_width, y,
-                strip.width - 3 * pad - title_width, time);
-    dip_ui_text(ui, LABEL_SIZE, dip_style_soft, DIP_ALIGN_LEFT, strip.x + used, y,
-                strip.width - used, settings);
+    dip_ui_text(ui, LABEL_SIZE, edited ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT, x, y,
+                room, label.title);
+    if (time_fits) {
+        dip_ui_text(ui, LABEL_SIZE, dip_style_white, DIP_ALIGN_LEFT, x + title_width, y,
+                    room - title_width, label.time);
+    }
+    if (settings_fit) {
+        dip_ui_text(ui, LABEL_SIZE, dip_style_soft, DIP_ALIGN_LEFT, x + title_width + time_width, y,
+                    room - title_width - time_width, label.settings);
+    }
+    y += line;
+    dip_ui_text_block(ui, LABEL_SIZE, dip_style_white, (DipRect){x, y, room, time_height},
+                      label.time);
+    dip_ui_text_block(ui, LABEL_SIZE, dip_style_soft,
+                      (DipRect){x, y + time_height, room, settings_height}, label.settings);
     if (edited && pane == DIP_PANE_REQUESTED &&
         !dip_compare_is_one_picture(window->state->tools.comparison)) {
         dip_ui_fill(ui, (DipRect){rect.x - DIP_PANE_GAP_PX, rect.y, DIP_PANE_GAP_PX, rect.height},
@@ -100,13 +135,16 @@ void dip_labels_draw_notice(DipUi *ui, DipWindow *window) {
     }
     const DipLayout *layout = window->layout;
     const int pad = dip_ui_px(ui, LABEL_PAD), margin = dip_ui_px(ui, LABEL_MARGIN);
-    const int height = dip_ui_px(ui, LABEL_HEIGHT);
-    const int room = layout->width - 2 * margin;
-    const int width = dip_style_min(room, dip_ui_text_width(ui, LABEL_SIZE, notice) + 2 * pad);
-    const DipRect strip = {(layout->width - width) / 2,
-                           layout->panes[0].y + layout->panes[0].height - margin - height, width,
-                           height};
+    const int room = layout->width - 2 * margin - 2 * pad;
+    const int width = dip_style_min(room, dip_ui_text_width(ui, LABEL_SIZE, notice) + 1);
+    const int text_height = dip_ui_text_block_height(ui, LABEL_SIZE, width, notice);
+    const int height =
+        text_height + dip_ui_px(ui, LABEL_HEIGHT) - dip_ui_line_height(ui, LABEL_SIZE);
+    const DipRect strip = {(layout->width - width) / 2 - pad,
+                           layout->panes[0].y + layout->panes[0].height - margin - height,
+                           width + 2 * pad, height};
     dip_ui_fill_round(ui, strip, dip_ui_px(ui, 4), dip_style_glass);
-    dip_ui_text(ui, LABEL_SIZE, dip_style_accent, DIP_ALIGN_CENTRE, layout->width / 2,
-                strip.y + (height - dip_ui_line_height(ui, LABEL_SIZE)) / 2, width - pad, notice);
+    dip_ui_text_block(
+        ui, LABEL_SIZE, dip_style_accent,
+        (DipRect){strip.x + pad, strip.y + (height - text_height) / 2, width, text_height}, notice);
 }

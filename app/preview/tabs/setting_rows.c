@@ -138,6 +138,11 @@ static bool is_known(const DipPrice *price) {
     return price->state != DIP_PRICE_UNKNOWN && price->state != DIP_PRICE_BASE;
 }
 
+// Returns whether a price is known well enough to be compared with others at a glance.
+static bool has_bar(const DipPrice *price) {
+    return is_known(price) && dip_price_trust(price) == DIP_PRICE_TRUST_KNOWN;
+}
+
 static DipColour flip_colour(const DipPrice *price) {
     return !price->has_flip || price->state == DIP_PRICE_BASE || price->flip == 0.0 ? dip_style_dim
            : price->flip < 0.0                                                      ? dip_style_gain
@@ -151,12 +156,11 @@ static void draw_price(DipUi *ui, const Slider *slider, int position, bool reque
     const int line = dip_ui_px(ui, PRICE_HEIGHT);
     const int bar_y = y + line - dip_ui_px(ui, 3);
     const int alpha = requested ? 255 : BAR_ALPHA;
-    const bool costs = is_known(price) && !price->ms_is_zero && !dip_price_is_doubtful(price);
+    const bool costs = has_bar(price);
     dip_price_ms_text(price, text);
-    const size_t mark =
-        strncmp(text, DIP_ROUGH_MARK, strlen(DIP_ROUGH_MARK)) == 0 && !price->ms_is_zero
-            ? strlen(DIP_ROUGH_MARK)
-            : 0;
+    const size_t mark = costs && strncmp(text, DIP_ROUGH_MARK, strlen(DIP_ROUGH_MARK)) == 0
+                            ? strlen(DIP_ROUGH_MARK)
+                            : 0;
     dip_ui_text(ui, PRICE_SIZE,
                 !costs      ? dip_style_dim
                 : requested ? dip_style_white
@@ -244,10 +248,11 @@ static void find_prices(const DipWindow *window, Slider *slider) {
         slider->prices[i] =
             price_of(window, slider->setting, dip_setting_step_at(slider->setting, i));
         slider->rough |= slider->prices[i].state == DIP_PRICE_ROUGH;
-        if (is_known(&slider->prices[i])) {
+        if (has_bar(&slider->prices[i])) {
             slider->most_ms = fmax(slider->most_ms, fabs(slider->prices[i].ms));
-            slider->most_flip = fmax(
-                slider->most_flip, slider->prices[i].has_flip ? fabs(slider->prices[i].flip) : 0.0);
+        }
+        if (is_known(&slider->prices[i]) && slider->prices[i].has_flip) {
+            slider->most_flip = fmax(slider->most_flip, fabs(slider->prices[i].flip));
         }
     }
 }
@@ -331,8 +336,8 @@ static void draw_switch_price(DipUi *ui, const DipWindow *window, DipSetting set
         right -= width;
         room -= width;
     }
-    dip_ui_text(ui, PRICE_SIZE, known && !price.ms_is_zero ? dip_style_soft : dip_style_dim,
-                DIP_ALIGN_RIGHT, right, y, room, text);
+    dip_ui_text(ui, PRICE_SIZE, has_bar(&price) ? dip_style_soft : dip_style_dim, DIP_ALIGN_RIGHT,
+                right, y, room, text);
 }
 
 static int declare_switch(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {

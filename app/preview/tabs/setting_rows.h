@@ -14,7 +14,8 @@ enum {
     DIP_ID_COPY,
     DIP_ID_PAUSE,
     DIP_ID_MEASURE_HERE,
-    DIP_ID_MORE
+    DIP_ID_MORE,
+    DIP_ID_FLIP
 };
 
 // Declares a setting as a slider or a switch at the top of `rect`. Returns the height that it

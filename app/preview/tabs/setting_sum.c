@@ -1,5 +1,6 @@
 // The price of the requested settings, and the buttons that act on all settings.
 #include "app/preview/prices/price_text.h"
+#include "app/preview/tabs/pane_time.h"
 #include "app/preview/tabs/setting_rows.h"
 #include "app/ui/style.h"
 
@@ -20,9 +21,19 @@ enum {
 
 // --- presets and buttons -------------------------------------------------------------------------
 
+// Returns whether presets cannot be chosen yet, because nothing is known of what settings cost and
+// gain here. Scenes of the gallery have no errors to wait for.
+static bool presets_wait(const DipWindow *window) {
+    const DipQuality base = dip_prices_base(window->prices);
+    const DipPriceSum sum = dip_prices_sum(window->prices, &base);
+    const bool has_errors = !window->figures[DIP_PANE_REQUESTED].no_errors;
+    return sum.state == DIP_PRICE_UNKNOWN || (has_errors && !sum.has_flip);
+}
+
 int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns) {
     const int gap = dip_ui_px(ui, 8), row_gap = dip_ui_px(ui, 5);
     const int rows = (DIP_PRESET_COUNT + columns - 1) / columns;
+    const bool inert = presets_wait(window);
     const int width = (rect.width - (columns - 1) * gap) / columns;
     const int height = dip_style_max(
         1, dip_style_min(dip_ui_px(ui, 28), (rect.height - (rows - 1) * row_gap) / rows));
@@ -40,9 +51,19 @@ int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns)
         }
         const bool chosen =
             memcmp(&quality, &window->state->quality[DIP_PANE_REQUESTED], sizeof quality) == 0;
+        const bool waits = inert && p != DIP_PRESET_INI && p != DIP_PRESET_CURRENT;
+        if (waits) {
+            const char *progress = dip_prices_progress(window->prices);
+            snprintf(tip, sizeof tip, "%s waits until times and errors are known.\n%s",
+                     dip_preview_preset_name((DipPreset)p),
+                     progress[0] ? progress : "They are measured while the picture rests (Space).");
+        }
         if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PRESETS + p), button,
                           dip_preview_preset_name((DipPreset)p),
-                          chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip)) {
+                          waits    ? DIP_UI_OFF
+                          : chosen ? DIP_UI_CHOSEN
+                                   : DIP_UI_PLAIN,
+                          tip)) {
             dip_preview_act(window->state, DIP_ACTION_PRESET, p, false, dip_ui_now_ns(ui));
         }
     }
@@ -102,6 +123,26 @@ typedef struct Part {
 
 enum { PART_BASE, PART_AA, PART_ADAPTIVE, PART_AF, PART_OTHER, PART_COUNT };
 
+// Returns whether the sum has a setting whose own price is doubtful.
+static bool has_doubt(const DipPriceSum *sum) {
+    bool found = false;
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        found |= sum->parts_trust[s] == DIP_PRICE_TRUST_DOUBTFUL;
+    }
+    return found;
+}
+
+// Returns what the sum has beyond the base and the prices that are known, which is what the
+// settings cost together.
+static double rest_of(const DipPriceSum *sum) {
+    double rest_ms = sum->together_ms;
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        rest_ms += sum->parts_trust[s] == DIP_PRICE_TRUST_DOUBTFUL ? sum->parts_ms[s] : 0.0;
+    }
+    return rest_ms;
+}
+
+// Prices that are doubtful are no parts of their own.
 static void find_parts(const DipPriceSum *sum, Part parts[PART_COUNT]) {
     static const Part names[PART_COUNT] = {{"base", 0.0, {139, 149, 162, 255}},
                                            {"AA", 0.0, {255, 190, 92, 255}},
@@ -118,7 +159,8 @@ static void find_parts(const DipPriceSum *sum, Part parts[PART_COUNT]) {
     memcpy(parts, names, sizeof names);
     parts[PART_BASE].ms = sum->base_ms;
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
-        parts[part_of[s]].ms += sum->parts_ms[s];
+        const bool known = sum->parts_trust[s] != DIP_PRICE_TRUST_DOUBTFUL;
+        parts[part_of[s]].ms += known ? sum->parts_ms[s] : 0.0;
     }
 }
 
@@ -147,7 +189,8 @@ static double end_of_scale(double ms) {
 // Draws the parts of the sum on one scale with the budget.
 static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_COUNT],
                         DipRect rect) {
-    const double end_ms = end_of_scale(sum->ms - fmin(sum->together_ms, 0.0));
+    const double rest_ms = rest_of(sum);
+    const double end_ms = end_of_scale(sum->ms - fmin(rest_ms, 0.0));
     const double per_ms = rect.width / end_ms;
     const int budget_x = rect.x + (int)(dip_budget_ms * per_ms);
     double at_ms = 0.0;
@@ -162,13 +205,12 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
             dip_ui_fill(ui, (DipRect){from, rect.y, width, rect.height}, parts[i].colour);
         }
     }
-    if (sum->together_ms > 0.0) {
+    if (rest_ms > 0.0) {
         const int from = rect.x + (int)(at_ms * per_ms);
-        const int width = dip_style_max(1, (int)(sum->together_ms * per_ms));
+        const int width = dip_style_max(1, (int)(rest_ms * per_ms));
         fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_accent);
     }
-    if (sum->together_ms <
-        0.0) { // The parts take less time together: what they save is struck out.
+    if (rest_ms < 0.0) { // The parts take less time together: what they save is struck out.
         const int from = rect.x + (int)(sum->ms * per_ms);
         const int width = rect.x + (int)(at_ms * per_ms) - from - 1;
         fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_well);
@@ -216,41 +258,56 @@ static int draw_legend(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_
     for (int i = 0; i < PART_COUNT; ++i) {
         if (fabs(parts[i].ms) >= 0.05) {
             const bool frame = i == PART_BASE && sum->state == DIP_PRICE_UNKNOWN;
-            snprintf(text, sizeof text, "%s %s%.1f", frame ? "a frame now" : parts[i].name,
+            snprintf(text, sizeof text, "%s %s%.1f", frame ? "a frame" : parts[i].name,
                      parts[i].ms < 0.0 ? "\u2212" : "", fabs(parts[i].ms));
             draw_entry(ui, room, &x, &y, text, parts[i].colour, false);
         }
     }
-    if (fabs(sum->together_ms) >= 0.05) {
-        snprintf(text, sizeof text, "together %s%.1f", sum->together_ms < 0.0 ? "\u2212" : "+",
-                 fabs(sum->together_ms));
+    const double rest_ms = rest_of(sum);
+    if (fabs(rest_ms) >= 0.05) {
+        snprintf(text, sizeof text, "%s %s%.1f", has_doubt(sum) ? "not told apart" : "together",
+                 rest_ms < 0.0 ? "\u2212" : "+", fabs(rest_ms));
         draw_entry(ui, room, &x, &y, text, dip_style_accent, true);
     }
     return y + dip_ui_px(ui, LEGEND_HEIGHT) - room.y;
 }
 
-// Returns the requested settings' sum or, without prices, the time of the requested pane's frames.
-static DipPriceSum sum_of(const DipWindow *window, int pane) {
-    DipPriceSum sum = dip_prices_sum(window->prices, &window->state->quality[pane]);
-    if (sum.state == DIP_PRICE_UNKNOWN) {
-        const DipPaneFigures *figures = &window->figures[pane];
-        const int drawn = figures->copied ? 1 - pane : pane;
-        sum.ms = sum.base_ms = window->figures[drawn].ms;
+// Writes what the panel says beside the sum: its interval or how far it is over the budget, why it
+// is doubtful, and of what path it is.
+static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
+    char along[48] = "";
+    note[0] = '\0';
+    if (sum->state != DIP_PRICE_UNKNOWN && !dip_prices_are_rough(window->prices)) {
+        snprintf(along, sizeof along, " along the path");
     }
-    return sum;
+    if (dip_price_sum_trust(sum) == DIP_PRICE_TRUST_DOUBTFUL) {
+        snprintf(note, 96, "doubtful: the machine was busy");
+    } else if (sum->ms > dip_budget_ms) {
+        snprintf(note, 96, "%.1f over %.1f%s", sum->ms - dip_budget_ms, dip_budget_ms, along);
+    } else if (sum->ms_high > sum->ms_low) {
+        snprintf(note, 96, "%.1f to %.1f%s", sum->ms_low, sum->ms_high, along);
+    }
 }
 
-// Draws the sum and, beside it, its interval or how far it is over the budget.
-static void draw_sum(DipUi *ui, const DipPriceSum *sum, DipRect rect) {
-    const bool over = sum->ms > dip_budget_ms;
-    char text[64], note[64] = "";
-    snprintf(text, sizeof text, "%s%.1f ms", sum->state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "",
-             sum->ms);
-    if (over) {
-        snprintf(note, sizeof note, "%.1f over %.1f", sum->ms - dip_budget_ms, dip_budget_ms);
-    } else if (sum->ms_high > sum->ms_low) {
-        snprintf(note, sizeof note, "%.1f to %.1f", sum->ms_low, sum->ms_high);
+// Writes the sum of a pane, with the digits that it has everywhere.
+static void format_sum(const DipWindow *window, int pane, const DipPriceSum *sum,
+                       char text[DIP_PANE_TIME_BYTES]) {
+    DipPaneTime time = dip_pane_time(window, pane);
+    if (sum->state != DIP_PRICE_UNKNOWN) {
+        time = (DipPaneTime){.ms = sum->ms,
+                             .trust = dip_price_sum_trust(sum),
+                             .measured_here = sum->state == DIP_PRICE_ROUGH};
     }
+    dip_pane_time_text(&time, text);
+}
+
+// Draws the sum and a note beside it.
+static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum, DipRect rect) {
+    const bool over =
+        sum->ms > dip_budget_ms && dip_price_sum_trust(sum) != DIP_PRICE_TRUST_DOUBTFUL;
+    char text[DIP_PANE_TIME_BYTES], note[96];
+    format_sum(window, DIP_PANE_REQUESTED, sum, text);
+    format_note(window, sum, note);
     dip_ui_text(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, DIP_ALIGN_LEFT, rect.x,
                 rect.y, rect.width, text);
     const int x = rect.x + dip_ui_text_width(ui, SUM_SIZE, text) + dip_ui_px(ui, 9);
@@ -309,10 +366,11 @@ static int declare_pause(DipUi *ui, DipWindow *window, const DipPriceSum *sum, D
     return line.width - width;
 }
 
-static void draw_comparison(DipUi *ui, const DipPriceSum *now, const DipPriceSum *sum,
-                            DipRect rect) {
-    char text[80], from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES];
-    snprintf(text, sizeof text, "current %.1f ms", now->ms);
+static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSum *now,
+                            const DipPriceSum *sum, DipRect rect) {
+    char text[80], from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES], time[DIP_PANE_TIME_BYTES];
+    format_sum(window, DIP_PANE_CURRENT, now, time);
+    snprintf(text, sizeof text, "current %s", time);
     int x = rect.x;
     dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, x, rect.y, rect.width, text);
     x += dip_ui_text_width(ui, NOTE_SIZE, text) + dip_ui_px(ui, 14);
@@ -333,26 +391,43 @@ static void draw_comparison(DipUi *ui, const DipPriceSum *now, const DipPriceSum
     }
 }
 
-// Draws the settings as text and where the prices come from, in the room below the buttons.
+// Draws what is being measured, the settings as text and where the prices come from, in the room
+// below the buttons. A warning that the prices do not hold comes first, and is never cut: what does
+// not fit beside it is left out.
 static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
-    char text[400];
+    char source[400], settings[200];
     const int line = dip_ui_line_height(ui, NOTE_SIZE);
-    if (room.height < line) {
-        return;
-    }
-    dip_quality_format_changes(&window->state->quality[DIP_PANE_REQUESTED], text, sizeof text);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, room.x, room.y, room.width, text);
+    const char *progress = dip_prices_progress(window->prices);
+    const int bottom = room.y + room.height;
     const bool stale = dip_prices_source(window->prices, window->frames[0].width,
-                                         window->frames[0].height, text, sizeof text);
-    dip_ui_text_block(ui, SMALL_SIZE, stale ? dip_style_worse : dip_style_dim,
-                      (DipRect){room.x, room.y + line, room.width, room.height - line}, text);
+                                         window->frames[0].height, source, sizeof source);
+    const bool warns = stale || dip_prices_are_doubtful(window->prices);
+    if (progress[0]) {
+        room.y +=
+            dip_ui_text_block(ui, NOTE_SIZE, dip_style_soft,
+                              (DipRect){room.x, room.y, room.width, bottom - room.y}, progress);
+    }
+    if (warns) {
+        room.y += dip_ui_text_block(ui, SMALL_SIZE, dip_style_worse,
+                                    (DipRect){room.x, room.y, room.width, bottom - room.y}, source);
+    }
+    if (room.y + line <= bottom) {
+        dip_quality_format_changes(&window->state->quality[DIP_PANE_REQUESTED], settings,
+                                   sizeof settings);
+        dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, room.x, room.y, room.width,
+                    settings);
+        room.y += line;
+    }
+    if (!warns) {
+        dip_ui_text_block(ui, SMALL_SIZE, dip_style_dim,
+                          (DipRect){room.x, room.y, room.width, bottom - room.y}, source);
+    }
 }
 
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
-    const DipPriceSum sum = sum_of(window, DIP_PANE_REQUESTED);
-    const DipPriceSum now = sum_of(window, DIP_PANE_CURRENT);
+    const DipPriceSum sum = dip_pane_sum(window, DIP_PANE_REQUESTED);
+    const DipPriceSum now = dip_pane_sum(window, DIP_PANE_CURRENT);
     Part parts[PART_COUNT];
-    find_parts(&sum, parts);
     const int bottom = rect.y + rect.height;
     int y = rect.y;
     const DipRect line = {rect.x, y, rect.width, 0};
@@ -361,18 +436,30 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
         room = declare_measure_here(ui, window, line);
     }
     if (dip_ui_is_drawing(ui)) {
-        draw_sum(ui, &sum, (DipRect){rect.x, y, room, 0});
+        draw_sum(ui, window, &sum, (DipRect){rect.x, y, room, 0});
     }
     y += dip_ui_px(ui, SUM_HEIGHT);
+    dip_ui_control(
+        ui,
+        &(DipUiControl){.id = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FLIP),
+                        .rect = {rect.x, y, rect.width, dip_ui_line_height(ui, NOTE_SIZE)},
+                        .tip = "Times of the current and errors of both panes. FLIP is the error "
+                               "that people see when they change between a picture and the "
+                               "converged one: 0 is no difference, 1 the greatest. Less is "
+                               "better.",
+                        .skips_focus = true});
     if (dip_ui_is_drawing(ui)) {
-        draw_comparison(ui, &now, &sum, (DipRect){rect.x, y, rect.width, 0});
+        draw_comparison(ui, window, &now, &sum, (DipRect){rect.x, y, rect.width, 0});
     }
     y += 2 * dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 5);
     const int legend_y = y + dip_ui_px(ui, BUDGET_HEIGHT + 6);
     if (dip_ui_is_drawing(ui)) {
-        draw_budget(ui, &sum, parts,
+        const bool doubtful = dip_price_sum_trust(&sum) == DIP_PRICE_TRUST_DOUBTFUL;
+        const DipPriceSum shown = doubtful ? (DipPriceSum){.ms = 0.0} : sum;
+        find_parts(&shown, parts);
+        draw_budget(ui, &shown, parts,
                     (DipRect){rect.x, y, rect.width, dip_ui_px(ui, BUDGET_HEIGHT)});
-        draw_legend(ui, &sum, parts, (DipRect){rect.x, legend_y, rect.width, 0});
+        draw_legend(ui, &shown, parts, (DipRect){rect.x, legend_y, rect.width, 0});
     }
     y = legend_y + dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3);
     const int height = dip_ui_px(ui, 28);

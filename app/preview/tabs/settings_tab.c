@@ -1,6 +1,7 @@
 // The tab of the settings, laid out by the room that it has: three columns of settings, one column
 // at a time, or a list.
 #include "app/preview/prices/price_text.h"
+#include "app/preview/tabs/pane_time.h"
 #include "app/preview/tabs/setting_rows.h"
 #include "app/ui/style.h"
 
@@ -114,13 +115,13 @@ static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) 
     const int apply_x = foot.x + foot.width - pad - apply_width;
     const int more_x = apply_x - pad - more_width;
     const int pane = DIP_PANE_REQUESTED;
-    const DipPriceSum sum = dip_prices_sum(window->prices, &window->state->quality[pane]);
-    const double ms = sum.state == DIP_PRICE_UNKNOWN ? window->figures[pane].ms : sum.ms;
-    char text[40];
-    snprintf(text, sizeof text, "%.1f", ms);
-    dip_ui_text(ui, 13, ms > dip_budget_ms ? dip_style_worse : dip_style_accent, DIP_ALIGN_LEFT,
-                foot.x + pad, foot.y + (foot.height - dip_ui_line_height(ui, 13)) / 2,
-                more_x - foot.x, text);
+    const DipPriceSum sum = dip_pane_sum(window, pane);
+    const DipPriceTrust trust = dip_price_sum_trust(&sum);
+    const bool over = sum.ms > dip_budget_ms && trust != DIP_PRICE_TRUST_DOUBTFUL;
+    char text[DIP_STEP_NAME_BYTES];
+    dip_ms_text(sum.ms, trust, text);
+    dip_ui_text(ui, 13, over ? dip_style_worse : dip_style_accent, DIP_ALIGN_LEFT, foot.x + pad,
+                foot.y + (foot.height - dip_ui_line_height(ui, 13)) / 2, more_x - foot.x, text);
     const int x = foot.x + 2 * pad + dip_ui_text_width(ui, 13, text);
     if (dip_ui_text_width(ui, 11, "of 16.6 ms") <= more_x - pad - x) {
         dip_ui_text(ui, 11, dip_style_soft, DIP_ALIGN_LEFT, x,

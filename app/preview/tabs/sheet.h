@@ -9,9 +9,9 @@
 // Returns the sheet's rectangle.
 DipRect dip_sheet_draw(DipDrawList *list, int width, int height);
 
-// Draws all keys and what they do, in the largest letters that fit. scale: the display's scale
-// (display.h).
-void dip_sheet_draw_help(DipDrawList *list, double scale);
+// Draws all keys and what they do, in the largest letters that fit, or those whose text holds
+// `words` in any case. scale: the display's scale (display.h).
+void dip_sheet_draw_help(DipDrawList *list, double scale, const char *words);
 
 // Draws the cost report as a table, in which the steps of the requested pane are highlighted. If
 // there is no report, the sheet says how to make one.

@@ -16,7 +16,7 @@ static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
                                   .skips_focus = true,
                                   .takes_wheel = state->manual || dip_loupe_is_on(&state->tools)};
     const DipUiInput input = dip_ui_control(ui, &control);
-    if (input.began) {
+    if (input.began && !input.focuses) { // A press that brings the focus means nothing else here.
         if (!state->edited[pane]) {
             dip_preview_notice(state, dip_ui_now_ns(ui), "Keys and panel change the %s pane",
                                dip_pane_names[pane]);
@@ -39,6 +39,7 @@ static void declare_tab(DipUi *ui, DipWindow *window, DipRect body) {
         [DIP_TAB_PATH] = dip_tab_path,
     };
     dip_ui_fill(ui, body, dip_style_dock);
+    dip_ui_keep_tips_off(ui, dip_rect_unite(window->layout->bar, body));
     tabs[window->state->tools.tab](ui, window, body);
 }
 
@@ -51,7 +52,7 @@ static void declare_sheet(DipUi *ui, DipWindow *window) {
                             .skips_focus = true,
                             .takes_wheel = true});
     if (dip_ui_is_drawing(ui) && state->help) {
-        dip_sheet_draw_help(dip_ui_list(ui), dip_ui_scale(ui));
+        dip_sheet_draw_help(dip_ui_list(ui), dip_ui_scale(ui), state->help_words);
     } else if (dip_ui_is_drawing(ui)) {
         dip_sheet_draw_costs(dip_ui_list(ui), state, dip_ui_scale(ui));
     }

@@ -39,6 +39,23 @@ bool dip_compare_is_one_picture(DipComparison comparison) {
            comparison == DIP_COMPARE_DIFFERENCE || comparison == DIP_COMPARE_ALONE;
 }
 
+bool dip_compare_wants_truth(const DipToolState *tools) {
+    return tools->comparison == DIP_COMPARE_TRUTH ||
+           (tools->against_truth &&
+            (tools->comparison == DIP_COMPARE_WIPE || tools->comparison == DIP_COMPARE_BLINK ||
+             tools->comparison == DIP_COMPARE_DIFFERENCE));
+}
+
+bool dip_compare_shows_truth(const DipWindow *window) {
+    return window->truth && dip_compare_wants_truth(&window->state->tools);
+}
+
+const DipPixels *dip_compare_picture(const DipWindow *window, int pane, uint64_t *version) {
+    const bool truth = pane == DIP_PANE_CURRENT && dip_compare_shows_truth(window);
+    *version = truth ? window->truth_version : window->versions[pane];
+    return truth ? window->truth : &window->frames[pane];
+}
+
 // Returns where a comparison that is one picture shows. A drawer covers the current pane.
 static DipRect area_of(const DipLayout *layout) {
     if (layout->side == DIP_DOCK_DRAWER && !dip_rect_is_empty(layout->body)) {
@@ -50,7 +67,7 @@ static DipRect area_of(const DipLayout *layout) {
 void dip_compare_frame_size(const DipLayout *layout, DipComparison comparison, int *width,
                             int *height) {
     const DipRect area =
-        comparison == DIP_COMPARE_ALONE ? area_of(layout) : layout->panes[DIP_PANE_CURRENT];
+        dip_compare_is_one_picture(comparison) ? area_of(layout) : layout->panes[DIP_PANE_CURRENT];
     *width = area.width;
     *height = area.height;
 }
@@ -135,9 +152,7 @@ DipRect dip_compare_visible(const DipWindow *window, int pane) {
 }
 
 bool dip_compare_has_label(const DipWindow *window, int pane) {
-    const DipComparison comparison = window->state->tools.comparison;
-    const bool truth = comparison == DIP_COMPARE_TRUTH && window->truth && pane == DIP_PANE_CURRENT;
-    return comparison != DIP_COMPARE_DIFFERENCE && !truth &&
+    return window->state->tools.comparison != DIP_COMPARE_DIFFERENCE &&
            !dip_rect_is_empty(dip_compare_visible(window, pane));
 }
 
@@ -239,24 +254,25 @@ void dip_compare_destroy(DipComparer **compare_pointer) {
     }
 }
 
-static bool shows(const DipComparer *compare, const DipWindow *window, int gain) {
-    return compare->known && compare->of[0] == window->versions[0] &&
-           compare->of[1] == window->versions[1] && compare->gain == gain;
+static bool shows(const DipComparer *compare, const uint64_t of[DIP_PANE_COUNT], int gain) {
+    return compare->known && compare->of[0] == of[0] && compare->of[1] == of[1] &&
+           compare->gain == gain;
 }
 
 const DipDifference *dip_compare_make_difference(DipComparer *compare, const DipWindow *window,
                                                  DipPixels *picture, uint64_t *version) {
-    const DipPixels *a = &window->frames[DIP_PANE_CURRENT];
-    const DipPixels *b = &window->frames[DIP_PANE_REQUESTED];
+    uint64_t of[DIP_PANE_COUNT];
+    const DipPixels *a = dip_compare_picture(window, DIP_PANE_CURRENT, &of[DIP_PANE_CURRENT]);
+    const DipPixels *b = dip_compare_picture(window, DIP_PANE_REQUESTED, &of[DIP_PANE_REQUESTED]);
     const int gain = dip_style_max(1, window->state->tools.gain);
-    if (!shows(compare, window, gain)) {
+    if (!shows(compare, of, gain)) {
         compare->known = a->width == b->width && a->height == b->height &&
                          dip_canvas_resize(&compare->difference, a->width, a->height, NULL);
         if (!compare->known) {
             return NULL;
         }
         compare->found = dip_compare_difference(a, b, gain, compare->difference.rgba8);
-        memcpy(compare->of, window->versions, sizeof compare->of);
+        memcpy(compare->of, of, sizeof compare->of);
         compare->gain = gain;
         ++compare->version;
     }

@@ -13,9 +13,17 @@ enum { DIP_COMPARE_MAX_GAIN = 64 };
 // Returns whether a comparison shows one picture in place of both panes.
 bool dip_compare_is_one_picture(DipComparison comparison);
 
+// Returns whether a comparison has the converged picture in place of the current pane's.
+bool dip_compare_wants_truth(const DipToolState *tools);
+
+// Returns whether it shows there, because it is known.
+bool dip_compare_shows_truth(const DipWindow *window);
+
+// Returns the picture of a pane in a comparison, and its version.
+const DipPixels *dip_compare_picture(const DipWindow *window, int pane, uint64_t *version);
+
 // Returns the size at which the panes' frames are drawn: the size of a pane, or of both panes
-// together if one pane shows alone. In the other comparisons of one picture, frames keep the size
-// of a pane, so that times and errors stay those of a pane.
+// together if one picture takes their place.
 void dip_compare_frame_size(const DipLayout *layout, DipComparison comparison, int *width,
                             int *height);
 
@@ -31,8 +39,7 @@ DipRect dip_compare_shown(const DipWindow *window, int pane);
 // left corner.
 DipRect dip_compare_visible(const DipWindow *window, int pane);
 
-// Returns whether a pane's picture shows and needs its label. A difference and the converged
-// picture have labels of their own.
+// Returns whether a pane's picture shows and needs its label. A difference has a label of its own.
 bool dip_compare_has_label(const DipWindow *window, int pane);
 
 // Finds the pane and the pixel that the window shows at window_x, window_y. Returns false if there

@@ -34,16 +34,19 @@ static void draw_wipe(DipUi *ui, const DipWindow *window) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipRect visible = dip_compare_visible(window, p);
         if (count[p] > 0 && !dip_rect_is_empty(visible)) {
-            const DipPixels part = columns_of(&window->frames[p], first[p], count[p]);
-            dip_ui_picture(ui, visible, &part, own_version(window->versions[p], DIP_COMPARE_WIPE));
+            uint64_t version;
+            const DipPixels *picture = dip_compare_picture(window, p, &version);
+            const DipPixels part = columns_of(picture, first[p], count[p]);
+            dip_ui_picture(ui, visible, &part, own_version(version, DIP_COMPARE_WIPE));
         }
     }
 }
 
 static void draw_one(DipUi *ui, const DipWindow *window, int pane) {
     const DipComparison comparison = window->state->tools.comparison;
-    dip_ui_picture(ui, dip_compare_shown(window, pane), &window->frames[pane],
-                   own_version(window->versions[pane], comparison));
+    uint64_t version;
+    const DipPixels *picture = dip_compare_picture(window, pane, &version);
+    dip_ui_picture(ui, dip_compare_shown(window, pane), picture, own_version(version, comparison));
 }
 
 static void draw_difference(DipUi *ui, const DipWindow *window) {
@@ -54,12 +57,12 @@ static void draw_difference(DipUi *ui, const DipWindow *window) {
     }
 }
 
-static void draw_panes(DipUi *ui, const DipWindow *window, bool truth) {
+static void draw_panes(DipUi *ui, const DipWindow *window) {
     const DipRect *panes = window->layout->panes;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const bool replaced = truth && p == DIP_PANE_CURRENT;
-        dip_ui_picture(ui, panes[p], replaced ? window->truth : &window->frames[p],
-                       replaced ? window->truth_version : window->versions[p]);
+        uint64_t version;
+        const DipPixels *picture = dip_compare_picture(window, p, &version);
+        dip_ui_picture(ui, panes[p], picture, version);
     }
     const DipRect *left = &panes[DIP_PANE_CURRENT];
     const int gap = panes[DIP_PANE_REQUESTED].x - left->x - left->width;
@@ -73,7 +76,7 @@ void dip_compare_pictures(DipUi *ui, DipWindow *window) {
         return;
     }
     if (!dip_compare_is_one_picture(comparison)) {
-        draw_panes(ui, window, comparison == DIP_COMPARE_TRUTH && window->truth);
+        draw_panes(ui, window);
         return;
     }
     const DipRect *panes = window->layout->panes;
@@ -151,30 +154,32 @@ static void draw_divider(DipUi *ui, const DipWindow *window) {
     draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_tool_accent);
 }
 
-// Says what one picture in place of two shows.
-static void draw_label(DipUi *ui, const DipWindow *window, const char *text, DipColour colour) {
+// Says of what two pictures the difference is. A text that is wider than the picture has two lines.
+static void label_difference(DipUi *ui, const DipWindow *window) {
+    const DipPreviewState *state = window->state;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);
-    const int height = dip_ui_line_height(ui, TEXT) + dip_ui_px(ui, 8);
-    const int width = dip_ui_text_width(ui, TEXT, text) + dip_ui_px(ui, 20);
-    if (width > shown.width || 2 * height > shown.height) {
+    char left[200] = "converged", right[200], text[480];
+    if (!dip_compare_shows_truth(window)) {
+        dip_preview_describe(&state->quality[DIP_PANE_CURRENT], true, left, sizeof left);
+    }
+    dip_preview_describe(&state->quality[DIP_PANE_REQUESTED], true, right, sizeof right);
+    snprintf(text, sizeof text, "Difference times %d: %s (%.200s) and requested (%.200s)",
+             dip_style_max(1, state->tools.gain),
+             dip_compare_shows_truth(window) ? "truth" : "current", left, right);
+    const int pad = dip_ui_px(ui, 10);
+    const int width =
+        dip_style_min(dip_ui_text_width(ui, TEXT, text), shown.width - 2 * pad - dip_ui_px(ui, 16));
+    const int height = dip_ui_text_block_height(ui, TEXT, width, text);
+    if (width <= 0 || 2 * height > shown.height) {
         return;
     }
-    const DipRect rect = {shown.x + (shown.width - width) / 2, shown.y + dip_ui_px(ui, 8), width,
+    const DipRect rect = {shown.x + (shown.width - width) / 2, shown.y + dip_ui_px(ui, 12), width,
                           height};
-    dip_ui_fill_round(ui, rect, dip_ui_px(ui, 3), dip_tool_glass);
-    dip_ui_text(ui, TEXT, colour, DIP_ALIGN_CENTRE, rect.x + width / 2, rect.y + dip_ui_px(ui, 4),
-                width, text);
-}
-
-static void label_picture(DipUi *ui, const DipWindow *window) {
-    const DipToolState *tools = &window->state->tools;
-    char text[64];
-    if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
-        snprintf(text, sizeof text, "Difference, times %d", dip_style_max(1, tools->gain));
-        draw_label(ui, window, text, dip_tool_white);
-    } else if (tools->comparison == DIP_COMPARE_TRUTH && window->truth) {
-        draw_label(ui, window, "Converged picture", dip_tool_white);
-    }
+    dip_ui_fill_round(ui,
+                      (DipRect){rect.x - pad, rect.y - dip_ui_px(ui, 4), width + 2 * pad,
+                                height + dip_ui_px(ui, 8)},
+                      dip_ui_px(ui, 3), dip_tool_glass);
+    dip_ui_text_block(ui, TEXT, dip_tool_white, rect, text);
 }
 
 void dip_compare_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]) {
@@ -194,7 +199,7 @@ void dip_compare_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes
     }
     if (tools->comparison == DIP_COMPARE_WIPE) {
         draw_divider(ui, window);
-    } else {
-        label_picture(ui, window);
+    } else if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
+        label_difference(ui, window);
     }
 }

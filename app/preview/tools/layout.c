@@ -3,10 +3,17 @@
 
 #include "app/ui/style.h"
 
+enum { PLAIN_HEIGHT = 1080 }; // Height of a window up to which the scale is 1.
 enum { BAR_HEIGHT = 32, BODY_HEIGHT = 208, LEAST_PANE_HEIGHT = 130, LEAST_DOCK_WIDTH = 640 };
 
 int dip_layout_dock_height(void) {
     return BAR_HEIGHT + BODY_HEIGHT;
+}
+
+double dip_layout_scale(double display_scale, const DipToolState *tools, int height) {
+    const int quarters = 4 * height / PLAIN_HEIGHT; // Rounded down.
+    const double grown = tools->fixed_scale || quarters < 4 ? 1.0 : 0.25 * quarters;
+    return (grown > display_scale ? grown : display_scale) * tools->ui_scale;
 }
 
 // Places both panes side by side above y = height.

@@ -7,6 +7,7 @@
 #define DIP_APP_PREVIEW_TOOLS_LAYOUT_H
 
 #include "app/canvas/pixels.h"
+#include "app/preview/state/tool_state.h"
 #include "app/session/session.h"
 
 enum { DIP_PANE_GAP_PX = 2 }; // Width of the gap between the panes.
@@ -23,7 +24,12 @@ typedef struct DipLayout {
     DipRect body; // The chosen tab's contents; empty while the dock is folded.
 } DipLayout;
 
-// Lays a window out. scale: the display's scale times that of --ui-scale. open: the dock shows a
+// Returns the scale of text and controls in a window of this height. Without --ui-scale, they grow
+// with windows of more than 1080 pixels, so that they can be read on a display with many small
+// pixels that does not say so. display_scale: what the display says.
+double dip_layout_scale(double display_scale, const DipToolState *tools, int height);
+
+// Lays a window out. scale: that of dip_layout_scale. open: the dock shows a
 // tab. bare: the window shows nothing but the panes.
 DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare);
 

@@ -2,6 +2,7 @@
 // what the error thread found.
 #include "app/preview/tools/maps.h"
 
+#include "app/preview/tools/compare.h"
 #include "app/preview/tools/maps_memory.h"
 
 #include <stdlib.h>
@@ -43,7 +44,7 @@ void dip_maps_destroy(DipMaps **maps_pointer) {
 // --- errors --------------------------------------------------------------------------------------
 
 bool dip_maps_need_errors(const DipToolState *tools) {
-    return tools->map == DIP_MAP_FLIP || tools->comparison == DIP_COMPARE_TRUTH;
+    return tools->map == DIP_MAP_FLIP || dip_compare_wants_truth(tools);
 }
 
 void dip_maps_set_errors(DipMaps *maps, const DipErrorReading *reading,

@@ -39,7 +39,7 @@ static void rest(DipLivePrices *live, const DipLivePicture *picture, const char 
     }
     dip_quality_parse(text, &panes[DIP_PANE_REQUESTED], NULL);
     do {
-        dip_live_prices_step(live, picture, panes, NULL, 0, 8.0);
+        dip_live_prices_step(live, picture, panes, &(DipLiveTruth){.samples = 0}, 8.0);
     } while (dip_live_prices_are_working(live));
 }
 

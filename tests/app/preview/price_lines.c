@@ -26,8 +26,8 @@ static void print_step(const DipPrices *prices, int setting, int step, const Dip
     printf("{\"state\":\"%s\",\"ms\":%.17g,\"low\":%.17g,\"high\":%.17g,\"zero\":%s,"
            "\"floor\":%s,\"needs\":\"%s\",\"path\":\"%s\"",
            state_names[price.state], price.ms, price.ms_low, price.ms_high,
-           price.ms_is_zero ? "true" : "false", price.flip_at_floor ? "true" : "false", price.needs,
-           price.path);
+           dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO ? "true" : "false",
+           price.flip_at_floor ? "true" : "false", price.needs, price.path);
     print_flip(price.has_flip, price.flip);
     printf("}\n");
 }

@@ -58,13 +58,48 @@ static void test_frame_size_is_the_room_of_the_picture(void **state) {
     int width, height;
     dip_compare_frame_size(&tw.layout, DIP_COMPARE_SIDE_BY_SIDE, &width, &height);
     assert_true(width == PANE_WIDTH && height == PANE_HEIGHT);
-    dip_compare_frame_size(&tw.layout, DIP_COMPARE_WIPE, &width, &height);
-    assert_true(width == PANE_WIDTH && height == PANE_HEIGHT);
-    dip_compare_frame_size(&tw.layout, DIP_COMPARE_ALONE, &width, &height);
-    assert_true(width == 2 * PANE_WIDTH + DIP_PANE_GAP_PX && height == PANE_HEIGHT);
+    static const DipComparison of_one_picture[] = {DIP_COMPARE_WIPE, DIP_COMPARE_BLINK,
+                                                   DIP_COMPARE_DIFFERENCE, DIP_COMPARE_ALONE};
+    for (int i = 0; i < 4; i++) {
+        dip_compare_frame_size(&tw.layout, of_one_picture[i], &width, &height);
+        assert_true(width == 2 * PANE_WIDTH + DIP_PANE_GAP_PX && height == PANE_HEIGHT);
+    }
 }
 
 // --- the difference ------------------------------------------------------------------------------
+
+// The converged picture takes the current pane's place in a wipe, a blink and a difference.
+static void test_truth_is_compared_with_the_requested_pane(void **state) {
+    (void)state;
+    static uint8_t grey[4 * PANE_WIDTH * PANE_HEIGHT];
+    static const DipPixels truth = {grey, 4 * PANE_WIDTH, PANE_WIDTH, PANE_HEIGHT};
+    static const DipComparison comparisons[] = {DIP_COMPARE_WIPE, DIP_COMPARE_BLINK,
+                                                DIP_COMPARE_DIFFERENCE, DIP_COMPARE_TRUTH};
+    memset(grey, 77, sizeof grey);
+    tw.state.tools.against_truth = true;
+    for (int i = 0; i < 4; i++) {
+        uint64_t version;
+        tw.state.tools.comparison = comparisons[i];
+        assert_true(dip_compare_wants_truth(&tw.state.tools));
+        tw.window.truth = NULL; // It is not known yet.
+        assert_ptr_equal(dip_compare_picture(&tw.window, DIP_PANE_CURRENT, &version),
+                         &tw.window.frames[DIP_PANE_CURRENT]);
+        tw.window.truth = &truth;
+        tw.window.truth_version = 999;
+        assert_ptr_equal(dip_compare_picture(&tw.window, DIP_PANE_CURRENT, &version), &truth);
+        assert_true(version == 999);
+        assert_ptr_equal(dip_compare_picture(&tw.window, DIP_PANE_REQUESTED, &version),
+                         &tw.window.frames[DIP_PANE_REQUESTED]);
+    }
+    tw.state.tools.comparison = DIP_COMPARE_WIPE;
+    tw.state.tools.bare = true;
+    dip_tool_window_draw(&tw);
+    const DipRect left = dip_compare_visible(&tw.window, DIP_PANE_CURRENT);
+    const uint8_t *pixel = dip_tool_window_pixel(&tw, left.x + 2, left.y + 2);
+    assert_true(pixel[0] == 77 && pixel[1] == 77 && pixel[2] == 77);
+    tw.state.tools.against_truth = false;
+    assert_false(dip_compare_wants_truth(&tw.state.tools));
+}
 
 static void test_difference_equals_a_plain_loop(void **state) {
     (void)state;
@@ -312,6 +347,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_picture_fits_by_whole_factors),
         IN_WINDOW(test_frame_size_is_the_room_of_the_picture),
+        IN_WINDOW(test_truth_is_compared_with_the_requested_pane),
         cmocka_unit_test(test_difference_equals_a_plain_loop),
         IN_WINDOW(test_difference_is_computed_only_when_pictures_change),
         IN_WINDOW(test_wipe_shows_each_pane_on_its_side),

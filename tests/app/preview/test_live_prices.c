@@ -58,11 +58,20 @@ static int tear_down(void **state) {
     return 0;
 }
 
+static DipLiveTruth truth_of(const DipSrgbPicture *against, int samples) {
+    return (DipLiveTruth){.picture = against ? *against : (DipSrgbPicture){0}, .samples = samples};
+}
+
+static bool step_without_truth(double budget_ms) {
+    return dip_live_prices_step(live, &picture, panes, &(DipLiveTruth){0}, budget_ms);
+}
+
 // Measures until nothing is left. Returns the number of steps that had news.
-static int measure(const DipSrgbPicture *against, uint64_t version) {
+static int measure(const DipSrgbPicture *against, int samples) {
+    const DipLiveTruth with = truth_of(against, samples);
     int news = 0, steps = 0;
     do {
-        news += dip_live_prices_step(live, &picture, panes, against, version, 5.0);
+        news += dip_live_prices_step(live, &picture, panes, &with, 5.0);
         assert_true(++steps < 100000);
     } while (dip_live_prices_are_working(live));
     return news;
@@ -167,22 +176,62 @@ static void errors_are_those_of_whole_pictures(void **state) {
     assert_true(fabs(price.flip - flip_of("aa=none")) <= 1e-9 && fabs(price.flip - base) > 1e-3);
 }
 
+// While errors against a finer truth are measured, those against the coarser one stay, all of them.
+static void errors_do_not_vanish_when_the_truth_gets_finer(void **state) {
+    (void)state;
+    const DipQuality *pane = &panes[DIP_PANE_REQUESTED];
+    make_truth();
+    measure(&truth, 32);
+    const double base = dip_prices_step(prices, DIP_SETTING_AA, 0, pane).flip;
+    const double step = dip_prices_step(prices, DIP_SETTING_AA, 4, pane).flip;
+    memset(truth_rgba8, 128, sizeof truth_rgba8);
+    const DipLiveTruth finer = truth_of(&truth, 128);
+    do {
+        check_all_known(true);
+        assert_true(dip_prices_step(prices, DIP_SETTING_AA, 0, pane).flip == base);
+        assert_true(dip_prices_step(prices, DIP_SETTING_AA, 4, pane).flip == step);
+        dip_live_prices_step(live, &picture, panes, &finer, 0.0);
+    } while (dip_live_prices_lack_errors(live));
+    assert_true(dip_prices_step(prices, DIP_SETTING_AA, 0, pane).flip != base);
+}
+
+// Nothing is timed while another thread draws a truth, and the progress says what is waited for.
+static void times_wait_while_a_truth_is_drawn(void **state) {
+    (void)state;
+    DipLiveTruth drawn = {.next_samples = 32, .drawn = 0.4};
+    for (int i = 0; i < 2000; i++) {
+        dip_live_prices_step(live, &picture, panes, &drawn, 5.0);
+    }
+    assert_false(dip_live_prices_are_working(live));
+    assert_false(dip_prices_has_rough(prices, &panes[DIP_PANE_REQUESTED]));
+    assert_string_equal(dip_prices_progress(prices), "errors: the converged picture is 40 % drawn");
+    dip_live_prices_pause(live);
+    picture.time_ns++;
+    drawn.waits = true;
+    dip_live_prices_step(live, &picture, panes, &drawn, 5.0);
+    assert_string_equal(
+        dip_prices_progress(prices),
+        "errors: the converged picture is 40 % drawn, waiting for a free processor");
+    measure(NULL, 0);
+    check_all_known(false);
+}
+
 static void another_picture_has_no_prices_yet(void **state) {
     (void)state;
     measure(NULL, 0);
     const DipQuality *pane = &panes[DIP_PANE_REQUESTED];
     picture.pose.position_world[0] += 0.5;
-    dip_live_prices_step(live, &picture, panes, NULL, 0, 0.0);
+    step_without_truth(0.0);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 1, pane).state, DIP_PRICE_UNKNOWN);
     assert_string_not_equal(dip_prices_progress(prices), "");
     dip_live_prices_pause(live);
     assert_string_equal(dip_prices_progress(prices), "");
     measure(NULL, 0);
     picture.width -= 32;
-    dip_live_prices_step(live, &picture, panes, NULL, 0, 0.0);
+    step_without_truth(0.0);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 1, pane).state, DIP_PRICE_UNKNOWN);
     dip_live_prices_pause(live);
-    measure(&truth, 0); // The truth has another size, so it is not used.
+    measure(&truth, 1); // The truth has another size, so it is not used.
     check_all_known(false);
 }
 
@@ -211,6 +260,8 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         TEST(all_steps_of_models_get_a_price),
         TEST(errors_are_those_of_whole_pictures),
+        TEST(errors_do_not_vanish_when_the_truth_gets_finer),
+        TEST(times_wait_while_a_truth_is_drawn),
         TEST(another_picture_has_no_prices_yet),
         TEST(scenes_of_the_gallery_have_prices),
     };

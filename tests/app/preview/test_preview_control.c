@@ -172,6 +172,23 @@ static void settings_are_pushed_and_applied(void **state) {
     assert_quality(DIP_PANE_REQUESTED, "af=2");
 }
 
+// A panel that answers polls need not fill the status line, and can hide the preview's own panel.
+static void notices_and_the_panel_can_be_off(void **state) {
+    (void)state;
+    assert_ok("{\"request\":\"set\",\"pane\":\"requested\",\"settings\":\"aa=4\"}");
+    assert_ok("{\"request\":\"set\",\"pane\":\"requested\",\"change\":\"af=8\",\"notices\":"
+              "\"off\"}");
+    assert_quality(DIP_PANE_REQUESTED, "aa=4,af=8");
+    assert_string_equal(state_now()->notice, "Requested: AA 4x");
+    assert_refused("{\"request\":\"set\",\"pane\":\"requested\",\"change\":\"af=8\",\"notices\":"
+                   "\"loud\"}",
+                   "\"field\":\"notices\"");
+    assert_ok("{\"request\":\"panel\",\"show\":\"off\"}");
+    assert_true(state_now()->tools.bare);
+    assert_ok("{\"request\":\"panel\",\"show\":\"on\"}");
+    assert_false(state_now()->tools.bare);
+}
+
 // One pane's settings would allow the change, the other's would not: neither changes.
 static void a_refused_change_changes_no_pane(void **state) {
     (void)state;
@@ -497,6 +514,7 @@ int main(void) {
 #define CONTROL_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         CONTROL_TEST(settings_are_pushed_and_applied),
+        CONTROL_TEST(notices_and_the_panel_can_be_off),
         CONTROL_TEST(a_refused_change_changes_no_pane),
         CONTROL_TEST(settings_that_a_pane_has_already_draw_nothing),
         CONTROL_TEST(time_and_path_follow_requests),

@@ -166,9 +166,12 @@ static void wait_for_result(void) {
     assert_null(strstr(notice(), "Opening "));
 }
 
-// Lets some seconds of the display's clock pass.
+// Lets some seconds of the display's clock pass. At rest, a turn takes hardly any real time, which
+// the thread that opens a session needs.
 static void wait_seconds(int seconds) {
     for (int i = 0; i < 60 * seconds; ++i) {
+        const struct timespec pause = {0, 2000000};
+        nanosleep(&pause, NULL);
         turn();
     }
 }

@@ -261,6 +261,46 @@ static void a_key_and_clicks_choose_the_pane(void **state) {
     assert_false(dip_fake_display_is_full_screen(fake));
 }
 
+// A press that brings an embedded window the keyboard focus does not choose a pane.
+static void a_press_for_the_focus_chooses_no_pane(void **state) {
+    (void)state;
+    turn();
+    DipEvent event = {
+        .kind = DIP_EVENT_MOUSE_DOWN, .x = 40, .y = 100, .clicks = 1, .focuses = true};
+    for (int i = 0; i < 2; ++i) {
+        dip_fake_display_push(fake, &event);
+        event.kind = DIP_EVENT_MOUSE_UP;
+        dip_fake_display_push(fake, &event);
+        turn();
+        assert_int_equal(dip_preview_state(preview)->edited[DIP_PANE_CURRENT], i);
+        event.kind = DIP_EVENT_MOUSE_DOWN;
+        event.focuses = false;
+    }
+}
+
+// The picture of a camera that stands still, in a scene without motion, is at rest from the start.
+static void a_still_camera_rests_from_the_start(void **state) {
+    (void)state;
+    DipCamPath *still = NULL;
+    const DipCamKey key = dip_campath_key(path, 0);
+    const DipCamKey keys[2] = {key, key};
+    assert_true(dip_campath_create(keys, 2, INT64_C(500000000), &still, NULL));
+    dip_camtrack_set(&session.track, DIP_CATEGORY_DEFAULT, still, 60.0);
+    for (int i = 0; i < 300; ++i) { // The figures settle.
+        turn();
+    }
+    assert_true(dip_preview_rests(dip_preview_state(preview), false));
+    const int presented = dip_fake_display_present_count(fake);
+    for (int i = 0; i < 20; ++i) {
+        turn();
+    }
+    assert_int_equal(dip_fake_display_present_count(fake), presented);
+    dip_camtrack_set(&session.track, DIP_CATEGORY_DEFAULT, path, 60.0);
+    turn();
+    assert_false(dip_preview_rests(dip_preview_state(preview), false));
+    dip_campath_destroy(&still);
+}
+
 static void sheets_cover_the_panes_until_closed(void **state) {
     (void)state;
     static const struct {
@@ -378,6 +418,28 @@ static void a_broken_scene_file_leaves_the_running_scene(void **state) {
     assert_true(dip_preview_state(preview)->panel);
 }
 
+// A window that nobody sees draws nothing, and its time stands still. It goes on where it was.
+static void a_hidden_window_draws_nothing(void **state) {
+    (void)state;
+    turn();
+    turn();
+    dip_fake_display_hide(fake, true);
+    const int presented = dip_fake_display_present_count(fake);
+    const int64_t play_ns = dip_preview_state(preview)->play_ns;
+    for (int i = 0; i < 20; ++i) {
+        turn();
+    }
+    dip_fake_display_advance(fake, INT64_C(5000000000));
+    turn();
+    assert_int_equal(dip_fake_display_present_count(fake), presented);
+    assert_true(dip_preview_state(preview)->play_ns == play_ns);
+    dip_fake_display_hide(fake, false);
+    turn();
+    turn();
+    assert_true(dip_fake_display_present_count(fake) > presented);
+    assert_in_range(dip_preview_state(preview)->play_ns - play_ns, 1, 100000000);
+}
+
 static void quitting_ends_without_another_frame(void **state) {
     (void)state;
     static const DipEvent ways[] = {
@@ -461,6 +523,8 @@ int main(void) {
         PREVIEW_TEST(a_setting_changes_the_requested_pane),
         PREVIEW_TEST(enter_copies_requested_to_current),
         PREVIEW_TEST(a_key_and_clicks_choose_the_pane),
+        PREVIEW_TEST(a_press_for_the_focus_chooses_no_pane),
+        PREVIEW_TEST(a_still_camera_rests_from_the_start),
         PREVIEW_TEST(sheets_cover_the_panes_until_closed),
         PREVIEW_TEST(the_panes_follow_the_display),
         PREVIEW_TEST(text_follows_the_scale),
@@ -468,6 +532,7 @@ int main(void) {
         PREVIEW_TEST(only_changes_are_presented),
         PREVIEW_TEST(errors_appear_while_the_camera_rests),
         PREVIEW_TEST(a_broken_scene_file_leaves_the_running_scene),
+        PREVIEW_TEST(a_hidden_window_draws_nothing),
         PREVIEW_TEST(quitting_ends_without_another_frame),
         PREVIEW_TEST(a_screenshot_equals_the_shown_picture),
         PREVIEW_TEST(random_events_do_no_harm),

@@ -2,6 +2,7 @@
 // frame times.
 #include "app/preview/state/camera.h"
 #include "app/preview/live/figures.h"
+#include "app/preview/state/keys.h"
 #include "app/preview/state/state.h"
 #include "app/preview/live/taa_pace.h"
 #include "app/preview/live/timing.h"
@@ -346,8 +347,47 @@ static void a_terminal_names_what_needs_a_window(void **state) {
     assert_true(f->state.tools.loupe);
 }
 
+// Each preset gives the requested pane settings of its own. This test also runs on objects that are
+// built as users get them, without assertions.
+static void each_preset_has_its_own_settings(void **state) {
+    static const char *const settings[] = {
+        [DIP_PRESET_PERFORMANCE] = "opt=advanced,miplod=performance",
+        [DIP_PRESET_BALANCED] = "aa=2,af=4",
+        [DIP_PRESET_QUALITY] = "aa=4,aaa=on,asd=2,af=16",
+        [DIP_PRESET_BEST] = "aa=8,aaa=on,af=16,aaf=on",
+    };
+    Fixture *f = *state;
+    for (int preset = 0; preset <= DIP_PRESET_BEST; ++preset) {
+        const DipQuality wanted = parse(settings[preset]);
+        press(f, DIP_ACTION_PRESET, preset, false);
+        assert_memory_equal(&f->state.quality[DIP_PANE_REQUESTED], &wanted, sizeof wanted);
+    }
+}
+
+// What is typed while the help shows is searched there and changes nothing else.
+static void words_are_searched_in_the_help(void **unused) {
+    (void)unused;
+    DipCamTrack track = dip_camtrack_make(false);
+    const DipQuality quality[DIP_PANE_COUNT] = {dip_quality_default(), dip_quality_default()};
+    DipPreviewState state = dip_preview_state_make(quality, &track);
+    static const int keys[] = {'h', 'a', 'n', 'x', DIP_KEYCODE_BACKSPACE};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
+        dip_keys_press(&state, &(DipEvent){.kind = DIP_EVENT_KEY_DOWN, .key = (DipKeycode)keys[i]},
+                       0);
+    }
+    assert_true(state.help);
+    assert_string_equal(state.help_words, "an");
+    assert_memory_equal(state.quality, quality, sizeof quality);
+    const DipEvent escape = {.kind = DIP_EVENT_KEY_DOWN, .key = DIP_KEYCODE_ESCAPE};
+    dip_keys_press(&state, &escape, 0);
+    assert_true(state.help && !state.help_words[0]);
+    dip_keys_press(&state, &escape, 0);
+    assert_true(!state.help && !state.quit);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_are_searched_in_the_help),
         cmocka_unit_test(slow_temporal_antialiasing_is_named),
         cmocka_unit_test(frames_are_due_in_steps_of_the_refresh),
         cmocka_unit_test(percentiles_follow_the_nearest_rank_rule),
@@ -362,6 +402,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(time_stops_while_paused_or_flying, set_up, tear_down),
         cmocka_unit_test_setup_teardown(notices_disappear, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_terminal_names_what_needs_a_window, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(each_preset_has_its_own_settings, set_up, tear_down),
         cmocka_unit_test(settings_are_described_in_words),
         cmocka_unit_test(the_camera_moves_and_turns),
         cmocka_unit_test(the_median_covers_the_last_second),

@@ -190,33 +190,52 @@ static void a_step_draws_one_frame_at_least_and_keeps_its_budget(void **state) {
     assert_true(now_ns - before_ns < 50000000 + 3 * 13000000); // One frame too many at most.
 }
 
-static void progress_counts_frames_and_seconds(void **state) {
+static void progress_counts_steps_and_seconds(void **state) {
     (void)state;
     char text[64];
     dip_price_job_describe(job, text, sizeof text);
     assert_string_equal(text, "");
     follow("aa=none", "aa=none");
+    int left = dip_price_job_progress(job).combinations;
     dip_price_job_describe(job, text, sizeof text);
-    assert_string_equal(text, "0 of 8 frames, 0 s left");
-    int rounds[DIP_PRICE_JOB_ROUNDS] = {0};
-    double seconds = 0.0;
+    assert_true(strstr(text, "steps left, 0 s") && strncmp(text, "times: ", 7) == 0);
+    double seconds = 0.0, first_s = 0.0;
     const int64_t begin_ns = now_ns;
     while (dip_price_job_progress(job).working) {
         dip_price_job_step(job, 0.0);
         const DipPriceProgress progress = dip_price_job_progress(job);
         assert_in_range(progress.rounds, 0, DIP_PRICE_JOB_ROUNDS - 1);
-        rounds[progress.rounds]++;
-        if (frames == 80) {
+        if (frames == 30) {
             seconds = progress.seconds_left + 1e-9 * (double)(now_ns - begin_ns);
         }
-    }
-    for (int r = 0; r < DIP_PRICE_JOB_ROUNDS; r++) {
-        assert_true(rounds[r] > 0);
+        if (progress.first) {
+            assert_true(progress.combinations <= left);
+            left = progress.combinations;
+            first_s = 1e-9 * (double)(now_ns - begin_ns);
+        }
     }
     // The estimate after the first block was about right.
-    check_near(seconds / (1e-9 * (double)(now_ns - begin_ns)), 1.0, 0.4);
+    check_near(seconds / first_s, 1.0, 0.4);
     dip_price_job_describe(job, text, sizeof text);
     assert_string_equal(text, "");
+}
+
+// Every step has a rough price long before the last one is timed in all rounds.
+static void all_prices_are_soon_known_roughly(void **state) {
+    (void)state;
+    const DipQuality pane = settings("aa=4,af=8");
+    noise = 0.03;
+    follow("aa=none", "aa=4,af=8");
+    while (dip_price_job_progress(job).first) {
+        dip_price_job_step(job, 0.0);
+    }
+    const int first = frames;
+    const DipPrice rough = dip_prices_step(prices, DIP_SETTING_AA, 4, &pane);
+    check_steps(&pane, 1.0);
+    work_until_done();
+    assert_true(3 * first < frames);
+    const DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 4, &pane);
+    assert_true(price.ms_high - price.ms_low < rough.ms_high - rough.ms_low);
 }
 
 static void what_is_known_is_not_timed_again(void **state) {
@@ -258,7 +277,7 @@ static void an_interrupted_block_leaves_no_price(void **state) {
     (void)state;
     const DipQuality pane = settings("aa=4,af=8");
     follow("aa=none", "aa=4,af=8");
-    for (int i = 0; i < 60; i++) {
+    for (int i = 0; i < 20; i++) {
         dip_price_job_step(job, 0.0);
     }
     dip_price_job_interrupt(job);
@@ -293,7 +312,8 @@ int main(void) {
         TEST(a_machine_that_slows_down_changes_no_ratio),
         TEST(intervals_hold_the_true_price),
         TEST(a_step_draws_one_frame_at_least_and_keeps_its_budget),
-        TEST(progress_counts_frames_and_seconds),
+        TEST(progress_counts_steps_and_seconds),
+        TEST(all_prices_are_soon_known_roughly),
         TEST(what_is_known_is_not_timed_again),
         TEST(the_nearest_steps_come_first),
         TEST(an_interrupted_block_leaves_no_price),

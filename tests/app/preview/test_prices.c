@@ -1,6 +1,7 @@
 // Tests of prices: from reports with made-up times, whose prices are computed by hand, and from
 // rough times.
 #include "app/measure/metrics/flip.h"
+#include "app/preview/prices/price_text.h"
 #include "app/preview/prices/prices.h"
 #include "tests/app/cost/made_report.h"
 
@@ -96,7 +97,7 @@ static void check_price(const DipPrice *price, double ratio, double without_ms) 
     check_near(price->ms, (ratio - 1.0) * without_ms);
     check_near(price->ms_low, (ratio * exp(-half_width) - 1.0) * without_ms);
     check_near(price->ms_high, (ratio * exp(half_width) - 1.0) * without_ms);
-    assert_int_equal(price->ms_is_zero, fabs(log(ratio)) < half_width);
+    assert_int_equal(dip_price_trust(price) == DIP_PRICE_TRUST_ZERO, fabs(log(ratio)) < half_width);
 }
 
 // --- reports -------------------------------------------------------------------------------------
@@ -128,7 +129,7 @@ static void a_price_within_the_noise_is_zero(void **state) {
     const DipQuality pane = dip_quality_default();
     const DipPrice price = dip_prices_step(prices, DIP_SETTING_OPT, DIP_OPT_STANDARD, &pane);
     check_price(&price, 1.001, 1.0);
-    assert_true(price.ms_is_zero);
+    assert_true(dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
 }
 
 static void steps_that_need_others_are_priced_beside_them(void **state) {
@@ -319,7 +320,7 @@ static void pictures_that_are_the_same_have_one_price(void **state) {
     const DipPrice price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &quality);
     assert_int_equal(price.state, DIP_PRICE_MEASURED);
     assert_true(price.ms == 0.0 && price.ms_low == 0.0 && price.ms_high == 0.0);
-    assert_true(price.ms_is_zero);
+    assert_true(dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
     assert_int_equal(dip_prices_sum(prices, &quality).state, DIP_PRICE_MEASURED);
 }
 
@@ -398,6 +399,8 @@ static void prices_of_a_busy_machine_are_marked(void **state) {
     const DipQuality pane = settings("aa=4");
     assert_true(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).doubtful);
     assert_true(dip_prices_sum(prices, &pane).doubtful);
+    const DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
+    assert_int_equal(dip_price_trust(&price), DIP_PRICE_TRUST_DOUBTFUL);
     dip_prices_source(prices, 64, 48, text, sizeof text);
     assert_non_null(strstr(text, "The machine was too busy"));
 }
@@ -426,11 +429,11 @@ static void rough_prices_are_differences_of_whole_times(void **state) {
     assert_int_equal(price.state, DIP_PRICE_ROUGH);
     check_near(price.ms, 2.0);
     check_near(price.ms_high, 2.3);
-    assert_false(price.has_flip || price.ms_is_zero);
+    assert_false(price.has_flip || dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
     price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &pane);
     check_near(price.ms, 0.2);
     check_near(price.ms_low, 0.2 - 0.5);
-    assert_true(price.ms_is_zero);
+    assert_true(dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
     price = dip_prices_step(prices, DIP_SETTING_AF, 3, &pane);
     assert_true(price.has_flip);
     check_near(price.flip, -0.01);
@@ -440,7 +443,8 @@ static void rough_prices_are_differences_of_whole_times(void **state) {
     check_near(sum.ms, 5.0 + 2.0 + 0.2 + 1.0);
     add_rough("aa=2", 6.0, 1.5, -1.0); // A busy machine: the interval holds 0 but says little.
     price = dip_prices_step(prices, DIP_SETTING_AA, 1, &pane);
-    assert_true(price.ms_low < 0.0 && price.ms_high > 0.0 && !price.ms_is_zero);
+    assert_true(price.ms_low < 0.0 && price.ms_high > 0.0 &&
+                dip_price_trust(&price) == DIP_PRICE_TRUST_DOUBTFUL);
     add_rough("aa=4,aaa=on,af=8", 8.0, 0.2, -1.0); // Measured together.
     sum = dip_prices_sum(prices, &pane);
     check_near(sum.ms, 8.0);
@@ -454,6 +458,56 @@ static void rough_prices_are_differences_of_whole_times(void **state) {
     assert_true(add_up(&sum) == sum.ms);
 }
 
+// A number that other programs have disturbed is never written as if it were sure.
+static void doubtful_times_are_written_with_one_digit(void **state) {
+    (void)state;
+    static const struct {
+        double ms, low, high, without_ms;
+        DipPriceState state;
+        const char *text;
+        bool compares; // With others at a glance: it has a bar and is a part of sums.
+    } cases[] = {
+        {1.23, 1.1, 1.3, 5.0, DIP_PRICE_MEASURED, "+1.2", true},
+        {1.23, 1.1, 1.3, 5.0, DIP_PRICE_ROUGH, "\u2248 +1.2", true},
+        {1.23, 1.1, 1.3, 5.0, DIP_PRICE_PREDICTED, "~+1.2", true},
+        {70.4, 10.0, 3864303.5, 12.0, DIP_PRICE_ROUGH, "+70?", false},
+        {10.0, 2.0, 30.0, 12.0, DIP_PRICE_MEASURED, "+10?", false},
+        {-2.6, -9.0, 4.0, 5.0, DIP_PRICE_ROUGH, "\u22123?", false},
+        {7.5, -2.0, 17.0, 5.0, DIP_PRICE_MEASURED, "+8?", false},
+        {0.34, 0.1, 0.6, 5.0, DIP_PRICE_ROUGH, "+0.3?", false},
+        {0.2, -0.3, 0.7, 5.0, DIP_PRICE_ROUGH, "\u2248 0", false},
+        {-0.02, -3.0, 3.0, 5.0, DIP_PRICE_ROUGH, "0?", false},
+        {-0.01, -0.02, -0.005, 5.0, DIP_PRICE_MEASURED, "\u2248 0", false},
+        {0.0, 0.0, 0.0, 5.0, DIP_PRICE_MEASURED, "\u2248 0", false},
+        {8.0, 8.0, 8.0, 0.0, DIP_PRICE_BASE, "base", true},
+        {0.0, 0.0, 0.0, 0.0, DIP_PRICE_UNKNOWN, "\u00b7 \u00b7 \u00b7", false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char written[DIP_STEP_NAME_BYTES];
+        const DipPrice price = {.state = cases[i].state,
+                                .ms = cases[i].ms,
+                                .ms_low = cases[i].low,
+                                .ms_high = cases[i].high,
+                                .without_ms = cases[i].without_ms};
+        dip_price_ms_text(&price, written);
+        assert_string_equal(written, cases[i].text);
+        assert_int_equal(dip_price_trust(&price) == DIP_PRICE_TRUST_KNOWN, cases[i].compares);
+    }
+    char tip[DIP_STEP_TEXT_BYTES];
+    const DipPrice wild = {.state = DIP_PRICE_ROUGH,
+                           .ms = 12.0,
+                           .ms_high = 3864303.5,
+                           .without_ms = 5.0,
+                           .has_flip = true};
+    dip_step_tip(DIP_SETTING_AA, 1, &wild, "", tip);
+    assert_null(strstr(tip, "3864303"));
+    assert_non_null(strstr(tip, "Its time cannot be told"));
+    dip_flip_text(-0.00001, true, tip);
+    assert_string_equal(tip, ".0000"); // Not "-.0000".
+    const DipPriceSum sum = {.state = DIP_PRICE_ROUGH, .ms = 12.0, .ms_high = 3864303.5};
+    assert_int_equal(dip_price_sum_trust(&sum), DIP_PRICE_TRUST_DOUBTFUL);
+}
+
 static void a_new_rough_time_replaces_the_old_one(void **state) {
     (void)state;
     DipQuality list[4];
@@ -461,15 +515,14 @@ static void a_new_rough_time_replaces_the_old_one(void **state) {
     prices = dip_prices_create(NULL);
     add_rough("aa=none", 5.0, 0.0, 0.05);
     add_rough("aa=4", 7.0, 0.3, -1.0);
-    assert_int_equal(dip_prices_list_without_flip(prices, list, 4), 1);
-    dip_prices_add_rough_flip(prices, &list[0], 0.02);
-    assert_int_equal(dip_prices_list_without_flip(prices, list, 4), 0);
+    assert_int_equal(dip_prices_list_without_flip(prices, 32, list, 4), 1);
+    dip_prices_add_rough_flip(prices, &list[0], 0.02, 32);
+    assert_int_equal(dip_prices_list_without_flip(prices, 32, list, 4), 0);
+    assert_int_equal(dip_prices_list_without_flip(prices, 128, list, 4), 1);
     add_rough("aa=4", 8.0, 0.3, -1.0); // The error stays.
     const DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
     check_near(price.ms, 3.0);
     check_near(price.flip, -0.03);
-    dip_prices_forget_rough_flip(prices);
-    assert_int_equal(dip_prices_list_without_flip(prices, list, 4), 2);
     dip_prices_forget_rough(prices);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).state, DIP_PRICE_UNKNOWN);
 }
@@ -510,6 +563,7 @@ int main(void) {
         TEST(live_and_report_flip_share_pixels_per_degree),
         TEST(prices_of_a_busy_machine_are_marked),
         TEST(rough_prices_are_differences_of_whole_times),
+        TEST(doubtful_times_are_written_with_one_digit),
         TEST(a_new_rough_time_replaces_the_old_one),
         TEST(rough_prices_replace_a_report_on_demand),
     };

@@ -192,6 +192,42 @@ static void the_wheel_counts_whole_steps(void **state) {
     assert_false(send(&(DipEvent){.kind = DIP_EVENT_MOUSE_WHEEL, .x = 10, .y = 10, .wheel_y = 1}));
 }
 
+// Tips of controls among rows stay off these rows; other tips stay off their control.
+static void a_tip_covers_no_row(void **state) {
+    (void)state;
+    for (int row = 0; row < 2; ++row) {
+        const DipRect rows = {0, row ? 150 : 120, WIDTH, HEIGHT - (row ? 150 : 120)};
+        const DipUiControl aimed = {
+            .id = 77, .rect = {20, 160, 60, 20}, .tip = "A tip of one line"};
+        const DipEvent move = {.kind = DIP_EVENT_MOUSE_MOVE, .x = 40, .y = 170};
+        DipCanvas canvas = {0};
+        DipDamage damage;
+        for (int i = 0; i < 3; ++i) {
+            now_ns += 400000000;
+            dip_draw_list_begin(list, WIDTH, HEIGHT);
+            dip_draw_list_fill(list, (DipRect){0, 0, WIDTH, HEIGHT}, (DipColour){0, 0, 0, 255});
+            dip_ui_begin(ui, &(DipUiPass){font, 1.0, now_ns, i ? list : NULL, i ? NULL : &move});
+            if (row) {
+                dip_ui_keep_tips_off(ui, rows);
+            }
+            dip_ui_control(ui, &aimed);
+            dip_ui_end(ui);
+        }
+        assert_true(dip_draw_list_paint(list, &canvas, &damage, NULL));
+        const DipRect clear = row ? rows : aimed.rect;
+        int drawn = 0;
+        for (int y = 0; y < HEIGHT; ++y) {
+            for (int x = 0; x < WIDTH; ++x) {
+                const bool lit = canvas.rgba8[4 * (WIDTH * y + x)] != 0;
+                assert_false(lit && dip_rect_holds(clear, x, y));
+                drawn += lit;
+            }
+        }
+        assert_true(drawn > 100);
+        dip_canvas_free(&canvas);
+    }
+}
+
 // A tip appears 0.4 s after the pointer came, and a click hides it.
 static void a_tip_appears_after_a_while(void **state) {
     (void)state;
@@ -258,15 +294,11 @@ static void a_lost_control_takes_no_keys(void **state) {
 int main(void) {
 #define UI_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        UI_TEST(the_topmost_control_takes_the_mouse),
-        UI_TEST(a_drag_stays_with_its_control),
-        UI_TEST(a_disabled_control_takes_nothing),
-        UI_TEST(tab_visits_the_controls_in_order),
-        UI_TEST(keys_act_on_the_visible_focus),
-        UI_TEST(arrows_move_the_focus),
-        UI_TEST(the_wheel_counts_whole_steps),
-        UI_TEST(a_tip_appears_after_a_while),
-        UI_TEST(drawing_reports_no_input),
+        UI_TEST(the_topmost_control_takes_the_mouse), UI_TEST(a_drag_stays_with_its_control),
+        UI_TEST(a_disabled_control_takes_nothing),    UI_TEST(tab_visits_the_controls_in_order),
+        UI_TEST(keys_act_on_the_visible_focus),       UI_TEST(arrows_move_the_focus),
+        UI_TEST(the_wheel_counts_whole_steps),        UI_TEST(a_tip_covers_no_row),
+        UI_TEST(a_tip_appears_after_a_while),         UI_TEST(drawing_reports_no_input),
         UI_TEST(a_lost_control_takes_no_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

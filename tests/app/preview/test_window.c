@@ -1,8 +1,11 @@
 // Tests of the window's layout and of its settings tab: at every size, nothing leaves the window,
 // and the keyboard reaches every setting and Apply; clicks, drags and the wheel change steps.
 #include "app/preview/loop/loop.h"
-#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/live/figures.h"
 #include "app/preview/loop/view.h"
+#include "app/preview/prices/price_text.h"
+#include "app/preview/tabs/pane_time.h"
+#include "app/preview/tabs/setting_rows.h"
 #include "config/config.h"
 
 #include <setjmp.h>
@@ -228,6 +231,88 @@ static void the_drawer_takes_clicks_over_the_pane(void **unused) {
 }
 
 // A click on a sheet closes it and does nothing to what lies beneath.
+// A display of 4K that does not tell its scale has text twice as large, unless the user gave a
+// scale.
+static void text_grows_with_the_window(void **unused) {
+    (void)unused;
+    DipToolState set = {.ui_scale = 1.0};
+    assert_true(dip_layout_scale(1.0, &set, 720) == 1.0);
+    assert_true(dip_layout_scale(1.0, &set, 1080) == 1.0);
+    assert_true(dip_layout_scale(1.0, &set, 1440) == 1.25);
+    assert_true(dip_layout_scale(1.0, &set, 2160) == 2.0);
+    assert_true(dip_layout_scale(3.0, &set, 2160) == 3.0); // The display knows better.
+    set.fixed_scale = true;
+    assert_true(dip_layout_scale(1.0, &set, 2160) == 1.0);
+}
+
+// One figure stands for a pane's time in its label and in the panel. A single frame is called that.
+static void a_pane_has_one_time(void **unused) {
+    (void)unused;
+    char text[DIP_PANE_TIME_BYTES];
+    DipWindow window = {.state = &state, .figures = figures, .prices = prices, .still = true};
+    figures[1].frames = 1;
+    DipPaneTime time = dip_pane_time(&window, 1);
+    dip_pane_time_text(&time, text);
+    assert_string_equal(text, "one frame: 5.0 ms");
+    assert_true(dip_pane_sum(&window, 1).ms == time.ms);
+    figures[1].frames = 30;
+    time = dip_pane_time(&window, 1);
+    dip_pane_time_text(&time, text);
+    assert_string_equal(text, "5.0 ms");
+    // What was measured at rest takes the place of the frames' time, in both.
+    const DipQuality base = dip_quality_default();
+    assert_true(dip_prices_add_rough(prices, &base, 6.7, 6.7, 6.7, 0.05));
+    time = dip_pane_time(&window, 1);
+    dip_pane_time_text(&time, text);
+    assert_string_equal(text, DIP_ROUGH_MARK "6.7 ms");
+    assert_true(dip_pane_sum(&window, 1).ms == time.ms);
+    assert_true(dip_prices_add_rough(prices, &base, 6.7, 1.0, 26.7, 0.05));
+    time = dip_pane_time(&window, 1);
+    dip_pane_time_text(&time, text);
+    assert_string_equal(text, "7? ms");
+    window.still = false; // Moving pictures have their own time.
+    time = dip_pane_time(&window, 1);
+    dip_pane_time_text(&time, text);
+    assert_string_equal(text, "5.0 ms");
+    assert_true(dip_pane_sum(&window, 1).ms == time.ms);
+}
+
+// The time of the last second with frames stays while nothing is drawn, until the settings change.
+static void a_time_stays_while_nothing_is_drawn(void **unused) {
+    (void)unused;
+    static DipFigures shown;
+    const int64_t second_ns = 1000000000;
+    DipSessionFrame frame = {.copied = false};
+    for (int i = 0; i < 30; ++i) {
+        frame.panes[0].stages.total_ms = i == 29 ? 44.0 : 6.0; // The last frame was slow.
+        dip_figures_add(&shown, &frame, second_ns + (i + 4) * second_ns / 40);
+    }
+    dip_figures_update(&shown, true, 2 * second_ns);
+    assert_true(shown.shown[0].ms == 6.0 && shown.shown[0].frames == 30);
+    dip_figures_update(&shown, false, 9 * second_ns);
+    assert_true(shown.shown[0].ms == 6.0 && shown.shown[0].frames == 30);
+    dip_figures_forget(&shown, 0);
+    dip_figures_add(&shown, &frame, 10 * second_ns);
+    dip_figures_update(&shown, false, 10 * second_ns);
+    assert_true(shown.shown[0].ms == 44.0 && shown.shown[0].frames == 1);
+    dip_figures_update(&shown, false, 20 * second_ns);
+    assert_true(shown.shown[0].ms == 44.0 && shown.shown[0].frames == 1);
+}
+
+// Presets are chosen by what settings cost and gain, so they wait until that is known.
+static void presets_wait_for_prices(void **unused) {
+    (void)unused;
+    click(880, 667); // Quality.
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
+    const DipQuality base = dip_quality_default();
+    assert_true(dip_prices_add_rough(prices, &base, 6.7, 6.7, 6.7, -1.0));
+    click(880, 667);
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
+    dip_prices_add_rough_flip(prices, &base, 0.05, 32);
+    click(880, 667);
+    assert_int_not_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
+}
+
 static void a_click_closes_a_sheet(void **unused) {
     (void)unused;
     state.help = true;
@@ -256,6 +341,10 @@ int main(void) {
         WINDOW_TEST(clicks_and_drags_choose_a_step),
         WINDOW_TEST(keys_change_the_focused_setting),
         WINDOW_TEST(the_drawer_takes_clicks_over_the_pane),
+        WINDOW_TEST(text_grows_with_the_window),
+        WINDOW_TEST(a_pane_has_one_time),
+        WINDOW_TEST(a_time_stays_while_nothing_is_drawn),
+        WINDOW_TEST(presets_wait_for_prices),
         WINDOW_TEST(a_click_closes_a_sheet),
         WINDOW_TEST(the_time_line_moves_the_time),
     };

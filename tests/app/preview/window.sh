@@ -69,7 +69,7 @@ window_is() {
 
 "$diptych" --size 640x480 --current aa=none,af=none --requested aa=none,af=none 2>errors.txt &
 pid=$!
-found() { window=$(xdotool search --onlyvisible --name '^Diptych$' 2>/dev/null | head -n 1); [ -n "$window" ]; }
+found() { window=$(xdotool search --onlyvisible --name '^Diptych' 2>/dev/null | head -n 1); [ -n "$window" ]; }
 await "the window opens" found
 xdotool windowfocus "$window" 2>/dev/null
 await "both panes show the scene" both_show_something

@@ -29,8 +29,8 @@ printf 'diptych-path 1\nperiod 1\n0 0 3 0 0 0 1\n' >still.pth
 echo nonsense >bad.pth
 "$diptych" --size 200x150 --threads 1 2>log.txt &
 program=$!
-wait_for xdotool search --onlyvisible --name '^Diptych$' || fail "no window appears"
-window=$(xdotool search --onlyvisible --name '^Diptych$' | head -n 1)
+wait_for xdotool search --onlyvisible --name '^Diptych' || fail "no window appears"
+window=$(xdotool search --onlyvisible --name '^Diptych' | head -n 1)
 
 # shows TEXT: a screenshot of the window has the text.
 shows() {

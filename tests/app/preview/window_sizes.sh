@@ -32,7 +32,7 @@ await() {
 }
 
 found() {
-    window=$(xdotool search --onlyvisible --name '^Diptych$' 2>/dev/null | head -n 1)
+    window=$(xdotool search --onlyvisible --name '^Diptych' 2>/dev/null | head -n 1)
     [ -n "$window" ]
 }
 window_is() { xdotool getwindowgeometry "$window" | grep -q "Geometry: $1"; }
