@@ -209,6 +209,9 @@ static void a_dropped_picture_leaves_no_trace(void **state) {
     const DipSrgbPicture test = picture(0), other = picture(1);
     init(DIP_METER_PICTURES);
     const DipMetricSums expected = judge(&by);
+    DipMeterStandard itself = by;
+    itself.picture = picture(0);
+    assert_true(judge(&itself).regions[0].flip == 0.0); // A new standard is analysed anew.
     for (int steps = 0; steps < 8; steps++) {
         dip_meter_set_standard(&meter, &by);
         dip_meter_begin(&meter, &other, NULL);
