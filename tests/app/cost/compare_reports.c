@@ -91,7 +91,8 @@ static bool is_time(const char *key) {
                                        "worst_ms_high",
                                        "ratio_low",
                                        "ratio_high",
-                                       "ratio_over_runs",
+                                       "visits",
+                                       "doubt",
                                        "stages_ms",
                                        NULL};
     return is_one_of(key, keys);
