@@ -1,4 +1,4 @@
-// Making the pools, scenes and renderers that a plan needs.
+// Makes the pools, scenes and renderers that a plan needs.
 #include "app/bench/context.h"
 
 #include "app/bench/synthetic.h"
@@ -9,7 +9,7 @@
 // A scene with the camera path through it.
 typedef struct View {
     const DipScene *scene;
-    DipScene *own; // the same scene if the view owns it; NULL if the session owns it
+    DipScene *own; // `scene` if the view owns it; NULL if the session owns it
     const DipCamPath *path;
     DipCamPath *own_path;
     DipCamPathEnd end; // what the path does at its end

@@ -1,4 +1,4 @@
-// Making the four plots. Each line of a plot is a series.
+// Makes the four plots. Each line of a plot is a series.
 #include "app/bench/plots.h"
 
 #include "app/cli/machine.h"

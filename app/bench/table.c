@@ -1,4 +1,4 @@
-// Printing the bench's tables, writing CSV.
+// Prints the bench's tables and writes CSV.
 #include "app/bench/table.h"
 
 #include "app/files/whole_file.h"
@@ -313,7 +313,7 @@ bool dip_bench_write_csv(const char *file, const DipBenchResult *results, int co
         }
     }
     bool made = !ferror(out);
-    made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
+    made = fclose(out) == 0 && made && text; // glibc sets `text` to NULL if memory runs out.
     bool written = made ? dip_whole_file_write(file, text, size_bytes, err) : out_of_memory(err);
     free(text);
     return written;

@@ -13,7 +13,7 @@
 
 typedef struct DipDrawList DipDrawList;
 
-// Which point of a line of text lies at the coordinate x: its left end, right end or centre.
+// The point of a line of text that lies at the coordinate x: its left end, right end or centre.
 typedef enum DipAlign { DIP_ALIGN_LEFT, DIP_ALIGN_RIGHT, DIP_ALIGN_CENTRE } DipAlign;
 
 enum { DIP_MAX_DAMAGE = 8 };

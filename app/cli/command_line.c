@@ -1,4 +1,4 @@
-// Finding the command and handing its arguments to the parser of options.
+// Finds the command and hands its arguments to the parser of options.
 #include "app/cli/command_line.h"
 
 #include "renderer/base/assert.h"

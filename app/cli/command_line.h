@@ -1,4 +1,4 @@
-// Reading the command line: finding the command and reading its options.
+// Reads the command line: finds the command and reads its options.
 #ifndef DIP_APP_CLI_COMMAND_LINE_H
 #define DIP_APP_CLI_COMMAND_LINE_H
 

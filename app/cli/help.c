@@ -1,4 +1,4 @@
-// Laying out the help in 80 columns.
+// Lays out the help in 80 columns.
 #include "app/cli/help.h"
 
 #include "renderer/scene/quality.h"

@@ -1,4 +1,4 @@
-// Catching SIGINT and SIGTERM.
+// Catches SIGINT and SIGTERM.
 #include "app/cli/interrupt.h"
 
 #include <signal.h>

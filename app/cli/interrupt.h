@@ -1,4 +1,4 @@
-// Handling Ctrl-C: a command first finishes the frame or measurement that it has begun.
+// Handles Ctrl-C: a command first finishes the frame or measurement that it has begun.
 #ifndef DIP_APP_CLI_INTERRUPT_H
 #define DIP_APP_CLI_INTERRUPT_H
 

@@ -1,6 +1,7 @@
 // Formatting errors and writing them to standard error and to the log file.
 #include "app/cli/log.h"
 
+#include "app/files/put.h"
 #include "renderer/base/file.h"
 
 #include <errno.h>
@@ -38,6 +39,7 @@ static void print_line(const char *text) {
 void dip_log_error(const DipError *err) {
     char text[1024];
     dip_error_format(err, text, sizeof text);
+    dip_put_clean(text); // Messages quote files.
     print_line(text);
 }
 

@@ -1,4 +1,4 @@
-// Reading /proc/cpuinfo and the resource usage of the process.
+// Reads /proc/cpuinfo and the resource usage of the process.
 #include "app/cli/machine.h"
 
 #include "renderer/base/hash.h"

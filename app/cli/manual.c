@@ -1,4 +1,4 @@
-// Writing the manual page. If several commands share a table of options, the page describes these
+// Writes the manual page. If several commands share a table of options, the page describes these
 // options once.
 #include "app/cli/manual.h"
 

@@ -1,4 +1,4 @@
-// Parsing options as their tables describe them.
+// Parses options as their tables describe them.
 #include "app/cli/options.h"
 
 #include "renderer/base/assert.h"

@@ -1,4 +1,4 @@
-// Flushing standard output.
+// Flushes standard output.
 #include "app/cli/output.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-// Checking that everything printed has been written to standard output. The output may be a file on
+// Checks that everything printed has been written to standard output. The output may be a file on
 // a full disk.
 #ifndef DIP_APP_CLI_OUTPUT_H
 #define DIP_APP_CLI_OUTPUT_H

@@ -1,4 +1,4 @@
-// Counting what is done, and estimating the time left from the rate so far.
+// Counts what is done, and estimates the time left from the rate so far.
 #include "app/cli/progress.h"
 
 #include "renderer/base/clock.h"

@@ -1,4 +1,4 @@
-// Changing some settings of a pane and keeping the others.
+// Changes some settings of a pane and keeps the others.
 #include "app/control/request.h"
 
 #include <stdio.h>

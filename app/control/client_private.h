@@ -26,7 +26,7 @@ typedef struct DipClient {
     uint64_t dropped; // Events that were dropped since the last event that was sent.
     int attempt;      // How often the first line has been put off.
     size_t in_first;  // Index in `in` of the first byte that is not used yet.
-    size_t in_bytes;  // Number of such bytes.
+    size_t in_bytes;  // Number of bytes in `in` that are not used yet.
     size_t out_bytes;
     char in[DIP_CONTROL_MAX_LINE_BYTES + 2]; // Room for the line, "\r" and "\n".
     char out[DIP_CLIENT_OUT_BYTES];

@@ -1,4 +1,4 @@
-// Clients, replies and events.
+// Accepts clients, answers their lines and sends them events.
 #include "app/control/control.h"
 
 #include "app/control/client_private.h"

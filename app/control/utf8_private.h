@@ -1,4 +1,4 @@
-// Checking and mending UTF-8.
+// Checks and mends UTF-8.
 #ifndef DIP_APP_CONTROL_UTF8_PRIVATE_H
 #define DIP_APP_CONTROL_UTF8_PRIVATE_H
 

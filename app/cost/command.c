@@ -37,7 +37,7 @@ const DipCommand dip_cost_command = {
             "how much closer the picture comes to the converged picture, which has very many "
             "samples per pixel. It writes a report with tables, plots and pictures.\n\n"
             "A run takes minutes. To continue an interrupted run, give the same command again. "
-            "docs/cost.md defines every number in the report.",
+            "docs/cost-methods.md defines every number in the report.",
     .examples = cost_examples,
     .example_count = DIP_ARRAY_COUNT(cost_examples),
     .lists_settings = true,

@@ -29,26 +29,27 @@ static bool write_file(const DipCostReport *report, const char *folder, const ch
     return write(report, file, err);
 }
 
-static bool write_page(DipCostContext *cost, const char *folder, DipError *err) {
+static bool write_page(const DipCostReport *report, const DipCostFrameSource *source,
+                       const char *folder, DipError *err) {
     char file[PATH_MAX];
     DipCostPictures pictures;
-    const DipCostFrameSource source = dip_cost_drawn_frames(cost);
     if (snprintf(file, sizeof file, "%s/cost.html", folder) >= (int)sizeof file) {
         return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
                                      "the name is too long");
     }
-    if (!dip_cost_pictures_make(&pictures, cost->report, &source, err)) {
+    if (!dip_cost_pictures_make(&pictures, report, source, err)) {
         return false;
     }
-    const bool written = dip_cost_write_html(cost->report, &pictures, file, err);
+    const bool written = dip_cost_write_html(report, &pictures, file, err);
     dip_cost_pictures_free(&pictures);
     return written;
 }
 
-static bool write_report(DipCostContext *cost, const char *folder, DipError *err) {
-    return dip_cost_keep_frames(cost, folder, err) && write_page(cost, folder, err) &&
-           write_file(cost->report, folder, "cost.csv", dip_cost_write_csv, err) &&
-           write_file(cost->report, folder, "cost.json", dip_cost_write_json, err);
+bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
+                           const char *folder, DipError *err) {
+    return write_page(report, source, folder, err) &&
+           write_file(report, folder, "cost.csv", dip_cost_write_csv, err) &&
+           write_file(report, folder, "cost.json", dip_cost_write_json, err);
 }
 
 bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err) {
@@ -109,7 +110,9 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     if (done) {
         set_date(report);
         dip_cost_remember_level(report, cost.cache);
-        done = save_truths(&cost, err) && write_report(&cost, arguments->out, err);
+        const DipCostFrameSource source = dip_cost_drawn_frames(&cost);
+        done =
+            save_truths(&cost, err) && dip_cost_write_report(report, &source, arguments->out, err);
     }
     dip_cost_context_close(&cost);
     dip_cost_journal_close(&journal, done);

@@ -3,6 +3,7 @@
 #define DIP_APP_COST_COST_H
 
 #include "app/cost/options.h"
+#include "app/report/page/picture_set.h"
 #include "app/session/session.h"
 
 #include <limits.h>
@@ -11,10 +12,16 @@
 // otherwise the user's cache folder. Makes the folder. Writes "" if there is no cache.
 bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err);
 
+// Writes cost.html, cost.csv and cost.json into a folder that exists. The source draws the pictures
+// of the page; it is not used with --pictures none.
+bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
+                           const char *folder, DipError *err);
+
 // Measures the time and the error of each setting, writes the report and prints its table.
 bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipError *err);
 
-// Joins the parts of a report that several machines measured.
-bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err);
+// Joins the parts of a report that several machines measured. The session shows the scene of the
+// parts; with --pictures none it has no scene.
+bool dip_cost_merge_run(DipSession *session, const DipCostMergeArguments *arguments, DipError *err);
 
 #endif

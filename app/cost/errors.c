@@ -1,4 +1,4 @@
-// Making the truths (converged pictures), and judging every row: measuring its pictures' errors
+// Makes the truths (converged pictures), and judges every row: measures its pictures' errors
 // against the truths.
 #include "app/cost/steps.h"
 #include "app/cli/interrupt.h"

@@ -1,4 +1,4 @@
-// Drawing a scene larger, and averaging.
+// Makes the truth of a gallery scene: draws it k times larger and averages k x k pixels.
 #include "app/cost/gallery_truth.h"
 
 #include <string.h>

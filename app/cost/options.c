@@ -104,24 +104,14 @@ bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *
     return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "p95, mean or worst");
 }
 
-static bool read_kind(DipCostPictureKind *kind, const DipOptionRow *row, const char *value,
-                      DipError *err) {
+static bool read_pictures(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(dip_cost_picture_kind_names); i++) {
         if (strcmp(value, dip_cost_picture_kind_names[i]) == 0) {
-            *kind = (DipCostPictureKind)i;
+            ((DipCostOptions *)fields)->pictures = (DipCostPictureKind)i;
             return true;
         }
     }
     return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "crops, full or none");
-}
-
-static bool read_pictures(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    return read_kind(&((DipCostOptions *)fields)->pictures, row, value, err);
-}
-
-static bool read_merged_pictures(void *fields, const DipOptionRow *row, const char *value,
-                                 DipError *err) {
-    return read_kind(&((DipCostMergeArguments *)fields)->pictures, row, value, err);
 }
 
 // --- the tables ----------------------------------------------------------------------------------
@@ -141,12 +131,6 @@ static const DipOptionRow merge_rows[] = {
      .text = "Write the joined cost.json, cost.csv and cost.html into this folder.",
      .kind = DIP_OPTION_TEXT,
      .field = offsetof(DipCostMergeArguments, out)},
-    {.name = "--pictures",
-     .argument = "KIND",
-     .text = "The pictures in the joined cost.html, made from the frames that the parts keep: "
-             "crops, full or none. The default is crops.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_merged_pictures},
 };
 
 static const DipOptionRow choice_rows[] = {
@@ -193,10 +177,21 @@ static const DipOptionRow picture_rows[] = {
      .argument = "KIND",
      .text = "The pictures in cost.html: crops (the part of each picture in which the steps differ "
              "most), full (whole frames, as many as fit in 10 MB, and otherwise crops) or none. "
-             "The default is crops. Unless it is none, a part (--part) keeps whole frames in "
-             "DIR/frames, from which cost merge makes the pictures of its page.",
+             "The default is crops.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_pictures},
+};
+
+static const DipOptionRow cache_rows[] = {
+    {.name = "--cache",
+     .argument = "DIR",
+     .text = "Keep the converged pictures in this folder. The default is $XDG_CACHE_HOME/diptych. "
+             "If XDG_CACHE_HOME is not set, it is ~/.cache/diptych.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(cache)},
+};
+
+static const DipOptionRow truth_rows[] = {
     {.name = "--save-truths",
      .argument = "DIR",
      .text = "Also write the converged pictures into this folder, as PFM files in linear light. "
@@ -248,12 +243,6 @@ static const DipOptionRow error_rows[] = {
              "lets several machines share the work. `diptych cost merge` joins their reports.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_part},
-    {.name = "--cache",
-     .argument = "DIR",
-     .text = "Keep the converged pictures in this folder. The default is $XDG_CACHE_HOME/diptych. "
-             "If XDG_CACHE_HOME is not set, it is ~/.cache/diptych.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(cache)},
 };
 
 static const DipOptionRow time_rows[] = {
@@ -297,6 +286,8 @@ static const DipOptionTable choice_table = {"What to measure", choice_rows,
                                             DIP_ARRAY_COUNT(choice_rows)};
 static const DipOptionTable picture_table = {"Pictures", picture_rows,
                                              DIP_ARRAY_COUNT(picture_rows)};
+static const DipOptionTable cache_table = {"Pictures", cache_rows, DIP_ARRAY_COUNT(cache_rows)};
+static const DipOptionTable truth_table = {"Pictures", truth_rows, DIP_ARRAY_COUNT(truth_rows)};
 static const DipOptionTable error_table = {"Errors", error_rows, DIP_ARRAY_COUNT(error_rows)};
 static const DipOptionTable time_table = {"Times", time_rows, DIP_ARRAY_COUNT(time_rows)};
 
@@ -306,6 +297,8 @@ static const DipOptionPart cost_parts[] = {
     {&error_table, offsetof(DipCostArguments, cost)},
     {&time_table, offsetof(DipCostArguments, cost)},
     {&picture_table, offsetof(DipCostArguments, cost)},
+    {&cache_table, offsetof(DipCostArguments, cost)},
+    {&truth_table, offsetof(DipCostArguments, cost)},
     {&dip_scene_option_table, offsetof(DipCostArguments, session)},
     {&dip_path_option_table, offsetof(DipCostArguments, session)},
     {&dip_size_option_table, offsetof(DipCostArguments, session)},
@@ -314,6 +307,10 @@ static const DipOptionPart cost_parts[] = {
 };
 static const DipOptionPart merge_parts[] = {
     {&merge_table, 0},
+    {&picture_table, offsetof(DipCostMergeArguments, cost)},
+    {&cache_table, offsetof(DipCostMergeArguments, cost)},
+    {&dip_scene_option_table, offsetof(DipCostMergeArguments, session)},
+    {&dip_threads_option_table, offsetof(DipCostMergeArguments, session)},
     {&dip_program_option_table, offsetof(DipCostMergeArguments, program)},
 };
 const DipOptionParts dip_cost_option_parts = {cost_parts, DIP_ARRAY_COUNT(cost_parts)};
@@ -370,5 +367,6 @@ bool dip_cost_merge_options_check(const void *arguments, DipError *err) {
            (all->part_count > 0 ||
             dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost merge",
                           "there are no parts to join; give the cost.json of each: cost merge "
-                          "--out DIR PART/cost.json..."));
+                          "--out DIR PART/cost.json...")) &&
+           dip_session_options_check(&all->session, err);
 }

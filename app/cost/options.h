@@ -19,8 +19,9 @@ typedef struct DipCostArguments {
 // The whole command line of `diptych cost merge`.
 typedef struct DipCostMergeArguments {
     DipProgramOptions program;
+    DipSessionOptions session; // The scene, from which the pictures of the page are drawn.
     const char *out;
-    DipCostPictureKind pictures; // The pictures in the page.
+    DipCostOptions cost; // Only the kind of pictures and the cache are used.
     const char *parts[DIP_COST_MAX_PARTS];
     int part_count;
 } DipCostMergeArguments;

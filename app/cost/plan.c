@@ -110,29 +110,15 @@ static void refuse(DipCostReport *report, const char *what, const char *why) {
     }
 }
 
-static DipCostSweep *begin_sweep(DipCostReport *report, DipSetting setting, int path, int base,
-                                 const char *with) {
+static DipCostSweep *begin_sweep(DipCostReport *report, DipSetting setting, int path, int base) {
     DipCostSweep *sweep = &report->sweeps[report->sweep_count++];
     *sweep = (DipCostSweep){.setting = setting, .path = path, .base = base};
-    snprintf(sweep->title, sizeof sweep->title, "%s%s%s", dip_setting_info(setting)->title,
-             *with ? " with " : "", with);
     return sweep;
 }
 
 static void add_to_sweep(DipCostSweep *sweep, int row) {
     if (row >= 0 && sweep->row_count < DIP_COST_MAX_SWEEP_ROWS) {
         sweep->rows[sweep->row_count++] = row;
-    }
-}
-
-// Writes the settings that differ from their defaults, except the setting of the sweep. Writes ""
-// if there are none.
-static void context_text(const DipQuality *quality, DipSetting setting, char text[DIP_COST_TEXT]) {
-    DipQuality context = *quality;
-    context.step[setting] = (uint8_t)dip_setting_info(setting)->default_step;
-    dip_cost_settings_text(&context, text);
-    if (strcmp(text, "defaults") == 0) {
-        text[0] = '\0';
     }
 }
 
@@ -161,9 +147,7 @@ static void plan_setting(DipCostReport *report, const DipSession *session, DipSe
         return;
     }
     const int path = add_path(report, session, plan->category);
-    char with[DIP_COST_TEXT];
-    context_text(&base, setting, with);
-    DipCostSweep *sweep = begin_sweep(report, setting, path, add_row(report, &base, path), with);
+    DipCostSweep *sweep = begin_sweep(report, setting, path, add_row(report, &base, path));
     for (int i = 0; i < count; i++) {
         add_to_sweep(sweep, add_row(report, &steps[i], path));
     }
@@ -183,9 +167,7 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
         }
         const int path = add_path(report, session, plans[DIP_SETTING_AAA].category);
         const int base_row = add_row(report, &base, path);
-        char with[DIP_COST_TEXT];
-        context_text(&base, DIP_SETTING_AAA, with);
-        DipCostSweep *sweep = begin_sweep(report, DIP_SETTING_AAA, path, base_row, with);
+        DipCostSweep *sweep = begin_sweep(report, DIP_SETTING_AAA, path, base_row);
         add_to_sweep(sweep, base_row);
         for (int asd = group_size->step_count - 1; asd >= 0; asd--) {
             DipQuality on = base;

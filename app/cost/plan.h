@@ -1,4 +1,4 @@
-// Planning the rows of a report. A row is one combination of settings on a camera path. There is a
+// Plans the rows of a report. A row is one combination of settings on a camera path. There is a
 // row for every step of every setting, on the camera path made for this setting, and a row for
 // every combination that --combine asks for.
 #ifndef DIP_APP_COST_PLAN_H

@@ -1,7 +1,8 @@
-// Drawing a few frames of many combinations, for their counters.
+// Draws a few frames of many combinations, for their counters.
 #include "app/cost/prediction_counts.h"
 
 #include "app/report/combinations.h"
+#include "app/report/work.h"
 #include "app/cli/progress.h"
 
 #include <string.h>
@@ -38,57 +39,30 @@ static bool count(Counting *c, const DipQuality *quality, double *counters, DipE
     return true;
 }
 
-static bool is_same(const DipQuality *a, const DipQuality *b) {
-    return memcmp(a, b, sizeof *a) == 0;
-}
-
-// Returns the combination with these settings, or NULL.
-static const DipCostPrediction *find(const DipCostPredictions *predicted,
-                                     const DipQuality *quality) {
+// The counters of a listed combination; see DipWorkFind.
+static const double *find(const void *context, const DipQuality *quality) {
+    const DipCostPredictions *predicted = context;
     for (int i = 0; i < predicted->count; i++) {
-        if (is_same(&predicted->list[i].quality, quality)) {
-            return &predicted->list[i];
+        if (dip_quality_equal(&predicted->list[i].quality, quality)) {
+            return predicted->list[i].counters;
         }
     }
     return NULL;
 }
 
-// The two combinations that a combination is composed of: one with its antialiasing and the
-// baseline's filtering, and one with its filtering and the baseline's antialiasing. NULL if the
-// list lacks them, as a list can from which combinations with the same pictures were joined.
-typedef struct Parts {
-    const DipCostPrediction *sampling;
-    const DipCostPrediction *filtering;
-} Parts;
-
-static Parts parts_of(const DipCostReport *report, const DipQuality *quality) {
+// True if the combination is composed rather than drawn: of many combinations, those that have
+// neither the baseline's antialiasing nor its filtering. A list from which combinations with the
+// same pictures were joined can lack what a combination is composed of.
+static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
     const DipQuality *baseline = &report->options.baseline;
     const unsigned settings = dip_cost_sampling_settings();
-    const DipQuality sampling = dip_cost_take_settings(quality, baseline, ~settings);
-    const DipQuality filtering = dip_cost_take_settings(quality, baseline, settings);
-    return (Parts){find(&report->predicted, &sampling), find(&report->predicted, &filtering)};
-}
-
-// True if the combination is the product of two others rather than drawn.
-static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
-    if (report->predicted.count <= DIP_COST_MOST_COUNTED ||
-        !find(&report->predicted, &report->options.baseline)) {
-        return false;
-    }
-    const Parts parts = parts_of(report, &combination->quality);
-    return parts.sampling && parts.filtering && parts.sampling != combination &&
-           parts.filtering != combination;
-}
-
-static void compose(const DipCostReport *report, DipCostPrediction *to) {
-    const DipCostPrediction *neither = find(&report->predicted, &report->options.baseline);
-    const Parts parts = parts_of(report, &to->quality);
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-        const double base = neither->counters[c];
-        to->counters[c] = base > 0.0
-                              ? parts.sampling->counters[c] * parts.filtering->counters[c] / base
-                              : parts.sampling->counters[c];
-    }
+    const DipQuality sampling = dip_cost_take_settings(&combination->quality, baseline, ~settings);
+    const DipQuality filtering = dip_cost_take_settings(&combination->quality, baseline, settings);
+    return report->predicted.count > DIP_COST_MOST_COUNTED &&
+           !dip_quality_equal(&sampling, &combination->quality) &&
+           !dip_quality_equal(&filtering, &combination->quality) &&
+           find(&report->predicted, baseline) && find(&report->predicted, &sampling) &&
+           find(&report->predicted, &filtering);
 }
 
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
@@ -107,8 +81,10 @@ bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
     }
     dip_progress_end(&c.progress, c.drawn);
     for (int i = 0; counted && i < predicted->count; i++) {
-        if (is_composed(report, &predicted->list[i])) {
-            compose(report, &predicted->list[i]);
+        DipCostPrediction *to = &predicted->list[i];
+        if (is_composed(report, to)) {
+            dip_work_compose(find, predicted, &report->options.baseline, &to->quality,
+                             to->counters);
         }
     }
     return counted;

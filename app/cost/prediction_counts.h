@@ -1,4 +1,4 @@
-// Counting the work of the combinations that --predict ranks, from a few frames of each.
+// Counts the work of the combinations that --predict ranks, from a few frames of each.
 #ifndef DIP_APP_COST_PREDICTION_COUNTS_H
 #define DIP_APP_COST_PREDICTION_COUNTS_H
 

@@ -1,4 +1,4 @@
-// Hashing every part of a scene in a fixed order.
+// Hashes every part of a scene in a fixed order.
 #include "app/cost/scene_hash.h"
 
 #include "renderer/base/hash.h"

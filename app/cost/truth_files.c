@@ -1,4 +1,4 @@
-// Writing truths as PFM files.
+// Writes truths as PFM files.
 #include "app/cost/truth_files.h"
 
 #include "app/files/folder.h"

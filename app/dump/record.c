@@ -1,4 +1,4 @@
-// Building the record with cJSON.
+// Builds the record with cJSON.
 #include "app/dump/record.h"
 
 #include "app/files/whole_file.h"

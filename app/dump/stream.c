@@ -1,4 +1,4 @@
-// Writing streams of video.
+// Writes streams of video.
 #include "app/dump/stream.h"
 
 #include "app/cli/log.h"

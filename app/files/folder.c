@@ -1,4 +1,4 @@
-// Making each missing folder of a path, from the outermost inwards.
+// Makes each missing folder of a path, from the outermost inwards.
 #include "app/files/folder.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-// Encoding JPEG in memory by stb_image_write. Unlike its encoder of PNG, the encoder of JPEG
+// Encodes JPEG in memory by stb_image_write. Unlike its encoder of PNG, the encoder of JPEG
 // allocates nothing (so png.c's memory is not needed) and shifts bits out of a signed int, which
 // the sanitizer must overlook in this file.
 #include "app/files/jpeg.h"

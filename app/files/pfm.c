@@ -1,4 +1,4 @@
-// Writing PFM files.
+// Writes PFM files.
 #include "app/files/pfm.h"
 
 #include "app/files/whole_file.h"

@@ -1,4 +1,4 @@
-// Encoding PNG and compressing with deflate in memory, both by stb_image_write.
+// Encodes PNG and compresses with deflate in memory, both by stb_image_write.
 #include "app/files/png.h"
 
 #include "app/files/whole_file.h"

@@ -1,4 +1,4 @@
-// Listing combinations.
+// Lists combinations of settings.
 #include "app/report/combinations.h"
 
 typedef struct List {
@@ -7,15 +7,6 @@ typedef struct List {
     int room;
     int count;
 } List;
-
-// True if some enabled setting has no effect, so that another combination draws the same picture.
-static bool is_idle(const DipQuality *q) {
-    const bool adaptive = q->step[DIP_SETTING_AAA] != 0;
-    return (q->step[DIP_SETTING_AAF] && !q->step[DIP_SETTING_AF]) ||
-           (q->step[DIP_SETTING_TAA] && !q->step[DIP_SETTING_AA]) ||
-           (!adaptive && q->step[DIP_SETTING_ASD]) ||
-           (adaptive && dip_quality_samples_per_group(q) == dip_quality_sample_count(q));
-}
 
 static void add_from(List *list, DipQuality quality, int setting) {
     while (setting < DIP_SETTING_COUNT && !(list->settings >> setting & 1)) {
@@ -26,7 +17,10 @@ static void add_from(List *list, DipQuality quality, int setting) {
             quality.step[setting] = (uint8_t)step;
             add_from(list, quality, setting + 1);
         }
-    } else if (dip_quality_check(&quality, NULL) && !is_idle(&quality)) {
+        return;
+    }
+    const DipQuality effective = dip_quality_effective(&quality);
+    if (dip_quality_check(&quality, NULL) && dip_quality_equal(&quality, &effective)) {
         if (list->count < list->room) {
             list->items[list->count] = quality;
         }

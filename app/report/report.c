@@ -89,23 +89,19 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->floors);
     free(report->has_floor);
     free(report->predicted.list);
-    dip_cost_kept_frames_free(&report->kept);
     *report = (DipCostReport){0};
 }
 
-void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]) {
-    size_t length = 0;
-    text[0] = '\0';
-    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
-        if (quality->step[s] != info->default_step && length < DIP_COST_TEXT) {
-            length += (size_t)snprintf(text + length, DIP_COST_TEXT - length, "%s%s=%s",
-                                       length ? "," : "", info->key, info->steps[quality->step[s]]);
-        }
-    }
-    if (length == 0) {
-        snprintf(text, DIP_COST_TEXT, "defaults");
-    }
+void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep,
+                          char text[DIP_COST_TEXT]) {
+    const DipSettingInfo *info = dip_setting_info(sweep->setting);
+    DipQuality others = report->rows[sweep->base].quality;
+    char with[DIP_COST_TEXT];
+    others.step[sweep->setting] = (uint8_t)info->default_step;
+    dip_cost_settings_text(&others, with);
+    const bool has_others = dip_quality_count_changes(&others) > 0;
+    snprintf(text, DIP_COST_TEXT, "%s%s%.100s", info->title, has_others ? " with " : "",
+             has_others ? with : "");
 }
 
 void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
@@ -325,21 +321,13 @@ int dip_cost_step_up(const DipCostReport *report, int row) {
     return next;
 }
 
-int dip_cost_count_changes(const DipQuality *quality) {
-    int count = 0;
-    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        count += quality->step[s] != dip_setting_info((DipSetting)s)->default_step;
-    }
-    return count;
-}
-
 // True if row a is to be preferred to row b, whose errors are alike.
 static bool is_preferred(const DipCostReport *report, int a, int b) {
     const DipStatsEstimate x = dip_cost_budget_time(report, a);
     const DipStatsEstimate y = dip_cost_budget_time(report, b);
     const bool apart = x.high < y.low || y.high < x.low;
-    const int changes = dip_cost_count_changes(&report->rows[a].quality) -
-                        dip_cost_count_changes(&report->rows[b].quality);
+    const int changes = dip_quality_count_changes(&report->rows[a].quality) -
+                        dip_quality_count_changes(&report->rows[b].quality);
     return !apart && changes != 0 ? changes < 0 : x.value < y.value;
 }
 

@@ -5,7 +5,6 @@
 #ifndef DIP_APP_REPORT_REPORT_H
 #define DIP_APP_REPORT_REPORT_H
 
-#include "app/report/kept_frames.h"
 #include "app/report/report_plan.h"
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
@@ -73,7 +72,6 @@ typedef struct DipCostSame {
 
 // A sweep: all steps of one setting on one path, with every other setting held constant.
 typedef struct DipCostSweep {
-    char title[DIP_COST_TEXT]; // "Adaptive AA with aa=4"
     DipSetting setting;
     int path;
     int base; // Row of the step that the baseline has, with which the other steps are compared.
@@ -204,7 +202,6 @@ typedef struct DipCostReport {
     int smaller_count; // 0 if they were not timed.
     int smaller_width; // Pixels.
     int smaller_height;
-    DipCostKeptFrames kept; // Frames that a part keeps for the merged page. Owned.
 } DipCostReport;
 
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
@@ -222,18 +219,22 @@ void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]
 
 void dip_cost_row_free(DipCostRow *row);
 
-// Returns the number of settings that differ from their defaults.
-int dip_cost_count_changes(const DipQuality *quality);
-
 // --- texts -------------------------------------------------------------------------------------
 
 // Writes the settings that differ from the defaults, "aa=4,af=16", or "defaults".
-void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]);
+static inline void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]) {
+    dip_quality_format_changes(quality, text, DIP_COST_TEXT);
+}
 
 // Returns the plural ending of a noun after a number: "" or "s".
 static inline const char *dip_cost_plural(int count) {
     return count == 1 ? "" : "s";
 }
+
+// Writes the sweep's setting, and the others that differ from their defaults in its base: "Adaptive
+// AA with aa=4". Reports that were read have their titles from here, too.
+void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep,
+                          char text[DIP_COST_TEXT]);
 
 // Writes the name of a row's step in its sweep: "4", "high-quality"; for adaptive AA "off" or
 // "on, asd=2".

@@ -19,9 +19,9 @@ bool dip_cost_same_pictures(const DipCostReport *report, int a, int b) {
 // fewest settings off their defaults, and of several the first.
 static int representative(const DipCostReport *report, int row) {
     int best = row;
-    int least = dip_cost_count_changes(&report->rows[row].quality);
+    int least = dip_quality_count_changes(&report->rows[row].quality);
     for (int r = report->combined_first; r < report->row_count; r++) {
-        const int changes = dip_cost_count_changes(&report->rows[r].quality);
+        const int changes = dip_quality_count_changes(&report->rows[r].quality);
         if ((changes < least || (changes == least && r < best)) &&
             dip_cost_same_pictures(report, row, r)) {
             best = r;

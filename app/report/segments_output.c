@@ -1,6 +1,8 @@
 // Printing advice per segment, and writing it as JSON.
 #include "app/report/segments_output.h"
 
+#include "app/files/put.h"
+
 #include <cjson/cJSON.h>
 
 static const DipCostSegmentValue *value_of(const DipCostSegmentList *list, int segment, int index) {
@@ -37,19 +39,21 @@ static int fewest_viewpoints(const DipCostSegmentList *list) {
 static void print_heading(const DipCostSegmentList *list, FILE *out) {
     const DipCostBudgetOf of = list->report->options.budget_of;
     const int fewest = fewest_viewpoints(list);
-    fprintf(out, "\nSettings per segment: path %s in %d segments. ", list->report->paths[0],
-            list->segments->count);
+    dip_put_text(out, "\nSettings per segment: path %s in %d segments. ", list->report->paths[0],
+                 list->segments->count);
     if (of == DIP_COST_BUDGET_MEAN) {
-        fprintf(out, "Time is spent where it lowers FLIP most; the mean time of the path is surely "
+        dip_put_text(out,
+                     "Time is spent where it lowers FLIP most; the mean time of the path is surely "
                      "within the budget.\n");
     } else {
-        fprintf(out, "The %s time of every segment is surely within the budget.\n",
-                dip_cost_budget_of_names[of]);
+        dip_put_text(out, "The %s time of every segment is surely within the budget.\n",
+                     dip_cost_budget_of_names[of]);
     }
-    fprintf(out,
-            "The FLIP of a segment comes from its viewpoints only, of which the segment with the "
-            "fewest has %d; the gain is the more certain the more --places the report has.\n",
-            fewest);
+    dip_put_text(
+        out,
+        "The FLIP of a segment comes from its viewpoints only, of which the segment with the "
+        "fewest has %d; the gain is the more certain the more --places the report has.\n",
+        fewest);
 }
 
 static void print_segment(const DipCostSegmentList *list, const DipCostSegmentAdvice *advice, int s,
@@ -58,41 +62,44 @@ static void print_segment(const DipCostSegmentList *list, const DipCostSegmentAd
     const DipCostSegmentValue *value = value_of(list, s, advice->chosen[s]);
     char settings[DIP_COST_TEXT];
     dip_cost_settings_text(quality_of(list, advice->chosen[s]), settings);
-    fprintf(out, "    %4.0f %% %4.0f %% %11d %7d %8.2f %8.2f %8.5f  %s\n", 100.0 * segment->from,
-            100.0 * segment->end, viewpoints_of(segment), segment->end_frame - segment->first_frame,
-            value->ms, value->bound, value->flip, settings);
+    dip_put_text(out, "    %4.0f %% %4.0f %% %11d %7d %8.2f %8.2f %8.5f  %s\n",
+                 100.0 * segment->from, 100.0 * segment->end, viewpoints_of(segment),
+                 segment->end_frame - segment->first_frame, value->ms, value->bound, value->flip,
+                 settings);
 }
 
 static void print_gain(const DipCostSegmentList *list, const DipCostSegmentAdvice *advice,
                        FILE *out) {
     const DipCostBudgetOf of = list->report->options.budget_of;
     char settings[DIP_COST_TEXT];
-    fprintf(out, "\n%g ms: mean FLIP %.5f, ", advice->budget_ms, advice->flip);
+    dip_put_text(out, "\n%g ms: mean FLIP %.5f, ", advice->budget_ms, advice->flip);
     if (advice->fixed >= 0) {
         dip_cost_settings_text(quality_of(list, advice->fixed), settings);
-        fprintf(out, "%.1f %% below that of %s for the whole path (%.5f)",
-                100.0 * (1.0 - advice->flip / advice->fixed_flip), settings, advice->fixed_flip);
+        dip_put_text(out, "%.1f %% below that of %s for the whole path (%.5f)",
+                     100.0 * (1.0 - advice->flip / advice->fixed_flip), settings,
+                     advice->fixed_flip);
     } else {
-        fprintf(out, "and no single combination is surely that fast");
+        dip_put_text(out, "and no single combination is surely that fast");
     }
-    fprintf(out, "; %s %.2f ms, bound %.2f ms\n",
-            of == DIP_COST_BUDGET_MEAN ? "mean time" : "slowest segment", advice->ms,
-            advice->bound);
-    fprintf(out, "    %6s %6s %11s %7s %8s %8s %8s  %s\n", "from", "to", "viewpoints", "frames",
-            "ms", "bound", "FLIP", "settings");
+    dip_put_text(out, "; %s %.2f ms, bound %.2f ms\n",
+                 of == DIP_COST_BUDGET_MEAN ? "mean time" : "slowest segment", advice->ms,
+                 advice->bound);
+    dip_put_text(out, "    %6s %6s %11s %7s %8s %8s %8s  %s\n", "from", "to", "viewpoints",
+                 "frames", "ms", "bound", "FLIP", "settings");
 }
 
 static void print_budget(const DipCostSegmentList *list, const DipCostSegmentAdvice *advice,
                          FILE *out) {
     char settings[DIP_COST_TEXT];
     if (advice->chosen[0] < 0) {
-        fprintf(out, "\n%g ms: no combination is surely that fast\n", advice->budget_ms);
+        dip_put_text(out, "\n%g ms: no combination is surely that fast\n", advice->budget_ms);
         return;
     }
     if (is_fixed(list, advice)) {
         dip_cost_settings_text(quality_of(list, advice->fixed), settings);
-        fprintf(out, "\n%g ms: nothing is gained over %s for the whole path (mean FLIP %.5f)\n",
-                advice->budget_ms, settings, advice->flip);
+        dip_put_text(out,
+                     "\n%g ms: nothing is gained over %s for the whole path (mean FLIP %.5f)\n",
+                     advice->budget_ms, settings, advice->flip);
         return;
     }
     print_gain(list, advice, out);
@@ -100,8 +107,8 @@ static void print_budget(const DipCostSegmentList *list, const DipCostSegmentAdv
         print_segment(list, advice, s, out);
     }
     if (advice->slope > 0.0) {
-        fprintf(out, "    slope: 1 ms more would lower the mean FLIP by about %.5f\n",
-                advice->slope);
+        dip_put_text(out, "    slope: 1 ms more would lower the mean FLIP by about %.5f\n",
+                     advice->slope);
     }
 }
 

@@ -10,8 +10,8 @@
 #include "app/report/report.h"
 
 enum {
-    DIP_COST_MAX_TERMS = 20,                                       // Of one stage.
-    DIP_COST_ALL_TERMS = DIP_COST_STAGE_COUNT * DIP_COST_MAX_TERMS // Of all stages, at most.
+    DIP_COST_MAX_TERMS = 20,                                       // Greatest number for one stage.
+    DIP_COST_ALL_TERMS = DIP_COST_STAGE_COUNT * DIP_COST_MAX_TERMS // The same for all stages.
 };
 
 // Returns the number of terms of a stage.
@@ -20,14 +20,14 @@ int dip_cost_term_count(DipCostStage stage);
 // Returns the name of a term: "texel fetched". Static storage.
 const char *dip_cost_term_name(DipCostStage stage, int term);
 
-// Computes the amounts of a stage's terms from the counters of a frame (means over frames are
-// amounts too) that is drawn with these settings.
+// Computes the amounts of a stage's terms. `counters` are those of a frame that was drawn with
+// these settings, or their means over several frames.
 void dip_cost_terms(DipCostStage stage, const double counters[DIP_COST_COUNTER_COUNT],
                     const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
 
-// Terms that explain a picture's FLIP by its settings alone: of antialiasing, of the clipping of
-// alpha-clipped surfaces, of anisotropic filtering and of the other settings, and products of two
-// of them where one hides a part of the other. Each is 0 to 1.
+// Error terms explain a picture's FLIP by its settings alone. There are terms for antialiasing, for
+// the clipping of alpha-clipped surfaces, for anisotropic filtering and for the other settings, and
+// products of two terms where one error hides a part of the other. Each term is 0 to 1.
 enum { DIP_COST_ERROR_TERMS = 27 };
 
 void dip_cost_error_terms(const DipQuality *quality, double terms[DIP_COST_ERROR_TERMS]);

@@ -1,6 +1,8 @@
 // Printing the tiers of a settings menu.
 #include "app/report/tiers.h"
 
+#include "app/files/put.h"
+
 const char *const dip_cost_tier_names[DIP_COST_TIER_COUNT] = {"low", "medium", "high", "ultra"};
 
 void dip_cost_tiers_sort(DipCostTier tiers[DIP_COST_TIER_COUNT]) {
@@ -16,15 +18,15 @@ void dip_cost_tiers_sort(DipCostTier tiers[DIP_COST_TIER_COUNT]) {
 
 void dip_cost_tiers_print(DipCostTier tiers[DIP_COST_TIER_COUNT], FILE *out) {
     dip_cost_tiers_sort(tiers);
-    fprintf(out, "\nAs the tiers of a settings menu, and as lines for the ini:\n");
+    dip_put_text(out, "\nAs the tiers of a settings menu, and as lines for the ini:\n");
     for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
         char text[256];
         if (tiers[i].quality) {
             dip_quality_format(tiers[i].quality, text, sizeof text);
-            fprintf(out, "  %-7s REQUESTED: %s\n", dip_cost_tier_names[i], text);
+            dip_put_text(out, "  %-7s REQUESTED: %s\n", dip_cost_tier_names[i], text);
         } else {
-            fprintf(out, "  %-7s nothing is surely within %g ms\n", dip_cost_tier_names[i],
-                    tiers[i].budget_ms);
+            dip_put_text(out, "  %-7s nothing is surely within %g ms\n", dip_cost_tier_names[i],
+                         tiers[i].budget_ms);
         }
     }
 }

@@ -1,4 +1,4 @@
-// Reading the pictures of mip levels.
+// Reads the pictures of mip levels.
 #include "app/session/mip_pictures.h"
 
 #include "app/session/session_private.h"

@@ -1,4 +1,4 @@
-// Collecting the texts of a picture.
+// Collects the texts of a picture.
 #include "app/session/picture_texts.h"
 
 #include "renderer/base/assert.h"

@@ -1,4 +1,4 @@
-// Opening a session: reading the ini, starting the threads, making the renderers; and drawing.
+// Opens a session: reads the ini, starts the threads and makes the renderers. Also draws with them.
 #include "app/session/session_private.h"
 
 #include "app/cli/log.h"

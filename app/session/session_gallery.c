@@ -1,4 +1,4 @@
-// Scenes of the gallery in a session: which one shows, its camera path, and going to the next one.
+// Chooses the gallery's scene that a session shows, makes its camera path, and changes the scene.
 #include "app/session/session_private.h"
 
 #include <limits.h>
@@ -40,7 +40,7 @@ static bool find_assets(DipSession *session, DipErrorList *faults) {
     return true;
 }
 
-// Places an error of the key SCENE, or leaves an error of the option --scene as it is.
+// Adds a fault. If the name of the scene comes from the ini, the fault names the line of the ini.
 static bool refuse(const DipSession *session, DipError *err, DipErrorList *faults) {
     DipError placed = *err;
     if (!session->options->scene) {
@@ -186,7 +186,7 @@ static bool show_scene(DipSession *session, int scene, DipError *err) {
 bool dip_session_step_scene(DipSession *session, int step, DipError *err) {
     const int ring = dip_gallery_scene_count() + (session->scene ? 1 : 0);
     const int now = session->shows_gallery ? session->gallery_scene : dip_gallery_scene_count();
-    // From the tour, the first scene comes next, and the last one comes before.
+    // After the tour comes the first scene, and before it the last one.
     const int from = now == DIP_GALLERY_TOUR ? (step > 0 ? -1 : 0) : now;
     return show_scene(session, (from + step + ring) % ring, err);
 }

@@ -1,4 +1,4 @@
-// Loading the models of a session and making its scene.
+// Loads the models of a session and makes its scene.
 #include "app/session/session_private.h"
 
 #include "assets/model.h"

@@ -1,4 +1,4 @@
-// Reading the clock during the start and formatting the result.
+// Reads the clock during the start and formats the result.
 #include "app/session/start_times.h"
 
 #include "renderer/base/clock.h"

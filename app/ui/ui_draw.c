@@ -1,4 +1,5 @@
-// Drawing of the user interface: what a drawing pass records, and the tip.
+// Draws for the user interface: gives a drawing pass what it draws with, shows the tip of a
+// control, and moves the focus at the end of a pass.
 #include "app/ui/style.h"
 #include "app/ui/ui_private.h"
 

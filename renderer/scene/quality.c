@@ -12,8 +12,9 @@
 #define COUNT_OF(...) (sizeof((const char *[]){__VA_ARGS__}) / sizeof(const char *))
 
 static const DipSettingInfo infos[DIP_SETTING_COUNT] = {
-#define DIP_SETTING_INFO(key, NAME, title, def, steps, text)                                       \
-    {#key, title, text, (int)(COUNT_OF steps), def, {STEPS steps}},
+#define DIP_SETTING_INFO(key, NAME, title, brief, def, steps, labels, narrow, text)                \
+    {#key, title,         brief,          text,          (int)(COUNT_OF steps),                    \
+     def,  {STEPS steps}, {STEPS labels}, {STEPS narrow}},
     DIP_SETTING_LIST(DIP_SETTING_INFO)
 #undef DIP_SETTING_INFO
 };
@@ -21,6 +22,11 @@ static const DipSettingInfo infos[DIP_SETTING_COUNT] = {
 const DipSettingInfo *dip_setting_info(DipSetting setting) {
     DIP_ASSERT(setting < DIP_SETTING_COUNT);
     return &infos[setting];
+}
+
+int dip_setting_step_at(DipSetting setting, int position) {
+    const bool best_first = setting == DIP_SETTING_OPT || setting == DIP_SETTING_ASD;
+    return best_first ? infos[setting].step_count - 1 - position : position;
 }
 
 DipQuality dip_quality_default(void) {
@@ -121,6 +127,64 @@ size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_b
                                    infos[s].key, infos[s].steps[quality->step[s]]);
     }
     return length;
+}
+
+size_t dip_quality_format_changes(const DipQuality *quality, char *buffer, size_t size_bytes) {
+    size_t length = 0;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        if (quality->step[s] != infos[s].default_step) {
+            const size_t room = length < size_bytes ? size_bytes - length : 0;
+            length +=
+                (size_t)snprintf(room ? buffer + length : NULL, room, "%s%s=%s", length ? "," : "",
+                                 infos[s].key, infos[s].steps[quality->step[s]]);
+        }
+    }
+    return length ? length : (size_t)snprintf(buffer, size_bytes, "defaults");
+}
+
+int dip_quality_count_changes(const DipQuality *quality) {
+    int count = 0;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        count += quality->step[s] != infos[s].default_step;
+    }
+    return count;
+}
+
+bool dip_quality_equal(const DipQuality *a, const DipQuality *b) {
+    return memcmp(a->step, b->step, sizeof a->step) == 0;
+}
+
+// Returns whether adaptive AA with these settings divides the samples into two groups or more.
+static bool has_groups(const DipQuality *quality) {
+    const int samples = dip_quality_sample_count(quality);
+    const int group = quality->step[DIP_SETTING_ASD] + 1;
+    return dip_sample_groups_exist(samples, group) && group < samples;
+}
+
+DipQuality dip_quality_effective(const DipQuality *quality) {
+    DipQuality effective = *quality;
+    uint8_t *step = effective.step;
+    step[DIP_SETTING_AAF] = step[DIP_SETTING_AF] ? step[DIP_SETTING_AAF] : 0;
+    step[DIP_SETTING_TAA] = step[DIP_SETTING_AA] ? step[DIP_SETTING_TAA] : 0;
+    step[DIP_SETTING_AAA] = has_groups(&effective) ? step[DIP_SETTING_AAA] : 0;
+    step[DIP_SETTING_ASD] = step[DIP_SETTING_AAA] ? step[DIP_SETTING_ASD] : 0;
+    return effective;
+}
+
+const char *dip_quality_needs(const DipQuality *quality, DipSetting setting) {
+    const bool has_samples = dip_quality_sample_count(quality) > 1;
+    switch (setting) {
+    case DIP_SETTING_TAA:
+        return has_samples ? NULL : "needs AA";
+    case DIP_SETTING_AAA:
+        return has_groups(quality) ? NULL : has_samples ? "needs smaller groups" : "needs AA";
+    case DIP_SETTING_ASD:
+        return has_samples && quality->step[DIP_SETTING_AAA] ? NULL : "needs adaptive AA";
+    case DIP_SETTING_AAF:
+        return quality->step[DIP_SETTING_AF] ? NULL : "needs AF";
+    default:
+        return NULL;
+    }
 }
 
 // Refuses a sample group size (asd) that does not exist for aa's number of samples. This is checked

@@ -21,33 +21,41 @@
 extern "C" {
 #endif
 
-// X(key, NAME, "Title", default step, (steps), "what it does")
+// X(key, NAME, "Title", "Short title", default step, (steps), (labels), (narrow labels),
+//   "what it does")
+// A label is a step's name for people; a narrow one has at most six characters.
 #define DIP_SETTING_LIST(X)                                                                        \
-    X(aa, AA, "Antialiasing", 0, ("none", "2", "4", "6", "8"),                                     \
+    X(aa, AA, "Antialiasing", "Antialias.", 0, ("none", "2", "4", "6", "8"),                       \
+      ("none", "2x", "4x", "6x", "8x"), ("none", "2x", "4x", "6x", "8x"),                          \
       "coverage and depth samples per pixel; a surface is still shaded once per pixel")            \
-    X(taa, TAA, "Temporal AA", 0, ("off", "on"),                                                   \
+    X(taa, TAA, "Temporal AA", "Temporal", 0, ("off", "on"), ("off", "on"), ("off", "on"),         \
       "two sample patterns alternate from frame to frame")                                         \
-    X(aaa, AAA, "Adaptive AA", 0, ("off", "on"),                                                   \
+    X(aaa, AAA, "Adaptive AA", "Adaptive", 0, ("off", "on"), ("off", "on"), ("off", "on"),         \
       "alpha-clipped surfaces are clipped and shaded once per sample group of each pixel")         \
-    X(asd, ASD, "Adaptive AA group size", 0, ("1", "2", "3", "4"),                                 \
+    X(asd, ASD, "Adaptive AA group size", "Group size", 0, ("1", "2", "3", "4"),                   \
+      ("1", "2", "3", "4"), ("1", "2", "3", "4"),                                                  \
       "samples that share one sample group: 1 2 with aa=2 and aa=4, 1 2 3 with aa=6, "             \
       "1 2 4 with aa=8")                                                                           \
-    X(af, AF, "Anisotropic filtering", 0, ("none", "2", "4", "8", "16"),                           \
+    X(af, AF, "Anisotropic filtering", "Anisotrop.", 0, ("none", "2", "4", "8", "16"),             \
+      ("none", "2x", "4x", "8x", "16x"), ("none", "2x", "4x", "8x", "16x"),                        \
       "at most this many texture probes along the long axis of a footprint; none: trilinear")      \
-    X(aaf, AAF, "Advanced AF", 0, ("off", "on"),                                                   \
+    X(aaf, AAF, "Advanced AF", "Adv. AF", 0, ("off", "on"), ("off", "on"), ("off", "on"),          \
       "footprints are exact ellipses, so filtering does not depend on a surface's angle")          \
-    X(opt, OPT, "Texture optimisation", 0, ("off", "standard", "advanced"),                        \
+    X(opt, OPT, "Texture optimisation", "Tex. opt.", 0, ("off", "standard", "advanced"),           \
+      ("off", "standard", "advanced"), ("off", "std.", "adv."),                                    \
       "standard compresses colour textures with BC1; advanced also filters with fewer probes")     \
-    X(miplod, MIPLOD, "Mip level of detail", 3,                                                    \
+    X(miplod, MIPLOD, "Mip level of detail", "Mip detail", 3,                                      \
       ("high-performance", "performance", "quality", "high-quality"),                              \
+      ("high perf.", "perform.", "quality", "high qual."), ("h.perf", "perf", "qual", "h.qual"),   \
       "bias towards smaller mip levels; high-performance also drops the largest levels")           \
-    X(gi, GI, "Geometry instancing", 1, ("off", "on"),                                             \
+    X(gi, GI, "Geometry instancing", "Instancing", 1, ("off", "on"), ("off", "on"), ("off", "on"), \
       "on: repeated objects share one mesh; off: each has a copy; the picture is the same")        \
-    X(mipdebug, MIPDEBUG, "Mip colours", 0, ("off", "on"),                                         \
-      "colour textures show each of their mip levels as a flat colour")
+    X(mipdebug, MIPDEBUG, "Mip colours", "Mip col.", 0, ("off", "on"), ("off", "on"),              \
+      ("off", "on"), "colour textures show each of their mip levels as a flat colour")
 
 typedef enum DipSetting {
-#define DIP_SETTING_ENUM(key, NAME, title, def, steps, text) DIP_SETTING_##NAME,
+#define DIP_SETTING_ENUM(key, NAME, title, brief, def, steps, labels, narrow, text)                \
+    DIP_SETTING_##NAME,
     DIP_SETTING_LIST(DIP_SETTING_ENUM)
 #undef DIP_SETTING_ENUM
         DIP_SETTING_COUNT
@@ -71,15 +79,23 @@ typedef struct DipQuality {
 
 // Describes a setting for panels and help texts. All strings are static.
 typedef struct DipSettingInfo {
-    const char *key;   // "aa"
-    const char *title; // "Antialiasing"
-    const char *text;  // what the setting does, in one sentence
-    int step_count;    // 2..DIP_MAX_STEPS
+    const char *key;         // "aa"
+    const char *title;       // "Antialiasing"
+    const char *short_title; // "Antialias.", at most ten characters
+    const char *text;        // what the setting does, in one sentence
+    int step_count;          // 2..DIP_MAX_STEPS
     int default_step;
-    const char *steps[DIP_MAX_STEPS]; // "none", "2", ...
+    const char *steps[DIP_MAX_STEPS];         // "none", "2", ...
+    const char *labels[DIP_MAX_STEPS];        // for people: "none", "2x", ...
+    const char *narrow_labels[DIP_MAX_STEPS]; // at most six characters: "h.perf"
 } DipSettingInfo;
 
 DIP_API const DipSettingInfo *dip_setting_info(DipSetting setting);
+
+// Returns the step at a position of a list whose last entry is the best picture. Texture
+// optimisation and the group size of adaptive AA begin with their best step, so their order is
+// reversed. The function is its own inverse.
+DIP_API int dip_setting_step_at(DipSetting setting, int position);
 
 DIP_API DipQuality dip_quality_default(void);
 
@@ -92,6 +108,26 @@ DIP_API bool dip_quality_parse(const char *text, DipQuality *quality, DipError *
 // Writes all settings in the order of DIP_SETTING_LIST: "aa=none,taa=off,...". Cuts the text to the
 // buffer and returns the length of the whole text, as snprintf does.
 DIP_API size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_bytes);
+
+// Writes the settings that differ from their defaults: "aa=4,af=16", or "defaults". Cuts the text
+// to the buffer and returns the length of the whole text.
+DIP_API size_t dip_quality_format_changes(const DipQuality *quality, char *buffer,
+                                          size_t size_bytes);
+
+// Returns the number of settings that differ from their defaults.
+DIP_API int dip_quality_count_changes(const DipQuality *quality);
+
+DIP_API bool dip_quality_equal(const DipQuality *a, const DipQuality *b);
+
+// Returns the settings with every one turned off that has no effect beside the others: temporal AA
+// and adaptive AA without samples, adaptive AA with a single sample group, a group size without
+// adaptive AA, and advanced AF without AF. Both draw the same pictures in every scene, and take the
+// same time.
+DIP_API DipQuality dip_quality_effective(const DipQuality *quality);
+
+// Returns what a setting needs to have an effect beside the other settings, such as "needs AF", or
+// NULL if one of its steps has an effect.
+DIP_API const char *dip_quality_needs(const DipQuality *quality, DipSetting setting);
 
 // Fails if a step is out of range (RANGE) or if the samples of aa cannot be divided into groups of
 // asd samples (CONFLICT), even when adaptive AA is off.

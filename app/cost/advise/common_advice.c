@@ -236,8 +236,8 @@ static bool is_preferred(const DipCostCommon *common, int a, int b) {
     const DipStatsEstimate x = mean_time(common, a);
     const DipStatsEstimate y = mean_time(common, b);
     const bool apart = x.high < y.low || y.high < x.low;
-    const int changes = dip_cost_count_changes(&common->qualities[a]) -
-                        dip_cost_count_changes(&common->qualities[b]);
+    const int changes = dip_quality_count_changes(&common->qualities[a]) -
+                        dip_quality_count_changes(&common->qualities[b]);
     return !apart && changes != 0 ? changes < 0 : x.value < y.value;
 }
 

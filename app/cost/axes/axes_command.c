@@ -96,7 +96,7 @@ const DipCommand dip_cost_axes_command = {
         "speed-up, and render scales the times of drawing and of enlarging and their errors "
         "against the converged picture, as `diptych cost` has them for settings.\n\n"
         "All threads and all instruction sets must draw the same bits; if one does not, the "
-        "command names it and fails. A run takes a minute or two. docs/cost.md defines every "
+        "command names it and fails. A run takes a minute or two. docs/bench.md defines every "
         "number.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),

@@ -2,6 +2,7 @@
 #include "app/cost/axes/axes.h"
 
 #include "app/files/whole_file.h"
+#include "app/files/put.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -37,16 +38,17 @@ static void print_errors_heading(const DipCostAxes *axes, FILE *out) {
     const DipCostReport *report = &axes->report;
     const int places = report->options.end_place;
     if (!is_judged(axes, 0)) {
-        fprintf(out, "errors   not measured\n");
+        dip_put_text(out, "errors   not measured\n");
         return;
     }
     const DipMetrics base = dip_cost_row_metrics(report, 0, 0);
-    fprintf(out,
-            "errors   %d viewpoint%s, against a converged picture (truth) of 2 x %d samples per "
-            "pixel; the base has RMSE %.5f, FLIP %.5f; the truth's own noise has RMSE %.5f, FLIP "
-            "%.5f\n",
-            places, dip_cost_plural(places), report->options.samples, base.rmse_lin, base.flip,
-            dip_cost_floor_rmse(report, 0, 0), dip_cost_floor_flip(report, 0));
+    dip_put_text(
+        out,
+        "errors   %d viewpoint%s, against a converged picture (truth) of 2 x %d samples per "
+        "pixel; the base has RMSE %.5f, FLIP %.5f; the truth's own noise has RMSE %.5f, FLIP "
+        "%.5f\n",
+        places, dip_cost_plural(places), report->options.samples, base.rmse_lin, base.flip,
+        dip_cost_floor_rmse(report, 0, 0), dip_cost_floor_flip(report, 0));
 }
 
 static double counter(const DipCostAxes *axes, const char *name) {
@@ -62,37 +64,38 @@ static void print_heading(const DipCostAxes *axes, FILE *out) {
     const DipCostReport *report = &axes->report;
     char settings[DIP_COST_TEXT];
     dip_cost_settings_text(&report->options.baseline, settings);
-    fprintf(out, "scene    %s, path %s\n", report->scene, report->paths[0]);
-    fprintf(out, "machine  %s\n", report->processor);
-    fprintf(out, "base     %dx%d pixels, %d thread%s, %s, settings %s\n", report->width,
-            report->height, report->threads, dip_cost_plural(report->threads), report->isa,
-            settings);
-    fprintf(out,
-            "times    %d frames along the path in %d rounds, each beside the base, in an order by "
-            "seed %d; ratio = time / the base's time\n",
-            dip_cost_frame_count(report), report->rounds, report->options.seed);
-    fprintf(out, "machine was %s: %s\n", dip_cost_verdict_names[report->verdict],
-            report->verdict_reason);
-    fprintf(out, "energy   %s\n", axes->energy);
+    dip_put_text(out, "scene    %s, path %s\n", report->scene, report->paths[0]);
+    dip_put_text(out, "machine  %s\n", report->processor);
+    dip_put_text(out, "base     %dx%d pixels, %d thread%s, %s, settings %s\n", report->width,
+                 report->height, report->threads, dip_cost_plural(report->threads), report->isa,
+                 settings);
+    dip_put_text(
+        out,
+        "times    %d frames along the path in %d rounds, each beside the base, in an order by "
+        "seed %d; ratio = time / the base's time\n",
+        dip_cost_frame_count(report), report->rounds, report->options.seed);
+    dip_put_text(out, "machine was %s: %s\n", dip_cost_verdict_names[report->verdict],
+                 report->verdict_reason);
+    dip_put_text(out, "energy   %s\n", axes->energy);
     print_errors_heading(axes, out);
-    fprintf(out,
-            "memory   of the row's renderer; all rows share the scene's textures, %.1f MiB, and "
-            "geometry, %.1f MiB\n",
-            (double)axes->scene_texture_bytes / mebibyte,
-            counter(axes, "geometry_bytes") / mebibyte);
-    fprintf(out, "pictures %lld were compared with the base's and have the same bits\n",
-            (long long)axes->checked_pictures);
+    dip_put_text(
+        out,
+        "memory   of the row's renderer; all rows share the scene's textures, %.1f MiB, and "
+        "geometry, %.1f MiB\n",
+        (double)axes->scene_texture_bytes / mebibyte, counter(axes, "geometry_bytes") / mebibyte);
+    dip_put_text(out, "pictures %lld were compared with the base's and have the same bits\n",
+                 (long long)axes->checked_pictures);
     if (*axes->note) {
-        fprintf(out, "note     %s\n", axes->note);
+        dip_put_text(out, "note     %s\n", axes->note);
     }
 }
 
 // Prints a number in a column of 8, or a dash if it is not known.
 static void print_known(double value, int digits, FILE *out) {
     if (isfinite(value)) {
-        fprintf(out, " %8.*f", digits, value);
+        dip_put_text(out, " %8.*f", digits, value);
     } else {
-        fprintf(out, " %8s", "-");
+        dip_put_text(out, " %8s", "-");
     }
 }
 
@@ -100,23 +103,23 @@ static void print_estimate(const DipStatsEstimate *estimate, int digits, FILE *o
     char interval[48];
     snprintf(interval, sizeof interval, "%.*f to %.*f", digits, estimate->low, digits,
              estimate->high);
-    fprintf(out, " %8.*f %-17s", digits, estimate->value, interval);
+    dip_put_text(out, " %8.*f %-17s", digits, estimate->value, interval);
 }
 
 static void print_columns(const DipCostAxes *axes, DipCostAxis axis, FILE *out) {
-    fprintf(out, "\n%-22s %8s %-17s %8s %-17s %8s %8s", dip_cost_axis_titles[axis], "mean ms",
-            "95 % interval", "ratio", "95 % interval", "MiB", "mJ/frame");
+    dip_put_text(out, "\n%-22s %8s %-17s %8s %-17s %8s %8s", dip_cost_axis_titles[axis], "mean ms",
+                 "95 % interval", "ratio", "95 % interval", "MiB", "mJ/frame");
     if (axis == DIP_COST_AXIS_SIZE) {
-        fprintf(out, " %8s", "ns/pixel");
+        dip_put_text(out, " %8s", "ns/pixel");
     } else if (axis == DIP_COST_AXIS_SCALE) {
-        fprintf(out, " %8s %8s", "drawing", "enlarge");
+        dip_put_text(out, " %8s %8s", "drawing", "enlarge");
         if (is_judged(axes, 0)) {
-            fprintf(out, " %8s %8s", "RMSE", "FLIP");
+            dip_put_text(out, " %8s %8s", "RMSE", "FLIP");
         }
     } else if (axis == DIP_COST_AXIS_THREADS) {
-        fprintf(out, " %8s %-17s %8s", "speed-up", "95 % interval", "of ideal");
+        dip_put_text(out, " %8s %-17s %8s", "speed-up", "95 % interval", "of ideal");
     }
-    fputc('\n', out);
+    dip_put_text(out, "\n");
 }
 
 static void print_row(const DipCostAxes *axes, int row, FILE *out) {
@@ -124,7 +127,7 @@ static void print_row(const DipCostAxes *axes, int row, FILE *out) {
     char name[2 * DIP_COST_AXIS_NAME];
     snprintf(name, sizeof name, r->axis == DIP_COST_AXIS_SCALE ? "%s (%dx%d)" : "%s", r->name,
              r->width, r->height);
-    fprintf(out, "  %-20s", name);
+    dip_put_text(out, "  %-20s", name);
     print_estimate(&time_of(axes, row)->mean_ms, 2, out);
     print_estimate(&time_of(axes, row)->ratio, 3, out);
     print_known(r->memory_bytes / mebibyte, 2, out);
@@ -141,9 +144,9 @@ static void print_row(const DipCostAxes *axes, int row, FILE *out) {
         }
     } else if (r->axis == DIP_COST_AXIS_THREADS) {
         print_estimate(&r->speed_up, 2, out);
-        fprintf(out, " %6.0f %%", 100.0 * r->efficiency);
+        dip_put_text(out, " %6.0f %%", 100.0 * r->efficiency);
     }
-    fputc('\n', out);
+    dip_put_text(out, "\n");
 }
 
 void dip_cost_axes_print(const DipCostAxes *axes, FILE *out) {
@@ -162,9 +165,9 @@ void dip_cost_axes_print(const DipCostAxes *axes, FILE *out) {
 
 static void write_known(double value, FILE *out) {
     if (isfinite(value)) {
-        fprintf(out, ",%.8g", value);
+        dip_put_text(out, ",%.8g", value);
     } else {
-        fputc(',', out);
+        dip_put_text(out, ",");
     }
 }
 
@@ -183,8 +186,10 @@ static void write_row(const DipCostAxes *axes, int row, FILE *out) {
     if (is_judged(axes, row)) {
         errors = dip_cost_row_metrics(report, row, 0);
     }
-    fprintf(out, "%s,%s,%d,%d,%d,%d,%d,%s", dip_cost_axis_names[r->axis], r->name, r->width,
-            r->height, r->shown_width, r->shown_height, r->threads, dip_isa_name(r->isa));
+    dip_put_text(out, "%s,", dip_cost_axis_names[r->axis]);
+    dip_put_csv_text(out, r->name);
+    dip_put_text(out, ",%d,%d,%d,%d,%d,%s", r->width, r->height, r->shown_width, r->shown_height,
+                 r->threads, dip_isa_name(r->isa));
     write_estimate(&time_of(axes, row)->mean_ms, out);
     write_estimate(&time_of(axes, row)->ratio, out);
     write_known(ns_per_pixel(axes, row), out);
@@ -196,7 +201,7 @@ static void write_row(const DipCostAxes *axes, int row, FILE *out) {
     write_known(threads ? r->efficiency : NAN, out);
     write_known(r->memory_bytes, out);
     write_known(r->frame_mj, out);
-    fprintf(out, ",%s\n", dip_cost_verdict_names[report->verdict]);
+    dip_put_text(out, ",%s\n", dip_cost_verdict_names[report->verdict]);
 }
 
 bool dip_cost_axes_write_csv(const DipCostAxes *axes, const char *file, DipError *err) {
@@ -206,7 +211,8 @@ bool dip_cost_axes_write_csv(const DipCostAxes *axes, const char *file, DipError
     if (!out) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
-    fprintf(out, "axis,value,width,height,shown_width,shown_height,threads,isa,ms,ms_low,ms_high,"
+    dip_put_text(out,
+                 "axis,value,width,height,shown_width,shown_height,threads,isa,ms,ms_low,ms_high,"
                  "ratio,ratio_low,ratio_high,ns_per_pixel,draw_ms,enlarge_ms,rmse_lin,flip,"
                  "speed_up,speed_up_low,speed_up_high,efficiency,memory_bytes,frame_mj,verdict\n");
     for (int row = 0; row < axes->report.row_count; row++) {

@@ -1,6 +1,7 @@
 // Printing a comparison for a terminal.
 #include "app/cost/diff/diff.h"
 #include "app/cost/diff/diff_groups.h"
+#include "app/files/put.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,30 +14,30 @@ enum { MOST_ROWS = 24 };
 // --- headings ------------------------------------------------------------------------------------
 
 static void print_side(const DipCostDiff *diff, int side, FILE *out) {
-    fprintf(out, "%s        %s", side ? "B" : "A", diff->names[side]);
+    dip_put_text(out, "%s        %s", side ? "B" : "A", diff->names[side]);
     if (*diff->builds[side]) {
-        fprintf(out, ", build %.12s", diff->builds[side]);
+        dip_put_text(out, ", build %.12s", diff->builds[side]);
     }
-    fputc('\n', out);
+    dip_put_text(out, "\n");
 }
 
 static void print_machines(const DipCostDiff *diff, FILE *out) {
     for (int side = 0; side < 2; side++) {
         if (*diff->machines[side] && (side == 0 || !diff->same_machine)) {
-            fprintf(out, "machine%s %s\n",
-                    diff->same_machine ? " "
-                    : side             ? " B"
-                                       : " A",
-                    diff->machines[side]);
+            dip_put_text(out, "machine%s %s\n",
+                         diff->same_machine ? " "
+                         : side             ? " B"
+                                            : " A",
+                         diff->machines[side]);
         }
     }
     for (int side = 0; diff->has_times && side < 2; side++) {
         if (side == 0 || diff->kind == DIP_COST_DIFF_REPORTS) {
-            fprintf(out, "verdict%s %s: %s\n",
-                    diff->kind == DIP_COST_DIFF_PROGRAMS ? " "
-                    : side                               ? " B"
-                                                         : " A",
-                    dip_cost_verdict_names[diff->verdicts[side]], diff->reasons[side]);
+            dip_put_text(out, "verdict%s %s: %s\n",
+                         diff->kind == DIP_COST_DIFF_PROGRAMS ? " "
+                         : side                               ? " B"
+                                                              : " A",
+                         dip_cost_verdict_names[diff->verdicts[side]], diff->reasons[side]);
         }
     }
 }
@@ -45,11 +46,11 @@ static void print_heading(const DipCostDiff *diff, FILE *out) {
     print_side(diff, 0, out);
     print_side(diff, 1, out);
     if (*diff->scene) {
-        fprintf(out, "scene    %s\n", diff->scene);
+        dip_put_text(out, "scene    %s\n", diff->scene);
     }
     print_machines(diff, out);
     for (int i = 0; i < diff->note_count; i++) {
-        fprintf(out, "note     %s\n", diff->notes[i]);
+        dip_put_text(out, "note     %s\n", diff->notes[i]);
     }
 }
 
@@ -69,21 +70,21 @@ static void print_change(const DipCostDiff *diff, const DipCostDiffChange *chang
     char settings[DIP_COST_TEXT], least[32], most[32];
     dip_cost_settings_text(&row->quality, settings);
     if (change->quantity == DIP_COST_DIFF_pictures) {
-        fprintf(out, "  %-22s %.0f frames differ with %s\n", "pictures", b, settings);
+        dip_put_text(out, "  %-22s %.0f frames differ with %s\n", "pictures", b, settings);
         return;
     }
     print_growth(change->least, least, sizeof least);
     print_growth(change->most, most, sizeof most);
     const bool is_error = change->quantity < DIP_COST_DIFF_ERROR_COUNT;
-    fprintf(out, "  %-22s %s", dip_cost_diff_title(change->quantity), least);
+    dip_put_text(out, "  %-22s %s", dip_cost_diff_title(change->quantity), least);
     if (strcmp(least, most) != 0) {
-        fprintf(out, " to %s", most);
+        dip_put_text(out, " to %s", most);
     }
-    fprintf(out, is_error ? "; %.6g in A, %.6g in B" : "; %.10g in A, %.10g in B", a, b);
-    fprintf(out, " with %s on %s%s\n", settings, row->path,
-            !is_error                                           ? ""
-            : dip_cost_diff_growth(row, change->quantity) > 0.0 ? " (worse)"
-                                                                : " (better)");
+    dip_put_text(out, is_error ? "; %.6g in A, %.6g in B" : "; %.10g in A, %.10g in B", a, b);
+    dip_put_text(out, " with %s on %s%s\n", settings, row->path,
+                 !is_error                                           ? ""
+                 : dip_cost_diff_growth(row, change->quantity) > 0.0 ? " (worse)"
+                                                                     : " (better)");
 }
 
 static bool print_exact(const DipCostDiff *diff, FILE *out, DipError *err) {
@@ -94,19 +95,19 @@ static bool print_exact(const DipCostDiff *diff, FILE *out, DipError *err) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
     }
     if (count > 0) {
-        fputs(
+        dip_put_text(
+            out,
             "\nErrors, pictures and counters are exact: any difference has a cause. The change of "
             "PSNR is that of\nits root mean square difference, the change of SSIM that of 1 - "
-            "SSIM.\n",
-            out);
+            "SSIM.\n");
     } else if (diff->row_count > 0) {
-        fputs(diff->kind == DIP_COST_DIFF_PROGRAMS ? "\nAll pictures and counters are the same.\n"
-                                                   : "\nAll errors and counters that both sides "
-                                                     "have are the same.\n",
-              out);
+        dip_put_text(out, "\nAll %s are the same.\n",
+                     diff->kind == DIP_COST_DIFF_PROGRAMS
+                         ? "pictures and counters"
+                         : "errors and counters that both sides have");
     }
     for (int g = 0; g < count; g++) {
-        fprintf(out, "%s:\n", groups[g].which);
+        dip_put_text(out, "%s:\n", groups[g].which);
         for (int c = 0; c < groups[g].change_count; c++) {
             print_change(diff, &groups[g].changes[c], out);
         }
@@ -124,60 +125,63 @@ static const char *mark_text(DipCostDiffMark mark) {
 static void print_interval(const DipStatsEstimate *change, FILE *out) {
     char interval[32];
     snprintf(interval, sizeof interval, "%.3f to %.3f", change->low, change->high);
-    fprintf(out, "  %6.3f  %-16s", change->value, interval);
+    dip_put_text(out, "  %6.3f  %-16s", change->value, interval);
 }
 
 static void print_program_row(const DipCostDiffRow *row, FILE *out) {
     for (int stage = 0; stage < DIP_COST_DIFF_STAGES; stage++) {
-        fprintf(out, " %+8.1f", 100.0 * (row->stages[stage].value - 1.0));
+        dip_put_text(out, " %+8.1f", 100.0 * (row->stages[stage].value - 1.0));
     }
 }
 
 static void print_time_columns(const DipCostDiff *diff, FILE *out) {
-    fprintf(out, "%-32s %-8s %8s %8s", "", "path", "A ms", "B ms");
+    dip_put_text(out, "%-32s %-8s %8s %8s", "", "path", "A ms", "B ms");
     if (diff->kind == DIP_COST_DIFF_REPORTS) {
-        fprintf(out, " %8s %8s", "A ratio", "B ratio");
+        dip_put_text(out, " %8s %8s", "A ratio", "B ratio");
     }
-    fprintf(out, "  %6s  %-16s", "B / A", "95 % interval");
+    dip_put_text(out, "  %6s  %-16s", "B / A", "95 % interval");
     for (int s = 0; diff->kind == DIP_COST_DIFF_PROGRAMS && s < DIP_COST_DIFF_STAGES; s++) {
-        fprintf(out, " %8s", dip_bench_stage_names[s]);
+        dip_put_text(out, " %8s", dip_bench_stage_names[s]);
     }
-    fputc('\n', out);
+    dip_put_text(out, "\n");
 }
 
 static void print_time(const DipCostDiff *diff, const DipCostDiffRow *row, FILE *out) {
     char settings[DIP_COST_TEXT];
     dip_cost_settings_text(&row->quality, settings);
-    fprintf(out, "%-32s %-8s %8.2f %8.2f", settings, row->path, row->ms[0], row->ms[1]);
+    dip_put_text(out, "%-32s %-8s %8.2f %8.2f", settings, row->path, row->ms[0], row->ms[1]);
     if (diff->kind == DIP_COST_DIFF_REPORTS) {
-        fprintf(out, " %8.3f %8.3f", row->ratios[0].value, row->ratios[1].value);
+        dip_put_text(out, " %8.3f %8.3f", row->ratios[0].value, row->ratios[1].value);
     }
     if (row->is_base) {
-        fprintf(out, "  %6s  %-16s", "", "baseline");
+        dip_put_text(out, "  %6s  %-16s", "", "baseline");
     } else {
         print_interval(&row->change, out);
     }
     if (diff->kind == DIP_COST_DIFF_PROGRAMS) {
         print_program_row(row, out);
     }
-    fprintf(out, "  %s\n", mark_text(row->mark));
+    dip_put_text(out, "  %s\n", mark_text(row->mark));
 }
 
 static void print_explanation(const DipCostDiff *diff, FILE *out) {
     if (diff->kind == DIP_COST_DIFF_PROGRAMS) {
-        fputs("\nTimes: mean ms per frame of both programs, which took turns at every frame; how "
-              "many times as long B\ntakes; and the change in each stage, in % of A's frame.\n",
-              out);
+        dip_put_text(
+            out,
+            "\nTimes: mean ms per frame of both programs, which took turns at every frame; how "
+            "many times as long B\ntakes; and the change in each stage, in %% of A's frame.\n");
         return;
     }
-    fputs("\nTimes: ratio = time / the baseline's time, and the quotient of the ratios of B and A. "
-          "Ms are those of\neach run: on the same quiet machine another run may lie 10 % off. "
-          "Ratios repeat far better.\n",
-          out);
+    dip_put_text(
+        out,
+        "\nTimes: ratio = time / the baseline's time, and the quotient of the ratios of B and A. "
+        "Ms are those of\neach run: on the same quiet machine another run may lie 10 %% off. "
+        "Ratios repeat far better.\n");
     if (!diff->same_machine) {
-        fputs("The machines differ, and ratios depend on the machine, so no row is called slower "
-              "or faster.\n",
-              out);
+        dip_put_text(
+            out,
+            "The machines differ, and ratios depend on the machine, so no row is called slower "
+            "or faster.\n");
     }
 }
 
@@ -202,25 +206,25 @@ static void print_times(const DipCostDiff *diff, FILE *out) {
         }
     }
     if (*diff->cause) {
-        fprintf(out, "%s\n", diff->cause);
+        dip_put_text(out, "%s\n", diff->cause);
     }
 }
 
 static void print_result(const DipCostDiff *diff, FILE *out) {
     if (!diff->has_times) {
-        fputs("\nTimes are not compared.\n", out);
+        dip_put_text(out, "\nTimes are not compared.\n");
     } else if (dip_cost_diff_is_busy(diff)) {
-        fputs("\nThe machine was too busy: the times are wrong, so nothing is called slower or "
-              "faster.\n",
-              out);
+        dip_put_text(
+            out, "\nThe machine was too busy: the times are wrong, so nothing is called slower or "
+                 "faster.\n");
     } else if (diff->slower + diff->faster > 0) {
-        fprintf(out,
-                "\n%d of %d rows are slower in B and %d are faster, by surely more than "
-                "%.3g %%.\n",
-                diff->slower, diff->row_count, diff->faster, 100.0 * (diff->limit - 1.0));
+        dip_put_text(out,
+                     "\n%d of %d rows are slower in B and %d are faster, by surely more than "
+                     "%.3g %%.\n",
+                     diff->slower, diff->row_count, diff->faster, 100.0 * (diff->limit - 1.0));
     } else if (diff->same_machine) {
-        fprintf(out, "\nNo row is surely slower or faster in B by more than %.3g %%.\n",
-                100.0 * (diff->limit - 1.0));
+        dip_put_text(out, "\nNo row is surely slower or faster in B by more than %.3g %%.\n",
+                     100.0 * (diff->limit - 1.0));
     }
 }
 

@@ -1,9 +1,11 @@
 // `diptych cost merge`: joins the viewpoints that several machines have judged into one report.
 #include "app/cost/cost.h"
 
+#include "app/cost/context.h"
+#include "app/cost/drawn_frames.h"
+
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
-#include "app/cost/merge/merge_frames.h"
 #include "app/cost/merge/merge_machines.h"
 #include "app/report/same_pictures.h"
 #include "app/files/folder.h"
@@ -51,24 +53,17 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
     }
 }
 
-// Adds a part's machine and takes its frames.
-static bool take_part(DipCostReport *part, const char *file, DipCostMachines *machines,
-                      DipCostMergeFrames *frames, DipError *err) {
-    dip_cost_machines_add(machines, part);
-    return dip_cost_merge_frames_add(frames, part, file, err);
-}
-
 // Reads all parts and joins them in one report. The report's times, budgets and machine come from
 // the first part that has times, because times of several machines cannot be mixed.
 static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *report,
-                       DipCostMachines *machines, DipCostMergeFrames *frames, DipError *err) {
-    if (!dip_cost_read_json(report, arguments->parts[0], err) ||
-        !take_part(report, arguments->parts[0], machines, frames, err)) {
+                       DipCostMachines *machines, DipError *err) {
+    if (!dip_cost_read_report(arguments->parts[0], report, err)) {
         return false;
     }
+    dip_cost_machines_add(machines, report);
     for (int i = 1; i < arguments->part_count; i++) {
         DipCostReport part;
-        if (!dip_cost_read_json(&part, arguments->parts[i], err)) {
+        if (!dip_cost_read_report(arguments->parts[i], &part, err)) {
             return false;
         }
         if (!belong(report, &part)) {
@@ -78,10 +73,7 @@ static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *re
                                  "camera paths, viewpoints or samples differ)",
                                  arguments->parts[0]);
         }
-        if (!take_part(&part, arguments->parts[i], machines, frames, err)) {
-            dip_cost_report_free(&part);
-            return false;
-        }
+        dip_cost_machines_add(machines, &part);
         if (report->rounds == 0 && part.rounds > 0) {
             const DipCostReport swap = *report;
             *report = part;
@@ -103,78 +95,53 @@ static int count_missing(const DipCostReport *report) {
 
 // --- writing -------------------------------------------------------------------------------------
 
-// Says on standard output what the pictures of the page lack.
-static void print_missing(const DipCostMergeFrames *frames, const DipCostPictures *pictures) {
-    int count = pictures->front.missing_count;
-    for (int s = 0; s < DIP_COST_MAX_SWEEPS; s++) {
-        count += pictures->sweeps[s].missing_count;
-    }
-    if (frames->part_count == 0) {
-        printf("the page has no pictures: no part keeps any\n");
-    } else if (count > 0) {
-        printf("the page lacks %d picture%s that no part has; it names them\n", count,
-               dip_cost_plural(count));
-    }
+// Fails if the session shows another scene than the parts.
+static bool check_scene(const DipCostReport *report, const DipSession *session, DipError *err) {
+    DipCostReport here = {0};
+    dip_cost_describe(&here, session);
+    return strcmp(here.scene_hash, report->scene_hash) == 0 ||
+           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "cost merge",
+                         "the parts show \"%.60s\", and the pictures of the page would be drawn "
+                         "from \"%.60s\"; name the scene as for cost (--config, --model, "
+                         "--scene), or give --pictures none",
+                         report->scene, here.scene);
 }
 
-static bool write_page(DipCostReport *report, DipCostMergeFrames *frames, const char *file,
-                       DipError *err) {
-    DipCostPictures pictures;
-    frames->report = report;
-    const DipCostFrameSource source = dip_cost_merge_frames_source(frames);
-    if (!dip_cost_pictures_make(&pictures, report, &source, err)) {
+// Writes the report, with pictures that are drawn here: pictures have the same bits everywhere.
+static bool write_with_pictures(DipCostReport *report, DipSession *session,
+                                const DipCostMergeArguments *arguments, DipError *err) {
+    char cache[PATH_MAX];
+    DipCostContext cost;
+    if (!check_scene(report, session, err) ||
+        !dip_cost_find_cache(arguments->cost.cache, cache, err) ||
+        !dip_cost_context_open(&cost, session, report, NULL, cache[0] ? cache : NULL, true, err)) {
         return false;
     }
-    pictures.from_parts = true;
-    const bool shows = report->options.pictures != DIP_COST_PICTURES_NONE;
-    if (shows) {
-        print_missing(frames, &pictures);
-    }
-    const bool written =
-        dip_cost_write_html(report, shows && frames->part_count > 0 ? &pictures : NULL, file, err);
-    dip_cost_pictures_free(&pictures);
+    const DipCostFrameSource source = dip_cost_drawn_frames(&cost);
+    const bool written = dip_cost_write_report(report, &source, arguments->out, err);
+    dip_cost_context_close(&cost);
     return written;
 }
 
-static bool write_report(DipCostReport *report, DipCostMergeFrames *frames, const char *folder,
-                         DipError *err) {
-    char file[PATH_MAX];
-    if (strlen(folder) + 16 > sizeof file) {
-        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
-                                     "the name is too long");
-    }
-    snprintf(file, sizeof file, "%.*s/cost.json", PATH_MAX - 16, folder);
-    if (!dip_cost_write_json(report, file, err)) {
-        return false;
-    }
-    snprintf(file, sizeof file, "%.*s/cost.csv", PATH_MAX - 16, folder);
-    if (!dip_cost_write_csv(report, file, err)) {
-        return false;
-    }
-    snprintf(file, sizeof file, "%.*s/cost.html", PATH_MAX - 16, folder);
-    return write_page(report, frames, file, err);
-}
-
-bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err) {
+bool dip_cost_merge_run(DipSession *session, const DipCostMergeArguments *arguments,
+                        DipError *err) {
     DipCostReport report = {0};
     DipCostMachines machines = {0};
-    DipCostMergeFrames frames = {0};
-    const char *const folder = arguments->out;
-    bool done = dip_folder_make(folder, "--out", err) &&
-                read_parts(arguments, &report, &machines, &frames, err) &&
-                dip_cost_merge_frames_check(&frames, err);
+    bool done = dip_folder_make(arguments->out, "--out", err) &&
+                read_parts(arguments, &report, &machines, err);
     if (done && count_missing(&report) > 0) {
         printf("%d of %d viewpoints are missing: no part has them\n", count_missing(&report),
                report.options.places);
     }
-    report.options.pictures = arguments->pictures;
-    done = done && dip_cost_join_same_pictures(&report, err) &&
-           dip_cost_choose_again(&report, err) && write_report(&report, &frames, folder, err);
+    report.options.pictures = arguments->cost.pictures;
+    done = done && dip_cost_join_same_pictures(&report, err) && dip_cost_choose_again(&report, err);
+    done = done && (report.options.pictures == DIP_COST_PICTURES_NONE
+                        ? dip_cost_write_report(&report, NULL, arguments->out, err)
+                        : write_with_pictures(&report, session, arguments, err));
     if (done) {
         dip_cost_machines_print(&machines, stdout);
         dip_cost_print(&report, stdout);
     }
-    dip_cost_merge_frames_free(&frames);
     dip_cost_report_free(&report);
     return done;
 }

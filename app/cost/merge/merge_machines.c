@@ -1,6 +1,8 @@
 // The table of machines.
 #include "app/cost/merge/merge_machines.h"
 
+#include "app/files/put.h"
+
 // True if an earlier sweep of the report has the same setting.
 static bool is_repeated(const DipCostReport *report, int sweep) {
     for (int s = 0; s < sweep; s++) {
@@ -50,40 +52,41 @@ void dip_cost_machines_add(DipCostMachines *machines, const DipCostReport *part)
 
 static void print_row(const DipCostMachines *machines, int row, FILE *out) {
     const DipStatsEstimate *first = &machines->list[0].ratios[row];
-    fprintf(out, "  %-40s", machines->rows[row]);
+    dip_put_text(out, "  %-40s", machines->rows[row]);
     for (int m = 0; m < machines->count; m++) {
         const DipStatsEstimate *ratio = &machines->list[m].ratios[row];
         const bool is_apart = ratio->low > first->high || ratio->high < first->low;
-        fprintf(out, " %7.3f%c", ratio->value, is_apart ? '*' : ' ');
+        dip_put_text(out, " %7.3f%c", ratio->value, is_apart ? '*' : ' ');
     }
-    fputc('\n', out);
+    dip_put_text(out, "\n");
 }
 
 void dip_cost_machines_print(const DipCostMachines *machines, FILE *out) {
     if (machines->count < 2) {
         return;
     }
-    fprintf(out,
-            "Machines of the %d parts that have times. The report has the times of machine 1.\n"
-            "  %-2s %-40s %7s %-8s %-7s %11s\n",
-            machines->count, "", "", "threads", "isa", "verdict", "baseline ms");
+    dip_put_text(
+        out,
+        "Machines of the %d parts that have times. The report has the times of machine 1.\n"
+        "  %-2s %-40s %7s %-8s %-7s %11s\n",
+        machines->count, "", "", "threads", "isa", "verdict", "baseline ms");
     for (int m = 0; m < machines->count; m++) {
         const DipCostMachine *machine = &machines->list[m];
-        fprintf(out, "  %-2d %-40.40s %7d %-8s %-7s %11.3f\n", m + 1, machine->processor,
-                machine->threads, machine->isa, dip_cost_verdict_names[machine->verdict],
-                machine->base_ms);
+        dip_put_text(out, "  %-2d %-40.40s %7d %-8s %-7s %11.3f\n", m + 1, machine->processor,
+                     machine->threads, machine->isa, dip_cost_verdict_names[machine->verdict],
+                     machine->base_ms);
     }
-    fprintf(
+    dip_put_text(
         out,
         "Time of each setting's last step / time of the base of its sweep. A star marks a ratio "
         "whose 95 %% interval lies apart from that of machine 1.\n  %-40s",
         "");
     for (int m = 0; m < machines->count; m++) {
-        fprintf(out, " %7d ", m + 1);
+        dip_put_text(out, " %7d ", m + 1);
     }
-    fputc('\n', out);
+    dip_put_text(out, "\n");
     for (int row = 0; row < machines->row_count; row++) {
         print_row(machines, row, out);
     }
-    fputc('\n', out);
+    dip_put_text(out, "\n");
 }

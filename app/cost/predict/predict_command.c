@@ -56,7 +56,7 @@ const DipCommand dip_cost_predict_command = {
         "times are milliseconds of the report's run, however fast the machine is today. Prices are "
         "fitted anew to the report and to these six, and predict all others. How far the six are "
         "missed, each predicted from the report and the five others, tells how good the "
-        "predictions are. docs/cost.md tells what was measured.\n\n"
+        "predictions are. docs/cost-methods.md tells what was measured.\n\n"
         "Errors are not predicted.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),

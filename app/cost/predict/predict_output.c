@@ -5,6 +5,7 @@
 #include "app/report/format/json_smaller.h"
 #include "app/report/verdict.h"
 #include "app/files/whole_file.h"
+#include "app/files/put.h"
 
 #include <cjson/cJSON.h>
 #include <stdlib.h>
@@ -15,19 +16,20 @@ enum { JSON_FORMAT = 1 };
 // --- the table -----------------------------------------------------------------------------------
 
 static void print_place(const char *what, const DipCostReport *place, FILE *out) {
-    fprintf(out, "%-8s %dx%d pixels, path %s, %d thread%s, %s\n", what, place->width, place->height,
-            place->paths[0], place->threads, dip_cost_plural(place->threads), place->isa);
+    dip_put_text(out, "%-8s %dx%d pixels, path %s, %d thread%s, %s\n", what, place->width,
+                 place->height, place->paths[0], place->threads, dip_cost_plural(place->threads),
+                 place->isa);
 }
 
 static void print_misses(const char *what, const DipCostMisses *misses, FILE *out) {
-    fprintf(out, "         %-46s median %5.1f %%, 90 %% within %5.1f %%\n", what,
-            100.0 * misses->median, 100.0 * misses->p90);
+    dip_put_text(out, "         %-46s median %5.1f %%, 90 %% within %5.1f %%\n", what,
+                 100.0 * misses->median, 100.0 * misses->p90);
 }
 
 static void print_checks(const DipCostElsewherePrediction *p, FILE *out) {
     static const char alone[] = "the report alone misses them by";
     if (p->timed_count > 0) {
-        fprintf(
+        dip_put_text(
             out,
             "timed    %d combination%s there, beside the report's baseline: %s %.3f times as long "
             "as the report alone predicts\n",
@@ -36,21 +38,21 @@ static void print_checks(const DipCostElsewherePrediction *p, FILE *out) {
         print_misses(alone, &p->timed_as_is, out);
         print_misses("each predicted from the report and the others", &p->timed_left_out, out);
     } else {
-        fprintf(out, "timed    nothing: the predictions come from the report alone\n");
+        dip_put_text(out, "timed    nothing: the predictions come from the report alone\n");
     }
     if (p->checked_count > 0) {
-        fprintf(out, "checked  %d other combination%s there\n", p->checked_count,
-                dip_cost_plural(p->checked_count));
+        dip_put_text(out, "checked  %d other combination%s there\n", p->checked_count,
+                     dip_cost_plural(p->checked_count));
         print_misses(alone, &p->checked_as_is, out);
         if (p->timed_count > 0) {
             print_misses("the predictions miss them by", &p->checked_fitted, out);
         }
     }
     if (p->wait > dip_cost_wait_limits.green) {
-        fprintf(out,
-                "warning  the threads waited %.0f %% of their time for a core, which other "
-                "programs held, so the times that were taken there are %s\n",
-                100.0 * p->wait, p->wait > dip_cost_wait_limits.red ? "wrong" : "less sure");
+        dip_put_text(out,
+                     "warning  the threads waited %.0f %% of their time for a core, which other "
+                     "programs held, so the times that were taken there are %s\n",
+                     100.0 * p->wait, p->wait > dip_cost_wait_limits.red ? "wrong" : "less sure");
     }
 }
 
@@ -58,31 +60,31 @@ static void print_combination(const DipCostElsewherePrediction *p, const DipCost
                               FILE *out) {
     char text[DIP_COST_TEXT];
     dip_cost_settings_text(&c->quality, text);
-    fprintf(out, "  %-34s %9.2f %9.2f", text, c->report_ms, c->ms);
+    dip_put_text(out, "  %-34s %9.2f %9.2f", text, c->report_ms, c->ms);
     if (c->timed >= 0) {
         const DipStatsEstimate *ms = &p->timed[c->timed].ms;
-        fprintf(out, " %9.2f %8.2f to %.2f", ms->value, ms->low, ms->high);
+        dip_put_text(out, " %9.2f %8.2f to %.2f", ms->value, ms->low, ms->high);
     }
-    fprintf(out, "\n");
+    dip_put_text(out, "\n");
 }
 
 void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out) {
-    fprintf(out, "scene    %s\n", p->report.scene);
+    dip_put_text(out, "scene    %s\n", p->report.scene);
     print_place("report", &p->report, out);
     print_place("there", &p->there, out);
-    fprintf(out, "model    prices of work from %d row%s", p->report.row_count,
-            dip_cost_plural(p->report.row_count));
+    dip_put_text(out, "model    prices of work from %d row%s", p->report.row_count,
+                 dip_cost_plural(p->report.row_count));
     if (p->report.smaller_count > 0) {
-        fprintf(out, " and %d at %dx%d", p->report.smaller_count, p->report.smaller_width,
-                p->report.smaller_height);
+        dip_put_text(out, " and %d at %dx%d", p->report.smaller_count, p->report.smaller_width,
+                     p->report.smaller_height);
     }
-    fprintf(out, " of the report\n");
+    dip_put_text(out, " of the report\n");
     print_misses("each row predicted from the others", &p->fit, out);
     print_checks(p, out);
     const bool any_timed = p->timed_count + p->checked_count > 0;
-    fprintf(out, "\nMean times of a frame, in milliseconds of the report's run:\n");
-    fprintf(out, "  %-34s %9s %9s%s\n", "combination", "report", "predicted",
-            any_timed ? "     timed 95 % interval" : "");
+    dip_put_text(out, "\nMean times of a frame, in milliseconds of the report's run:\n");
+    dip_put_text(out, "  %-34s %9s %9s%s\n", "combination", "report", "predicted",
+                 any_timed ? "     timed 95 % interval" : "");
     for (int i = 0; i < p->count; i++) {
         print_combination(p, &p->list[i], out);
     }
@@ -168,20 +170,22 @@ bool dip_cost_predict_there_write_json(const DipCostElsewherePrediction *p, cons
 }
 
 static void print_csv(const DipCostElsewherePrediction *p, FILE *out) {
-    fprintf(out, "width,height,path,threads,settings,role,report_ms,report_alone_ms,ms,"
-                 "timed_ms,timed_ms_low,timed_ms_high\n");
+    dip_put_text(out, "width,height,path,threads,settings,role,report_ms,report_alone_ms,ms,"
+                      "timed_ms,timed_ms_low,timed_ms_high\n");
     for (int i = 0; i < p->count; i++) {
         const DipCostPredictedThere *c = &p->list[i];
         char settings[256];
         dip_quality_format(&c->quality, settings, sizeof settings);
-        fprintf(out, "%d,%d,%s,%d,\"%s\",%s,%.6g,%.6g,%.6g", p->there.width, p->there.height,
-                p->there.paths[0], p->there.threads, settings, role_of(p, c), c->report_ms,
-                c->as_is_ms, c->ms);
+        dip_put_text(out, "%d,%d,", p->there.width, p->there.height);
+        dip_put_csv_text(out, p->there.paths[0]);
+        dip_put_text(out, ",%d,", p->there.threads);
+        dip_put_csv_text(out, settings);
+        dip_put_text(out, ",%s,%.6g,%.6g,%.6g", role_of(p, c), c->report_ms, c->as_is_ms, c->ms);
         if (c->timed >= 0) {
             const DipStatsEstimate *ms = &p->timed[c->timed].ms;
-            fprintf(out, ",%.6g,%.6g,%.6g\n", ms->value, ms->low, ms->high);
+            dip_put_text(out, ",%.6g,%.6g,%.6g\n", ms->value, ms->low, ms->high);
         } else {
-            fprintf(out, ",,,\n");
+            dip_put_text(out, ",,,\n");
         }
     }
 }

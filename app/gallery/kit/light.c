@@ -1,4 +1,4 @@
-// Shading points with lights, in loops that become vector code.
+// Shades points with lights, in loops that become vector code.
 #include "app/gallery/kit/light.h"
 
 #include "app/gallery/kit/kit.h"

@@ -1,4 +1,4 @@
-// Reading /proc/PID/task/*/schedstat and getrusage.
+// Reads /proc/PID/task/*/schedstat and getrusage.
 #define _DEFAULT_SOURCE 1 // for getrusage's ru_nivcsw with every C library
 #include "app/measure/timing/thread_use.h"
 

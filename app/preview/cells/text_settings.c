@@ -36,31 +36,9 @@ static bool is_switch(DipSetting setting) {
     return dip_setting_info(setting)->step_count == 2;
 }
 
-// Texture optimisation and the group size of adaptive AA begin with their best step, so their order
-// is reversed.
-int dip_text_step_at(DipSetting setting, int position) {
-    const bool reversed = setting == DIP_SETTING_OPT || setting == DIP_SETTING_ASD;
-    return reversed ? dip_setting_info(setting)->step_count - 1 - position : position;
-}
-
 // Returns a step's name, short enough for a narrow column.
 static const char *step_name(DipSetting setting, int step) {
-    static const char *const filters[] = {"h.perf", "perf", "qual", "h.qual"};
-    static const char *const optimisations[] = {"off", "std.", "adv."};
-    static const char *const times[] = {"none", "2x", "4x", "6x", "8x"};
-    static const char *const probes[] = {"none", "2x", "4x", "8x", "16x"};
-    switch (setting) {
-    case DIP_SETTING_AA:
-        return times[step];
-    case DIP_SETTING_AF:
-        return probes[step];
-    case DIP_SETTING_OPT:
-        return optimisations[step];
-    case DIP_SETTING_MIPLOD:
-        return filters[step];
-    default:
-        return dip_setting_info(setting)->steps[step];
-    }
+    return dip_setting_info(setting)->narrow_labels[step];
 }
 
 // --- steps -------------------------------------------------------------------------------------
@@ -92,7 +70,7 @@ static void draw_steps(DipTextView *view, const DipPreviewState *state, DipSetti
                        int column, int width) {
     const int count = dip_setting_info(setting)->step_count;
     for (int i = 0; i < count; ++i) {
-        draw_step(view, state, setting, dip_text_step_at(setting, i),
+        draw_step(view, state, setting, dip_setting_step_at(setting, i),
                   (DipTextArea){column + i * width, row, width, 1});
     }
 }
@@ -138,7 +116,7 @@ static void draw_figures(DipTextView *view, const DipCostsRow *costs, DipSetting
     dip_text_put(&view->screen, row + 1, column - 5, column, dim, "FLIP");
     for (int i = 0; i < count; ++i) {
         const int first = column + i * width, end = first + width;
-        find_figures(costs, setting, dip_text_step_at(setting, i), time, error);
+        find_figures(costs, setting, dip_setting_step_at(setting, i), time, error);
         dip_text_put_right(&view->screen, row, first, end - 1, name, time);
         dip_text_put_right(&view->screen, row + 1, first, end - 1, error_colours(error), error);
     }

@@ -232,8 +232,9 @@ static void move_step(const DipTextView *view, DipPreviewState *state, int by, i
     const int count = dip_setting_info(view->focus)->step_count;
     const int now = state->quality[edited_pane(state)].step[view->focus];
     for (int i = 0; i < count; ++i) {
-        if (dip_text_step_at(view->focus, i) == now && i + by >= 0 && i + by < count) {
-            dip_preview_set_step(state, view->focus, dip_text_step_at(view->focus, i + by), now_ns);
+        if (dip_setting_step_at(view->focus, i) == now && i + by >= 0 && i + by < count) {
+            dip_preview_set_step(state, view->focus, dip_setting_step_at(view->focus, i + by),
+                                 now_ns);
             return;
         }
     }

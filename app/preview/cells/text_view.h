@@ -64,10 +64,6 @@ bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEve
 
 // --- for the parts of the view -----------------------------------------------------------------
 
-// The order in which the settings show a setting's steps, from the cheapest picture to the best.
-// Returns the step at a position from 0.
-int dip_text_step_at(DipSetting setting, int position);
-
 // Each fills the body.
 void dip_text_draw_settings(DipTextView *view, const DipPreviewState *state, DipTextArea body);
 void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextLayout *layout,

@@ -1,4 +1,4 @@
-// Cutting blocks out of two pictures and comparing them.
+// Cuts blocks out of two pictures and compares them.
 #include "app/preview/live/error_blocks.h"
 
 #include "app/measure/metrics/flip.h"

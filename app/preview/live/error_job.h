@@ -36,7 +36,7 @@ typedef struct DipStill {
 // Returns whether two stills are compared with the same truth.
 bool dip_still_has_same_truth(const DipStill *a, const DipStill *b);
 
-// One pane's errors, as docs/cost.md defines them.
+// One pane's errors, as docs/cost-methods.md defines them.
 typedef struct DipPaneError {
     double rmse_lin;
     double psnr_db;

@@ -106,7 +106,7 @@ void dip_price_job_forget(DipPriceJob *job) {
 
 static Timed *find_timed(DipPriceJob *job, const DipQuality *quality) {
     for (int i = 0; i < job->timed_count; i++) {
-        if (dip_price_is_same(&job->timed[i].quality, quality)) {
+        if (dip_quality_equal(&job->timed[i].quality, quality)) {
             return &job->timed[i];
         }
     }
@@ -124,7 +124,7 @@ static void list_with_rounds(DipPriceJob *job, int rounds) {
     job->wanted_count = 0;
     for (int i = 0; i < count; i++) {
         const Timed *timed = find_timed(job, &all[i]);
-        if (!dip_price_is_same(&all[i], &base) && (!timed || timed->rounds < rounds)) {
+        if (!dip_quality_equal(&all[i], &base) && (!timed || timed->rounds < rounds)) {
             job->wanted[job->wanted_count++] = all[i];
         }
     }
@@ -140,8 +140,8 @@ static void list_wanted(DipPriceJob *job) {
 
 void dip_price_job_follow(DipPriceJob *job, const DipQuality *current,
                           const DipQuality *requested) {
-    if (job->follows && dip_price_is_same(&job->current, current) &&
-        dip_price_is_same(&job->requested, requested)) {
+    if (job->follows && dip_quality_equal(&job->current, current) &&
+        dip_quality_equal(&job->requested, requested)) {
         return;
     }
     job->current = *current;

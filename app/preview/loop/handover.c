@@ -1,4 +1,4 @@
-// Updating the state for a new session.
+// Updates the state for a new session.
 #include "app/preview/loop/handover.h"
 
 #include "app/cost/plan.h"

@@ -15,9 +15,9 @@
 
 typedef struct DipPreview DipPreview;
 
-// What a control of the preview sees between two turns.
+// What a program that controls the preview sees between two turns.
 typedef struct DipPreviewMoment {
-    DipPreviewState *state; // The control may change it, as keys do.
+    DipPreviewState *state; // The program may change it, as keys do.
     DipSession *session;
     const DipDisplay *display;
     const DipPaneFigures *figures; // One for each pane.

@@ -1,4 +1,4 @@
-// Choosing a screenshot's name, joining the panes, and writing the file.
+// Chooses a screenshot's name, joins the panes, and writes the file.
 #include "app/preview/loop/screenshot.h"
 
 #include "app/session/picture_texts.h"

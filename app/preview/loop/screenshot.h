@@ -1,4 +1,4 @@
-// Saving what the preview shows as a PNG file, with texts that tell how the picture was made
+// Saves what the preview shows as a PNG file, with texts that tell how the picture was made
 // (app/session/picture_texts.h).
 #ifndef DIP_APP_PREVIEW_LOOP_SCREENSHOT_H
 #define DIP_APP_PREVIEW_LOOP_SCREENSHOT_H

@@ -49,7 +49,9 @@ static void make_step(DipCostsStep *step, const DipCostReport *report, const Dip
 }
 
 static void make_row(DipCostsRow *row, const DipCostReport *report, const DipCostSweep *sweep) {
-    snprintf(row->title, sizeof row->title, "%.47s", sweep->title);
+    char title[DIP_COST_TEXT];
+    dip_cost_sweep_title(report, sweep, title);
+    snprintf(row->title, sizeof row->title, "%.47s", title);
     row->setting = sweep->setting;
     row->step_count = sweep->row_count;
     for (int i = 0; i < sweep->row_count; i++) {
@@ -69,7 +71,8 @@ static DipCostsAdvice advice_of(const DipCostReport *report, double budget_ms, i
 }
 
 static int choose(const DipCostReport *report, double budget_ms) {
-    return report->rounds > 0 ? dip_cost_choose(report, budget_ms) : -1;
+    const bool believed = report->rounds > 0 && report->verdict != DIP_COST_RED;
+    return believed ? dip_cost_choose(report, budget_ms) : -1;
 }
 
 static void make_advice(DipCosts *costs, const DipCostReport *report) {

@@ -1,8 +1,8 @@
-// Composing the work of a combination, and predicting its time and its error.
+// Predicts the time and the error of a combination from its composed work.
 #include "app/preview/prices/price_model.h"
 
-#include "app/report/combinations.h"
 #include "app/report/fit.h"
+#include "app/report/work.h"
 #include "app/preview/prices/price_question.h"
 
 #include <math.h>
@@ -10,7 +10,6 @@
 #include <string.h>
 
 enum {
-    GROUPS = 5,
     MOST_MISSES = 32, // Number of rows that are predicted to see how far predictions miss.
     LEAST_JUDGED = 16 // Number of rows with errors that a model of errors needs.
 };
@@ -30,61 +29,20 @@ struct DipPriceModel {
     int plain_count;
 };
 
-static unsigned group_mask(int group) {
-    const unsigned masks[GROUPS] = {
-        dip_cost_sampling_settings(), 1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
-        1u << DIP_SETTING_OPT,        1u << DIP_SETTING_MIPLOD,
-        1u << DIP_SETTING_GI,
-    };
-    return masks[group];
-}
-
-// Returns the number of groups in which a combination differs from the base, or GROUPS + 1 if it
-// differs in a setting of no group.
-static int count_groups(const DipQuality *base, const DipQuality *quality) {
-    DipQuality rest = *quality;
-    int count = 0;
-    for (int g = 0; g < GROUPS; g++) {
-        const DipQuality without = dip_cost_take_settings(&rest, base, group_mask(g));
-        count += !dip_price_is_same(&without, &rest);
-        rest = without;
-    }
-    return dip_price_is_same(&rest, base) ? count : GROUPS + 1;
-}
-
-static const PlainRow *find_plain(const DipPriceModel *model, const DipQuality *quality) {
+// The counters of a row of path 0 that differs from the base in one group at most; see DipWorkFind.
+static const double *find_plain(const void *context, const DipQuality *quality) {
+    const DipPriceModel *model = context;
     for (int i = 0; i < model->plain_count; i++) {
-        if (dip_price_is_same(&model->plain[i].quality, quality)) {
-            return &model->plain[i];
+        if (dip_quality_equal(&model->plain[i].quality, quality)) {
+            return model->plain[i].counters;
         }
     }
     return NULL;
 }
 
-static void apply_factors(const double *of, const double *base, double *counters) {
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-        counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);
-    }
-}
-
 static bool compose(const DipPriceModel *model, const DipQuality *quality,
                     double counters[DIP_COST_COUNTER_COUNT]) {
-    const PlainRow *base = find_plain(model, &model->base);
-    if (!base || count_groups(&model->base, quality) > GROUPS) {
-        return false;
-    }
-    memcpy(counters, base->counters, sizeof base->counters);
-    for (int g = 0; g < GROUPS; g++) {
-        const DipQuality alone = dip_cost_take_settings(&model->base, quality, group_mask(g));
-        const PlainRow *row = find_plain(model, &alone);
-        if (!row) {
-            return false;
-        }
-        if (row != base) {
-            apply_factors(row->counters, base->counters, counters);
-        }
-    }
-    return true;
+    return dip_work_compose(find_plain, model, &model->base, quality, counters);
 }
 
 // --- making the model ----------------------------------------------------------------------------
@@ -93,8 +51,8 @@ static void keep_plain_rows(DipPriceModel *model, const DipCostReport *report) {
     for (int r = 0; r < report->row_count; r++) {
         const DipCostRow *row = &report->rows[r];
         const DipQuality normal = dip_price_normal(&model->base, &row->quality);
-        if (row->path == 0 && count_groups(&model->base, &normal) <= 1 &&
-            !find_plain(model, &normal)) {
+        const int groups = dip_work_count_groups(&model->base, &normal);
+        if (row->path == 0 && groups >= 0 && groups <= 1 && !find_plain(model, &normal)) {
             PlainRow *plain = &model->plain[model->plain_count++];
             plain->quality = normal;
             memcpy(plain->counters, row->counters, sizeof plain->counters);
@@ -111,7 +69,7 @@ static double miss_of(const DipPriceModel *model, const DipCostReport *report, c
     double counters[DIP_COST_COUNTER_COUNT];
     int others[DIP_COST_MAX_ROWS];
     int other_count = 0;
-    if (left_out->path != 0 || count_groups(&model->base, &normal) < 2 ||
+    if (left_out->path != 0 || dip_work_count_groups(&model->base, &normal) < 2 ||
         !compose(model, &normal, counters)) {
         return -1.0;
     }
@@ -124,8 +82,8 @@ static double miss_of(const DipPriceModel *model, const DipCostReport *report, c
     return fabs(dip_cost_model_ms(&times, counters, &normal) / left_out->time.mean_ms.value - 1.0);
 }
 
-// Predicts some of the rows that differ from the base in two groups or more. If there are none,
-// takes the misses of rows whose work is known.
+// Returns the share by which 90 % of predictions miss. Predicts up to MOST_MISSES rows that differ
+// from the base in two groups or more. Without such rows, predicts each row from its own counters.
 static double usual_miss(const DipPriceModel *model, const DipCostReport *report, const int *rows,
                          int count) {
     double misses[MOST_MISSES];

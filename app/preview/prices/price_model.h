@@ -1,9 +1,7 @@
-// The time and the error of combinations that a report did not measure.
+// Predicts the time and the error of combinations that a report did not measure.
 //
-// The time comes from the report's model of work (app/report/fit.h). The model needs the work of
-// the combination: the counters are those of the base, times the factor by which each group of
-// settings alone changes each counter. The groups are antialiasing, anisotropic filtering, texture
-// optimisation, mip detail and instancing. FLIP comes from the report's model of errors.
+// The time comes from the report's model of work (app/report/fit.h) and the combination's composed
+// work (app/report/work.h). FLIP comes from the report's model of errors.
 #ifndef DIP_APP_PREVIEW_PRICES_PRICE_MODEL_H
 #define DIP_APP_PREVIEW_PRICES_PRICE_MODEL_H
 
@@ -25,7 +23,8 @@ bool dip_price_model_create(const DipCostReport *report, const DipQuality *base,
                             DipPriceModel **model, DipError *err);
 void dip_price_model_destroy(DipPriceModel **model); // *model may be NULL.
 
-// Returns false if the report lacks a row for one of the combination's groups alone.
+// Returns false if, for one of the combination's groups, the report has no row that differs from
+// the base in this group alone.
 bool dip_price_model_predict(const DipPriceModel *model, const DipQuality *quality,
                              DipPricePrediction *prediction);
 

@@ -1,33 +1,22 @@
-// Finding the company of each setting, and listing the combinations that prices are made of.
+// Finds the company of each setting, and lists the combinations that prices are made of.
 #include "app/preview/prices/price_question.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 // Company for a pane that has none: the steps that `diptych cost` sweeps with.
 enum { COMPANY_AA = 2, COMPANY_AF = 4 };
-
-bool dip_price_is_same(const DipQuality *a, const DipQuality *b) {
-    return memcmp(a, b, sizeof *a) == 0;
-}
 
 // Returns whether adaptive AA with these settings divides the samples into two groups or more.
 static bool has_groups(const DipQuality *quality) {
     DipQuality on = *quality;
     on.step[DIP_SETTING_AAA] = 1;
-    return dip_quality_check(&on, NULL) &&
-           dip_quality_samples_per_group(&on) < dip_quality_sample_count(&on);
+    return dip_quality_effective(&on).step[DIP_SETTING_AAA] != 0;
 }
 
 DipQuality dip_price_normal(const DipQuality *base, const DipQuality *quality) {
-    DipQuality normal = *quality;
-    uint8_t *step = normal.step;
-    step[DIP_SETTING_MIPDEBUG] = base->step[DIP_SETTING_MIPDEBUG];
-    step[DIP_SETTING_AAF] = step[DIP_SETTING_AF] ? step[DIP_SETTING_AAF] : 0;
-    step[DIP_SETTING_TAA] = step[DIP_SETTING_AA] ? step[DIP_SETTING_TAA] : 0;
-    step[DIP_SETTING_AAA] = has_groups(&normal) ? step[DIP_SETTING_AAA] : 0;
-    step[DIP_SETTING_ASD] = step[DIP_SETTING_AAA] ? step[DIP_SETTING_ASD] : 0;
+    DipQuality normal = dip_quality_effective(quality);
+    normal.step[DIP_SETTING_MIPDEBUG] = base->step[DIP_SETTING_MIPDEBUG];
     return normal;
 }
 
@@ -156,7 +145,7 @@ typedef struct Wanted {
 static void want(Wanted *wanted, const DipQuality *quality) {
     const DipQuality normal = dip_price_normal(wanted->base, quality);
     for (int i = 0; i < wanted->count; i++) {
-        if (dip_price_is_same(&wanted->list[i], &normal)) {
+        if (dip_quality_equal(&wanted->list[i], &normal)) {
             return;
         }
     }

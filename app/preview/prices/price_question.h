@@ -33,8 +33,6 @@ DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, 
 // group sizes without adaptive AA. Mip colours are taken out too, because they have no price.
 DipQuality dip_price_normal(const DipQuality *base, const DipQuality *quality);
 
-bool dip_price_is_same(const DipQuality *a, const DipQuality *b);
-
 // Lists the combinations that must be timed so that every step has a price, and so that the sums of
 // both panes and of every combination one step away from the requested pane are known: the base and
 // the panes first, then the steps in the order of their distance from the requested pane's, and at

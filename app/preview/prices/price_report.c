@@ -14,7 +14,7 @@ static bool out_of_memory(DipError *err) {
 
 const DipPriceKnown *dip_price_list_find(const DipPriceList *list, const DipQuality *quality) {
     for (int i = 0; i < list->count; i++) {
-        if (dip_price_is_same(&list->items[i].quality, quality)) {
+        if (dip_quality_equal(&list->items[i].quality, quality)) {
             return &list->items[i];
         }
     }
@@ -114,13 +114,13 @@ static int find_row(const DipCostReport *report, int path, const DipQuality *bas
                     const DipQuality *quality) {
     for (int r = 0; r < report->row_count; r++) {
         const DipQuality normal = dip_price_normal(base, &report->rows[r].quality);
-        if (report->rows[r].path == path && dip_price_is_same(&normal, quality)) {
+        if (report->rows[r].path == path && dip_quality_equal(&normal, quality)) {
             return r;
         }
     }
     for (int i = 0; path == 0 && i < report->same_count; i++) {
         const DipQuality normal = dip_price_normal(base, &report->same[i].quality);
-        if (dip_price_is_same(&normal, quality)) {
+        if (dip_quality_equal(&normal, quality)) {
             return report->same[i].row;
         }
     }
@@ -194,8 +194,8 @@ const DipPrice *dip_price_report_find(const DipPriceReport *report, DipSetting s
                                       const DipPriceQuestion *question) {
     for (int i = 0; i < report->tag_count; i++) {
         const DipPriceTag *tag = &report->tags[i];
-        if (dip_price_is_same(&tag->with, &question->with) &&
-            dip_price_is_same(&tag->without, &question->without) &&
+        if (dip_quality_equal(&tag->with, &question->with) &&
+            dip_quality_equal(&tag->without, &question->without) &&
             (!question->is_base || tag->setting == setting)) {
             return &tag->price;
         }

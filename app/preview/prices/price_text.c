@@ -5,14 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-void dip_step_name(DipSetting setting, int step, char name[DIP_STEP_NAME_BYTES]) {
-    static const char *const miplod[] = {"high perf.", "perform.", "quality", "high qual."};
-    const char *text =
-        setting == DIP_SETTING_MIPLOD ? miplod[step] : dip_setting_info(setting)->steps[step];
-    const bool times = (setting == DIP_SETTING_AA || setting == DIP_SETTING_AF) && step > 0;
-    snprintf(name, DIP_STEP_NAME_BYTES, "%s%s", text, times ? "x" : "");
-}
-
 const char *dip_step_explanation(DipSetting setting, int step) {
     static const char *const texts[DIP_SETTING_COUNT][DIP_MAX_STEPS] = {
         [DIP_SETTING_AA] = {"One sample per pixel, so edges are stair-stepped.",
@@ -51,44 +43,6 @@ const char *dip_step_explanation(DipSetting setting, int step) {
                                   "Each mip level of a colour texture shows as a flat colour."},
     };
     return texts[setting][step];
-}
-
-const char *dip_setting_short_title(DipSetting setting) {
-    static const char *const titles[DIP_SETTING_COUNT] = {
-        [DIP_SETTING_AA] = "Antialias.", [DIP_SETTING_TAA] = "Temporal",
-        [DIP_SETTING_AAA] = "Adaptive",  [DIP_SETTING_ASD] = "Group size",
-        [DIP_SETTING_AF] = "Anisotrop.", [DIP_SETTING_AAF] = "Adv. AF",
-        [DIP_SETTING_OPT] = "Tex. opt.", [DIP_SETTING_MIPLOD] = "Mip detail",
-        [DIP_SETTING_GI] = "Instancing", [DIP_SETTING_MIPDEBUG] = "Mip col.",
-    };
-    return titles[setting];
-}
-
-const char *dip_setting_needs(DipSetting setting, const DipQuality *quality) {
-    const bool has_samples = dip_quality_sample_count(quality) > 1;
-    switch (setting) {
-    case DIP_SETTING_TAA:
-    case DIP_SETTING_AAA:
-        return has_samples ? NULL : "needs AA";
-    case DIP_SETTING_ASD:
-        return quality->step[DIP_SETTING_AAA] && has_samples ? NULL : "needs adaptive AA";
-    case DIP_SETTING_AAF:
-        return quality->step[DIP_SETTING_AF] ? NULL : "needs AF";
-    default:
-        return NULL;
-    }
-}
-
-static bool is_reversed(DipSetting setting) {
-    return setting == DIP_SETTING_OPT || setting == DIP_SETTING_ASD;
-}
-
-int dip_step_at(DipSetting setting, int position) {
-    return is_reversed(setting) ? dip_setting_info(setting)->step_count - 1 - position : position;
-}
-
-int dip_step_position(DipSetting setting, int step) {
-    return dip_step_at(setting, step);
 }
 
 void dip_ms_text(double ms, DipPriceTrust trust, char text[DIP_STEP_NAME_BYTES]) {
@@ -194,25 +148,12 @@ static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
 
 void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const char *why,
                   char text[DIP_STEP_TEXT_BYTES]) {
-    char name[DIP_STEP_NAME_BYTES], cost[240];
-    dip_step_name(setting, step, name);
+    char cost[240];
     format_price(price, cost, sizeof cost);
-    snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s", name,
-             dip_step_explanation(setting, step), why[0] ? "\n" : "", why,
-             setting == DIP_SETTING_MIPDEBUG ? "" : cost,
+    snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s",
+             dip_setting_info(setting)->labels[step], dip_step_explanation(setting, step),
+             why[0] ? "\n" : "", why, setting == DIP_SETTING_MIPDEBUG ? "" : cost,
              price->has_flip ? "\nFLIP is the error that people see, from 0 (the same picture as "
                                "the converged one) to 1. A minus sign is a gain."
                              : "");
-}
-
-void dip_settings_text(const DipQuality *quality, char *text, size_t size_bytes) {
-    size_t length = 0;
-    snprintf(text, size_bytes, "defaults");
-    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
-        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
-        if (quality->step[s] != info->default_step && length < size_bytes) {
-            length += (size_t)snprintf(text + length, size_bytes - length, "%s%s=%s",
-                                       length ? "," : "", info->key, info->steps[quality->step[s]]);
-        }
-    }
 }

@@ -13,24 +13,8 @@
 
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
 
-// Writes a step's name as its pill shows it: "4x", "high perf.".
-void dip_step_name(DipSetting setting, int step, char name[DIP_STEP_NAME_BYTES]);
-
 // Returns a sentence about what a step does.
 const char *dip_step_explanation(DipSetting setting, int step);
-
-// Returns the name of a setting for a narrow list: "Antialias.".
-const char *dip_setting_short_title(DipSetting setting);
-
-// Returns what a setting needs to have an effect with the other settings of a quality, such as
-// "needs AF", or NULL if it has an effect.
-const char *dip_setting_needs(DipSetting setting, const DipQuality *quality);
-
-// Returns the step at a position of a slider. The better picture is on the right.
-int dip_step_at(DipSetting setting, int position);
-
-// Returns the position of a step; the opposite of dip_step_at.
-int dip_step_position(DipSetting setting, int step);
 
 // Writes a time without its unit: "8.4", or its first digit and a question mark if it is doubtful:
 // "8?", "70?".
@@ -49,9 +33,5 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 // Writes the tip of a step: what it does, and its price. why: why it cannot be chosen, or "".
 void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const char *why,
                   char text[DIP_STEP_TEXT_BYTES]);
-
-// Writes the settings that differ from the defaults as the command line takes them: "aa=4,af=16",
-// or "defaults".
-void dip_settings_text(const DipQuality *quality, char *text, size_t size_bytes);
 
 #endif

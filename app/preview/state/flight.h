@@ -22,7 +22,7 @@ typedef struct DipFlight {
     int right_steps;
     int forward_steps;
     bool pressed;  // A button that flies the camera was pressed over a pane and is held.
-    bool dragging; // It has moved so far that this is no click.
+    bool dragging; // The pointer has moved too far for a click.
     int press_x;   // Where the button was pressed, in pixels of the window.
     int press_y;
     int drag_x; // Where the pointer was last.

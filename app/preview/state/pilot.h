@@ -1,4 +1,4 @@
-// Flying the free camera: the actions of the camera, and the loop's turn.
+// Flies the free camera: carries out the camera's actions, and moves it in each turn of the loop.
 #ifndef DIP_APP_PREVIEW_STATE_PILOT_H
 #define DIP_APP_PREVIEW_STATE_PILOT_H
 

@@ -1,4 +1,4 @@
-// Appending a pose to a path file.
+// Appends a pose to a path file.
 #include "app/preview/state/poses.h"
 
 #include "app/files/whole_file.h"

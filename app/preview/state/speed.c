@@ -1,4 +1,4 @@
-// Choosing the speed of the free camera and the point that it orbits.
+// Chooses the speed of the free camera and the point that it orbits.
 #include "app/preview/state/speed.h"
 
 #include "app/preview/state/camera.h"

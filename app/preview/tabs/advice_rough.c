@@ -51,7 +51,7 @@ static void write_found(DipUi *ui, const DipRoughAdvice *advice, DipRect room, i
                  change < 0.0 ? "\u2212" : "+", fabs(change));
     }
     dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_soft, room, y, text);
-    dip_settings_text(&advice->quality, text, sizeof text);
+    dip_quality_format_changes(&advice->quality, text, sizeof text);
     dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_white, room, y, text);
 }
 

@@ -61,7 +61,7 @@ static int declare_budgets(DipUi *ui, DipWindow *window, DipRect room) {
 
 void dip_advice_try(DipUi *ui, DipWindow *window, const DipQuality *quality) {
     char text[160];
-    dip_settings_text(quality, text, sizeof text);
+    dip_quality_format_changes(quality, text, sizeof text);
     dip_preview_set_quality(window->state, DIP_PANE_REQUESTED, quality, dip_ui_now_ns(ui));
     dip_preview_notice(window->state, dip_ui_now_ns(ui), "Requested: %.120s", text);
 }
@@ -81,7 +81,7 @@ static void write_picked(DipUi *ui, const DipWindow *window, const DipCostsAdvic
         snprintf(text, sizeof text, "FLIP %s", flip);
     }
     dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_soft, room, y, text);
-    dip_settings_text(&advice->quality, text, sizeof text);
+    dip_quality_format_changes(&advice->quality, text, sizeof text);
     dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_white, room, y, text);
     if (costs->width != window->frames[0].width || costs->height != window->frames[0].height) {
         snprintf(text, sizeof text, "The report is of %dx%d, the panes are %dx%d.", costs->width,

@@ -61,9 +61,10 @@ static bool is_valid(const DipPreviewState *state, DipSetting setting, int step,
 static void draw_values(DipUi *ui, const DipWindow *window, DipSetting setting, int size, int right,
                         int y, int room) {
     const DipPreviewState *state = window->state;
-    char current[DIP_STEP_NAME_BYTES], requested[DIP_STEP_NAME_BYTES], text[32];
-    dip_step_name(setting, step_of(state, DIP_PANE_CURRENT, setting), current);
-    dip_step_name(setting, step_of(state, DIP_PANE_REQUESTED, setting), requested);
+    const DipSettingInfo *info = dip_setting_info(setting);
+    const char *current = info->labels[step_of(state, DIP_PANE_CURRENT, setting)];
+    const char *requested = info->labels[step_of(state, DIP_PANE_REQUESTED, setting)];
+    char text[32];
     snprintf(text, sizeof text, "%s \u2192 ", current);
     const int width = dip_ui_text_width(ui, size, requested);
     const bool changed = step_of(state, 0, setting) != step_of(state, 1, setting);
@@ -79,7 +80,7 @@ static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const Di
                       int pointed) {
     DipPreviewState *state = window->state;
     const int count = dip_setting_info(setting)->step_count;
-    const int now = dip_step_position(setting, step_of(state, edited_pane(state), setting));
+    const int now = dip_setting_step_at(setting, step_of(state, edited_pane(state), setting));
     int wanted = now;
     if (input->began || (input->held && input->moved)) {
         wanted = pointed;
@@ -87,7 +88,7 @@ static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const Di
         wanted = now + input->steps;
         char why[256]; // Steps that do not fit are passed over.
         while (wanted >= 0 && wanted < count &&
-               !is_valid(state, setting, dip_step_at(setting, wanted), why)) {
+               !is_valid(state, setting, dip_setting_step_at(setting, wanted), why)) {
             wanted += input->steps > 0 ? 1 : -1;
         }
     } else if (input->to_first || input->to_last) {
@@ -97,7 +98,8 @@ static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const Di
     }
     wanted = dip_style_max(0, dip_style_min(count - 1, wanted));
     if (wanted != now) {
-        dip_preview_set_step(state, setting, dip_step_at(setting, wanted), dip_ui_now_ns(ui));
+        dip_preview_set_step(state, setting, dip_setting_step_at(setting, wanted),
+                             dip_ui_now_ns(ui));
     }
 }
 
@@ -179,13 +181,13 @@ static void draw_price(DipUi *ui, const Slider *slider, int position, bool reque
 static void draw_pill(DipUi *ui, const DipWindow *window, const Slider *slider, int position,
                       int x) {
     const DipPreviewState *state = window->state;
-    const int step = dip_step_at(slider->setting, position);
+    const int step = dip_setting_step_at(slider->setting, position);
     const bool current = step == step_of(state, DIP_PANE_CURRENT, slider->setting);
     const bool requested = step == step_of(state, DIP_PANE_REQUESTED, slider->setting);
     const bool hovered = slider->input.hovered && slider->pointed == position;
-    char name[DIP_STEP_NAME_BYTES], why[256];
+    const char *name = dip_setting_info(slider->setting)->labels[step];
+    char why[256];
     const bool valid = is_valid(state, slider->setting, step, why);
-    dip_step_name(slider->setting, step, name);
     const int height = dip_ui_px(ui, STEP_HEIGHT);
     const int width =
         dip_style_min(slider->cell_width,
@@ -234,7 +236,7 @@ static void draw_slider(DipUi *ui, const DipWindow *window, const Slider *slider
                 price_y + dip_ui_px(ui, PRICE_HEIGHT), cells.x - rect.x, "FLIP");
     for (int i = 0; i < slider->count; ++i) {
         const int x = cells.x + slider->cell_width * i + slider->cell_width / 2;
-        const bool requested = dip_step_at(slider->setting, i) ==
+        const bool requested = dip_setting_step_at(slider->setting, i) ==
                                step_of(window->state, DIP_PANE_REQUESTED, slider->setting);
         draw_pill(ui, window, slider, i, x);
         draw_price(ui, slider, i, requested, x, price_y);
@@ -243,7 +245,8 @@ static void draw_slider(DipUi *ui, const DipWindow *window, const Slider *slider
 
 static void find_prices(const DipWindow *window, Slider *slider) {
     for (int i = 0; i < slider->count; ++i) {
-        slider->prices[i] = price_of(window, slider->setting, dip_step_at(slider->setting, i));
+        slider->prices[i] =
+            price_of(window, slider->setting, dip_setting_step_at(slider->setting, i));
         slider->rough |= slider->prices[i].state == DIP_PRICE_ROUGH;
         if (has_bar(&slider->prices[i])) {
             slider->most_ms = fmax(slider->most_ms, fabs(slider->prices[i].ms));
@@ -263,11 +266,11 @@ static int declare_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipR
     slider.cell_width = dip_style_max(1, (rect.width - indent) / slider.count);
     slider.cells =
         (DipRect){rect.x + indent, rect.y + name_height, slider.cell_width * slider.count, height};
-    slider.dimmed = dip_setting_needs(setting, &state->quality[edited_pane(state)]) != NULL;
+    slider.dimmed = dip_quality_needs(&state->quality[edited_pane(state)], setting) != NULL;
     const int under = (dip_ui_pointer_x(ui) - slider.cells.x) / slider.cell_width;
     slider.pointed = dip_style_max(0, dip_style_min(slider.count - 1, under));
     char why[256], tip[DIP_STEP_TEXT_BYTES];
-    const int step = dip_step_at(setting, slider.pointed);
+    const int step = dip_setting_step_at(setting, slider.pointed);
     const DipPrice price = price_of(window, setting, step);
     is_valid(state, setting, step, why);
     dip_step_tip(setting, step, &price, why, tip);
@@ -307,7 +310,7 @@ static void draw_switch(DipUi *ui, DipRect rect, bool current, bool requested, b
 static void draw_switch_price(DipUi *ui, const DipWindow *window, DipSetting setting, int right,
                               int y, int room) {
     const DipPrice price = price_of(window, setting, setting == DIP_SETTING_GI ? 0 : 1);
-    const char *needs = dip_setting_needs(setting, &window->state->quality[DIP_PANE_REQUESTED]);
+    const char *needs = dip_quality_needs(&window->state->quality[DIP_PANE_REQUESTED], setting);
     char ms[DIP_STEP_NAME_BYTES], flip[DIP_STEP_NAME_BYTES] = "", text[160], longer[160];
     dip_price_ms_text(&price, ms);
     const bool known = is_known(&price);
@@ -340,7 +343,7 @@ static void draw_switch_price(DipUi *ui, const DipWindow *window, DipSetting set
 static int declare_switch(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
     const DipPreviewState *state = window->state;
     const bool on = step_of(state, edited_pane(state), setting) != 0;
-    const bool dimmed = dip_setting_needs(setting, &state->quality[edited_pane(state)]) != NULL;
+    const bool dimmed = dip_quality_needs(&state->quality[edited_pane(state)], setting) != NULL;
     char tip[DIP_STEP_TEXT_BYTES];
     const DipPrice price = price_of(window, setting, 1);
     rect.height = dip_ui_px(ui, SWITCH_HEIGHT);
@@ -391,7 +394,7 @@ void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, 
                                                           .takes_arrows = true,
                                                           .takes_wheel = true});
     const int title_end = rect.x + dip_ui_px(ui, 10) +
-                          dip_ui_text_width(ui, LINE_SIZE, dip_setting_short_title(setting));
+                          dip_ui_text_width(ui, LINE_SIZE, dip_setting_info(setting)->short_title);
     if (input.pressed) { // A click on the arrow before the value takes the step before.
         const bool back = input.hovered && input.x >= title_end &&
                           input.x < (title_end + rect.x + rect.width) / 2;
@@ -410,7 +413,7 @@ void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, 
     if (is_known(&price)) {
         dip_price_ms_text(&price, ms);
     }
-    const char *title = dip_setting_short_title(setting);
+    const char *title = dip_setting_info(setting)->short_title;
     const int title_width = dip_ui_text_width(ui, size, title);
     dip_ui_text(ui, size, dip_style_white, DIP_ALIGN_LEFT, rect.x + pad, y, rect.width, title);
     dip_ui_text(ui, size, dip_style_soft, DIP_ALIGN_RIGHT, rect.x + rect.width - pad, y,

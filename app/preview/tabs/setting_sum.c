@@ -43,7 +43,7 @@ int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns)
         const DipQuality quality = dip_preview_preset(window->state, (DipPreset)p);
         const DipPriceSum sum = dip_prices_sum(window->prices, &quality);
         char settings[200], tip[320];
-        dip_settings_text(&quality, settings, sizeof settings);
+        dip_quality_format_changes(&quality, settings, sizeof settings);
         snprintf(tip, sizeof tip, "%s: %s", dip_preview_preset_name((DipPreset)p), settings);
         if (sum.state != DIP_PRICE_UNKNOWN) {
             snprintf(tip + strlen(tip), sizeof tip - strlen(tip), "\n%s%.1f ms",
@@ -412,7 +412,8 @@ static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
                                     (DipRect){room.x, room.y, room.width, bottom - room.y}, source);
     }
     if (room.y + line <= bottom) {
-        dip_settings_text(&window->state->quality[DIP_PANE_REQUESTED], settings, sizeof settings);
+        dip_quality_format_changes(&window->state->quality[DIP_PANE_REQUESTED], settings,
+                                   sizeof settings);
         dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, room.x, room.y, room.width,
                     settings);
         room.y += line;

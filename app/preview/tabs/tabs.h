@@ -11,8 +11,8 @@
 // Declares and draws the whole window: the panes' pictures, labels, marks, the dock and sheets.
 void dip_window_declare(DipUi *ui, DipWindow *window);
 
-// Each declares and draws one tab in the rectangle `body`, which is never empty. A tab that does
-// not fit leaves out what the mock-ups of small windows leave out, and cuts nothing.
+// Each function declares and draws one tab in the rectangle `body`, which is never empty. Where the
+// room is too small, a tab leaves out whole parts and cuts none.
 void dip_tab_settings(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_loupe(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_compare(DipUi *ui, DipWindow *window, DipRect body);

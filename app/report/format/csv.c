@@ -3,6 +3,7 @@
 
 #include "app/report/viewpoints.h"
 #include "app/files/whole_file.h"
+#include "app/files/put.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -89,22 +90,21 @@ static void write_errors(const DipCostReport *report, int row, FILE *out) {
     write_tail(report, row, out);
 }
 
-// Writes a comma and a quoted text. Quotes within the text are doubled (RFC 4180).
-static void write_quoted(const char *text, FILE *out) {
-    fputs(",\"", out);
-    for (; *text; text++) {
-        *text == '"' ? fputs("\"\"", out) : fputc(*text, out);
-    }
-    fputc('"', out);
+static void write_text(const char *text, FILE *out) {
+    fputc(',', out);
+    dip_put_csv_text(out, text);
 }
 
 // What all lines of a report have in common.
 static void write_report(const DipCostReport *report, FILE *out) {
-    write_quoted(report->scene, out);
+    write_text(report->scene, out);
     fprintf(out, ",%d,%d", report->width, report->height);
-    write_quoted(report->processor, out);
-    fprintf(out, ",%d,%s,%s,%s,%s", report->threads, report->isa, report->version, report->date,
-            report->rounds > 0 ? dip_cost_verdict_names[report->verdict] : "");
+    write_text(report->processor, out);
+    fprintf(out, ",%d", report->threads);
+    write_text(report->isa, out);
+    write_text(report->version, out);
+    write_text(report->date, out);
+    write_text(report->rounds > 0 ? dip_cost_verdict_names[report->verdict] : "", out);
 }
 
 // Writes one line.
@@ -113,9 +113,9 @@ static void write_row(const DipCostReport *report, const char *kind, const char 
     char settings[256];
     dip_quality_format(&report->rows[row].quality, settings, sizeof settings);
     fputs(kind, out);
-    write_quoted(title, out);
-    fprintf(out, ",%s", report->paths[report->rows[row].path]);
-    write_quoted(settings, out);
+    write_text(title, out);
+    write_text(report->paths[report->rows[row].path], out);
+    write_text(settings, out);
     if (dip_cost_is_timed(report, row)) {
         const DipPathEstimate *time = &report->rows[row].time;
         fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", ratio->value, ratio->low, ratio->high,
@@ -139,8 +139,9 @@ static void write_prediction(const DipCostReport *report, const DipCostPredictio
                              FILE *out) {
     char settings[256];
     dip_quality_format(&prediction->quality, settings, sizeof settings);
-    fprintf(out, "predicted,\"\",%s", report->paths[0]);
-    write_quoted(settings, out);
+    fputs("predicted,\"\"", out);
+    write_text(report->paths[0], out);
+    write_text(settings, out);
     fprintf(out, ",,,,%.6g,,,%.6g,,,", prediction->ms, prediction->p95_ms);
     write_report(report, out);
     fprintf(out, ",,,,,%.8g", prediction->flip);
@@ -164,8 +165,10 @@ bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError 
     }
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
+        char title[DIP_COST_TEXT];
+        dip_cost_sweep_title(report, sweep, title);
         for (int i = 0; i < sweep->row_count; i++) {
-            write_row(report, "step", sweep->title, sweep->rows[i], &sweep->ratios[i], out);
+            write_row(report, "step", title, sweep->rows[i], &sweep->ratios[i], out);
         }
     }
     for (int r = report->combined_first; r < report->row_count; r++) {

@@ -1,4 +1,4 @@
-// Writing a report as JSON, CSV and text, and reading it from JSON. (html.h writes the HTML page.)
+// Writes a report as JSON, CSV and text, and reads it from JSON. (html.h writes the HTML page.)
 // Each file is written whole or not at all.
 #ifndef DIP_APP_REPORT_FORMAT_FORMATS_H
 #define DIP_APP_REPORT_FORMAT_FORMATS_H

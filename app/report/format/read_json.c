@@ -2,7 +2,6 @@
 #include "app/report/format/formats.h"
 
 #include "app/report/format/json_fields.h"
-#include "app/report/format/json_frames.h"
 #include "app/report/format/json_memory.h"
 #include "app/report/format/json_read.h"
 #include "app/report/format/json_smaller.h"
@@ -18,6 +17,12 @@
 
 enum { MAX_FILE_BYTES = 1 << 29 };
 
+// Names of paths are those of categories, or of an option's value.
+static bool is_name(const char *text) {
+    return *text && strspn(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                 "0123456789_-") == strlen(text);
+}
+
 static bool read_paths(const cJSON *root, DipCostReport *report) {
     bool ok = true;
     const cJSON *item;
@@ -30,6 +35,7 @@ static bool read_paths(const cJSON *root, DipCostReport *report) {
                            sizeof report->paths[p], &ok);
         dip_json_copy_text(cJSON_GetObjectItemCaseSensitive(item, "poses"), report->path_hashes[p],
                            sizeof report->path_hashes[p], &ok);
+        ok = ok && is_name(report->paths[p]);
         report->base_rows[p] = dip_json_integer(item, "base_row", 0, DIP_COST_MAX_ROWS - 1, &ok);
         report->same_rows[p] = dip_json_integer(item, "same_row", 0, DIP_COST_MAX_ROWS - 1, &ok);
         report->path_count++;
@@ -129,8 +135,6 @@ static bool read_same(const cJSON *root, DipCostReport *report, const char *file
 static bool read_sweep(const cJSON *object, DipCostReport *report, DipCostSweep *sweep) {
     bool ok = true;
     const cJSON *setting = cJSON_GetObjectItemCaseSensitive(object, "setting");
-    dip_json_copy_text(cJSON_GetObjectItemCaseSensitive(object, "title"), sweep->title,
-                       sizeof sweep->title, &ok);
     sweep->path = dip_json_integer(object, "path", 0, report->path_count - 1, &ok);
     sweep->base = dip_json_integer(object, "base", 0, report->row_count - 1, &ok);
     int found = -1;
@@ -230,8 +234,7 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
     if (!read_floors(root, report)) {
         return dip_json_missing(file, "floors", err);
     }
-    if (!dip_cost_read_predictions(root, report, file, err) ||
-        !dip_cost_frames_read(root, report, file, err)) {
+    if (!dip_cost_read_predictions(root, report, file, err)) {
         return false;
     }
     if (!dip_cost_smaller_read(root, report)) {

@@ -6,6 +6,7 @@
 #include "app/report/interaction.h"
 #include "app/report/order.h"
 #include "app/report/tiers.h"
+#include "app/files/put.h"
 
 #include <math.h>
 
@@ -13,10 +14,10 @@ static void print_heading(const DipCostReport *report, FILE *out) {
     const DipCostOptions *o = &report->options;
     char baseline[DIP_COST_TEXT];
     dip_cost_settings_text(&report->options.baseline, baseline);
-    fprintf(out, "scene    %s, %dx%d pixels\n", report->scene, report->width, report->height);
-    fprintf(out, "machine  %s, %d thread%s, %s\n", report->processor, report->threads,
-            dip_cost_plural(report->threads), report->isa);
-    fprintf(
+    dip_put_text(out, "scene    %s, %dx%d pixels\n", report->scene, report->width, report->height);
+    dip_put_text(out, "machine  %s, %d thread%s, %s\n", report->processor, report->threads,
+                 dip_cost_plural(report->threads), report->isa);
+    dip_put_text(
         out,
         "times    %d frames along each path in %d rounds, each beside the baseline; ratio = time "
         "/ the baseline's time\n",
@@ -24,56 +25,59 @@ static void print_heading(const DipCostReport *report, FILE *out) {
     if (report->rounds > 0) {
         char level[DIP_COST_REASON];
         dip_cost_level_text(report, level);
-        fprintf(out, "machine was %s: %s\n         %s\n", dip_cost_verdict_names[report->verdict],
-                report->verdict_reason, level);
+        dip_put_text(out, "machine was %s: %s\n         %s\n",
+                     dip_cost_verdict_names[report->verdict], report->verdict_reason, level);
     }
-    fprintf(out,
-            "errors   %d viewpoint%s on each path, %d frame%s at each, against a converged picture "
-            "(truth) of 2 x %d samples per pixel\n",
-            o->places, dip_cost_plural(o->places), o->burst, dip_cost_plural(o->burst), o->samples);
-    fprintf(out, "baseline %s\n", baseline);
+    dip_put_text(
+        out,
+        "errors   %d viewpoint%s on each path, %d frame%s at each, against a converged picture "
+        "(truth) of 2 x %d samples per pixel\n",
+        o->places, dip_cost_plural(o->places), o->burst, dip_cost_plural(o->burst), o->samples);
+    dip_put_text(out, "baseline %s\n", baseline);
 }
 
 static void print_times(const DipCostReport *report, int row, const DipStatsEstimate *ratio,
                         FILE *out) {
     if (!dip_cost_is_timed(report, row)) {
-        fprintf(out, " %8s %8s %6s %-14s", "-", "-", "-", "");
+        dip_put_text(out, " %8s %8s %6s %-14s", "-", "-", "-", "");
         return;
     }
     char interval[32];
     snprintf(interval, sizeof interval, "%.3f to %.3f", ratio->low, ratio->high);
-    fprintf(out, " %8.2f %8.2f %6.3f %-14s", dip_cost_ms(report, row),
-            report->rows[row].time.p95_ms.value, ratio->value, interval);
+    dip_put_text(out, " %8.2f %8.2f %6.3f %-14s", dip_cost_ms(report, row),
+                 report->rows[row].time.p95_ms.value, ratio->value, interval);
 }
 
 static void print_row(const DipCostReport *report, const char *name, int row,
                       const DipStatsEstimate *ratio, FILE *out) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    fprintf(out, "  %-17s", name);
+    dip_put_text(out, "  %-17s", name);
     print_times(report, row, ratio, out);
     if (viewpoints > 0) {
         const DipMetrics f = dip_metrics_of(&sums, 0);
         const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
-        fprintf(out, " %7.5f %6.2f %7.5f %7.5f %7.5f %7.5f  %s", f.rmse_lin, f.psnr_db, f.ssim,
-                f.flip, flicker.flicker, flicker.two_mean, dip_cost_floor_mark(report, row));
+        dip_put_text(out, " %7.5f %6.2f %7.5f %7.5f %7.5f %7.5f  %s", f.rmse_lin, f.psnr_db, f.ssim,
+                     f.flip, flicker.flicker, flicker.two_mean, dip_cost_floor_mark(report, row));
     }
-    fputc('\n', out);
+    dip_put_text(out, "\n");
 }
 
 static void print_columns(FILE *out) {
-    fprintf(out, "  %-17s %8s %8s %6s %-14s %7s %6s %7s %7s %7s %7s\n", "", "mean ms", "p95 ms",
-            "ratio", "95 % interval", "RMSE", "PSNR", "SSIM", "FLIP", "flicker", "2-frame");
+    dip_put_text(out, "  %-17s %8s %8s %6s %-14s %7s %6s %7s %7s %7s %7s\n", "", "mean ms",
+                 "p95 ms", "ratio", "95 % interval", "RMSE", "PSNR", "SSIM", "FLIP", "flicker",
+                 "2-frame");
 }
 
 static void print_floors(const DipCostReport *report, FILE *out) {
-    fprintf(out,
-            "\nNoise floor of the truth (an RMSE below three times this value is \"at floor\", and "
-            "combinations whose FLIP is below that of the noise rank alike):\n");
+    dip_put_text(
+        out,
+        "\nNoise floor of the truth (an RMSE below three times this value is \"at floor\", and "
+        "combinations whose FLIP is below that of the noise rank alike):\n");
     for (int p = 0; p < report->path_count; p++) {
         const DipMetricSums sums = dip_cost_floor(report, p);
         const DipMetrics halves = dip_metrics_of(&sums, 0);
-        fprintf(
+        dip_put_text(
             out,
             "  path %-9s RMSE %.5f, FLIP %.5f; between the two halves: PSNR %.2f dB, SSIM %.5f, "
             "FLIP %.5f\n",
@@ -94,16 +98,16 @@ static void print_front_row(const DipCostReport *report, int row, int before, bo
                  (dip_cost_ms(report, row) - dip_cost_ms(report, before)) / steps);
     }
     dip_cost_settings_text(&report->rows[row].quality, text);
-    fprintf(out, "  %8.2f ms  FLIP %.5f  %-18s %s%s\n", dip_cost_ms(report, row), flip, price, text,
-            is_knee ? "  <- knee" : "");
+    dip_put_text(out, "  %8.2f ms  FLIP %.5f  %-18s %s%s\n", dip_cost_ms(report, row), flip, price,
+                 text, is_knee ? "  <- knee" : "");
 }
 
 static void print_same(const DipCostReport *report, FILE *out) {
     if (report->same_count > 0) {
-        fprintf(out,
-                "\n%d more combinations draw the same pictures as one with fewer settings off "
-                "their defaults; cost.json lists them.\n",
-                report->same_count);
+        dip_put_text(out,
+                     "\n%d more combinations draw the same pictures as one with fewer settings off "
+                     "their defaults; cost.json lists them.\n",
+                     report->same_count);
     }
 }
 
@@ -114,20 +118,22 @@ static void print_front(const DipCostReport *report, FILE *out) {
     if (count == 0) {
         return;
     }
-    fprintf(out,
-            "\n"
-            "Pareto front of %d measured combinations on path %s: no other combination has less "
-            "time and less FLIP.\n"
-            "A combination is listed only if its FLIP is at least 1 %% below the FLIP of the line "
-            "above.\n",
-            count, report->paths[0]);
+    dip_put_text(
+        out,
+        "\n"
+        "Pareto front of %d measured combinations on path %s: no other combination has less "
+        "time and less FLIP.\n"
+        "A combination is listed only if its FLIP is at least 1 %% below the FLIP of the line "
+        "above.\n",
+        count, report->paths[0]);
     const int knee = dip_cost_knee(report, front, kept);
     for (int i = 0; i < kept; i++) {
         print_front_row(report, front[i], i > 0 ? front[i - 1] : -1, i == knee, out);
     }
     if (kept > 1) {
-        fprintf(out, "  (after FLIP: what 1 %% less FLIP cost on the way from the line above%s)\n",
-                knee >= 0 ? "; knee: beyond it, more time buys least" : "");
+        dip_put_text(out,
+                     "  (after FLIP: what 1 %% less FLIP cost on the way from the line above%s)\n",
+                     knee >= 0 ? "; knee: beyond it, more time buys least" : "");
     }
 }
 
@@ -141,17 +147,18 @@ static void print_fit(const DipCostReport *report, FILE *out) {
         snprintf(smaller, sizeof smaller, " and %d at %dx%d", report->smaller_count,
                  report->smaller_width, report->smaller_height);
     }
-    fprintf(out,
-            "\n"
-            "Linear fit of the time of each stage to its work (%d rows%s, R2 %.3f, median error "
-            "%.1f %%).\n"
-            "Each row predicted from all others: median error %.1f %%, %.0f %% within 10 %%.\n"
-            "Nanoseconds per unit of work:\n",
-            fit.rows, smaller, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
-            100.0 * fit.others.within_10);
+    dip_put_text(
+        out,
+        "\n"
+        "Linear fit of the time of each stage to its work (%d rows%s, R2 %.3f, median error "
+        "%.1f %%).\n"
+        "Each row predicted from all others: median error %.1f %%, %.0f %% within 10 %%.\n"
+        "Nanoseconds per unit of work:\n",
+        fit.rows, smaller, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
+        100.0 * fit.others.within_10);
     for (int i = 0; i < fit.count; i++) {
         if (fit.ns[i] > 0.0) {
-            fprintf(out, "  %-9s %10.3g per %s\n", fit.stages[i], fit.ns[i], fit.names[i]);
+            dip_put_text(out, "  %-9s %10.3g per %s\n", fit.stages[i], fit.ns[i], fit.names[i]);
         }
     }
 }
@@ -159,10 +166,10 @@ static void print_fit(const DipCostReport *report, FILE *out) {
 static void print_misses(const char *what, const DipCostMisses *times, const DipCostMisses *errors,
                          FILE *out) {
     if (times->rows > 0) {
-        fprintf(out,
-                "  %-58s time %4.1f %% (90 %% of them within %.1f %%), FLIP %4.1f %% (%.1f %%)\n",
-                what, 100.0 * times->median, 100.0 * times->p90, 100.0 * errors->median,
-                100.0 * errors->p90);
+        dip_put_text(
+            out, "  %-58s time %4.1f %% (90 %% of them within %.1f %%), FLIP %4.1f %% (%.1f %%)\n",
+            what, 100.0 * times->median, 100.0 * times->p90, 100.0 * errors->median,
+            100.0 * errors->p90);
     }
 }
 
@@ -171,58 +178,61 @@ static void print_prediction(const DipCostReport *report, FILE *out) {
     if (p->count == 0) {
         return;
     }
-    fprintf(out,
-            "\n"
-            "Predicted %d combinations on path %s from %d measured ones, then measured %d that the "
-            "prediction found best.\n"
-            "Median miss of the predictions:\n",
-            p->count, report->paths[0], p->trained, p->times.rows);
+    dip_put_text(
+        out,
+        "\n"
+        "Predicted %d combinations on path %s from %d measured ones, then measured %d that the "
+        "prediction found best.\n"
+        "Median miss of the predictions:\n",
+        p->count, report->paths[0], p->trained, p->times.rows);
     print_misses("combinations measured after they had been predicted", &p->times, &p->errors, out);
     print_misses("each of the first ones, predicted from the others", &p->times_left_out,
                  &p->errors_left_out, out);
     if (p->count > DIP_COST_MOST_COUNTED) {
-        fprintf(out, "  The work of combinations of antialiasing and filtering was composed from "
+        dip_put_text(out,
+                     "  The work of combinations of antialiasing and filtering was composed from "
                      "the work of either.\n");
     }
 }
 
 static void print_advice(const DipCostReport *report, FILE *out) {
     if (report->verdict == DIP_COST_RED && report->rounds > 0) {
-        fprintf(out,
-                "\nThe machine was too busy: the times are wrong, so no settings are advised.\n");
+        dip_put_text(
+            out, "\nThe machine was too busy: the times are wrong, so no settings are advised.\n");
     }
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
         if (i == 0) {
-            fprintf(out,
-                    "\nBest settings for a time budget on path %s: the least FLIP whose %s time is "
-                    "within the budget:\n",
-                    report->paths[0], dip_cost_budget_of_names[report->options.budget_of]);
+            dip_put_text(
+                out,
+                "\nBest settings for a time budget on path %s: the least FLIP whose %s time is "
+                "within the budget:\n",
+                report->paths[0], dip_cost_budget_of_names[report->options.budget_of]);
         }
         if (advice->row < 0) {
-            fprintf(out, "  %6g ms: no measured combination is surely that fast\n",
-                    advice->budget_ms);
+            dip_put_text(out, "  %6g ms: no measured combination is surely that fast\n",
+                         advice->budget_ms);
             continue;
         }
         int viewpoints;
         char text[DIP_COST_TEXT];
         const DipMetricSums sums = dip_cost_row_sums(report, advice->row, &viewpoints);
         dip_cost_settings_text(&report->rows[advice->row].quality, text);
-        fprintf(out, "  %6g ms: %s  (%.2f ms, 95 %% interval %.2f to %.2f; FLIP %.5f)\n",
-                advice->budget_ms, text, advice->ms, advice->ms_low, advice->ms_high,
-                dip_metrics_of(&sums, 0).flip);
+        dip_put_text(out, "  %6g ms: %s  (%.2f ms, 95 %% interval %.2f to %.2f; FLIP %.5f)\n",
+                     advice->budget_ms, text, advice->ms, advice->ms_low, advice->ms_high,
+                     dip_metrics_of(&sums, 0).flip);
         if (advice->probability > 0.0 && advice->probability < 0.95 && advice->runner_up >= 0) {
             dip_cost_settings_text(&report->rows[advice->runner_up].quality, text);
-            fprintf(out, "  %9s  %.0f %% sure; with %.0f %% it is %s instead\n", "",
-                    100.0 * advice->probability, 100.0 * advice->runner_up_probability, text);
+            dip_put_text(out, "  %9s  %.0f %% sure; with %.0f %% it is %s instead\n", "",
+                         100.0 * advice->probability, 100.0 * advice->runner_up_probability, text);
         }
         const int next = dip_cost_step_up(report, advice->row);
         if (next >= 0) {
             const DipMetricSums better = dip_cost_row_sums(report, next, &viewpoints);
             dip_cost_settings_text(&report->rows[next].quality, text);
-            fprintf(out, "  %9s  next better: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
-                    dip_cost_ms(report, next) - dip_cost_ms(report, advice->row),
-                    dip_metrics_of(&better, 0).flip - dip_metrics_of(&sums, 0).flip);
+            dip_put_text(out, "  %9s  next better: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
+                         dip_cost_ms(report, next) - dip_cost_ms(report, advice->row),
+                         dip_metrics_of(&better, 0).flip - dip_metrics_of(&sums, 0).flip);
         }
     }
 }
@@ -233,15 +243,16 @@ static void print_interactions(const DipCostReport *report, FILE *out) {
     for (int i = 0; i < count; i++) {
         char time[32] = "";
         if (i == 0) {
-            fprintf(out, "\nTwo settings together, against each alone (last steps; mean over the "
+            dip_put_text(out,
+                         "\nTwo settings together, against each alone (last steps; mean over the "
                          "combinations of the others):\n");
         }
         if (list[i].time > 0.0) {
             snprintf(time, sizeof time, "time x %.3f, ", list[i].time);
         }
-        fprintf(out, "  %s and %s: %sFLIP %+.5f  (%d combination%s)\n",
-                dip_setting_info(list[i].a)->key, dip_setting_info(list[i].b)->key, time,
-                list[i].flip, list[i].contexts, dip_cost_plural(list[i].contexts));
+        dip_put_text(out, "  %s and %s: %sFLIP %+.5f  (%d combination%s)\n",
+                     dip_setting_info(list[i].a)->key, dip_setting_info(list[i].b)->key, time,
+                     list[i].flip, list[i].contexts, dip_cost_plural(list[i].contexts));
     }
 }
 
@@ -261,7 +272,7 @@ static void print_tiers(const DipCostReport *report, FILE *out) {
 
 void dip_cost_print(const DipCostReport *report, FILE *out) {
     print_heading(report, out);
-    fputc('\n', out);
+    dip_put_text(out, "\n");
     print_columns(out);
     for (int p = 0; p < report->path_count && report->rounds > 0; p++) {
         char name[40];
@@ -271,7 +282,9 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
     }
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
-        fprintf(out, "%s, on path %s\n", sweep->title, report->paths[sweep->path]);
+        char title[DIP_COST_TEXT];
+        dip_cost_sweep_title(report, sweep, title);
+        dip_put_text(out, "%s, on path %s\n", title, report->paths[sweep->path]);
         for (int i = 0; i < sweep->row_count; i++) {
             char text[DIP_COST_TEXT];
             dip_cost_step_text(report, sweep, sweep->rows[i], text);
@@ -279,13 +292,13 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
         }
         char order[2 * DIP_COST_TEXT];
         if (dip_cost_order_text(report, sweep, order, sizeof order)) {
-            fprintf(out, "  %s\n", order);
+            dip_put_text(out, "  %s\n", order);
         }
     }
     print_floors(report, out);
     for (int i = 0; i < report->refused_count; i++) {
-        fprintf(out, "%s  %s\n", i ? "" : "\nSteps left out, with the reason:\n",
-                report->refused[i]);
+        dip_put_text(out, "%s  %s\n", i ? "" : "\nSteps left out, with the reason:\n",
+                     report->refused[i]);
     }
     print_interactions(report, out);
     print_prediction(report, out);

@@ -4,7 +4,6 @@
 #include "app/report/fit.h"
 #include "app/report/interaction.h"
 #include "app/report/format/json_fields.h"
-#include "app/report/format/json_frames.h"
 #include "app/report/format/json_memory.h"
 #include "app/report/format/json_smaller.h"
 #include "app/report/format/json_tail.h"
@@ -192,7 +191,9 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
         cJSON *object = cJSON_CreateObject();
-        cJSON_AddStringToObject(object, "title", sweep->title);
+        char title[DIP_COST_TEXT];
+        dip_cost_sweep_title(report, sweep, title);
+        cJSON_AddStringToObject(object, "title", title);
         cJSON_AddStringToObject(object, "setting", dip_setting_info(sweep->setting)->key);
         cJSON_AddNumberToObject(object, "path", sweep->path);
         cJSON_AddNumberToObject(object, "base", sweep->base);
@@ -384,7 +385,6 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_predictions(root, report);
     dip_cost_smaller_add(root, report);
     add_advice(root, report);
-    dip_cost_frames_add(root, report);
     char *text = cJSON_PrintUnformatted(root);
     cJSON_Delete(root);
     const bool complete = !dip_json_memory_ran_out();

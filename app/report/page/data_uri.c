@@ -1,4 +1,4 @@
-// Encoding bytes in base64 (RFC 4648).
+// Encodes bytes in base64 (RFC 4648).
 #include "app/report/page/data_uri.h"
 
 #include <stdio.h>

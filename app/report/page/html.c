@@ -5,7 +5,7 @@
 #include "app/report/page/html_parts.h"
 #include "app/report/page/web/embedded.h"
 #include "app/files/whole_file.h"
-#include "app/report/page/markup.h"
+#include "app/files/put.h"
 
 #include <stdlib.h>
 
@@ -14,16 +14,21 @@ static const char policy[] = "default-src 'none'; img-src data:; style-src 'unsa
                              "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
 
 static void write_begin(const DipCostReport *report, FILE *out) {
-    fprintf(out,
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-            "<meta http-equiv=\"Content-Security-Policy\" content=\"%s\">\n"
-            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-            "<title>What accuracy costs: ",
-            policy);
-    dip_markup_text(out, report->scene);
-    fprintf(out, "</title>\n<style>\n%s\n%s\n%s</style>\n</head>\n<body>\n",
-            (const char *)dip_cost_page_css, (const char *)dip_cost_pictures_css,
-            (const char *)dip_cost_paper_css);
+    dip_put_html(out,
+                 "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                 "<meta http-equiv=\"Content-Security-Policy\" content=\"%s\">\n"
+                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                 "<title>What accuracy costs: ",
+                 policy);
+    dip_put_html(out, "%s", report->scene);
+    const unsigned char *const styles[] = {dip_cost_page_css, dip_cost_pictures_css,
+                                           dip_cost_paper_css};
+    dip_put_html(out, "</title>\n<style>\n");
+    for (int i = 0; i < 3; i++) {
+        dip_put_markup(out, (const char *)styles[i]);
+        dip_put_html(out, "\n");
+    }
+    dip_put_html(out, "</style>\n</head>\n<body>\n");
 }
 
 static void write_scripts(const DipCostReport *report, FILE *out) {
@@ -31,7 +36,9 @@ static void write_scripts(const DipCostReport *report, FILE *out) {
                                             dip_cost_plots_js};
     dip_html_measurements(report, out);
     for (int i = 0; i < 3; i++) {
-        fprintf(out, "<script>\n%s</script>\n", (const char *)scripts[i]);
+        dip_put_html(out, "<script>\n");
+        dip_put_markup(out, (const char *)scripts[i]);
+        dip_put_html(out, "</script>\n");
     }
 }
 
@@ -40,54 +47,12 @@ static int name_without_frame(const DipCostReport *report, const DipCostPictureS
                               FILE *out) {
     for (int i = 0; i < set->count; i++) {
         if (!set->pictures[i].frame) {
-            fprintf(out, "%s", named++ ? "; " : "");
+            dip_put_html(out, "%s", named++ ? "; " : "");
             dip_html_settings(report, set->pictures[i].row, out);
-            fprintf(out, " on %s", report->paths[set->path]);
+            dip_put_html(out, " on %s", report->paths[set->path]);
         }
     }
     return named;
-}
-
-// Names the rows of a set whose pictures no part has. Returns the number of rows named so far.
-static int name_missing(const DipCostReport *report, const DipCostPictureSet *set, int named,
-                        FILE *out) {
-    for (int i = 0; i < set->missing_count; i++) {
-        fprintf(out, "%s",
-                named++ ? "; " : "<p class=\"note\">No part has the pictures of these rows: ");
-        dip_html_settings(report, set->missing[i], out);
-        fprintf(out, " on %s", report->paths[set->path]);
-    }
-    return named;
-}
-
-// Names a set that does not show the middle viewpoint. Returns the number of sets named so far.
-static int name_elsewhere(const DipCostReport *report, const DipCostPictureSet *set,
-                          const char *title, int named, FILE *out) {
-    const int places = report->options.places;
-    if (set->count == 0 || set->viewpoint == (places - 1) / 2) {
-        return named;
-    }
-    fprintf(out, "%s",
-            named ? "; "
-                  : "<p class=\"note\">No part has as many pictures of the middle of the path, so "
-                    "other viewpoints are shown: ");
-    dip_markup_text(out, title);
-    fprintf(out, ", viewpoint %d of %d", set->viewpoint + 1, places);
-    return named + 1;
-}
-
-// Says what the pictures of a merged report lack.
-static void write_missing(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
-    int named = name_missing(report, &pictures->front, 0, out);
-    for (int s = 0; s < report->sweep_count; s++) {
-        named = name_missing(report, &pictures->sweeps[s], named, out);
-    }
-    fprintf(out, "%s", named ? ".</p>\n" : "");
-    named = name_elsewhere(report, &pictures->front, "Pareto front", 0, out);
-    for (int s = 0; s < report->sweep_count; s++) {
-        named = name_elsewhere(report, &pictures->sweeps[s], report->sweeps[s].title, named, out);
-    }
-    fprintf(out, "%s", named ? ".</p>\n" : "");
 }
 
 // Says which pictures did not fit in the page.
@@ -95,21 +60,23 @@ static void write_left_out(const DipCostReport *report, const DipCostPictures *p
                            FILE *out) {
     const double megabytes = 1e-6 * DIP_COST_PAGE_BYTES;
     if (pictures->frames_left_out) {
-        fprintf(out,
-                "<p class=\"note\">A page has at most %.0f MB, so %d whole frame%s did not fit. "
-                "The page shows crops of these rows: ",
-                megabytes, pictures->frames_left_out, dip_cost_plural(pictures->frames_left_out));
+        dip_put_html(
+            out,
+            "<p class=\"note\">A page has at most %.0f MB, so %d whole frame%s did not fit. "
+            "The page shows crops of these rows: ",
+            megabytes, pictures->frames_left_out, dip_cost_plural(pictures->frames_left_out));
         int named = name_without_frame(report, &pictures->front, 0, out);
         for (int s = 0; s < report->sweep_count; s++) {
             named = name_without_frame(report, &pictures->sweeps[s], named, out);
         }
-        fprintf(out, ".</p>\n");
+        dip_put_html(out, ".</p>\n");
     }
     if (pictures->crops_left_out) {
-        fprintf(out,
-                "<p class=\"note\">A page has at most %.0f MB, so the pictures of %d row%s are "
-                "left out.</p>\n",
-                megabytes, pictures->crops_left_out, dip_cost_plural(pictures->crops_left_out));
+        dip_put_html(
+            out,
+            "<p class=\"note\">A page has at most %.0f MB, so the pictures of %d row%s are "
+            "left out.</p>\n",
+            megabytes, pictures->crops_left_out, dip_cost_plural(pictures->crops_left_out));
     }
 }
 
@@ -117,7 +84,7 @@ static void write_left_out(const DipCostReport *report, const DipCostPictures *p
 static bool write_page(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
     write_begin(report, out);
     dip_html_head(report, out);
-    fprintf(out, "<main>\n");
+    dip_put_html(out, "<main>\n");
     dip_html_advice(report, out);
     const bool has_front = dip_html_front(report, pictures, out) && dip_html_path(report, out) &&
                            dip_html_predictions(report, out);
@@ -127,9 +94,6 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
     }
     if (pictures) {
         write_left_out(report, pictures, out);
-        if (pictures->from_parts) {
-            write_missing(report, pictures, out);
-        }
     }
     if (report->sweep_count) {
         dip_html_regions(report, out);
@@ -140,9 +104,9 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
     }
     dip_html_truth(report, out);
     dip_html_words(report, out);
-    fprintf(out, "</main>\n");
+    dip_put_html(out, "</main>\n");
     write_scripts(report, out);
-    fprintf(out, "</body>\n</html>\n");
+    dip_put_html(out, "</body>\n</html>\n");
     return has_front;
 }
 

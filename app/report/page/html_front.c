@@ -3,24 +3,15 @@
 
 #include "app/report/front.h"
 #include "app/report/page/html_points.h"
+#include "app/files/put.h"
 
 #include <math.h>
 
-// A row whose title a point shows.
-typedef struct Titled {
-    const DipCostReport *report;
-    int row;
-} Titled;
-
-static void write_title(const void *context, FILE *out) {
-    const Titled *titled = context;
-    dip_html_row_title(titled->report, titled->row, out);
-}
-
 static bool add_row(const DipCostReport *report, DipHtmlPoints *points, int row) {
+    char title[DIP_HTML_TITLE_ROOM];
+    dip_html_row_title(report, row, title);
     return dip_html_points_add(points, row, dip_cost_ms(report, row),
-                               dip_cost_row_metrics(report, row, 0).flip, write_title,
-                               &(Titled){report, row});
+                               dip_cost_row_metrics(report, row, 0).flip, title);
 }
 
 static bool contains(const DipHtmlPoints *points, int row) {
@@ -88,10 +79,11 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
         .series_count = 3 - first,
         .set = "front",
     };
-    fprintf(out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Plot of time "
+    dip_put_html(out,
+                 "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Plot of time "
                  "against error\">\n");
     dip_plot_print(out, &plot);
-    fprintf(out, "</div>\n");
+    dip_put_html(out, "</div>\n");
 }
 
 // --- tables ------------------------------------------------------------------------------------
@@ -99,11 +91,11 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
 // Writes FLIP with its interval, which a single viewpoint does not have.
 static void write_flip(const DipCostReport *report, int row, FILE *out) {
     const DipStatsEstimate flip = dip_cost_flip(report, row);
-    fprintf(out, "<td>%.4f</td>", flip.value);
+    dip_put_html(out, "<td>%.4f</td>", flip.value);
     if (isfinite(flip.low) && isfinite(flip.high)) {
-        fprintf(out, "<td>%.4f to %.4f</td>", flip.low, flip.high);
+        dip_put_html(out, "<td>%.4f to %.4f</td>", flip.low, flip.high);
     } else {
-        fprintf(out, "<td></td>");
+        dip_put_html(out, "<td></td>");
     }
 }
 
@@ -118,11 +110,11 @@ static void write_changes(const DipCostReport *report, int row, int before, FILE
     const double ms = dip_cost_ms(report, row) - dip_cost_ms(report, before);
     const double flip = dip_cost_row_metrics(report, row, 0).flip;
     const double flip_before = dip_cost_row_metrics(report, before, 0).flip;
-    fprintf(out, "<td>%+.2f</td><td>%+.4f</td>", ms, flip - flip_before);
+    dip_put_html(out, "<td>%+.2f</td><td>%+.4f</td>", ms, flip - flip_before);
     if (flip > 0.0) {
-        fprintf(out, "<td>%.3f</td>", ms / (100.0 * log(flip_before / flip)));
+        dip_put_html(out, "<td>%.3f</td>", ms / (100.0 * log(flip_before / flip)));
     } else {
-        fprintf(out, "<td></td>");
+        dip_put_html(out, "<td></td>");
     }
 }
 
@@ -130,27 +122,27 @@ static void write_front_row(const DipCostReport *report, const DipHtmlPoints *fr
                             bool is_knee, FILE *out) {
     const int row = front->rows[index];
     dip_html_line_begin(out, row);
-    fprintf(out, "<th scope=\"row\">");
+    dip_put_html(out, "<th scope=\"row\">");
     dip_html_settings(report, row, out);
-    fprintf(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1, is_knee ? ", knee" : "",
-            front->x[index]);
+    dip_put_html(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1, is_knee ? ", knee" : "",
+                 front->x[index]);
     write_flip(report, row, out);
-    fprintf(out, "<td>%.5f</td><td>%.5f</td>", flicker_of(report, row),
-            dip_cost_row_metrics(report, row, 0).rmse_lin);
+    dip_put_html(out, "<td>%.5f</td><td>%.5f</td>", flicker_of(report, row),
+                 dip_cost_row_metrics(report, row, 0).rmse_lin);
     if (index > 0) {
         write_changes(report, row, front->rows[index - 1], out);
     } else {
-        fprintf(out, "<td></td><td></td><td></td>");
+        dip_put_html(out, "<td></td><td></td><td></td>");
     }
-    fprintf(out, "</tr>\n");
+    dip_put_html(out, "</tr>\n");
 }
 
 static void write_front_table(const DipCostReport *report, const DipHtmlPoints *front, FILE *out) {
     const int knee = dip_cost_knee(report, front->rows, front->count);
-    dip_html_table_begin(out, "pareto-front", " data-set=\"front\"");
-    fprintf(out,
-            "The Pareto front. The changes are those from the line before, in order of time.%s",
-            knee >= 0 ? " Beyond the knee, more time buys least." : "");
+    dip_html_table_begin(out, "pareto-front", "front");
+    dip_put_html(
+        out, "The Pareto front. The changes are those from the line before, in order of time.%s",
+        knee >= 0 ? " Beyond the knee, more time buys least." : "");
     dip_html_columns_begin(out);
     dip_html_text_column(out, "settings");
     dip_html_column(out, "number", "in the plot");
@@ -174,26 +166,27 @@ static void write_combination(const DipCostReport *report, int row, FILE *out) {
     const DipPathEstimate *time = &report->rows[row].time;
     const DipMetrics f = dip_cost_row_metrics(report, row, 0);
     dip_quality_format(&report->rows[row].quality, all, sizeof all);
-    fprintf(out, "<tr data-row=\"%d\" data-settings=\"%s\"><th scope=\"row\">", row, all);
+    dip_put_html(out, "<tr data-row=\"%d\" data-settings=\"%s\"><th scope=\"row\">", row, all);
     dip_html_settings(report, row, out);
-    fprintf(out,
-            "</th><td>%.2f</td><td>%.2f to %.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to "
-            "%.3f</td><td>%.4f</td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
-            "class=\"l\">%s</td></tr>\n",
-            time->mean_ms.value, time->mean_ms.low, time->mean_ms.high, time->p95_ms.value,
-            time->ratio.value, time->ratio.low, time->ratio.high, f.flip, flicker_of(report, row),
-            f.psnr_db, f.ssim, f.rmse_lin, dip_cost_floor_mark(report, row));
+    dip_put_html(out,
+                 "</th><td>%.2f</td><td>%.2f to %.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to "
+                 "%.3f</td><td>%.4f</td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
+                 "class=\"l\">%s</td></tr>\n",
+                 time->mean_ms.value, time->mean_ms.low, time->mean_ms.high, time->p95_ms.value,
+                 time->ratio.value, time->ratio.low, time->ratio.high, f.flip,
+                 flicker_of(report, row), f.psnr_db, f.ssim, f.rmse_lin,
+                 dip_cost_floor_mark(report, row));
 }
 
 static void write_all_table(const DipCostReport *report, FILE *out) {
     int rows[DIP_COST_MAX_ROWS];
     const int count = dip_cost_list_plotted(report, rows);
-    fprintf(out, "<details><summary>All %d combinations</summary>\n", count);
-    dip_html_table_begin(out, "combinations", " data-set=\"front\" data-plot=\"front\"");
-    fprintf(out,
-            "All combinations on path %s. A filter also makes the points of all other "
-            "combinations pale in the plot.",
-            report->paths[0]);
+    dip_put_html(out, "<details><summary>All %d combinations</summary>\n", count);
+    dip_html_table_begin(out, "combinations", "front");
+    dip_put_html(out,
+                 "All combinations on path %s. A filter also makes the points of all other "
+                 "combinations pale in the plot.",
+                 report->paths[0]);
     dip_html_columns_begin(out);
     dip_html_text_column(out, "settings");
     dip_html_column(out, "mean", "ms");
@@ -212,7 +205,7 @@ static void write_all_table(const DipCostReport *report, FILE *out) {
         write_combination(report, rows[i], out);
     }
     dip_html_table_end(out);
-    fprintf(out, "</details>\n");
+    dip_put_html(out, "</details>\n");
 }
 
 // Says which combinations are missing because another one draws the same pictures.
@@ -220,39 +213,40 @@ static void write_same(const DipCostReport *report, FILE *out) {
     if (report->same_count == 0) {
         return;
     }
-    fprintf(out,
-            "<details><summary>%d more combinations with the same pictures</summary>\n"
-            "<p>Each of these combinations draws the same pictures as one with fewer settings off "
-            "their defaults, which stands for it.</p>\n",
-            report->same_count);
-    dip_html_table_begin(out, "same-pictures", "");
-    fprintf(out, "Combinations with the same pictures, by hash, at all viewpoints.");
+    dip_put_html(
+        out,
+        "<details><summary>%d more combinations with the same pictures</summary>\n"
+        "<p>Each of these combinations draws the same pictures as one with fewer settings off "
+        "their defaults, which stands for it.</p>\n",
+        report->same_count);
+    dip_html_table_begin(out, "same-pictures", NULL);
+    dip_put_html(out, "Combinations with the same pictures, by hash, at all viewpoints.");
     dip_html_columns_begin(out);
     dip_html_text_column(out, "settings");
     dip_html_text_column(out, "draws the same as");
     dip_html_columns_end(out);
     for (int i = 0; i < report->same_count; i++) {
         dip_html_line_begin(out, report->same[i].row);
-        fprintf(out, "<th scope=\"row\">");
+        dip_put_html(out, "<th scope=\"row\">");
         dip_html_quality(&report->same[i].quality, out);
-        fprintf(out, "</th><td class=\"l name\">");
+        dip_put_html(out, "</th><td class=\"l name\">");
         dip_html_settings(report, report->same[i].row, out);
-        fprintf(out, "</td></tr>\n");
+        dip_put_html(out, "</td></tr>\n");
     }
     dip_html_table_end(out);
-    fprintf(out, "</details>\n");
+    dip_put_html(out, "</details>\n");
 }
 
 bool dip_html_front(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
     Parts parts = {0};
     const bool made = split(report, &parts);
     if (made && parts.front.count + parts.others.count > 1) {
-        fprintf(out,
-                "<h2 id=\"front\">Time against error</h2>\n"
-                "<p>Both axes are logarithmic. The Pareto front consists of the combinations that "
-                "no other combination beats in both time and error. The FLIP of each numbered "
-                "combination is at least 1 %% below that of the combination with the number "
-                "before.</p>\n");
+        dip_put_html(
+            out, "<h2 id=\"front\">Time against error</h2>\n"
+                 "<p>Both axes are logarithmic. The Pareto front consists of the combinations that "
+                 "no other combination beats in both time and error. The FLIP of each numbered "
+                 "combination is at least 1 %% below that of the combination with the number "
+                 "before.</p>\n");
         write_plot(report, &parts, out);
         write_front_table(report, &parts.front, out);
         if (pictures) {

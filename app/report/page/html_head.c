@@ -1,12 +1,12 @@
 // The head of the HTML page: what was measured where, and the verdict on the machine.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/page/markup.h"
+#include "app/files/put.h"
 
 static void write_fact(FILE *out, const char *title, const char *text) {
-    fprintf(out, "<div><dt>%s</dt><dd>", title);
-    dip_markup_text(out, text);
-    fprintf(out, "</dd></div>\n");
+    dip_put_html(out, "<div><dt>%s</dt><dd>", title);
+    dip_put_html(out, "%s", text);
+    dip_put_html(out, "</dd></div>\n");
 }
 
 static void write_scene_facts(const DipCostReport *report, FILE *out) {
@@ -48,16 +48,17 @@ static void write_verdict(const DipCostReport *report, FILE *out) {
     const char *verdict = dip_cost_verdict_names[report->verdict];
     char level[DIP_COST_REASON];
     dip_cost_level_text(report, level);
-    fprintf(out, "<p class=\"verdict %s\"><b>The machine was %s.</b> ", verdict, verdict);
-    dip_markup_text(out, report->verdict_reason);
-    fprintf(out, "%s ",
-            report->verdict == DIP_COST_RED
-                ? " The times below are wrong, and no settings are advised."
-                : "");
-    dip_markup_text(out, level);
-    fprintf(out, "</p>\n");
-    dip_html_table_begin(out, "baseline-twice", "");
-    fprintf(out, "On each path, the baseline was timed a second time as if it were another setting "
+    dip_put_html(out, "<p class=\"verdict %s\"><b>The machine was %s.</b> ", verdict, verdict);
+    dip_put_html(out, "%s", report->verdict_reason);
+    dip_put_html(out, "%s ",
+                 report->verdict == DIP_COST_RED
+                     ? " The times below are wrong, and no settings are advised."
+                     : "");
+    dip_put_html(out, "%s", level);
+    dip_put_html(out, "</p>\n");
+    dip_html_table_begin(out, "baseline-twice", NULL);
+    dip_put_html(out,
+                 "On each path, the baseline was timed a second time as if it were another setting "
                  "(A/A). Differences between settings that are smaller than these are noise.");
     dip_html_columns_begin(out);
     dip_html_text_column(out, "path");
@@ -67,49 +68,49 @@ static void write_verdict(const DipCostReport *report, FILE *out) {
     for (int p = 0; p < report->path_count; p++) {
         const DipStatsEstimate same = report->rows[report->same_rows[p]].time.ratio;
         dip_html_line_begin(out, report->same_rows[p]);
-        fprintf(out, "<th scope=\"row\">%s</th><td>%.3f</td><td>%.3f to %.3f</td></tr>\n",
-                report->paths[p], same.value, same.low, same.high);
+        dip_put_html(out, "<th scope=\"row\">%s</th><td>%.3f</td><td>%.3f to %.3f</td></tr>\n",
+                     report->paths[p], same.value, same.low, same.high);
     }
     dip_html_table_end(out);
 }
 
 // The contents. The caller writes the sections that are named here.
 static void write_contents(const DipCostReport *report, FILE *out) {
-    fprintf(out, "<nav aria-label=\"Contents\"><ul>\n");
+    dip_put_html(out, "<nav aria-label=\"Contents\"><ul>\n");
     if (report->advice_count) {
-        fprintf(out, "<li><a href=\"#advice\">Best settings for a time budget</a></li>\n");
+        dip_put_html(out, "<li><a href=\"#advice\">Best settings for a time budget</a></li>\n");
     }
     if (report->combined_first < report->row_count && report->rounds > 0) {
-        fprintf(out, "<li><a href=\"#front\">Time against error</a></li>\n"
-                     "<li><a href=\"#along\">Time and error along the path</a></li>\n");
+        dip_put_html(out, "<li><a href=\"#front\">Time against error</a></li>\n"
+                          "<li><a href=\"#along\">Time and error along the path</a></li>\n");
     }
     if (report->predicted.count) {
-        fprintf(out, "<li><a href=\"#predicted\">Predicted combinations</a></li>\n");
+        dip_put_html(out, "<li><a href=\"#predicted\">Predicted combinations</a></li>\n");
     }
     if (report->sweep_count) {
-        fprintf(out, "<li><a href=\"#settings\">Each setting</a></li>\n"
-                     "<li><a href=\"#parts\">Where the errors are</a></li>\n");
+        dip_put_html(out, "<li><a href=\"#settings\">Each setting</a></li>\n"
+                          "<li><a href=\"#parts\">Where the errors are</a></li>\n");
     }
     if (dip_html_has_tails(report)) {
-        fprintf(out, "<li><a href=\"#tails\">Small parts with large errors</a></li>\n");
+        dip_put_html(out, "<li><a href=\"#tails\">Small parts with large errors</a></li>\n");
     }
     if (report->rounds > 0) {
-        fprintf(out, "<li><a href=\"#work\">Work</a></li>\n");
+        dip_put_html(out, "<li><a href=\"#work\">Work</a></li>\n");
     }
-    fprintf(out, "<li><a href=\"#truth\">The truth</a></li>\n"
-                 "<li><a href=\"#words\">What the words mean</a></li>\n</ul></nav>\n");
+    dip_put_html(out, "<li><a href=\"#truth\">The truth</a></li>\n"
+                      "<li><a href=\"#words\">What the words mean</a></li>\n</ul></nav>\n");
 }
 
 void dip_html_head(const DipCostReport *report, FILE *out) {
-    fprintf(out, "<header>\n<h1>What accuracy costs: ");
-    dip_markup_text(out, report->scene);
-    fprintf(out, "</h1>\n<dl class=\"facts\">\n");
+    dip_put_html(out, "<header>\n<h1>What accuracy costs: ");
+    dip_put_html(out, "%s", report->scene);
+    dip_put_html(out, "</h1>\n<dl class=\"facts\">\n");
     write_scene_facts(report, out);
     write_method_facts(report, out);
-    fprintf(out, "</dl>\n");
+    dip_put_html(out, "</dl>\n");
     if (report->rounds > 0) {
         write_verdict(report, out);
     }
     write_contents(report, out);
-    fprintf(out, "</header>\n");
+    dip_put_html(out, "</header>\n");
 }

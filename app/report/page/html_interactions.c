@@ -2,16 +2,17 @@
 #include "app/report/page/html_parts.h"
 
 #include "app/report/interaction.h"
+#include "app/files/put.h"
 
 static void write_interaction(const DipCostInteraction *interaction, FILE *out) {
-    fprintf(out, "<tr><th scope=\"row\">%s and %s</th>", dip_setting_info(interaction->a)->key,
-            dip_setting_info(interaction->b)->key);
+    dip_put_html(out, "<tr><th scope=\"row\">%s and %s</th>", dip_setting_info(interaction->a)->key,
+                 dip_setting_info(interaction->b)->key);
     if (interaction->time > 0.0) {
-        fprintf(out, "<td>%.3f</td>", interaction->time);
+        dip_put_html(out, "<td>%.3f</td>", interaction->time);
     } else {
-        fprintf(out, "<td></td>");
+        dip_put_html(out, "<td></td>");
     }
-    fprintf(out, "<td>%+.5f</td><td>%d</td></tr>\n", interaction->flip, interaction->contexts);
+    dip_put_html(out, "<td>%+.5f</td><td>%d</td></tr>\n", interaction->flip, interaction->contexts);
 }
 
 void dip_html_interactions(const DipCostReport *report, FILE *out) {
@@ -21,9 +22,10 @@ void dip_html_interactions(const DipCostReport *report, FILE *out) {
     if (count == 0) {
         return;
     }
-    fprintf(out, "<h2 id=\"interactions\">Two settings together</h2>\n");
-    dip_html_table_begin(out, "interaction-table", "");
-    fprintf(out, "Two settings at their last steps, against each alone: means over the "
+    dip_put_html(out, "<h2 id=\"interactions\">Two settings together</h2>\n");
+    dip_html_table_begin(out, "interaction-table", NULL);
+    dip_put_html(out,
+                 "Two settings at their last steps, against each alone: means over the "
                  "combinations of the other settings. A time above 1 means that both together cost "
                  "more than the product of their ratios. A FLIP above 0 means that both together "
                  "lower FLIP by less than the sum of what each lowers it.");

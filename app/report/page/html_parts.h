@@ -15,9 +15,9 @@
 // --- tables (html_tables.c) --------------------------------------------------------------------
 
 // Begins a table. `id` is the table's name, and the name of the file that its CSV is saved to.
-// `attributes` follow it in the <table> element, after a blank; "" for none. The caller writes the
-// caption between this function and dip_html_columns_begin.
-void dip_html_table_begin(FILE *out, const char *id, const char *attributes);
+// `set` is the set of pictures of its rows; NULL for none. The caller writes the caption between
+// this function and dip_html_columns_begin.
+void dip_html_table_begin(FILE *out, const char *id, const char *set);
 void dip_html_columns_begin(FILE *out);
 
 // Writes the header of a column. `unit` may be NULL.
@@ -31,12 +31,15 @@ void dip_html_table_end(FILE *out);
 
 // --- rows (html_rows.c) ------------------------------------------------------------------------
 
-// Writes settings, or those of a row. They need not be escaped.
+// Writes settings, or those of a row.
 void dip_html_quality(const DipQuality *quality, FILE *out);
 void dip_html_settings(const DipCostReport *report, int row, FILE *out);
 
-// Writes what a plot says about a row on one line, not escaped: settings, path, time and errors.
-void dip_html_row_title(const DipCostReport *report, int row, FILE *out);
+// Formats what a plot says about a row on one line: settings, path, time and errors.
+void dip_html_row_title(const DipCostReport *report, int row, char text[DIP_HTML_TITLE_ROOM]);
+
+// Formats settings with blanks, at which browsers may break the line.
+void dip_html_quality_text(const DipQuality *quality, char text[DIP_HTML_TITLE_ROOM]);
 
 // Writes the element with what the scripts know about each row, as JSON.
 void dip_html_measurements(const DipCostReport *report, FILE *out);

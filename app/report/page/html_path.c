@@ -3,6 +3,7 @@
 #include "app/report/page/html_parts.h"
 
 #include "app/report/front.h"
+#include "app/files/put.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -126,10 +127,11 @@ static void write_plot(const Lines *lines, const DipPlotSeries *series, const ch
         .series = series,
         .series_count = lines->count,
     };
-    fprintf(out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Plot: %s\">\n",
-            title);
+    dip_put_html(out,
+                 "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Plot: %s\">\n",
+                 title);
     dip_plot_print(out, &plot);
-    fprintf(out, "</div>\n");
+    dip_put_html(out, "</div>\n");
 }
 
 static void write_times(const Lines *lines, FILE *out) {
@@ -186,12 +188,13 @@ bool dip_html_path(const DipCostReport *report, FILE *out) {
     list_lines(&lines);
     const bool made = alloc_lines(&lines) && fill_times(&lines);
     if (made) {
-        fprintf(out,
-                "<h2 id=\"along\">Time and error along the path</h2>\n"
-                "<p>The plots show the times of the baseline and of the advised settings at every "
-                "timed frame, and their mean FLIP at every viewpoint. Where the lines of the times "
-                "lie far apart but those of the errors do not, settings of their own for a segment "
-                "of the path save time: <code>diptych cost advise</code> chooses them.</p>\n");
+        dip_put_html(
+            out,
+            "<h2 id=\"along\">Time and error along the path</h2>\n"
+            "<p>The plots show the times of the baseline and of the advised settings at every "
+            "timed frame, and their mean FLIP at every viewpoint. Where the lines of the times "
+            "lie far apart but those of the errors do not, settings of their own for a segment "
+            "of the path save time: <code>diptych cost advise</code> chooses them.</p>\n");
         write_times(&lines, out);
         write_errors(&lines, out);
     }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool dip_html_points_alloc(DipHtmlPoints *points, int room) {
     const size_t count = (size_t)room + 1;
@@ -28,28 +29,11 @@ void dip_html_points_free(DipHtmlPoints *points) {
     free(points->titles);
 }
 
-// Returns what `write` prints. The caller frees it. Returns NULL when memory runs out.
-static char *make_title(void (*write)(const void *context, FILE *out), const void *context) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) {
-        return NULL;
-    }
-    write(context, out);
-    const bool made = !ferror(out);
-    if (fclose(out) != 0 || !made) {
-        free(text);
-        return NULL;
-    }
-    return text;
-}
-
 bool dip_html_points_add(DipHtmlPoints *points, int row, double ms, double flip,
-                         void (*write)(const void *context, FILE *out), const void *context) {
+                         const char *title) {
     static const double least_flip = 1e-7;
     const int i = points->count;
-    points->titles[i] = make_title(write, context);
+    points->titles[i] = strdup(title);
     if (!points->titles[i]) {
         return false;
     }

@@ -5,7 +5,7 @@
 #include "app/report/report.h"
 #include "app/report/page/plot.h"
 
-enum { DIP_HTML_LABEL_ROOM = 12 };
+enum { DIP_HTML_LABEL_ROOM = 12, DIP_HTML_TITLE_ROOM = 512 };
 
 // All arrays are owned.
 typedef struct DipHtmlPoints {
@@ -23,10 +23,9 @@ typedef struct DipHtmlPoints {
 bool dip_html_points_alloc(DipHtmlPoints *points, int room);
 void dip_html_points_free(DipHtmlPoints *points);
 
-// Adds a point with the text that `write` prints as its title. The axes are logarithmic, so a FLIP
+// Adds a point. The axes are logarithmic, so a FLIP
 // of 0 is plotted as the least that is told apart. Returns false when memory runs out.
-bool dip_html_points_add(DipHtmlPoints *points, int row, double ms, double flip,
-                         void (*write)(const void *context, FILE *out), const void *context);
+bool dip_html_points_add(DipHtmlPoints *points, int row, double ms, double flip, const char *title);
 
 // Returns a series that borrows the points and both texts.
 DipPlotSeries dip_html_points_series(const DipHtmlPoints *points, const char *name,

@@ -1,62 +1,84 @@
 // What the HTML page says about a row of the report: a line of text, and pictures.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/page/markup.h"
+#include "app/files/put.h"
 
-void dip_html_quality(const DipQuality *quality, FILE *out) {
+void dip_html_quality_text(const DipQuality *quality, char text[DIP_HTML_TITLE_ROOM]) {
     char settings[DIP_COST_TEXT];
     dip_cost_settings_text(quality, settings);
-    for (const char *c = settings; *c; c++) {
-        *c == ',' ? fputs(", ", out) : fputc(*c, out);
+    for (const char *from = settings; *from; from++) {
+        *text++ = *from;
+        if (*from == ',') {
+            *text++ = ' ';
+        }
     }
+    *text = '\0';
+}
+
+void dip_html_quality(const DipQuality *quality, FILE *out) {
+    char settings[DIP_HTML_TITLE_ROOM];
+    dip_html_quality_text(quality, settings);
+    dip_put_html(out, "%s", settings);
 }
 
 void dip_html_settings(const DipCostReport *report, int row, FILE *out) {
     dip_html_quality(&report->rows[row].quality, out);
 }
 
-static void write_time(const DipCostReport *report, int row, FILE *out) {
+// Formats the times of a row, or "" if it was not timed.
+static void format_time(const DipCostReport *report, int row, char text[DIP_COST_TEXT]) {
     const DipPathEstimate *time = &report->rows[row].time;
-    fprintf(out, "%.2f ms (%.2f to %.2f), 95th percentile %.2f ms", time->mean_ms.value,
-            time->mean_ms.low, time->mean_ms.high, time->p95_ms.value);
-}
-
-static void write_errors(const DipMetrics *f, FILE *out) {
-    fprintf(out, "FLIP %.4f, PSNR %.2f dB, SSIM %.4f, RMSE %.5f", f->flip, f->psnr_db, f->ssim,
-            f->rmse_lin);
-}
-
-void dip_html_row_title(const DipCostReport *report, int row, FILE *out) {
-    const DipMetrics f = dip_cost_row_metrics(report, row, 0);
-    dip_html_settings(report, row, out);
-    fprintf(out, " on path %s: ", report->paths[report->rows[row].path]);
+    text[0] = '\0';
     if (dip_cost_is_timed(report, row)) {
-        write_time(report, row, out);
-        fprintf(out, "; ");
+        snprintf(text, DIP_COST_TEXT, "%.2f ms (%.2f to %.2f), 95th percentile %.2f ms",
+                 time->mean_ms.value, time->mean_ms.low, time->mean_ms.high, time->p95_ms.value);
     }
-    write_errors(&f, out);
 }
 
-// None of the texts needs to be escaped in JSON: they are names of settings and paths.
+static void format_errors(const DipMetrics *f, char text[DIP_COST_TEXT]) {
+    snprintf(text, DIP_COST_TEXT, "FLIP %.4f, PSNR %.2f dB, SSIM %.4f, RMSE %.5f", f->flip,
+             f->psnr_db, f->ssim, f->rmse_lin);
+}
+
+void dip_html_row_title(const DipCostReport *report, int row, char text[DIP_HTML_TITLE_ROOM]) {
+    const DipMetrics f = dip_cost_row_metrics(report, row, 0);
+    char settings[DIP_HTML_TITLE_ROOM];
+    char time[DIP_COST_TEXT];
+    char errors[DIP_COST_TEXT];
+    dip_html_quality_text(&report->rows[row].quality, settings);
+    format_time(report, row, time);
+    format_errors(&f, errors);
+    snprintf(text, DIP_HTML_TITLE_ROOM, "%.200s on path %s: %s%s%s", settings,
+             report->paths[report->rows[row].path], time, *time ? "; " : "", errors);
+}
+
 void dip_html_measurements(const DipCostReport *report, FILE *out) {
-    fprintf(out, "<script type=\"application/json\" id=\"measurements\">[");
+    dip_put_html(out, "<script type=\"application/json\" id=\"measurements\">[");
     for (int r = 0; r < report->row_count; r++) {
         int viewpoints;
         const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
         const DipMetrics f = dip_metrics_of(&sums, 0);
-        fprintf(out, "%s\n{\"settings\":\"", r ? "," : "");
-        dip_html_settings(report, r, out);
-        fprintf(out, "\",\"path\":\"%s\",\"time\":\"", report->paths[report->rows[r].path]);
-        if (dip_cost_is_timed(report, r)) {
-            write_time(report, r, out);
-        }
-        fprintf(out, "\",\"errors\":\"");
+        char settings[DIP_HTML_TITLE_ROOM];
+        char time[DIP_COST_TEXT];
+        char errors[DIP_COST_TEXT] = "";
+        dip_html_quality_text(&report->rows[r].quality, settings);
+        format_time(report, r, time);
         if (viewpoints > 0) {
-            write_errors(&f, out);
+            format_errors(&f, errors);
         }
-        fprintf(out, "\"}");
+        const char *const members[][2] = {{"settings", settings},
+                                          {"path", report->paths[report->rows[r].path]},
+                                          {"time", time},
+                                          {"errors", errors}};
+        for (int m = 0; m < 4; m++) {
+            dip_put_markup(out, m ? "," : r ? ",\n{" : "\n{");
+            dip_put_script_string(out, members[m][0]);
+            dip_put_markup(out, ":");
+            dip_put_script_string(out, members[m][1]);
+        }
+        dip_put_markup(out, "}");
     }
-    fprintf(out, "]</script>\n");
+    dip_put_markup(out, "]</script>\n");
 }
 
 // --- pictures ----------------------------------------------------------------------------------
@@ -64,7 +86,7 @@ void dip_html_measurements(const DipCostReport *report, FILE *out) {
 static void write_image(FILE *out, const char *part, const char *what, const char *name,
                         const char *uri) {
     if (uri) {
-        fprintf(out, "<img data-part=\"%s\" alt=\"%s%s\" src=\"%s\">", part, what, name, uri);
+        dip_put_html(out, "<img data-part=\"%s\" alt=\"%s%s\" src=\"%s\">", part, what, name, uri);
     }
 }
 
@@ -93,27 +115,27 @@ static const char *caption_of(const Shown *shown, const DipCostPicture *picture,
 // Says which row the picture shows, and where.
 static void write_origin(const Shown *shown, int row, FILE *out) {
     const DipCostPictureSet *set = shown->set;
-    fprintf(out,
-            " data-row=\"%d\" data-where=\"Path %s, viewpoint %d of %d\" "
-            "data-corner=\"the crop's upper left corner is at pixel (%d, %d)\"",
-            row, shown->report->paths[set->path], set->viewpoint + 1, shown->report->options.places,
-            set->x, set->y);
+    dip_put_html(out,
+                 " data-row=\"%d\" data-where=\"Path %s, viewpoint %d of %d\" "
+                 "data-corner=\"the crop's upper left corner is at pixel (%d, %d)\"",
+                 row, shown->report->paths[set->path], set->viewpoint + 1,
+                 shown->report->options.places, set->x, set->y);
 }
 
 static void write_figure(const Shown *shown, const DipCostPicture *picture, FILE *out) {
     char text[DIP_COST_TEXT];
     const bool is_truth = picture->row < 0;
     const char *caption = caption_of(shown, picture, text);
-    fprintf(out, "<figure class=\"%s%s\" data-set=\"%s\"", is_truth ? "truth" : "",
-            picture->frame ? " frame" : "", shown->name);
+    dip_put_html(out, "<figure class=\"%s%s\" data-set=\"%s\"", is_truth ? "truth" : "",
+                 picture->frame ? " frame" : "", shown->name);
     if (!is_truth) {
         write_origin(shown, picture->row, out);
     }
-    fprintf(out, ">");
+    dip_put_html(out, ">");
     write_image(out, "frame", "whole frame, ", caption, picture->frame);
     write_image(out, "crop", "", caption, picture->crop);
     write_image(out, "map", "FLIP map, ", caption, picture->map);
-    fprintf(out, "<figcaption>%s</figcaption></figure>\n", caption);
+    dip_put_html(out, "<figcaption>%s</figcaption></figure>\n", caption);
 }
 
 void dip_html_pictures(const DipCostReport *report, const DipCostPictureSet *set, const char *name,
@@ -122,12 +144,12 @@ void dip_html_pictures(const DipCostReport *report, const DipCostPictureSet *set
     if (!set->truth.crop && !set->truth.frame) {
         return;
     }
-    fprintf(out, "<div class=\"pictures\">\n");
+    dip_put_html(out, "<div class=\"pictures\">\n");
     write_figure(&shown, &set->truth, out);
     for (int i = 0; i < set->count; i++) {
         if (set->pictures[i].crop || set->pictures[i].frame) {
             write_figure(&shown, &set->pictures[i], out);
         }
     }
-    fprintf(out, "</div>\n");
+    dip_put_html(out, "</div>\n");
 }

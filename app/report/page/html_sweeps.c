@@ -3,7 +3,7 @@
 #include "app/report/page/html_parts.h"
 
 #include "app/report/order.h"
-#include "app/report/page/markup.h"
+#include "app/files/put.h"
 
 #include <math.h>
 
@@ -38,8 +38,8 @@ static Scale find_scale(const DipCostReport *report, const DipCostSweep *sweep) 
 }
 
 static void write_bar(FILE *out, double x, double y, double width, const char *class) {
-    fprintf(out, "<rect class=\"%s\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"16\"/>", class,
-            x, y, width);
+    dip_put_html(out, "<rect class=\"%s\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"16\"/>",
+                 class, x, y, width);
 }
 
 static void write_time_bar(const DipCostReport *report, const DipCostSweep *sweep, int index,
@@ -51,11 +51,11 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
     const DipStatsEstimate ratio = sweep->ratios[index];
     const double end = BAR_LEFT + room * ratio.high / most;
     write_bar(out, BAR_LEFT, y, room * ratio.value / most, "bar-time");
-    fprintf(out,
-            "<line class=\"bar-interval\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>"
-            "<text x=\"%.1f\" y=\"%.1f\">%.2f</text>\n",
-            BAR_LEFT + room * ratio.low / most, y + 8.0, end, y + 8.0, end + 6.0, y + 13.0,
-            ratio.value);
+    dip_put_html(out,
+                 "<line class=\"bar-interval\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>"
+                 "<text x=\"%.1f\" y=\"%.1f\">%.2f</text>\n",
+                 BAR_LEFT + room * ratio.low / most, y + 8.0, end, y + 8.0, end + 6.0, y + 13.0,
+                 ratio.value);
 }
 
 static void write_bars_of(const DipCostReport *report, const DipCostSweep *sweep, int index,
@@ -66,35 +66,39 @@ static void write_bars_of(const DipCostReport *report, const DipCostSweep *sweep
     const double width = (BAR_ROOM - 40.0) * flip / scale->most_flip;
     char step[DIP_COST_TEXT];
     dip_cost_step_text(report, sweep, row, step);
-    fprintf(out, "<g class=\"point\" data-row=\"%d\"><title>", row);
-    dip_html_row_title(report, row, out);
-    fprintf(out,
-            "</title>\n<rect class=\"bar-back\" x=\"1\" y=\"%.1f\" width=\"%d\" height=\"24\"/>"
-            "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
-            y - 4.0, BAR_WIDTH - 2, BAR_LEFT - 8, y + 13.0, step);
+    char title[DIP_HTML_TITLE_ROOM];
+    dip_html_row_title(report, row, title);
+    dip_put_html(out,
+                 "<g class=\"point\" data-row=\"%d\"><title>%s</title>\n<rect class=\"bar-back\" "
+                 "x=\"1\" y=\"%.1f\" width=\"%d\" height=\"24\"/>"
+                 "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
+                 row, title, y - 4.0, BAR_WIDTH - 2, BAR_LEFT - 8, y + 13.0, step);
     write_time_bar(report, sweep, index, y, scale->most_ratio, out);
     write_bar(out, BAR_SECOND, y, width, "bar-error");
-    fprintf(out, "<text x=\"%.1f\" y=\"%.1f\">%.4f</text></g>\n", BAR_SECOND + width + 6.0,
-            y + 13.0, flip);
+    dip_put_html(out, "<text x=\"%.1f\" y=\"%.1f\">%.4f</text></g>\n", BAR_SECOND + width + 6.0,
+                 y + 13.0, flip);
 }
 
 static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, int number,
                        FILE *out) {
     const Scale scale = find_scale(report, sweep);
+    char title[DIP_COST_TEXT];
+    dip_cost_sweep_title(report, sweep, title);
     const int height = BAR_TOP + sweep->row_count * BAR_LINE + 4;
-    fprintf(out,
-            "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Bars of time and "
-            "error: %s\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot bars\" "
-            "data-set=\"sweep-%d\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
-            "font-size=\"13\">\n"
-            "<text x=\"%d\" y=\"20\" font-weight=\"bold\">%s</text>"
-            "<text x=\"%d\" y=\"20\" font-weight=\"bold\">FLIP, mean</text>\n",
-            sweep->title, number, BAR_WIDTH, height, BAR_WIDTH, height, BAR_LEFT,
-            report->rounds > 0 ? "time, ratio to the baseline" : "", BAR_SECOND);
+    dip_put_html(
+        out,
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Bars of time and "
+        "error: %s\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot bars\" "
+        "data-set=\"sweep-%d\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" "
+        "font-size=\"13\">\n"
+        "<text x=\"%d\" y=\"20\" font-weight=\"bold\">%s</text>"
+        "<text x=\"%d\" y=\"20\" font-weight=\"bold\">FLIP, mean</text>\n",
+        title, number, BAR_WIDTH, height, BAR_WIDTH, height, BAR_LEFT,
+        report->rounds > 0 ? "time, ratio to the baseline" : "", BAR_SECOND);
     for (int i = 0; i < sweep->row_count; i++) {
         write_bars_of(report, sweep, i, &scale, out);
     }
-    fprintf(out, "</svg>\n</div>\n");
+    dip_put_html(out, "</svg>\n</div>\n");
 }
 
 // --- tables ------------------------------------------------------------------------------------
@@ -109,31 +113,33 @@ static void write_step_line(const DipCostReport *report, const DipCostSweep *swe
     const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
     dip_cost_step_text(report, sweep, row, step);
     dip_html_line_begin(out, row);
-    fprintf(out, "<th scope=\"row\">%s%s</th>", step, row == sweep->base ? " (baseline)" : "");
+    dip_put_html(out, "<th scope=\"row\">%s%s</th>", step, row == sweep->base ? " (baseline)" : "");
     if (dip_cost_is_timed(report, row)) {
         const DipStatsEstimate ratio = sweep->ratios[index];
-        fprintf(out, "<td>%.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to %.3f</td>",
-                dip_cost_ms(report, row), report->rows[row].time.p95_ms.value, ratio.value,
-                ratio.low, ratio.high);
+        dip_put_html(out, "<td>%.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to %.3f</td>",
+                     dip_cost_ms(report, row), report->rows[row].time.p95_ms.value, ratio.value,
+                     ratio.low, ratio.high);
     } else {
-        fprintf(out, "<td></td><td></td><td></td><td></td>");
+        dip_put_html(out, "<td></td><td></td><td></td><td></td>");
     }
-    fprintf(out,
-            "<td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.4f</td><td>%.5f</td><td>%.5f</td>"
-            "<td class=\"l\">%s</td></tr>\n",
-            f.rmse_lin, f.psnr_db, f.ssim, f.flip, flicker.flicker, flicker.two_mean,
-            dip_cost_floor_mark(report, row));
+    dip_put_html(out,
+                 "<td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.4f</td><td>%.5f</td><td>%.5f</td>"
+                 "<td class=\"l\">%s</td></tr>\n",
+                 f.rmse_lin, f.psnr_db, f.ssim, f.flip, flicker.flicker, flicker.two_mean,
+                 dip_cost_floor_mark(report, row));
 }
 
 static void write_steps(const DipCostReport *report, const DipCostSweep *sweep, int number,
                         FILE *out) {
     char id[32];
-    char attributes[48];
+    char set[32];
+    char title[DIP_COST_TEXT];
     snprintf(id, sizeof id, "steps-%d", number);
-    snprintf(attributes, sizeof attributes, " data-set=\"sweep-%d\"", number);
-    dip_html_table_begin(out, id, attributes);
-    fprintf(out, "%s on path %s: times and errors of each step.", sweep->title,
-            report->paths[sweep->path]);
+    snprintf(set, sizeof set, "sweep-%d", number);
+    dip_cost_sweep_title(report, sweep, title);
+    dip_html_table_begin(out, id, set);
+    dip_put_html(out, "%s on path %s: times and errors of each step.", title,
+                 report->paths[sweep->path]);
     dip_html_columns_begin(out);
     dip_html_text_column(out, "step");
     dip_html_column(out, "mean", "ms");
@@ -160,41 +166,45 @@ static void write_sweep(const DipCostReport *report, const DipCostPictures *pict
                         FILE *out) {
     const DipCostSweep *sweep = &report->sweeps[number];
     char order[2 * DIP_COST_TEXT];
-    fprintf(out,
-            "<section aria-labelledby=\"sweep-%d\">\n<h3 id=\"sweep-%d\">%s <small>on path "
-            "%s</small></h3>\n",
-            number, number, sweep->title, report->paths[sweep->path]);
+    char title[DIP_COST_TEXT];
+    dip_cost_sweep_title(report, sweep, title);
+    dip_put_html(out,
+                 "<section aria-labelledby=\"sweep-%d\">\n<h3 id=\"sweep-%d\">%s <small>on path "
+                 "%s</small></h3>\n",
+                 number, number, title, report->paths[sweep->path]);
     write_bars(report, sweep, number, out);
     write_steps(report, sweep, number, out);
     if (dip_cost_order_text(report, sweep, order, sizeof order)) {
-        fprintf(out, "<p class=\"note\">");
-        dip_markup_text(out, order);
-        fprintf(out, "</p>\n");
+        dip_put_html(out, "<p class=\"note\">");
+        dip_put_html(out, "%s", order);
+        dip_put_html(out, "</p>\n");
     }
     if (pictures) {
         char set[32];
         snprintf(set, sizeof set, "sweep-%d", number);
         dip_html_pictures(report, &pictures->sweeps[number], set, sweep, out);
     }
-    fprintf(out, "</section>\n");
+    dip_put_html(out, "</section>\n");
 }
 
 void dip_html_sweeps(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
-    fprintf(out, "<h2 id=\"settings\">Each setting, on the path made for it</h2>\n"
+    dip_put_html(out,
+                 "<h2 id=\"settings\">Each setting, on the path made for it</h2>\n"
                  "<p>Errors compare with the truth, the converged picture. Lower is better; for "
                  "PSNR and SSIM, higher is better. The lines on the bars of time are 95 %% "
                  "intervals.</p>\n");
     if (pictures && report->options.pictures != DIP_COST_PICTURES_NONE) {
-        fprintf(out,
-                "<p>Each crop is the part of the picture in which the steps differ most. Below "
-                "it is its FLIP map: black means no visible difference, yellow means the "
-                "greatest possible difference.</p>\n");
+        dip_put_html(
+            out, "<p>Each crop is the part of the picture in which the steps differ most. Below "
+                 "it is its FLIP map: black means no visible difference, yellow means the "
+                 "greatest possible difference.</p>\n");
     }
     if (pictures && report->options.pictures == DIP_COST_PICTURES_FULL) {
-        fprintf(out,
-                "<p>Whole frames are JPEG files of quality %d. Differences of a few codes between "
-                "them may come from the compression. Crops are without loss.</p>\n",
-                DIP_COST_FRAME_QUALITY);
+        dip_put_html(
+            out,
+            "<p>Whole frames are JPEG files of quality %d. Differences of a few codes between "
+            "them may come from the compression. Crops are without loss.</p>\n",
+            DIP_COST_FRAME_QUALITY);
     }
     for (int s = 0; s < report->sweep_count; s++) {
         write_sweep(report, pictures, s, out);

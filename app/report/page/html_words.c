@@ -1,25 +1,26 @@
 // The foot of the HTML page: noise floors, steps left out, and what the words mean.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/page/markup.h"
+#include "app/files/put.h"
 
 static void write_left_out(const DipCostReport *report, FILE *out) {
     if (report->refused_count == 0) {
         return;
     }
-    fprintf(out, "<h2>Steps left out</h2>\n<ul>\n");
+    dip_put_html(out, "<h2>Steps left out</h2>\n<ul>\n");
     for (int i = 0; i < report->refused_count; i++) {
-        fprintf(out, "<li>");
-        dip_markup_text(out, report->refused[i]);
-        fprintf(out, "</li>\n");
+        dip_put_html(out, "<li>");
+        dip_put_html(out, "%s", report->refused[i]);
+        dip_put_html(out, "</li>\n");
     }
-    fprintf(out, "</ul>\n");
+    dip_put_html(out, "</ul>\n");
 }
 
 void dip_html_truth(const DipCostReport *report, FILE *out) {
-    fprintf(out, "<h2 id=\"truth\">The truth and its noise floor</h2>\n");
-    dip_html_table_begin(out, "noise-floors", "");
-    fprintf(out, "The truth (converged picture) is the mean of two independent halves. Half of "
+    dip_put_html(out, "<h2 id=\"truth\">The truth and its noise floor</h2>\n");
+    dip_html_table_begin(out, "noise-floors", NULL);
+    dip_put_html(out,
+                 "The truth (converged picture) is the mean of two independent halves. Half of "
                  "their difference is its noise floor. Combinations whose FLIP is below the "
                  "truth's rank alike.");
     dip_html_columns_begin(out);
@@ -33,18 +34,18 @@ void dip_html_truth(const DipCostReport *report, FILE *out) {
     for (int p = 0; p < report->path_count; p++) {
         const DipMetricSums sums = dip_cost_floor(report, p);
         const DipMetrics halves = dip_metrics_of(&sums, 0);
-        fprintf(out,
-                "<tr><th scope=\"row\">%s</th><td>%.5f</td><td>%.4f</td><td>%.2f</td>"
-                "<td>%.4f</td><td>%.4f</td></tr>\n",
-                report->paths[p], dip_cost_floor_rmse(report, p, 0), dip_cost_floor_flip(report, p),
-                halves.psnr_db, halves.ssim, halves.flip);
+        dip_put_html(out,
+                     "<tr><th scope=\"row\">%s</th><td>%.5f</td><td>%.4f</td><td>%.2f</td>"
+                     "<td>%.4f</td><td>%.4f</td></tr>\n",
+                     report->paths[p], dip_cost_floor_rmse(report, p, 0),
+                     dip_cost_floor_flip(report, p), halves.psnr_db, halves.ssim, halves.flip);
     }
     dip_html_table_end(out);
     write_left_out(report, out);
 }
 
 void dip_html_words(const DipCostReport *report, FILE *out) {
-    fprintf(
+    dip_put_html(
         out,
         "<h2 id=\"words\">What the words mean</h2>\n"
         "<dl>\n"

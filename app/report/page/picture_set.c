@@ -1,5 +1,5 @@
-// Comparing the frames of a set's rows at one viewpoint, finding the crop (the part of the picture)
-// in which the rows differ most, and cutting this crop out.
+// Compares the frames of a set's rows at one viewpoint, finds the crop (the part of the picture)
+// in which the rows differ most, and cuts this crop out.
 #include "app/report/page/picture_set.h"
 
 #include "app/report/page/data_uri.h"

@@ -30,20 +30,15 @@ typedef struct DipCostPictureSet {
     int count; // Number of rows; 0 if the set has no pictures at all.
     int path;
     int viewpoint;
-    int missing[DIP_COST_SET_ROWS]; // Rows of the report whose frames the source does not have.
-    int missing_count;
     int x; // Upper left corner of the crops, pixels.
     int y;
     int crop_width; // Pixels.
     int crop_height;
 } DipCostPictureSet;
 
-// Where the frames of the sets come from: the renderers, or the parts of a merged report.
+// Where the frames of the sets come from: code that draws them.
 typedef struct DipCostFrameSource {
     void *context;
-    // Chooses the viewpoint that a set shows. Takes out the rows of which the source has no frame
-    // there and lists them as missing.
-    void (*choose)(void *context, DipCostPictureSet *set);
     // Writes the packed rgba8 pixels of a row's frame, or those of the truth if `row` is -1.
     bool (*read)(void *context, const DipCostPictureSet *set, int row, uint8_t *rgba8,
                  DipError *err);
@@ -70,8 +65,8 @@ bool dip_cost_cutter_open(DipCostCutter *cutter, const DipCostReport *report,
 void dip_cost_cutter_close(DipCostCutter *cutter);
 
 // Gets the rows' frames from the source and cuts their pictures out. The caller fills in set->path,
-// set->count and the rows of set->pictures, and has the source choose the viewpoint. `whole` asks
-// for whole frames, too. On success the caller frees the set; on failure the set is empty.
+// set->viewpoint, set->count and the rows of set->pictures. `whole` asks for whole frames, too. On
+// success the caller frees the set; on failure the set is empty.
 bool dip_cost_picture_set_make(DipCostPictureSet *set, DipCostCutter *cutter, bool whole,
                                DipError *err);
 void dip_cost_picture_set_free(DipCostPictureSet *set);

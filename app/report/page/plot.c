@@ -2,7 +2,7 @@
 #include "app/report/page/plot.h"
 
 #include "app/files/whole_file.h"
-#include "app/report/page/markup.h"
+#include "app/files/put.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -158,14 +158,15 @@ static Axis make_y(const DipPlot *plot) {
 // --- writing -----------------------------------------------------------------------------------
 
 static void write_text(FILE *out, double x, double y, const char *attributes, const char *text) {
-    fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, attributes);
-    dip_markup_text(out, text);
-    fprintf(out, "</text>\n");
+    dip_put_html(out, "<text x=\"%.1f\" y=\"%.1f\" ", x, y);
+    dip_put_markup(out, attributes);
+    dip_put_html(out, ">%s</text>\n", text);
 }
 
 static void write_line(FILE *out, double x0, double y0, double x1, double y1, const char *style) {
-    fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n", x0, y0, x1, y1,
-            style);
+    dip_put_html(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" ", x0, y0, x1, y1);
+    dip_put_markup(out, style);
+    dip_put_markup(out, "/>\n");
 }
 
 // Writes a short number: "307k", "1.23M", "0.5".
@@ -200,37 +201,37 @@ static void write_axes(FILE *out, const DipPlot *plot, const Axis *x, const Axis
     write_line(out, LEFT, BOTTOM, RIGHT, BOTTOM, "class=\"plot-axis\" stroke=\"#404040\"");
     write_line(out, LEFT, TOP, LEFT, BOTTOM, "class=\"plot-axis\" stroke=\"#404040\"");
     write_text(out, (LEFT + RIGHT) / 2.0, BOTTOM + 46, "text-anchor=\"middle\"", plot->x_title);
-    fprintf(out, "<g transform=\"translate(20 %.1f) rotate(-90)\">", (TOP + BOTTOM) / 2.0);
+    dip_put_html(out, "<g transform=\"translate(20 %.1f) rotate(-90)\">", (TOP + BOTTOM) / 2.0);
     write_text(out, 0, 0, "text-anchor=\"middle\"", plot->y_title);
-    fprintf(out, "</g>\n");
+    dip_put_html(out, "</g>\n");
 }
 
 static const char *dash_of(int index) {
-    return index < COLOUR_COUNT ? "" : " stroke-dasharray=\"7 4\"";
+    return index < COLOUR_COUNT ? "none" : "7 4";
 }
 
 // Begins the group of a series' line and marks, or of its entry in the legend.
 static void begin_group(FILE *out, const DipPlotSeries *series, int index) {
     const char *colour = colours[index % COLOUR_COUNT];
     if (series->style) {
-        fprintf(out, "<g class=\"%s\"", series->style);
+        dip_put_html(out, "<g class=\"%s\"", series->style);
     } else {
-        fprintf(out, "<g class=\"series-%d\"", index);
+        dip_put_html(out, "<g class=\"series-%d\"", index);
     }
-    fprintf(out, " stroke=\"%s\" fill=\"%s\">", colour, colour);
+    dip_put_html(out, " stroke=\"%s\" fill=\"%s\">", colour, colour);
 }
 
 static void write_point(FILE *out, const DipPlotSeries *series, int index, double x, double y) {
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"", x, y);
+    dip_put_html(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"", x, y);
     if (series->rows && series->rows[index] >= 0) {
-        fprintf(out, " class=\"point\" data-row=\"%d\"", series->rows[index]);
+        dip_put_html(out, " class=\"point\" data-row=\"%d\"", series->rows[index]);
     }
     if (series->titles) {
-        fprintf(out, "><title>");
-        dip_markup_text(out, series->titles[index]);
-        fprintf(out, "</title></circle>\n");
+        dip_put_html(out, "><title>");
+        dip_put_html(out, "%s", series->titles[index]);
+        dip_put_html(out, "</title></circle>\n");
     } else {
-        fprintf(out, "/>\n");
+        dip_put_html(out, "/>\n");
     }
 }
 
@@ -243,17 +244,19 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
                    "stroke-opacity=\"0.4\" stroke-width=\"5\"");
     }
     if (!series->marks_only) {
-        fprintf(out, "<polyline fill=\"none\" stroke-width=\"2\"%s points=\"", dash_of(index));
+        dip_put_html(out,
+                     "<polyline fill=\"none\" stroke-width=\"2\" stroke-dasharray=\"%s\" points=\"",
+                     dash_of(index));
         for (int i = 0; i < series->count; i++) {
-            fprintf(out, "%s%.1f,%.1f", i ? " " : "", pixel(x, series->x[i]),
-                    pixel(y, series->y[i]));
+            dip_put_html(out, "%s%.1f,%.1f", i ? " " : "", pixel(x, series->x[i]),
+                         pixel(y, series->y[i]));
         }
-        fprintf(out, "\"/>\n");
+        dip_put_html(out, "\"/>\n");
     }
     for (int i = 0; i < series->count; i++) {
         write_point(out, series, i, pixel(x, series->x[i]), pixel(y, series->y[i]));
     }
-    fprintf(out, "</g>\n");
+    dip_put_html(out, "</g>\n");
     for (int i = 0; series->labels && i < series->count; i++) {
         write_text(out, pixel(x, series->x[i]) - 4.0, pixel(y, series->y[i]) + 14.0,
                    "font-size=\"12\" text-anchor=\"end\"", series->labels[i]);
@@ -266,10 +269,12 @@ static void write_legend_entry(FILE *out, const DipPlotSeries *series, int index
     const double y = LEGEND_TOP + LEGEND_LINE * (index / 2);
     begin_group(out, series, index);
     if (!series->marks_only) {
-        fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\"%s/>",
-                x, y, x + 34, y, dash_of(index));
+        dip_put_html(out,
+                     "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\" "
+                     "stroke-dasharray=\"%s\"/>",
+                     x, y, x + 34, y, dash_of(index));
     }
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/></g>\n", x + 17, y);
+    dip_put_html(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/></g>\n", x + 17, y);
     write_text(out, x + 44, y + 4.5, "", series->name);
 }
 
@@ -279,14 +284,14 @@ void dip_plot_print(FILE *out, const DipPlot *plot) {
     const int shown = shown_series(plot);
     const int left_out = plot->series_count - shown;
     const int height = LEGEND_TOP + LEGEND_LINE * ((shown + 1) / 2 + (left_out > 0)) + 2;
-    fprintf(
+    dip_put_html(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" "
         "width=\"%d\" height=\"%d\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" "
-        "font-size=\"13\" fill=\"#202020\"%s%s%s>\n<rect class=\"plot-paper\" width=\"100%%\" "
+        "font-size=\"13\" fill=\"#202020\" data-set=\"%s\">\n<rect class=\"plot-paper\" "
+        "width=\"100%%\" "
         "height=\"100%%\" fill=\"#ffffff\"/>\n",
-        WIDTH, height, WIDTH, height, plot->set ? " data-set=\"" : "", plot->set ? plot->set : "",
-        plot->set ? "\"" : "");
+        WIDTH, height, WIDTH, height, plot->set ? plot->set : "");
     write_text(out, LEFT, 27, "font-size=\"17\" font-weight=\"bold\"", plot->title);
     write_text(out, LEFT, 47, "class=\"plot-note\" fill=\"#606060\"", plot->subtitle);
     write_axes(out, plot, &x, &y);
@@ -299,7 +304,7 @@ void dip_plot_print(FILE *out, const DipPlot *plot) {
         snprintf(text, sizeof text, "and %d more, which are not drawn", left_out);
         write_text(out, LEFT + 44, LEGEND_TOP + LEGEND_LINE * ((shown + 1) / 2) + 4.5, "", text);
     }
-    fprintf(out, "</svg>\n");
+    dip_put_html(out, "</svg>\n");
 }
 
 bool dip_plot_write(const char *file, const DipPlot *plot, DipError *err) {

@@ -41,7 +41,7 @@ typedef struct DipPlot {
     // Only the first DIP_PLOT_MAX_SERIES are drawn; the legend says how many are left out.
     const DipPlotSeries *series;
     int series_count; // At least 1. At least one series has a point.
-    const char *set;  // Attribute data-set of the <svg> element; NULL for none.
+    const char *set;  // Attribute data-set of the <svg> element; NULL: it is empty.
 } DipPlot;
 
 // Prints only the <svg> element, for use in an HTML page.

@@ -153,9 +153,7 @@ static bool make_sets(DipCostPictures *pictures, const DipCostReport *report,
     int total = 0, most = 1, done = 0;
     for (int s = 0; s < SET_COUNT; s++) {
         sets[s] = s < DIP_COST_MAX_SWEEPS ? &pictures->sweeps[s] : &pictures->front;
-        if (sets[s]->count > 0) {
-            source->choose(source->context, sets[s]);
-        }
+        sets[s]->viewpoint = (report->options.first_place + report->options.end_place - 1) / 2;
         total += sets[s]->count;
         most = sets[s]->count > most ? sets[s]->count : most;
     }

@@ -10,13 +10,12 @@ typedef struct DipCostPictures {
     DipCostPictureSet front;
     int crops_left_out;  // Number of rows whose crops did not fit in the page.
     int frames_left_out; // Number of rows whose whole frames did not fit, if they were asked for.
-    bool from_parts;     // The frames come from the parts of a merged report.
 } DipCostPictures;
 
 // The greatest size of a page, in bytes.
 #define DIP_COST_PAGE_BYTES 10000000.0
 
-// Gets a frame of every row of the sweeps and of the front, at one viewpoint for each set, and cuts
+// Gets a frame of every row of the sweeps and of the front, at the run's middle viewpoint, and cuts
 // out the crops, or with --pictures full whole frames. Leaves out what does not fit in a page. With
 // --pictures none, there are no pictures.
 bool dip_cost_pictures_make(DipCostPictures *pictures, const DipCostReport *report,

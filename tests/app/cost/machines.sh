@@ -1,7 +1,7 @@
 #!/bin/sh
-# Runs the commands of docs/cost.md, section "On several machines", as they stand there: those for
-# GNU parallel on this machine instead of four others, and the Slurm script on a Slurm of one node
-# that this test starts. One Slurm job is killed and queued again. The merged reports must equal an
+# Runs the commands of docs/cost-machines.md, section "On several machines", as they stand there:
+# those for GNU parallel on this machine instead of four others, and the Slurm script on a Slurm of
+# one node that this test starts. One Slurm job is killed and queued again. The merged reports must equal an
 # undivided one in everything but the times, and their pages must show the same pictures.
 # Usage: machines.sh DIPTYCH COMPARE_REPORTS SOURCE_FOLDER
 # Exit code 77: skipped, since a package is missing or the test does not run as root.
@@ -64,7 +64,7 @@ documented() {
     awk -v wanted="$1" '
         /^## / { inside = $0 == "## On several machines"; next }
         inside && /^```/ { block += !open; open = !open; next }
-        inside && open && block == wanted' "$source/docs/cost.md"
+        inside && open && block == wanted' "$source/docs/cost-machines.md"
 }
 
 # The commands call a `diptych` that draws small pictures.
@@ -114,8 +114,7 @@ expect_undivided() {
     expect_pictures "$1"
 }
 
-# With the times of the undivided report, the Pareto front is the same, too. The undivided report
-# keeps no frames, so all pictures come from the parts of this folder.
+# With the times of the undivided report, the Pareto front is the same, too.
 expect_same_front() {
     grep -q '"same_pictures":\[\]' "$work/undivided/cost.json" ||
         fail "the undivided report joins rows, so it cannot be merged with parts"
@@ -132,36 +131,12 @@ test_parallel() {
     mkdir "$work/parallel"
     cd "$work/parallel" || exit 1
     documented 1 >commands
-    grep -q 'sshlogin a,b,c,d' commands || fail "docs/cost.md has no commands for GNU parallel"
+    grep -q 'sshlogin a,b,c,d' commands || fail "docs/cost-machines.md has no commands for GNU parallel"
     # ":" is this machine, without ssh; two jobs at a time.
     sed 's|--sshlogin a,b,c,d|--sshlogin 2/:|' commands >script
     sh -eu script >script.out 2>&1 || fail "the commands for GNU parallel: $(tail -5 script.out)"
     expect_undivided report
     expect_same_front
-}
-
-# The part with the middle viewpoint, 3 of 0 to 7, loses a picture, and all others are damaged. The
-# parts must merge all the same, with one line that says so, and the page must show others.
-test_damaged_pictures() {
-    cd "$work/parallel" || exit 1
-    set -- part2/frames/*.png
-    rm "$1"
-    shift
-    for frame; do
-        printf x >>"$frame"
-    done
-    diptych cost merge --out damaged times/cost.json part*/cost.json >damaged.out 2>damaged.err ||
-        fail "parts with damaged pictures do not merge: $(tail -5 damaged.err)"
-    [ "$(grep -c '' damaged.err)" = 1 ] &&
-        grep -Eq 'part2/cost.json: \[frames\] .* [12] (is|are) missing and [1-9][0-9]+ are damaged' damaged.err ||
-        fail "damaged pictures are not named on one line: $(cat damaged.err)"
-    "$compare" same "$work/undivided/cost.json" damaged/cost.json 1e-12 ||
-        fail "damaged pictures change the report"
-    grep -q 'other viewpoints are shown: ' damaged/cost.html ||
-        fail "the page does not say that it shows other viewpoints"
-    figures "$work/undivided" >"$work/expected"
-    figures damaged >"$work/found"
-    cmp -s "$work/expected" "$work/found" && fail "other pictures are not seen as others"
 }
 
 # --- Slurm -------------------------------------------------------------------------------------
@@ -261,10 +236,10 @@ test_slurm() {
         return
     fi
     documented 2 >cost.sh
-    grep -q '^#SBATCH' cost.sh || fail "docs/cost.md has no script for Slurm"
+    grep -q '^#SBATCH' cost.sh || fail "docs/cost-machines.md has no script for Slurm"
     documented 3 >commands
     job=$(sed -n 's/^sbatch/sbatch --parsable/p' commands | sh)
-    [ -n "$job" ] || fail "docs/cost.md has no sbatch command, or it failed"
+    [ -n "$job" ] || fail "docs/cost-machines.md has no sbatch command, or it failed"
     kill_and_requeue "$job" 3
     wait_for 1200 "all jobs end" no_jobs
     [ ! -e part3/cost.state ] || fail "the killed job did not finish"
@@ -278,7 +253,6 @@ test_slurm() {
 diptych cost --out "$work/undivided" --places 8 >"$work/undivided.out" 2>&1 ||
     fail "the undivided report: $(tail -5 "$work/undivided.out")"
 test_parallel
-test_damaged_pictures
 test_slurm
 [ $failures = 0 ] && echo "the merged reports of GNU parallel and of Slurm equal the undivided one, with its pictures"
 [ $failures = 0 ]

@@ -87,8 +87,8 @@ void dip_made_report(DipCostReport *report, int rounds) {
                                        .rounds = rounds,
                                        .timed_frames = 4,
                                        .seed = 5};
-    report->sweeps[0] = (DipCostSweep){
-        .title = "Antialiasing", .setting = DIP_SETTING_AA, .rows = {0, 2, 3}, .row_count = 3};
+    report->sweeps[0] =
+        (DipCostSweep){.setting = DIP_SETTING_AA, .rows = {0, 2, 3}, .row_count = 3};
     report->rows = calloc(ROWS, sizeof *report->rows);
     if (!report->rows || !dip_cost_report_alloc(report, NULL)) {
         abort();
@@ -124,16 +124,6 @@ void dip_made_report(DipCostReport *report, int rounds) {
         (DipCostPrediction){.quality = report->rows[2].quality, .ms = 3.5, .flip = 0.1, .row = 2};
     report->predicted.list[1] = (DipCostPrediction){
         .quality = report->rows[3].quality, .ms = 4.5, .p95_ms = 5.0, .flip = 0.2, .row = -1};
-    report->kept.list = calloc(2, sizeof *report->kept.list);
-    if (!report->kept.list) {
-        abort();
-    }
-    report->kept.count = 2;
-    report->kept.viewpoint = 1;
-    report->kept.list[0] =
-        (DipCostKeptFrame){.path = 1, .is_truth = true, .hash = "00112233445566778899aabbccddeeff"};
-    report->kept.list[1] = (DipCostKeptFrame){.quality = report->rows[2].quality,
-                                              .hash = "ffeeddccbbaa99887766554433221100"};
     for (int path = 0; path < report->path_count; path++) {
         report->has_floor[path * report->options.places] = true;
         fill_sums(&report->floors[path * report->options.places], 50 + path);

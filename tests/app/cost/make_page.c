@@ -1,5 +1,7 @@
-// Writes the page of a made-up report with made-up pictures, for page.py: make_page FILE.
+// Writes the page of a made-up report with made-up pictures, for page.py, and the report itself,
+// for hostile.py: make_page FILE [JSON].
 #include "app/report/page/data_uri.h"
+#include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/files/jpeg.h"
 #include "app/files/png.h"
@@ -63,8 +65,7 @@ static void add_combinations(DipCostReport *report) {
         add_combination(report, i);
     }
     report->sweeps[1] =
-        (DipCostSweep){.title = "Mip level of detail",
-                       .setting = DIP_SETTING_MIPLOD,
+        (DipCostSweep){.setting = DIP_SETTING_MIPLOD,
                        .base = report->combined_first,
                        .rows = {report->combined_first + 25, report->combined_first},
                        .row_count = 2};
@@ -173,8 +174,8 @@ int main(int argc, char **argv) {
     DipCostReport report;
     DipCostPictures pictures = {0};
     DipError err = {0};
-    if (argc != 2) {
-        fprintf(stderr, "usage: make_page FILE\n");
+    if (argc != 2 && argc != 3) {
+        fprintf(stderr, "usage: make_page FILE [JSON]\n");
         return 2;
     }
     dip_made_report(&report, 3);
@@ -197,7 +198,8 @@ int main(int argc, char **argv) {
         fill_set(&pictures.sweeps[s], report.sweeps[s].rows, report.sweeps[s].row_count, false);
     }
     fill_set(&pictures.front, (const int[]){first, first + 1, first + 2, first + 49}, 4, true);
-    const bool written = dip_cost_write_html(&report, &pictures, argv[1], &err);
+    const bool written = dip_cost_write_html(&report, &pictures, argv[1], &err) &&
+                         (argc < 3 || dip_cost_write_json(&report, argv[2], &err));
     if (!written) {
         fprintf(stderr, "%s\n", err.message);
     }

@@ -9,7 +9,7 @@
     study.py bench DIPTYCH OUT/quiet-1                 is the advice within its budget, measured anew?
 
 The truth of a ratio is the median over the other quiet runs: a run is never part of its own truth.
-Loads are loops that keep one core busy each. Figures in docs/cost.md come from these commands.
+Loads are loops that keep one core busy each. Figures in docs/cost-methods.md come from these commands.
 """
 import argparse
 import csv

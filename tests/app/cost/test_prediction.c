@@ -7,6 +7,7 @@
 #include "app/cost/predict/predict_elsewhere.h"
 #include "app/cost/prediction_counts.h"
 #include "app/report/same_pictures.h"
+#include "app/report/work.h"
 #include "renderer/catalogue/random.h"
 
 #include <math.h>
@@ -484,8 +485,74 @@ static void six_times_elsewhere_tell_all_others(void **state) {
     dip_cost_report_free(&report);
 }
 
+// --- composed work -------------------------------------------------------------------------------
+
+// A made-up truth: each group of settings multiplies each counter by a factor of its own. Counter 0
+// is work that the base lacks and that filtering alone brings.
+static void make_true_work(const DipQuality *quality, double *counters) {
+    const uint8_t *step = quality->step;
+    const double sampling = 1.0 + step[DIP_SETTING_AA] + 0.25 * step[DIP_SETTING_AAA] +
+                            0.125 * step[DIP_SETTING_ASD] + 0.5 * step[DIP_SETTING_TAA];
+    const double filtering = (1.0 + step[DIP_SETTING_AF] + 0.5 * step[DIP_SETTING_AAF]) *
+                             (1.0 + 0.25 * step[DIP_SETTING_OPT]) *
+                             (4.0 - step[DIP_SETTING_MIPLOD]) * (1.5 - 0.5 * step[DIP_SETTING_GI]);
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        counters[c] = 16.0 * (c % 3 ? sampling : 1.0) * (c % 2 ? filtering : 1.0);
+    }
+    counters[0] = step[DIP_SETTING_AF] ? 8.0 * step[DIP_SETTING_AF] : 0.0;
+}
+
+typedef struct Counted {
+    DipQuality base;
+    int most_groups;    // Combinations that differ in more groups were not counted...
+    bool has_filtering; // ...but for those that have the base's antialiasing.
+    double counters[16][DIP_COST_COUNTER_COUNT];
+    int next;
+} Counted;
+
+static const double *find_counted(const void *context, const DipQuality *quality) {
+    Counted *counted = (Counted *)context;
+    const DipQuality filtering =
+        dip_cost_take_settings(&counted->base, quality, ~dip_cost_sampling_settings());
+    const bool known = dip_work_count_groups(&counted->base, quality) <= counted->most_groups ||
+                       (counted->has_filtering && dip_quality_equal(&filtering, quality));
+    double *counters = counted->counters[counted->next++ % 16];
+    make_true_work(quality, counters);
+    return known ? counters : NULL;
+}
+
+// Callers that counted single groups and callers that counted whole filterings compose the same
+// work for every combination: the true one.
+static void composed_work_is_one(void **state) {
+    (void)state;
+    static DipQuality list[8192];
+    const unsigned all = (1u << DIP_SETTING_MIPDEBUG) - 1;
+    Counted groups = {.base = dip_quality_default(), .most_groups = 1};
+    Counted parts = {.base = groups.base, .most_groups = 1, .has_filtering = true};
+    const int count = dip_cost_list_combinations(&groups.base, all, list, 8192);
+    assert_int_equal(count, 5832);
+    for (int i = 0; i < count; i++) {
+        double truth[DIP_COST_COUNTER_COUNT], first[DIP_COST_COUNTER_COUNT],
+            second[DIP_COST_COUNTER_COUNT];
+        make_true_work(&list[i], truth);
+        assert_true(dip_work_compose(find_counted, &groups, &groups.base, &list[i], first));
+        assert_true(dip_work_compose(find_counted, &parts, &parts.base, &list[i], second));
+        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+            assert_true(fabs(first[c] - truth[c]) <= 1e-9 * truth[c]);
+            assert_true(fabs(second[c] - truth[c]) <= 1e-9 * truth[c]);
+        }
+    }
+    double counters[DIP_COST_COUNTER_COUNT];
+    DipQuality mip_colours = groups.base;
+    mip_colours.step[DIP_SETTING_MIPDEBUG] = 1;
+    assert_false(dip_work_compose(find_counted, &groups, &groups.base, &mip_colours, counters));
+    groups.most_groups = 0;
+    assert_false(dip_work_compose(find_counted, &groups, &groups.base, &list[count - 1], counters));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(composed_work_is_one),
         cmocka_unit_test(times_follow_from_work),
         cmocka_unit_test(flip_follows_from_settings),
         cmocka_unit_test(leaving_one_out_does_not_promise_too_much),

@@ -2,8 +2,8 @@
 """Checks a report's RMSE and PSNR with the truths that it saves: truths.py DIPTYCH FOLDER.
 
 Computes both errors from the PFM files and from the frames of `diptych dump` by their definitions
-(docs/cost.md), with readers of PFM and PNG and a conversion from sRGB of its own. FOLDER is the top
-of the sources, whose courtyard is drawn.
+(docs/cost-methods.md), with readers of PFM and PNG and a conversion from sRGB of its own. FOLDER is
+the top of the sources, whose courtyard is drawn.
 """
 import json
 import math

@@ -218,6 +218,22 @@ static void the_default_budget_is_16_6_ms(void **state) {
     dip_cost_report_free(&report);
 }
 
+// Times that other programs disturbed choose nothing, whatever they seem to fit.
+static void red_report_advises_nothing(void **state) {
+    (void)state;
+    DipCostReport report;
+    DipCosts costs;
+    dip_made_report(&report, 3);
+    report.advice_count = 0;
+    report.combined_first = 2;
+    report.verdict = DIP_COST_RED;
+    dip_costs_make(&costs, &report);
+    for (int i = 0; i < costs.advice_count; i++) {
+        assert_false(costs.advice[i].found);
+    }
+    dip_cost_report_free(&report);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(the_panel_shows_times_and_work, set_up),
@@ -229,6 +245,7 @@ int main(void) {
         cmocka_unit_test(a_report_of_another_scene_is_refused),
         cmocka_unit_test(advice_sets_the_requested_pane),
         cmocka_unit_test(the_default_budget_is_16_6_ms),
+        cmocka_unit_test(red_report_advises_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -346,6 +346,23 @@ static void a_terminal_names_what_needs_a_window(void **state) {
     assert_true(f->state.tools.loupe);
 }
 
+// Each preset gives the requested pane settings of its own. This test also runs on objects that are
+// built as users get them, without assertions.
+static void each_preset_has_its_own_settings(void **state) {
+    static const char *const settings[] = {
+        [DIP_PRESET_PERFORMANCE] = "opt=advanced,miplod=performance",
+        [DIP_PRESET_BALANCED] = "aa=2,af=4",
+        [DIP_PRESET_QUALITY] = "aa=4,aaa=on,asd=2,af=16",
+        [DIP_PRESET_BEST] = "aa=8,aaa=on,af=16,aaf=on",
+    };
+    Fixture *f = *state;
+    for (int preset = 0; preset <= DIP_PRESET_BEST; ++preset) {
+        const DipQuality wanted = parse(settings[preset]);
+        press(f, DIP_ACTION_PRESET, preset, false);
+        assert_memory_equal(&f->state.quality[DIP_PANE_REQUESTED], &wanted, sizeof wanted);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slow_temporal_antialiasing_is_named),
@@ -362,6 +379,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(time_stops_while_paused_or_flying, set_up, tear_down),
         cmocka_unit_test_setup_teardown(notices_disappear, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_terminal_names_what_needs_a_window, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(each_preset_has_its_own_settings, set_up, tear_down),
         cmocka_unit_test(settings_are_described_in_words),
         cmocka_unit_test(the_camera_moves_and_turns),
         cmocka_unit_test(the_median_covers_the_last_second),

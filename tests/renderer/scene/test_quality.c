@@ -129,9 +129,93 @@ static void formatting_returns_the_length_as_snprintf_does(void **state) {
     assert_int_equal(cut[sizeof cut - 1], '\0');
 }
 
+static void short_texts_list_changes_only(void **state) {
+    (void)state;
+    char text[64];
+    DipQuality quality = dip_quality_default();
+    assert_int_equal(dip_quality_format_changes(&quality, text, sizeof text), 8);
+    assert_string_equal(text, "defaults");
+    assert_int_equal(dip_quality_count_changes(&quality), 0);
+    assert_true(dip_quality_parse("af=16,gi=off,aa=4", &quality, NULL));
+    assert_int_equal(dip_quality_format_changes(&quality, text, sizeof text), 17);
+    assert_string_equal(text, "aa=4,af=16,gi=off");
+    assert_int_equal(dip_quality_format_changes(&quality, text, 6), 17); // The text is cut.
+    assert_string_equal(text, "aa=4,");
+    assert_int_equal(dip_quality_count_changes(&quality), 3);
+}
+
+static void settings_without_effect_are_turned_off(void **state) {
+    (void)state;
+    static const char *const rows[][2] = {
+        {"taa=on,aaa=on,aaf=on", "defaults"},
+        {"aa=2,asd=2,aaa=on", "aa=2"},
+        {"aa=8,asd=4", "aa=8"},
+        {"aa=8,asd=4,aaa=on,taa=on", "aa=8,taa=on,aaa=on,asd=4"},
+        {"af=2,aaf=on", "af=2,aaf=on"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        DipQuality quality;
+        char text[256];
+        assert_true(dip_quality_parse(rows[i][0], &quality, NULL));
+        const DipQuality effective = dip_quality_effective(&quality);
+        dip_quality_format_changes(&effective, text, sizeof text);
+        assert_string_equal(text, rows[i][1]);
+        const DipQuality again = dip_quality_effective(&effective);
+        assert_true(dip_quality_equal(&effective, &again));
+    }
+}
+
+// A setting needs something exactly if turning it on changes nothing.
+static void needs_are_named_where_a_setting_has_no_effect(void **state) {
+    (void)state;
+    static const struct {
+        const char *quality;
+        DipSetting setting;
+        const char *needs;
+    } rows[] = {
+        {"", DIP_SETTING_TAA, "needs AA"},
+        {"", DIP_SETTING_AAA, "needs AA"},
+        {"aa=2,asd=2", DIP_SETTING_AAA, "needs smaller groups"},
+        {"aa=4,asd=2", DIP_SETTING_AAA, NULL},
+        {"aa=4", DIP_SETTING_ASD, "needs adaptive AA"},
+        {"aa=4,aaa=on", DIP_SETTING_ASD, NULL},
+        {"aa=4", DIP_SETTING_AAF, "needs AF"},
+        {"af=2", DIP_SETTING_AAF, NULL},
+        {"", DIP_SETTING_AF, NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        DipQuality quality;
+        assert_true(dip_quality_parse(rows[i].quality, &quality, NULL));
+        const char *needs = dip_quality_needs(&quality, rows[i].setting);
+        assert_true(!needs == !rows[i].needs);
+        if (needs) {
+            assert_string_equal(needs, rows[i].needs);
+        }
+    }
+}
+
+static void labels_fit_where_they_are_shown(void **state) {
+    (void)state;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+        assert_true(strlen(info->short_title) <= 10);
+        for (int step = 0; step < info->step_count; step++) {
+            assert_true(info->labels[step] && strlen(info->narrow_labels[step]) <= 6);
+            assert_int_equal(
+                dip_setting_step_at((DipSetting)s, dip_setting_step_at((DipSetting)s, step)), step);
+        }
+    }
+    assert_int_equal(dip_setting_step_at(DIP_SETTING_OPT, 0), DIP_OPT_ADVANCED);
+    assert_int_equal(dip_setting_step_at(DIP_SETTING_AF, 0), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(settings_have_their_documented_defaults),
+        cmocka_unit_test(short_texts_list_changes_only),
+        cmocka_unit_test(settings_without_effect_are_turned_off),
+        cmocka_unit_test(needs_are_named_where_a_setting_has_no_effect),
+        cmocka_unit_test(labels_fit_where_they_are_shown),
         cmocka_unit_test(formatting_gives_the_parsed_text_back),
         cmocka_unit_test(settings_that_are_left_out_keep_their_defaults),
         cmocka_unit_test(bad_settings_are_refused),

@@ -1,4 +1,4 @@
-// Sampling the eye's contrast sensitivity and the feature detectors.
+// Samples the eye's contrast sensitivity and the feature detectors.
 #include "app/measure/metrics/internal/flip_kernels.h"
 
 #include <math.h>

@@ -81,10 +81,10 @@
         return new Map([...steps].filter(([, values]) => values.size > 1));
     }
 
-    // Points whose row is filtered out of the table become pale in the plot that the table names.
+    // Points whose row is filtered out of the table become pale in the plot of its set.
     function dimPoints(table) {
         for (const { dataset, hidden } of rowsOf(table)) {
-            const plot = `.plot[data-set="${table.dataset.plot}"]`;
+            const plot = `.plot[data-set="${table.dataset.set}"]`;
             const points = document.querySelectorAll(`${plot} .point[data-row="${dataset.row}"]`);
             points.forEach((point) => point.classList.toggle('dim', hidden));
         }
@@ -110,7 +110,7 @@
             }
             const shown = rows.filter((row) => !row.hidden).length;
             count.textContent = `${shown} of ${rows.length} rows`;
-            if (table.dataset.plot !== undefined) {
+            if (table.id === 'combinations') {
                 dimPoints(table);
             }
         };
@@ -126,7 +126,10 @@
 
     function csvOf(table) {
         const rows = [table.tHead.rows[0], ...rowsOf(table).filter((row) => !row.hidden)];
-        const quote = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+        // A spreadsheet takes a text that begins like this for a formula.
+        const safe = (text) => (/^[=+\-@\t]/.test(text) && isNaN(text) ? `'${text}` : text);
+        const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+        const quote = (text) => quoted(safe(text));
         const lineOf = (row) => [...row.cells].map((cell) => quote(textOf(cell))).join(',');
         return rows.map((row) => `${lineOf(row)}\r\n`).join('');
     }

@@ -1,0 +1,214 @@
+// Escapes text for each form of a report.
+#include "app/files/put.h"
+
+#include "renderer/base/assert.h"
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <string.h>
+
+enum { SPEC_ROOM = 32, PADDED_ROOM = 1024 };
+
+// Writes a text that is inserted, escaped for a form.
+typedef void PutText(FILE *out, const char *text);
+
+// Copies of a va_list can be passed by pointer; the list itself may be an array.
+typedef struct Arguments {
+    va_list list;
+} Arguments;
+
+// Returns the length of the character at the beginning of a text in UTF-8, or 0 if it is a control
+// character or malformed. The controls of the upper half (C1) are two bytes.
+static size_t character_bytes(const char *text) {
+    const unsigned char *bytes = (const unsigned char *)text;
+    const size_t length = bytes[0] < 0x80 ? 1 : bytes[0] < 0xe0 ? 2 : bytes[0] < 0xf0 ? 3 : 4;
+    if (length == 1) {
+        return bytes[0] >= ' ' && bytes[0] != 0x7f;
+    }
+    for (size_t i = 1; i < length; i++) {
+        if ((bytes[i] & 0xc0) != 0x80) {
+            return 0;
+        }
+    }
+    return bytes[0] < 0xc2 || bytes[0] > 0xf4 || (bytes[0] == 0xc2 && bytes[1] < 0xa0) ? 0 : length;
+}
+
+// Writes a text, in which `replace` stands for characters that it knows. `replace` returns NULL for
+// all others.
+static void put_replaced(FILE *out, const char *text, const char *(*replace)(char c)) {
+    const char *begin = text; // Of the characters that have not been written yet.
+    while (*text) {
+        const size_t length = character_bytes(text);
+        const char *instead = length ? replace(*text) : "?";
+        const char *next = text + (length ? length : 1);
+        if (instead) {
+            fwrite(begin, 1, (size_t)(text - begin), out);
+            fputs(instead, out);
+            begin = next;
+        }
+        text = next;
+    }
+    fwrite(begin, 1, (size_t)(text - begin), out);
+}
+
+static const char *html_of(char c) {
+    switch (c) {
+    case '&':
+        return "&amp;";
+    case '<':
+        return "&lt;";
+    case '>':
+        return "&gt;";
+    case '"':
+        return "&quot;";
+    case '\'':
+        return "&#39;";
+    default:
+        return NULL;
+    }
+}
+
+// A script element ends at "</script" wherever that stands, so '<' must not be written.
+static const char *script_of(char c) {
+    switch (c) {
+    case '&':
+        return "\\u0026";
+    case '<':
+        return "\\u003c";
+    case '>':
+        return "\\u003e";
+    case '\'':
+        return "\\u0027";
+    case '"':
+        return "\\\"";
+    case '\\':
+        return "\\\\";
+    default:
+        return NULL;
+    }
+}
+
+static const char *csv_of(char c) {
+    return c == '"' ? "\"\"" : NULL;
+}
+
+static const char *same_of(char c) {
+    (void)c;
+    return NULL;
+}
+
+static void put_html(FILE *out, const char *text) {
+    put_replaced(out, text, html_of);
+}
+
+static void put_plain(FILE *out, const char *text) {
+    put_replaced(out, text, same_of);
+}
+
+// --- formats -------------------------------------------------------------------------------------
+
+// Copies a conversion such as "%-12.*f" to `spec`, with the widths that '*' stands for. Returns the
+// conversion's last character.
+static const char *read_spec(const char *format, Arguments *arguments, char spec[SPEC_ROOM]) {
+    size_t length = 1;
+    spec[0] = '%';
+    for (format++; strchr("-+ #0123456789.*lz", *format); format++) {
+        DIP_ASSERT(*format && length + 12 < SPEC_ROOM);
+        if (*format == '*') {
+            length += (size_t)snprintf(spec + length, 12, "%d", va_arg(arguments->list, int));
+        } else {
+            spec[length++] = *format;
+        }
+    }
+    spec[length] = *format;
+    spec[length + 1] = '\0';
+    return format;
+}
+
+static void put_value(FILE *out, PutText *put, const char *spec, char kind, Arguments *arguments) {
+    char padded[PADDED_ROOM];
+    switch (kind) {
+    case '%':
+        fputc('%', out);
+        break;
+    case 'd':
+        if (strstr(spec, "ll")) {
+            fprintf(out, spec, va_arg(arguments->list, long long));
+            break;
+        }
+        fprintf(out, spec, va_arg(arguments->list, int));
+        break;
+    case 'c':
+        fprintf(out, spec, va_arg(arguments->list, int));
+        break;
+    case 'u':
+        if (strchr(spec, 'z')) {
+            fprintf(out, spec, va_arg(arguments->list, size_t));
+        } else {
+            fprintf(out, spec, va_arg(arguments->list, unsigned));
+        }
+        break;
+    case 's':
+        if (strcmp(spec, "%s") == 0) {
+            put(out, va_arg(arguments->list, const char *));
+        } else {
+            snprintf(padded, sizeof padded, spec, va_arg(arguments->list, const char *));
+            put(out, padded);
+        }
+        break;
+    default:
+        DIP_ASSERT(kind == 'f' || kind == 'g' || kind == 'e');
+        fprintf(out, spec, va_arg(arguments->list, double));
+    }
+}
+
+static void put_format(FILE *out, PutText *put, const char *format, Arguments *arguments) {
+    char spec[SPEC_ROOM];
+    while (*format) {
+        const size_t plain = strcspn(format, "%");
+        fwrite(format, 1, plain, out);
+        format += plain;
+        if (*format) {
+            format = read_spec(format, arguments, spec);
+            put_value(out, put, spec, *format++, arguments);
+        }
+    }
+}
+
+void dip_put_html(FILE *out, const char *format, ...) {
+    Arguments arguments;
+    va_start(arguments.list, format);
+    put_format(out, put_html, format, &arguments);
+    va_end(arguments.list);
+}
+
+void dip_put_text(FILE *out, const char *format, ...) {
+    Arguments arguments;
+    va_start(arguments.list, format);
+    put_format(out, put_plain, format, &arguments);
+    va_end(arguments.list);
+}
+
+void dip_put_clean(char *text) {
+    while (*text) {
+        const size_t length = character_bytes(text);
+        *text = length ? *text : '?';
+        text += length ? length : 1;
+    }
+}
+
+void dip_put_markup(FILE *out, const char *markup) {
+    fputs(markup, out);
+}
+
+void dip_put_script_string(FILE *out, const char *text) {
+    fputc('"', out);
+    put_replaced(out, text, script_of);
+    fputc('"', out);
+}
+
+void dip_put_csv_text(FILE *out, const char *text) {
+    fputs(*text && strchr("=+-@\t\r", *text) ? "\"'" : "\"", out);
+    put_replaced(out, text, csv_of);
+    fputc('"', out);
+}
