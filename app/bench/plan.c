@@ -3,7 +3,6 @@
 
 #include "app/bench/enlarge.h"
 #include "app/cli/machine.h"
-#include "renderer/base/clock.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -28,9 +27,7 @@ static void fill_in(DipBenchOptions *options, const DipSession *session) {
     if (!options->scale_count) {
         options->scales[options->scale_count++] = 1.0;
     }
-    if (!options->has_seed) {
-        options->seed = (int)(dip_clock_ns() / 1000 % 1000000);
-    }
+    options->measure.seed = dip_measure_seed(&options->measure);
 }
 
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,

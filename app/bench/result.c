@@ -5,7 +5,7 @@
 #include <string.h>
 
 static size_t values_per_stage(const DipBenchPlan *plan) {
-    return (size_t)plan->options.rounds * (size_t)plan->options.frames;
+    return (size_t)plan->options.measure.rounds * (size_t)plan->options.frames;
 }
 
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err) {

@@ -53,7 +53,7 @@ void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session
     fprintf(out, "fixed    %s", fixed);
     fprintf(out,
             "\nframes   %d along the path, drawn in %d rounds, in a random order by seed %d\n\n",
-            plan->options.frames, plan->options.rounds, plan->options.seed);
+            plan->options.frames, plan->options.measure.rounds, plan->options.measure.seed);
 }
 
 // --- times -------------------------------------------------------------------------------------
@@ -70,7 +70,7 @@ static int label_width(const DipBenchPlan *plan) {
 }
 
 static int value_count(const DipBenchPlan *plan) {
-    return plan->options.rounds * plan->options.frames;
+    return plan->options.measure.rounds * plan->options.frames;
 }
 
 static void print_quantile(const DipBenchResult *result, int combination, double share,
@@ -209,7 +209,7 @@ static double fastest_ms(const DipBenchResult *result, int combination) {
     double sum = 0.0;
     for (int frame = 0; frame < options->frames; frame++) {
         double least = ms[frame];
-        for (int round = 1; round < options->rounds; round++) {
+        for (int round = 1; round < options->measure.rounds; round++) {
             least = fmin(least, ms[round * options->frames + frame]);
         }
         sum += least;

@@ -92,9 +92,9 @@ static int64_t timed_ns(const DipCostContext *cost, int path, int index) {
            dip_cost_frame_count(cost->report) * index;
 }
 
-bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int index,
+bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipFrame *frame, DipError *err) {
-    return draw(cost, quality, 0, timed_ns(cost, 0, index), index, frame, err);
+    return draw(cost, quality, path, timed_ns(cost, path, index), index, frame, err);
 }
 
 bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err) {

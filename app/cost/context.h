@@ -23,6 +23,10 @@ typedef struct DipCostContext {
     // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows.
     // They share one renderer so that they are all drawn in the same memory.
     DipPainter *renderers[2];
+    // The command line that a start of the measurement gets (starts.h); NULL: frames are timed
+    // here.
+    char *const *argv;
+    int argc;
 } DipCostContext;
 
 // Opens the context of a report. Without `judges`, it has no truths: it draws and times only.
@@ -35,8 +39,8 @@ void dip_cost_context_close(DipCostContext *cost);
 bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
                    DipError *err);
 
-// Draws the timed frame `index` of path 0 with any settings.
-bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int index,
+// Draws the timed frame `index` of a path with any settings.
+bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipFrame *frame, DipError *err);
 
 // Draws the row's timed frame `index`, 0..dip_cost_frame_count - 1.

@@ -51,7 +51,7 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
         return dip_cost_draw_timed(e->cost, e->cost->report->base_rows[0], turn->frame, &frame,
                                    err);
     }
-    if (!dip_cost_draw_settings(e->there, &e->rows[row].quality, turn->frame, &frame, err)) {
+    if (!dip_cost_draw_settings(e->there, &e->rows[row].quality, 0, turn->frame, &frame, err)) {
         return false;
     }
     dip_cost_stage_parts(&frame, timed->parts_ms);

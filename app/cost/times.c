@@ -1,6 +1,8 @@
 // Timing every row beside the baseline of its path, and counting its work. Counters are the same
 // in every run of a frame, so each frame is counted once.
 #include "app/cli/drive.h"
+#include "app/cli/interrupt.h"
+#include "app/cost/starts.h"
 #include "app/cost/steps.h"
 
 #include <math.h>
@@ -11,6 +13,9 @@
 // baseline per round, at the same cost.
 enum { BLOCK_ROWS = 4 };
 
+// A start may take this share of the time of its rounds.
+static const double most_start = 0.1;
+
 // A measurement of some rows of the report.
 typedef struct RowTiming {
     DipCostContext *cost;
@@ -19,6 +24,7 @@ typedef struct RowTiming {
     int count;          // Subjects.
     bool *counted;      // [subject * frames + frame]: the frame's counters are in the row's sums.
     DipTimePair *pairs; // [subject * frames + frame]
+    DipChild *child;    // The start that draws; NULL: this process does.
 } RowTiming;
 
 static bool out_of_memory(DipError *err) {
@@ -29,12 +35,12 @@ static bool out_of_memory(DipError *err) {
 
 // Adds a frame's counters to the row's sums. The sums are whole numbers, so that they do not depend
 // on the order of the frames: an interrupted run has another order.
-static void count_work(const RowTiming *t, int subject, int frame, const DipFrame *drawn) {
+static void count_work(const RowTiming *t, int subject, int frame, const DipCounters *counters) {
     DipCostReport *report = t->cost->report;
     bool *counted = &t->counted[subject * dip_cost_frame_count(report) + frame];
     double *value = report->rows[t->rows[subject]].counters;
     if (!*counted) {
-#define ADD_COUNTER(name, text) *value++ += (double)drawn->counters.name;
+#define ADD_COUNTER(name, text) *value++ += (double)counters->name;
         DIP_COUNTER_LIST(ADD_COUNTER)
 #undef ADD_COUNTER
         *counted = true;
@@ -60,7 +66,7 @@ static bool count_known_rounds(const RowTiming *t, DipError *err) {
             !dip_cost_draw_timed(t->cost, t->rows[i / frames], i % frames, &drawn, err)) {
             return false;
         }
-        count_work(t, i / frames, i % frames, &drawn);
+        count_work(t, i / frames, i % frames, &drawn.counters);
     }
     return true;
 }
@@ -69,13 +75,29 @@ static bool count_known_rounds(const RowTiming *t, DipError *err) {
 
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     const RowTiming *t = context;
+    const int row = t->rows[turn->subject];
     DipFrame frame;
-    if (!dip_cost_draw_timed(t->cost, t->rows[turn->subject], turn->frame, &frame, err)) {
-        return false;
+    if (t->child) {
+        if (!dip_cost_start_draw(t->child, &t->cost->report->rows[row], turn->frame,
+                                 &frame.counters, timed, err)) {
+            return false;
+        }
+    } else {
+        if (!dip_cost_draw_timed(t->cost, row, turn->frame, &frame, err)) {
+            return false;
+        }
+        dip_cost_stage_parts(&frame, timed->parts_ms);
     }
-    dip_cost_stage_parts(&frame, timed->parts_ms);
-    count_work(t, turn->subject, turn->frame, &frame);
+    count_work(t, turn->subject, turn->frame, &frame.counters);
     return true;
+}
+
+static bool start(void *context, int index, DipError *err) {
+    RowTiming *t = context;
+    (void)index;
+    dip_child_stop(&t->child, dip_interrupted());
+    t->child = dip_cost_start(t->cost, err);
+    return t->child != NULL;
 }
 
 static bool keep_round(void *context, const DipTimed *timed, int count, DipError *err) {
@@ -100,19 +122,32 @@ static bool resume(const RowTiming *t, DipDriver *driver, DipError *err) {
     return true;
 }
 
-static bool drive(RowTiming *t, const DipDriverDef *def, const DipDriverCalls *calls,
-                  const char *progress, DipError *err) {
+// Times the subjects in the report's starts. With `keep`, the journal and the report get
+// everything.
+static bool drive(RowTiming *t, DipDriverDef *def, bool keep, const char *progress, DipError *err) {
     DipCostReport *report = t->cost->report;
-    DipDriver *driver = dip_driver_create(def, calls, err);
-    bool done = driver && (!calls->keep || resume(t, driver, err)) &&
+    const bool starts = report->options.starts > 1 && t->cost->argv;
+    const DipDriverCalls calls = {
+        .draw = draw,
+        .start = starts ? start : NULL,
+        .keep = keep ? keep_round : NULL,
+        .context = t,
+    };
+    def->starts = starts ? report->options.starts : 1;
+    def->rounds = report->options.rounds / def->starts;
+    def->most_start = keep ? most_start : 0.0;
+    DipDriver *driver = dip_driver_create(def, &calls, err);
+    bool done = driver && (!keep || resume(t, driver, err)) &&
                 dip_drive(driver, progress, "cost", DIP_COST_INTERRUPTED, err);
     if (done) {
         const DipTimes times = dip_driver_times(driver);
         done = dip_times_pairs(&times, t->pairs, err);
-        if (calls->keep) {
+        if (keep) {
             report->machine = dip_driver_machine(driver, report->threads);
+            report->options.starts = times.starts;
         }
     }
+    dip_child_stop(&t->child, dip_interrupted());
     dip_driver_destroy(&driver);
     return done && count_known_rounds(t, err);
 }
@@ -144,11 +179,10 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
         dip_cost_journal_seed(cost->journal, &report->options.seed);
     }
     DipDriverDef def = dip_cost_driver_def(report, report->row_count, BLOCK_ROWS);
-    const DipDriverCalls calls = {.draw = draw, .keep = keep_round, .context = &t};
     def.base_of = rows ? rows + report->row_count : NULL;
     def.settle = true;
     bool done = (rows || out_of_memory(err)) && open_timing(&t, err) &&
-                drive(&t, &def, &calls, "frames timed", err);
+                drive(&t, &def, true, "frames timed", err);
     for (int r = 0; done && r < report->row_count; r++) {
         memcpy(report->rows[r].pairs, t.pairs + (size_t)r * frames, frames * sizeof *t.pairs);
         average_work(report, r);
@@ -179,10 +213,9 @@ static bool time_some(RowTiming *t, DipCostContext *cost, const int *rows, int c
         memcpy(subjects + 1, rows, (size_t)count * sizeof *rows);
         memset(t->counted, true, counts ? frames : (size_t)t->count * frames);
         DipDriverDef def = dip_cost_driver_def(report, t->count, block_rows);
-        const DipDriverCalls calls = {.draw = draw, .context = t};
         def.base_of = base_of;
         def.seed = seed;
-        done = drive(t, &def, &calls, "frames timed for the advice", err);
+        done = drive(t, &def, false, "frames timed for the advice", err);
     }
     free(subjects);
     free(base_of);

@@ -88,7 +88,7 @@ static DipCostSetup *setup_report(const DipCostDiffArguments *arguments, const c
     setup->def.program_count = 1;
     setup->def.programs[0] = program;
     dip_cost_setup_finish(setup, arguments, dip_cost_frame_count(report),
-                          arguments->rounds ? arguments->rounds : 1);
+                          arguments->measure.rounds ? arguments->measure.rounds : 1);
     return setup;
 }
 

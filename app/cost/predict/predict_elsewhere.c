@@ -98,7 +98,7 @@ static bool scale_counters(DipCostContext *there, DipError *err) {
     for (int f = 0; f < frames; f++) {
         DipFrame frame;
         if (dip_cost_interrupted(there, err) ||
-            !dip_cost_draw_settings(there, &baseline.quality, f, &frame, err)) {
+            !dip_cost_draw_settings(there, &baseline.quality, 0, f, &frame, err)) {
             return false;
         }
         double *value = all;

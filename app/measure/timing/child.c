@@ -160,10 +160,33 @@ void dip_child_stop(DipChild **child_pointer, bool at_once) {
 
 // --- asking ------------------------------------------------------------------------------------
 
+// How long the threads of the child were on a core and waited for one.
+typedef struct Use {
+    double wait_ms; // NAN: not known.
+    double cpu_ms;
+    double switches;
+} Use;
+
+static Use use_between(const DipThreadUse *before, const DipThreadUse *after) {
+    return (Use){
+        .wait_ms = after->has_wait ? 1e-6 * (double)(after->wait_ns - before->wait_ns) : NAN,
+        .cpu_ms = 1e-6 * (double)(after->cpu_ns - before->cpu_ns),
+        .switches = (double)(after->switches - before->switches),
+    };
+}
+
+static bool store_number(const char *word, size_t length, const char *name, double *value) {
+    return length == strlen(name) && memcmp(word, name, length) == 0 &&
+           dip_number_parse(word + length + 1, strlen(word + length + 1), value);
+}
+
 // Stores one NAME=VALUE of an answer. Ignores an unknown name.
-static void store_word(const char *word, DipBenchSample *sample) {
+static void store_word(const char *word, DipBenchSample *sample, Use *use) {
     const char *equals = strchr(word, '=');
     const size_t length = equals ? (size_t)(equals - word) : 0;
+    store_number(word, length, "wait_ms", &use->wait_ms);
+    store_number(word, length, "cpu_ms", &use->cpu_ms);
+    store_number(word, length, "switches", &use->switches);
     if (length == strlen("hash") && memcmp(word, "hash", length) == 0) {
         snprintf(sample->hash, sizeof sample->hash, "%s", equals + 1);
     }
@@ -194,13 +217,17 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
         return false;
     }
     const DipThreadUse after = dip_thread_watch_read(child->watch);
+    // Older builds do not tell. The watch also sees how long the child waits until it reads the
+    // request.
+    Use use = use_between(&before, &after);
     char *rest = NULL;
     for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {
-        store_word(word, sample);
+        store_word(word, sample, &use);
     }
     dip_bench_sample_time(sample, timed);
-    timed->wait = child->watch ? 1e-6 * (double)(after.wait_ns - before.wait_ns) / timed->ms : NAN;
-    timed->cpu_ms = child->watch ? 1e-6 * (double)(after.cpu_ns - before.cpu_ns) : 0.0;
+    timed->wait = use.wait_ms / timed->ms;
+    timed->cpu_ms = use.cpu_ms;
+    timed->switches = use.switches;
     return timed->ms > 0.0 ||
            dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, child->def.key,
                                  "%s answered without a time", child->def.program);
@@ -208,13 +235,16 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
 
 // --- answering ---------------------------------------------------------------------------------
 
-static void answer(const DipBenchSample *sample) {
+static void answer(const DipBenchSample *sample, const Use *use) {
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         printf("%s_ms=%.6f ", dip_bench_stage_names[stage], sample->ms[stage]);
     }
 #define PRINT_COUNTER(name, text) printf("%s=%" PRIu64 " ", #name, sample->counters.name);
     DIP_COUNTER_LIST(PRINT_COUNTER)
 #undef PRINT_COUNTER
+    if (!isnan(use->wait_ms)) {
+        printf("wait_ms=%.6f cpu_ms=%.6f switches=%.0f ", use->wait_ms, use->cpu_ms, use->switches);
+    }
     printf("hash=%s\n", sample->hash);
     fflush(stdout);
 }
@@ -224,15 +254,21 @@ bool dip_child_serve(const char *what, int count, int frames,
                                   DipError *err),
                      void *context, DipError *err) {
     char line[LINE_SIZE];
+    bool done = true;
+    DipThreadWatch *watch = dip_thread_watch_open();
     printf("diptych-%s 1 %d %d\n", what, count, frames);
     fflush(stdout);
-    while (fgets(line, sizeof line, stdin)) {
+    while (done && fgets(line, sizeof line, stdin)) {
         DipBenchSample sample;
         line[strcspn(line, "\n")] = '\0';
-        if (!draw(context, line, &sample, err)) {
-            return false;
+        const DipThreadUse before = dip_thread_watch_read(watch);
+        done = draw(context, line, &sample, err);
+        if (done) {
+            const DipThreadUse after = dip_thread_watch_read(watch);
+            const Use use = use_between(&before, &after);
+            answer(&sample, &use);
         }
-        answer(&sample);
     }
-    return true;
+    dip_thread_watch_close(&watch);
+    return done;
 }
