@@ -11,13 +11,17 @@
 #include "renderer/base/assert.h"
 
 static const DipCommand *const commands[] = {
-    &dip_preview_command,     &dip_dump_command,         &dip_bench_command,
-    &dip_cost_command,        &dip_cost_merge_command,   &dip_cost_diff_command,
-    &dip_cost_advise_command, &dip_cost_axes_command,    &dip_cost_predict_command,
-    &dip_path_info_command,   &dip_path_convert_command, &dip_verify_command,
+    &dip_preview_command,      &dip_dump_command,         &dip_bench_command,
+    &dip_cost_command,         &dip_cost_merge_command,   &dip_cost_diff_command,
+    &dip_cost_advise_command,  &dip_cost_predict_command, &dip_path_info_command,
+    &dip_path_convert_command, &dip_verify_command,
 };
 
 static const DipCommand *const hidden[] = {&dip_import_command};
 
-const DipCommandList dip_command_list = {commands, DIP_ARRAY_COUNT(commands), hidden,
-                                         DIP_ARRAY_COUNT(hidden)};
+static const DipMovedCommand moved[] = {
+    {"cost axes", "`diptych bench --scale 0.5,1 --threads 1,2`, with a list for all that varies"}};
+
+const DipCommandList dip_command_list = {commands, DIP_ARRAY_COUNT(commands),
+                                         hidden,   DIP_ARRAY_COUNT(hidden),
+                                         moved,    DIP_ARRAY_COUNT(moved)};

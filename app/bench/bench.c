@@ -6,6 +6,7 @@
 #include "app/bench/options.h"
 #include "app/bench/plots.h"
 #include "app/bench/table.h"
+#include "app/cli/interrupt.h"
 #include "app/files/folder.h"
 #include "app/measure/timing/child.h"
 #include "renderer/base/assert.h"
@@ -109,7 +110,7 @@ static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
     done = done &&
            (!arguments->bench.csv || dip_bench_write_csv(arguments->bench.csv, results, 2, err));
     for (int p = 0; p < 2; p++) {
-        dip_child_stop(&children[p], false);
+        dip_child_stop(&children[p], dip_interrupted());
         dip_bench_result_free(&results[p]);
     }
     return done;
@@ -127,6 +128,9 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
         return false;
     }
     dip_bench_plan_make(plan, session, bench);
+    if (!bench->serve) {
+        dip_interrupt_watch();
+    }
     const bool done = bench->serve ? serve(plan, session, err)
                       : bench->vs  ? measure_both(plan, session, arguments, err)
                                    : measure_here(plan, session, arguments, err);
@@ -150,6 +154,8 @@ static const DipExample examples[] = {
      "measures twelve combinations"},
     {"diptych bench --size 320x240,640x480,1280x960 --svg plots --csv frames.csv",
      "plots the time against the number of pixels, and writes the time of every frame to a file"},
+    {"diptych bench --scale 0.5,0.7071,1 --sets \"aa=none;aa=4\"",
+     "measures what drawing smaller pictures and enlarging them saves"},
     {"diptych bench --grid 1000,10000,100000 --sets aa=none --grid-out-of-view",
      "measures the time that triangles outside the view take"},
     {"diptych bench --vs ../before/build/release/diptych --threads 1 --rounds 40",
@@ -160,11 +166,14 @@ const DipCommand dip_bench_command = {
     .name = "bench",
     .summary = "measure how long frames take: settings, threads, sizes, ...",
     .usage = "[OPTION]...",
-    .text = "Bench measures how long frames take and counts their work (triangles, fragments, "
-            "texels, ...). It measures every combination of the values in the lists. Each round "
-            "measures all combinations in a new random order, so that a slow moment of the machine "
-            "favours no combination.\n\n"
-            "Times are wall-clock milliseconds per frame. docs/bench.md explains how to read them.",
+    .text =
+        "Bench measures how long frames take and counts their work (triangles, fragments, "
+        "texels, ...). It measures every combination of the values in the lists. Each round "
+        "measures all combinations in a new random order, so that a slow moment of the machine "
+        "favours no combination. Each row's ratio compares it with the base: the first value of "
+        "each list, but the greatest render scale. The pictures of all instruction sets and "
+        "numbers of threads must be the same; if one differs, the bench fails.\n\n"
+        "Times are wall-clock milliseconds per frame. docs/bench.md explains how to read them.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),
     .lists_settings = true,

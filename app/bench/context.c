@@ -1,7 +1,9 @@
 // Makes the pools, scenes and renderers that a plan needs.
 #include "app/bench/context.h"
 
+#include "app/bench/enlarge.h"
 #include "app/bench/synthetic.h"
+#include "renderer/base/clock.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,9 +25,10 @@ struct DipBenchContext {
     DipPool **pools; // one per number of threads
     View *views;
     int view_count;
-    DipPainter **renderers; // one per combination
-    DipGallery **galleries; // one per combination; all NULL unless the session shows the gallery
-    int *view_of;           // index of each combination's view
+    DipPainter **renderers;  // one per combination
+    DipGallery **galleries;  // one per combination; all NULL unless the session shows the gallery
+    DipEnlarger **enlargers; // one per combination; NULL for those with render scale 1
+    int *view_of;            // index of each combination's view
 };
 
 static bool out_of_memory(DipError *err) {
@@ -111,11 +114,13 @@ static bool make_renderer(DipBenchContext *bench, int index, const DipSession *s
     const DipBenchOptions *options = &bench->plan->options;
     const int *at = bench->plan->combinations[index].at;
     const DipBenchSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
+    int width, height;
+    dip_bench_drawn_size(bench->plan, &bench->plan->combinations[index], &width, &height);
     const DipRendererDef def = {
         .pool = pool_of(bench, at[DIP_BENCH_AXIS_THREADS], err),
         .isa = options->isas[at[DIP_BENCH_AXIS_ISA]],
-        .width = size.width,
-        .height = size.height,
+        .width = width,
+        .height = height,
         .quality = options->sets[at[DIP_BENCH_AXIS_SET]].quality,
         .reflection = session->reflection,
         .force_all_effects = session->force_all_effects,
@@ -128,6 +133,11 @@ static bool make_renderer(DipBenchContext *bench, int index, const DipSession *s
     }
     bench->renderers[index] =
         def.pool ? dip_painter_create(&def, bench->galleries[index], err) : NULL;
+    if (bench->renderers[index] && options->scales[at[DIP_BENCH_AXIS_SCALE]] < 1.0) {
+        const DipEnlargerDef enlarger = {width, height, size.width, size.height, def.pool};
+        bench->enlargers[index] = dip_enlarger_create(&enlarger, err);
+        return bench->enlargers[index] != NULL;
+    }
     return bench->renderers[index] != NULL;
 }
 
@@ -144,10 +154,11 @@ DipBenchContext *dip_bench_context_create(const DipBenchPlan *plan, const DipSes
     bench->views = calloc(count, sizeof(View));
     bench->renderers = calloc(count, sizeof(DipPainter *));
     bench->galleries = calloc(count, sizeof(DipGallery *));
+    bench->enlargers = calloc(count, sizeof(DipEnlarger *));
     bench->view_of = calloc(count, sizeof(int));
-    bool made =
-        (bench->pools && bench->views && bench->renderers && bench->galleries && bench->view_of) ||
-        out_of_memory(err);
+    bool made = (bench->pools && bench->views && bench->renderers && bench->galleries &&
+                 bench->enlargers && bench->view_of) ||
+                out_of_memory(err);
     for (int i = 0; made && i < plan->count; i++) {
         made = choose_view(bench, i, session, err) && make_renderer(bench, i, session, err);
     }
@@ -168,6 +179,9 @@ void dip_bench_context_destroy(DipBenchContext **context_pointer) {
     for (int i = 0; bench->galleries && i < bench->plan->count; i++) {
         dip_gallery_destroy(&bench->galleries[i]);
     }
+    for (int i = 0; bench->enlargers && i < bench->plan->count; i++) {
+        dip_enlarger_destroy(&bench->enlargers[i]);
+    }
     for (int i = 0; i < bench->view_count; i++) {
         dip_scene_destroy(&bench->views[i].own);
         dip_campath_destroy(&bench->views[i].own_path);
@@ -179,9 +193,20 @@ void dip_bench_context_destroy(DipBenchContext **context_pointer) {
     free(bench->views);
     free(bench->renderers);
     free(bench->galleries);
+    free(bench->enlargers);
     free(bench->view_of);
     free(bench);
     *context_pointer = NULL;
+}
+
+// The enlarging is part of the frame's total time, and of none of its stages.
+static void enlarge(DipEnlarger *enlarger, DipBenchSize size, DipFrame *picture) {
+    const int64_t begin_ns = dip_clock_ns();
+    picture->rgba8 = dip_enlarger_run(enlarger, picture->rgba8, picture->stride_bytes);
+    picture->width = size.width;
+    picture->height = size.height;
+    picture->stride_bytes = (size_t)size.width * 4;
+    picture->stages.total_ms += 1e-6 * (double)(dip_clock_ns() - begin_ns);
 }
 
 bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, DipFrame *picture,
@@ -192,8 +217,15 @@ bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, 
     DipPose pose = {.fov_y_deg = view->fov_y_deg};
     dip_campath_sample(view->path, dip_campath_time_at_end(view->path, view->end, time_ns), &pose);
     dip_painter_set_frame_index(bench->renderers[combination], (uint64_t)frame);
-    return dip_painter_draw(bench->renderers[combination], view->scene, &pose, time_ns, picture,
-                            err);
+    if (!dip_painter_draw(bench->renderers[combination], view->scene, &pose, time_ns, picture,
+                          err)) {
+        return false;
+    }
+    if (bench->enlargers[combination]) {
+        const int size = bench->plan->combinations[combination].at[DIP_BENCH_AXIS_SIZE];
+        enlarge(bench->enlargers[combination], bench->plan->options.sizes[size], picture);
+    }
+    return true;
 }
 
 uint64_t dip_bench_context_triangles(const DipBenchContext *bench, int combination) {

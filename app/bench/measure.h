@@ -16,10 +16,14 @@ typedef struct DipBenchSource {
 // Fills one result for each source. There are 1 or 2 sources. The results must be initialised
 // before the call.
 //
+// Every combination is timed beside the plan's base, and the second source's beside the first's;
+// the results' ratios and speed-ups come from that (app/measure/stats/rounds.h).
+//
 // Before any time is taken, the warm-up draws each frame once. Its samples, with hashes and
 // counters, become the results' `first` samples. Two sources take turns at every frame. A rest of
 // one millisecond before each run lets the other source's threads go to sleep. Progress goes to
-// standard error.
+// standard error. Fails with DIP_ERROR_RUNTIME if the first source's pictures differ between
+// instruction sets or numbers of threads.
 bool dip_bench_measure(const DipBenchPlan *plan, const DipBenchSource *sources, int source_count,
                        DipBenchResult *results, DipError *err);
 

@@ -3,6 +3,7 @@
 
 #include "app/bench/synthetic.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/number.h"
 #include "renderer/base/pool.h"
 
 #include <errno.h>
@@ -52,6 +53,14 @@ static bool read_size(void *fields, const DipOptionRow *row, const char *value, 
     return true;
 }
 
+static bool read_scale(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipBenchOptions *bench = fields;
+    double *scale = &bench->scales[bench->scale_count];
+    return (dip_number_parse(value, strlen(value), scale) && *scale >= 0.1 && *scale <= 1.0) ||
+           dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
+                             "a share of the width and height from 0.1 to 1");
+}
+
 static bool read_grid(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipBenchOptions *bench = fields;
     return read_count(row, value, 2, DIP_SYNTHETIC_MAX_TRIANGLES, &bench->grids[bench->grid_count],
@@ -79,6 +88,15 @@ static const DipOptionRow axis_rows[] = {
      .most = DIP_BENCH_MAX_VALUES,
      .separator = ',',
      .read = read_size},
+    {.name = "--scale",
+     .argument = "LIST",
+     .text = "Render scales, such as 0.5,1, from 0.1 to 1. The picture is drawn with this share of "
+             "its width and height, and enlarged to its size within the measured time.",
+     .kind = DIP_OPTION_LIST,
+     .count = FIELD(scale_count),
+     .most = DIP_BENCH_MAX_VALUES,
+     .separator = ',',
+     .read = read_scale},
     {.name = "--threads",
      .argument = "LIST",
      .text = "Numbers of threads, such as 1,2. 0 stands for all processors. Without the option, "
@@ -138,7 +156,7 @@ static const DipOptionRow measure_rows[] = {
      .argument = "DIR",
      .text =
          "Write plots into this folder. They show the time against the number of pixels, samples, "
-         "triangles or threads. There is one plot for each of these numbers that varies.",
+         "triangles or threads, or the render scale. There is one plot for each that varies.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(svg)},
     {.name = "--serve",
@@ -211,11 +229,11 @@ static bool check_scene(const DipBenchArguments *arguments, DipError *err) {
 }
 
 static bool check_plots(const DipBenchOptions *bench, DipError *err) {
-    if (bench->svg && bench->size_count < 2 && bench->grid_count < 2 && bench->threads_count < 2 &&
-        !varies_in_samples(bench)) {
+    if (bench->svg && bench->size_count < 2 && bench->scale_count < 2 && bench->grid_count < 2 &&
+        bench->threads_count < 2 && !varies_in_samples(bench)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--svg",
                              "there is nothing to plot; give more than one value of --size, "
-                             "--grid, --threads, or of aa in --sets");
+                             "--scale, --grid, --threads, or of aa in --sets");
     }
     return !bench->svg || !bench->vs ||
            dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--svg",
@@ -226,11 +244,16 @@ bool dip_bench_options_check(const void *arguments, DipError *err) {
     const DipBenchOptions *bench = &((const DipBenchArguments *)arguments)->bench;
     const int count = bench->set_count * at_least_one(bench->threads_count) *
                       at_least_one(bench->isa_count) * at_least_one(bench->size_count) *
-                      at_least_one(bench->grid_count);
+                      at_least_one(bench->scale_count) * at_least_one(bench->grid_count);
     if (count > DIP_BENCH_MAX_COMBINATIONS) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "bench",
                              "the lists make %d combinations; give values for at most %d", count,
                              DIP_BENCH_MAX_COMBINATIONS);
+    }
+    if (bench->measure.rounds > DIP_BENCH_MAX_ROUNDS) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--rounds",
+                             "the bench has at most %d rounds; give more --frames",
+                             DIP_BENCH_MAX_ROUNDS);
     }
     if (bench->grid_out_of_view && !bench->grid_count) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--grid-out-of-view",

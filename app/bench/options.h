@@ -1,6 +1,6 @@
 // Options of `diptych bench`. An axis is a property that can vary: settings, threads, instruction
-// set, size, grid. Each axis has a list of values, and the bench measures every combination of
-// them.
+// set, size, render scale, grid. Each axis has a list of values, and the bench measures every
+// combination of them.
 #ifndef DIP_APP_BENCH_OPTIONS_H
 #define DIP_APP_BENCH_OPTIONS_H
 
@@ -16,7 +16,8 @@
 enum {
     DIP_BENCH_MAX_VALUES = 32, // Values of one axis.
     DIP_BENCH_MAX_COMBINATIONS = 512,
-    DIP_BENCH_MAX_FRAMES = 10000
+    DIP_BENCH_MAX_FRAMES = 10000,
+    DIP_BENCH_MAX_ROUNDS = 1000 // The time of the estimates grows with their third power.
 };
 
 typedef struct DipBenchSet {
@@ -40,6 +41,8 @@ typedef struct DipBenchOptions {
     int isa_count;
     DipBenchSize sizes[DIP_BENCH_MAX_VALUES];
     int size_count;
+    double scales[DIP_BENCH_MAX_VALUES]; // 0.1..1.
+    int scale_count;
     int grids[DIP_BENCH_MAX_VALUES]; // Numbers of triangles.
     int grid_count;
     bool grid_out_of_view;

@@ -1,6 +1,7 @@
 // Making every combination of the values of all axes.
 #include "app/bench/plan.h"
 
+#include "app/bench/enlarge.h"
 #include "app/cli/machine.h"
 
 #include <stdio.h>
@@ -23,6 +24,9 @@ static void fill_in(DipBenchOptions *options, const DipSession *session) {
         options->sizes[options->size_count++] =
             (DipBenchSize){config->res.width, config->res.height};
     }
+    if (!options->scale_count) {
+        options->scales[options->scale_count++] = 1.0;
+    }
     options->measure.seed = dip_measure_seed(&options->measure);
 }
 
@@ -34,6 +38,7 @@ void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
     const int counts[DIP_BENCH_AXIS_COUNT] = {
         [DIP_BENCH_AXIS_GRID] = o->grid_count ? o->grid_count : 1,
         [DIP_BENCH_AXIS_SIZE] = o->size_count,
+        [DIP_BENCH_AXIS_SCALE] = o->scale_count,
         [DIP_BENCH_AXIS_SET] = o->set_count,
         [DIP_BENCH_AXIS_ISA] = o->isa_count,
         [DIP_BENCH_AXIS_THREADS] = o->threads_count,
@@ -50,6 +55,36 @@ void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
             rest /= counts[axis];
         }
     }
+    plan->base = 0;
+    for (int i = 0; i < plan->count; i += o->set_count * o->isa_count * o->threads_count) {
+        const int *at = plan->combinations[i].at;
+        const int *base = plan->combinations[plan->base].at;
+        if (at[DIP_BENCH_AXIS_GRID] + at[DIP_BENCH_AXIS_SIZE] == 0 &&
+            o->scales[at[DIP_BENCH_AXIS_SCALE]] > o->scales[base[DIP_BENCH_AXIS_SCALE]]) {
+            plan->base = i;
+        }
+    }
+}
+
+int dip_bench_fewest_threads(const DipBenchPlan *plan, int combination) {
+    const int *threads = plan->options.threads;
+    int fewest = 0;
+    for (int t = 1; t < plan->options.threads_count; t++) {
+        fewest = threads[t] < threads[fewest] ? t : fewest;
+    }
+    return combination - plan->combinations[combination].at[DIP_BENCH_AXIS_THREADS] + fewest;
+}
+
+int dip_bench_same_pictures(const DipBenchPlan *plan, int combination) {
+    return combination - combination % (plan->options.isa_count * plan->options.threads_count);
+}
+
+void dip_bench_drawn_size(const DipBenchPlan *plan, const DipBenchCombination *combination,
+                          int *width, int *height) {
+    const DipBenchSize size = plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
+    dip_enlarger_source_size(size.width, size.height,
+                             plan->options.scales[combination->at[DIP_BENCH_AXIS_SCALE]], width,
+                             height);
 }
 
 void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *combination,
@@ -65,6 +100,13 @@ void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *c
         break;
     case DIP_BENCH_AXIS_SIZE:
         snprintf(name, size_bytes, "%dx%d", options->sizes[at].width, options->sizes[at].height);
+        break;
+    case DIP_BENCH_AXIS_SCALE:
+        if (plan->counts[axis] > 1 || options->scales[at] < 1.0) {
+            int width, height;
+            dip_bench_drawn_size(plan, combination, &width, &height);
+            snprintf(name, size_bytes, "scale %.10g (%dx%d)", options->scales[at], width, height);
+        }
         break;
     case DIP_BENCH_AXIS_SET:
         snprintf(name, size_bytes, "%s", options->sets[at].text);

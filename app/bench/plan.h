@@ -10,6 +10,7 @@
 #define DIP_BENCH_AXIS_LIST(X)                                                                     \
     X(GRID, grid)                                                                                  \
     X(SIZE, size)                                                                                  \
+    X(SCALE, scale)                                                                                \
     X(SET, set)                                                                                    \
     X(ISA, isa)                                                                                    \
     X(THREADS, threads)
@@ -31,6 +32,9 @@ typedef struct DipBenchPlan {
     int counts[DIP_BENCH_AXIS_COUNT]; // Values per axis, at least 1.
     DipBenchCombination combinations[DIP_BENCH_MAX_COMBINATIONS];
     int count;
+    // The combination with which all others are compared: the first value of each list, but the
+    // greatest render scale.
+    int base;
 } DipBenchPlan;
 
 // Makes the plan. For an axis without an option on the command line, the session provides the
@@ -38,8 +42,20 @@ typedef struct DipBenchPlan {
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
                          const DipBenchOptions *options);
 
+// Returns the combination that differs from this one in the number of threads only and has the
+// fewest of all.
+int dip_bench_fewest_threads(const DipBenchPlan *plan, int combination);
+
+// Returns the combination with the first instruction set and number of threads and otherwise the
+// same values. Its pictures have the same bits.
+int dip_bench_same_pictures(const DipBenchPlan *plan, int combination);
+
+// Writes the size at which a combination is drawn, before its render scale enlarges it.
+void dip_bench_drawn_size(const DipBenchPlan *plan, const DipBenchCombination *combination,
+                          int *width, int *height);
+
 // Writes a combination's value on an axis: "640x480", "2 threads", "aa=4". Writes "" for the axis
-// GRID if there are no grids.
+// GRID if there are no grids, and for SCALE if its only value is 1.
 void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *combination,
                           DipBenchAxis axis, char *name, size_t size_bytes);
 

@@ -1,4 +1,4 @@
-// Makes the four plots. Each line of a plot is a series.
+// Makes the five plots. Each line of a plot is a series.
 #include "app/bench/plots.h"
 
 #include "app/cli/machine.h"
@@ -15,6 +15,10 @@ typedef double AxisValue(const DipBenchPlan *plan, const DipBenchCombination *co
 static double pixels(const DipBenchPlan *plan, const DipBenchCombination *combination) {
     const DipBenchSize *size = &plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
     return (double)size->width * size->height;
+}
+
+static double scale(const DipBenchPlan *plan, const DipBenchCombination *combination) {
+    return plan->options.scales[combination->at[DIP_BENCH_AXIS_SCALE]];
 }
 
 static double triangles(const DipBenchPlan *plan, const DipBenchCombination *combination) {
@@ -40,6 +44,8 @@ static const struct Kind {
     bool log_y;
 } kinds[] = {
     {"time_pixels.svg", "Time against pixels", "pixels", DIP_BENCH_AXIS_SIZE, pixels, true, true},
+    {"time_scale.svg", "Time against render scale", "render scale", DIP_BENCH_AXIS_SCALE, scale,
+     true, true},
     {"time_triangles.svg", "Time against triangles", "triangles", DIP_BENCH_AXIS_GRID, triangles,
      true, true},
     {"time_samples.svg", "Time against samples", "samples per pixel", DIP_BENCH_AXIS_SET, samples,

@@ -13,7 +13,9 @@ bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, Dip
     *result = (DipBenchResult){.plan = plan};
     result->ms = calloc(count * DIP_BENCH_STAGE_COUNT * values_per_stage(plan), sizeof(double));
     result->first = calloc(count * (size_t)plan->options.frames, sizeof(DipBenchSample));
-    if (!result->ms || !result->first) {
+    result->ratios = calloc(count, sizeof(DipEstimate));
+    result->speed_ups = calloc(count, sizeof(DipEstimate));
+    if (!result->ms || !result->first || !result->ratios || !result->speed_ups) {
         dip_bench_result_free(result);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
     }
@@ -23,6 +25,8 @@ bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, Dip
 void dip_bench_result_free(DipBenchResult *result) {
     free(result->ms);
     free(result->first);
+    free(result->ratios);
+    free(result->speed_ups);
     *result = (DipBenchResult){.plan = NULL};
 }
 

@@ -12,6 +12,11 @@ typedef struct DipBenchResult {
     const DipBenchPlan *plan;
     double *ms;            // times, [combination][stage][round][frame]
     DipBenchSample *first; // samples of the warm-up, [combination][frame]
+    // [combination]: the ratio of the mean time to that of the plan's base; for the second of two
+    // programs, to that of the first.
+    DipEstimate *ratios;
+    // [combination]: how many times as fast as with the fewest threads. Of one program only.
+    DipEstimate *speed_ups;
 } DipBenchResult;
 
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);

@@ -79,7 +79,24 @@ static void print_quantile(const DipBenchResult *result, int combination, double
         const double *ms = dip_bench_result_ms(result, combination, (DipBenchStage)stage);
         fprintf(out, " %9.3f", dip_stats_quantile(ms, value_count(result->plan), share, scratch));
     }
-    fprintf(out, "\n");
+}
+
+// Prints a value and its interval, or `unknown` where that is not known.
+static void print_estimate(const DipEstimate *estimate, const char *unknown, FILE *out) {
+    char interval[48];
+    snprintf(interval, sizeof interval, "%s", unknown);
+    if (!isnan(estimate->low) && !isnan(estimate->high)) {
+        snprintf(interval, sizeof interval, "%.3f to %.3f", estimate->low, estimate->high);
+    }
+    fprintf(out, " %8.3f %17s", estimate->value, interval);
+}
+
+static void print_comparison(const DipBenchResult *result, int combination, FILE *out) {
+    print_estimate(&result->ratios[combination], combination == result->plan->base ? "base" : "-",
+                   out);
+    if (result->plan->options.threads_count > 1) {
+        print_estimate(&result->speed_ups[combination], "-", out);
+    }
 }
 
 bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *err) {
@@ -97,6 +114,10 @@ bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *er
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         fprintf(out, " %9s", dip_bench_stage_names[stage]);
     }
+    fprintf(out, " %8s %17s", "ratio", "95 % interval");
+    if (plan->options.threads_count > 1) {
+        fprintf(out, " %8s %17s", "speed-up", "95 % interval");
+    }
     fprintf(out, "\n");
     for (int c = 0; c < plan->count; c++) {
         char label[DIP_BENCH_LABEL_SIZE];
@@ -108,6 +129,10 @@ bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *er
                 fprintf(out, "     %-*s  %-6s", width, "", lines[line].name);
             }
             print_quantile(result, c, lines[line].share, scratch, out);
+            if (line == 0) {
+                print_comparison(result, c, out);
+            }
+            fprintf(out, "\n");
         }
     }
     free(scratch);
@@ -148,7 +173,10 @@ void dip_bench_print_work(const DipBenchResult *result, FILE *out) {
     const DipBenchPlan *plan = result->plan;
     int shown[WORK_COLUMNS];
     int count = 0;
-    fprintf(out, "\nThe work is the same with every instruction set and any number of threads.\n");
+    fprintf(
+        out,
+        "\nThe work is the same with every instruction set and any number of threads, and so is "
+        "every picture\nof the warm-up, to the bit.\n");
     for (int c = 0; c < plan->count; c++) {
         const int *at = plan->combinations[c].at;
         if (at[DIP_BENCH_AXIS_ISA] == 0 && at[DIP_BENCH_AXIS_THREADS] == 0) {
@@ -201,15 +229,10 @@ static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *ot
         medians[1][stage] =
             dip_stats_quantile(dip_bench_result_ms(other, combination, s), count, 0.5, scratch);
     }
-    const DipStatsInterval interval =
-        dip_stats_ratio_interval(dip_bench_result_ms(other, combination, DIP_BENCH_STAGE_total),
-                                 dip_bench_result_ms(here, combination, DIP_BENCH_STAGE_total),
-                                 plan->options.frames, plan->options.measure.rounds, scratch);
-    const double other_ms = medians[1][DIP_BENCH_STAGE_total];
-    const double here_ms = medians[0][DIP_BENCH_STAGE_total];
-    fprintf(out, " %8.3f %8.3f  %6.3f  %5.3f to %5.3f  %7.3f ", other_ms, here_ms,
-            other_ms / here_ms, interval.low, interval.high,
-            fastest_ms(other, combination) / fastest_ms(here, combination));
+    fprintf(out, " %8.3f %8.3f", medians[1][DIP_BENCH_STAGE_total],
+            medians[0][DIP_BENCH_STAGE_total]);
+    print_estimate(&other->ratios[combination], "-", out);
+    fprintf(out, " %7.3f ", fastest_ms(other, combination) / fastest_ms(here, combination));
     for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
         if (medians[0][stage] > 0.0) {
             fprintf(out, " %8.3f", medians[1][stage] / medians[0][stage]);
@@ -229,17 +252,15 @@ bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *ot
                             DipError *err) {
     const DipBenchPlan *plan = here->plan;
     const int width = label_width(plan);
-    double *scratch =
-        malloc(sizeof *scratch * (3 * (size_t)value_count(plan) + DIP_STATS_RESAMPLES));
+    double *scratch = malloc(sizeof *scratch * (size_t)value_count(plan));
     if (!scratch) {
         return out_of_memory(err);
     }
-    fprintf(
-        out,
-        "Medians in ms per frame. A ratio is the other program's time divided by this program's\n"
-        "time. If the ratio is above 1, this program is faster.\n");
-    fprintf(out, "%-*s %8s %8s  %6s  %14s  %7s ", width, "", "other", "this", "ratio",
-            "95 % interval", "fastest");
+    fprintf(out,
+            "Medians in ms per frame. A ratio is the other program's mean time divided by this\n"
+            "program's. If the ratio is above 1, this program is faster.\n");
+    fprintf(out, "%-*s %8s %8s %8s %17s %7s ", width, "", "other", "this", "ratio", "95 % interval",
+            "fastest");
     for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
         fprintf(out, " %8s", dip_bench_stage_names[stage]);
     }
@@ -257,7 +278,7 @@ bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *ot
 // --- CSV ---------------------------------------------------------------------------------------
 
 static void print_csv_heading(bool programs, FILE *out) {
-    fprintf(out, "%ssettings,width_px,height_px,threads,isa,grid_triangles,round,frame",
+    fprintf(out, "%ssettings,width_px,height_px,scale,threads,isa,grid_triangles,round,frame",
             programs ? "program," : "");
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         fprintf(out, ",%s_ms", dip_bench_stage_names[stage]);
@@ -273,9 +294,9 @@ static void print_csv_line(const DipBenchResult *result, int combination, int va
     const DipBenchOptions *o = &plan->options;
     const int *at = plan->combinations[combination].at;
     const DipBenchSize size = o->sizes[at[DIP_BENCH_AXIS_SIZE]];
-    fprintf(out, "\"%s\",%d,%d,%d,%s,", o->sets[at[DIP_BENCH_AXIS_SET]].text, size.width,
-            size.height, o->threads[at[DIP_BENCH_AXIS_THREADS]],
-            dip_isa_name(o->isas[at[DIP_BENCH_AXIS_ISA]]));
+    fprintf(out, "\"%s\",%d,%d,%.10g,%d,%s,", o->sets[at[DIP_BENCH_AXIS_SET]].text, size.width,
+            size.height, o->scales[at[DIP_BENCH_AXIS_SCALE]],
+            o->threads[at[DIP_BENCH_AXIS_THREADS]], dip_isa_name(o->isas[at[DIP_BENCH_AXIS_ISA]]));
     if (o->grid_count) {
         fprintf(out, "%d", o->grids[at[DIP_BENCH_AXIS_GRID]]);
     }

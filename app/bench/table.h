@@ -10,14 +10,15 @@
 // rounds, seed.
 void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session, FILE *out);
 
-// Prints milliseconds by stage: median, 95th percentile and minimum of each combination.
+// Prints milliseconds by stage, median, 95th percentile and minimum of each combination, with its
+// ratio to the plan's base, and its speed-up if the number of threads varies.
 bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *err);
 
 // Prints the work counters: means over the frames.
 void dip_bench_print_work(const DipBenchResult *result, FILE *out);
 
-// Prints for each combination the other program's median time divided by this program's median
-// time, the 95 % interval of this ratio, and whether the pictures are the same.
+// Prints for each combination the ratio of the other program's mean time to this program's, the
+// 95 % interval of this ratio, and whether the pictures are the same.
 bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out,
                             DipError *err);
 

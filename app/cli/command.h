@@ -58,6 +58,12 @@ typedef struct DipCommand {
     bool (*run)(DipSession *session, const void *options, DipError *err);
 } DipCommand;
 
+// A command of two words that there was once. Naming it is an error that says what to type instead.
+typedef struct DipMovedCommand {
+    const char *name;
+    const char *instead;
+} DipMovedCommand;
+
 // The commands of a program. The first one runs if the command line names none. Hidden commands run
 // when they are named, but neither the help nor the manual page shows them, because the program
 // itself starts them. Their names are single words.
@@ -66,6 +72,8 @@ typedef struct DipCommandList {
     size_t count;
     const DipCommand *const *hidden;
     size_t hidden_count;
+    const DipMovedCommand *moved;
+    size_t moved_count;
 } DipCommandList;
 
 #endif

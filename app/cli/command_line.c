@@ -102,6 +102,12 @@ static bool find_command(const DipCommandList *list, int argc, char *const *argv
         }
         is_group = is_group || is_first_word(list->commands[c], first);
     }
+    for (size_t m = 0; m < list->moved_count; m++) {
+        if (strcmp(list->moved[m].name, both) == 0) {
+            return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, list->moved[m].name,
+                                 "is not a command any more; type %s", list->moved[m].instead);
+        }
+    }
     if (*used == 0 && is_group) {
         line->group = second && is_help(second) ? first : NULL;
         return line->group || unknown_second_word(list, first, second, err);

@@ -13,8 +13,7 @@ static const DipOptionRow rows[] = {
      .argument = "N",
      .text = "Time in this many rounds; with --starts, in this many of each start. A round draws "
              "everything that is compared once, in a new random order. The default is 4 for cost, "
-             "10 for bench, and 8 for cost axes and cost diff (1 if cost diff compares a program "
-             "with a report).",
+             "10 for bench, and 8 for cost diff (1 if it compares a program with a report).",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(rounds),
      .least = 1,

@@ -143,7 +143,7 @@ static bool serve(DipSession *session, DipCostReport *report, DipError *err) {
 bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipError *err) {
     DipCostReport report;
     DipCostOptions options = arguments->cost;
-    dip_cost_set_measure(&options, &arguments->measure, arguments->measure.starts);
+    dip_cost_set_measure(&options, &arguments->measure);
     if (!arguments->serve) {
         dip_interrupt_watch(); // A start ends with the process that started it.
     }

@@ -379,15 +379,16 @@ static bool check_out(const char *out, DipError *err) {
                                 "there is no folder for the report; give one with --out DIR");
 }
 
-void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure, int starts) {
-    cost->rounds = measure->rounds * starts;
-    cost->starts = starts;
+void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure) {
+    cost->rounds = measure->rounds * measure->starts;
+    cost->starts = measure->starts;
     cost->has_seed = measure->has_seed;
     cost->seed = dip_measure_seed(measure);
 }
 
-bool dip_cost_check_rounds(const DipMeasureOptions *measure, int starts, DipError *err) {
-    const int rounds = measure->rounds * starts;
+// Fewer than two rounds of all starts have no interval.
+static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
+    const int rounds = measure->rounds * measure->starts;
     return (rounds >= 2 && rounds <= DIP_MEASURE_MOST_ROUNDS) ||
            dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--rounds",
                          "there are %d rounds of all starts; accepted are 2 to %d", rounds,
@@ -397,10 +398,7 @@ bool dip_cost_check_rounds(const DipMeasureOptions *measure, int starts, DipErro
 bool dip_cost_options_check(const void *arguments, DipError *err) {
     const DipCostArguments *all = arguments;
     const DipCostOptions *cost = &all->cost;
-    if (!check_out(all->out, err)) {
-        return false;
-    }
-    if (!dip_cost_check_rounds(&all->measure, all->measure.starts, err)) {
+    if (!check_out(all->out, err) || !check_rounds(&all->measure, err)) {
         return false;
     }
     if (cost->end_place > cost->places) {

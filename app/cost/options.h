@@ -45,10 +45,7 @@ void dip_cost_default_budgets(DipCostOptions *options);
 bool dip_cost_read_samples(void *fields, const DipOptionRow *row, const char *value, DipError *err);
 
 // Sets rounds, starts and seed.
-void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure, int starts);
-
-// Refuses fewer than two rounds of all starts, which have no interval, and too many.
-bool dip_cost_check_rounds(const DipMeasureOptions *measure, int starts, DipError *err);
+void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure);
 
 void dip_cost_options_default(void *arguments, int argc, char *const *argv);
 bool dip_cost_options_check(const void *arguments, DipError *err);

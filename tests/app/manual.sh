@@ -14,7 +14,7 @@ fail() {
 [ -s "$page" ] || fail "there is no page $page"
 plain=$(sed 's/\\-/-/g' "$page")
 options=0
-for command in preview dump bench cost "cost merge" "cost diff" "cost advise" "cost axes" "cost predict" "path info" "path convert"; do
+for command in preview dump bench cost "cost merge" "cost diff" "cost advise" "cost predict" "path info" "path convert"; do
     printf '%s\n' "$plain" | grep -qx ".SS diptych $command" || fail "there is no section for $command"
     for option in $("$diptych" $command --help | grep -oE '^  --[a-z0-9-]+'); do
         options=$((options + 1))

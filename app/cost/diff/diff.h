@@ -7,7 +7,7 @@
 #ifndef DIP_APP_COST_DIFF_DIFF_H
 #define DIP_APP_COST_DIFF_DIFF_H
 
-#include "app/bench/result.h"
+#include "app/measure/timing/sample.h"
 #include "app/report/report.h"
 
 #include <stdbool.h>

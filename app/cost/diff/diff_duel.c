@@ -20,7 +20,7 @@ static bool out_of_memory(DipError *err) {
 // --- indices -------------------------------------------------------------------------------------
 
 static int frame_count(const DipCostDuel *duel) {
-    return duel->def->plan->options.frames;
+    return duel->def->frames;
 }
 
 static int time_count(const DipCostDuel *duel) {
@@ -86,11 +86,12 @@ static void stop_programs(Programs *p) {
 static bool start_programs(void *context, int start, DipError *err) {
     Programs *p = context;
     DipCostDuel *duel = p->duel;
-    const DipBenchOptions *options = &duel->def->plan->options;
+    const DipCostDuelDef *duel_def = duel->def;
     stop_programs(p);
-    for (int i = 0; i < duel->def->program_count; i++) {
-        const DipChildDef def = {duel->def->programs[i], options->argv,   options->argc, "bench",
-                                 duel->def->plan->count, options->frames, "--vs"};
+    for (int i = 0; i < duel_def->program_count; i++) {
+        const DipChildDef def = {
+            duel_def->programs[i],       duel_def->argv,   duel_def->argc, "bench",
+            duel_def->combination_count, duel_def->frames, "--vs"};
         p->children[i] = dip_child_start(&def, err);
         if (!p->children[i]) {
             if (err && err->code != DIP_ERROR_MEMORY) {
@@ -130,8 +131,8 @@ static bool run_starts(DipCostDuel *duel, DipError *err) {
         .block_subjects = 1,
         .starts = def->starts,
         .rounds = def->rounds,
-        .frames = def->plan->options.frames,
-        .warm_frames = def->plan->options.frames,
+        .frames = def->frames,
+        .warm_frames = def->frames,
         .seed = def->seed,
         .in_turn = true,
         .rest_ns = rest_ns,

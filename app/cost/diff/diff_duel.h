@@ -7,10 +7,10 @@
 #ifndef DIP_APP_COST_DIFF_DIFF_DUEL_H
 #define DIP_APP_COST_DIFF_DIFF_DUEL_H
 
-#include "app/bench/result.h"
 #include "app/report/report.h"
 #include "app/report/verdict.h"
 #include "app/measure/stats/paired_starts.h"
+#include "app/measure/timing/sample.h"
 
 #include <stdbool.h>
 
@@ -23,9 +23,12 @@ enum { DIP_COST_DUEL_MAX_PAIRS = 32 };
 // What to measure. Everything is borrowed.
 typedef struct DipCostDuelDef {
     const char *programs[2];
-    int program_count;        // 1 or 2.
-    const DipBenchPlan *plan; // Its command line, number of combinations and frames.
-    int pair_count;           // With the A/A pair, which is the last one.
+    int program_count; // 1 or 2.
+    char *const *argv; // The command line of `bench`.
+    int argc;
+    int combination_count; // Of the command line.
+    int frames;
+    int pair_count; // With the A/A pair, which is the last one.
     int program_of[DIP_COST_DUEL_MAX_PAIRS][2];
     int combination_of[DIP_COST_DUEL_MAX_PAIRS][2];
     int starts;

@@ -18,7 +18,7 @@ static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=
 static bool read_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     (void)row;
     DipCostDiffArguments *diff = fields;
-    DipBenchSet *set = &diff->sets[diff->set_count];
+    DipCostDiffSet *set = &diff->sets[diff->set_count];
     snprintf(set->text, sizeof set->text, "%s", value);
     return dip_quality_parse(value, &set->quality, err);
 }

@@ -2,10 +2,10 @@
 #ifndef DIP_APP_COST_DIFF_DIFF_OPTIONS_H
 #define DIP_APP_COST_DIFF_DIFF_OPTIONS_H
 
-#include "app/bench/options.h"
 #include "app/cli/command.h"
 #include "app/cli/measure_options.h"
 #include "app/session/session_options.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 
@@ -16,13 +16,19 @@ enum {
     DIP_COST_DIFF_FRAMES = 6
 };
 
+// A combination of settings to compare.
+typedef struct DipCostDiffSet {
+    char text[80]; // As it was typed.
+    DipQuality quality;
+} DipCostDiffSet;
+
 // The whole command line. Texts are borrowed from argv.
 typedef struct DipCostDiffArguments {
     DipProgramOptions program;
     DipSessionOptions session; // What the programs draw.
     const char *sides[2];      // A and B.
     int side_count;
-    DipBenchSet sets[DIP_COST_DIFF_MAX_SETS];
+    DipCostDiffSet sets[DIP_COST_DIFF_MAX_SETS];
     int set_count;
     DipMeasureOptions measure; // Rounds are 0 if what is compared chooses them.
     int frames;                // 0: chosen by what is compared.

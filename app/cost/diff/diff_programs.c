@@ -44,7 +44,7 @@ static void compare_work(const DipCostSetup *setup, int pair, DipCostDiffRow *ro
         }
         dip_cost_setup_count(setup, side, pair, row->values[side] + DIP_COST_DIFF_FIRST_COUNTER);
     }
-    for (int f = 0; f < setup->plan.options.frames; f++) {
+    for (int f = 0; f < setup->def.frames; f++) {
         row->values[1][DIP_COST_DIFF_pictures] +=
             strcmp(dip_cost_setup_sample(setup, 0, pair, f)->hash,
                    dip_cost_setup_sample(setup, 1, pair, f)->hash) != 0;
@@ -123,7 +123,7 @@ enum { PER_FRAME, STAGE_TIME, FIRST_COUNTER };
 
 static double stage_ms(const DipCostSetup *setup, int pair, DipBenchStage stage) {
     const double *ms = dip_cost_duel_ms(&setup->duel, 0, pair, stage);
-    const int count = setup->def.starts * setup->def.rounds * setup->plan.options.frames;
+    const int count = setup->def.starts * setup->def.rounds * setup->def.frames;
     double sum = 0.0;
     for (int i = 0; i < count; i++) {
         sum += ms[i];

@@ -27,7 +27,7 @@ static void add_number(DipCostSetup *setup, const char *name, int number) {
 void dip_cost_setup_add_set(DipCostSetup *setup, const char *text) {
     const size_t used = strlen(setup->sets);
     snprintf(setup->sets + used, sizeof setup->sets - used, "%s%s", used ? ";" : "", text);
-    setup->plan.count++;
+    setup->def.combination_count++;
 }
 
 static void add_size(DipCostSetup *setup, int width, int height) {
@@ -74,10 +74,9 @@ void dip_cost_setup_finish(DipCostSetup *setup, const DipCostDiffArguments *argu
     add_option(setup, "--sets", setup->sets);
     add_number(setup, "--frames", frames);
     add_session(setup, &arguments->session);
-    setup->plan.options.argc = setup->argument_count;
-    setup->plan.options.argv = setup->arguments;
-    setup->plan.options.frames = frames;
-    setup->def.plan = &setup->plan;
+    setup->def.argc = setup->argument_count;
+    setup->def.argv = setup->arguments;
+    setup->def.frames = frames;
     setup->def.threads = !arguments->session.has_threads ? 0
                          : arguments->session.threads    ? arguments->session.threads
                                                          : dip_machine_processor_count();
@@ -98,11 +97,11 @@ void dip_cost_setup_free(DipCostSetup *setup) {
 const DipBenchSample *dip_cost_setup_sample(const DipCostSetup *setup, int side, int pair,
                                             int frame) {
     const int row = side * setup->def.pair_count + pair;
-    return &setup->duel.first[row * setup->plan.options.frames + frame];
+    return &setup->duel.first[row * setup->def.frames + frame];
 }
 
 void dip_cost_setup_count(const DipCostSetup *setup, int side, int pair, double *counters) {
-    const int frames = setup->plan.options.frames;
+    const int frames = setup->def.frames;
     for (int f = 0; f < frames; f++) {
         double *value = counters;
         const DipCounters *counted = &dip_cost_setup_sample(setup, side, pair, f)->counters;

@@ -14,7 +14,6 @@ enum { DIP_COST_SETUP_ARGUMENTS = 40 + 2 * DIP_MAX_MODELS, DIP_COST_SETUP_NUMBER
 
 // Refers to itself, so it must not be copied. Zero-initialise it.
 typedef struct DipCostSetup {
-    DipBenchPlan plan;
     DipCostDuelDef def;
     DipCostDuel duel;
     char sets[(DIP_COST_DIFF_MAX_SETS + 2) * DIP_COST_TEXT];

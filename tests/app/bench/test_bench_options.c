@@ -58,8 +58,9 @@ static void defaults_are_six_settings_and_empty_lists(void **state) {
     assert_string_equal(bench->sets[0].text, "aa=none");
     assert_string_equal(bench->sets[5].text, "aa=8,af=16");
     assert_int_equal(dip_quality_max_anisotropy(&bench->sets[5].quality), 16);
-    assert_int_equal(
-        bench->threads_count + bench->isa_count + bench->size_count + bench->grid_count, 0);
+    assert_int_equal(bench->threads_count + bench->isa_count + bench->size_count +
+                         bench->scale_count + bench->grid_count,
+                     0);
     assert_int_equal(bench->frames, 12);
     assert_int_equal(bench->measure.rounds, 10);
     assert_false(bench->measure.has_seed);
@@ -88,6 +89,19 @@ static void lists_keep_their_order(void **state) {
     dip_command_line_free(&line);
 }
 
+static void render_scales_are_shares(void **state) {
+    (void)state;
+    DipCommandLine line;
+    const DipBenchOptions *bench = options_of(&line, WORDS("--scale", "0.5,0.1,1"));
+    assert_int_equal(bench->scale_count, 3);
+    assert_true(bench->scales[0] == 0.5 && bench->scales[1] == 0.1 && bench->scales[2] == 1.0);
+    dip_command_line_free(&line);
+    assert_refused(DIP_ERROR_RANGE, "--scale", WORDS("--scale", "0.5,1.01"));
+    assert_refused(DIP_ERROR_RANGE, "--scale", WORDS("--scale", "0.09"));
+    assert_refused(DIP_ERROR_RANGE, "--scale", WORDS("--scale", "nan"));
+    assert_refused(DIP_ERROR_RANGE, "--scale", WORDS("--scale", "half"));
+}
+
 static void the_whole_command_line_is_kept_for_other_programs(void **state) {
     (void)state;
     DipCommandLine line;
@@ -106,7 +120,7 @@ static void bad_values_name_the_option(void **state) {
     assert_refused(DIP_ERROR_RANGE, "--size", WORDS("--size", "64x48,64"));
     assert_refused(DIP_ERROR_RANGE, "--grid", WORDS("--grid", "1000,1"));
     assert_refused(DIP_ERROR_RANGE, "--frames", WORDS("--frames", "0"));
-    assert_refused(DIP_ERROR_RANGE, "--rounds", WORDS("--rounds", "10001"));
+    assert_refused(DIP_ERROR_RANGE, "--rounds", WORDS("--rounds", "1001"));
     assert_refused(DIP_ERROR_RANGE, "--seed", WORDS("--seed", "-1"));
 }
 
@@ -173,6 +187,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_are_six_settings_and_empty_lists),
         cmocka_unit_test(lists_keep_their_order),
+        cmocka_unit_test(render_scales_are_shares),
         cmocka_unit_test(the_whole_command_line_is_kept_for_other_programs),
         cmocka_unit_test(bad_values_name_the_option),
         cmocka_unit_test(lists_have_at_most_32_values),

@@ -79,12 +79,60 @@ static void grids_are_named_by_their_triangles(void **state) {
     assert_string_equal(name, "2000 triangles");
 }
 
+// Two sizes, three scales, two instruction sets and three numbers of threads: the base has the
+// first size and set, and the greatest scale.
+static void rows_know_with_which_rows_they_are_compared(void **state) {
+    (void)state;
+    const DipSession session = {.isa = DIP_ISA_SCALAR};
+    const DipBenchOptions options = {.set_count = 2,
+                                     .threads = {4, 1, 2},
+                                     .threads_count = 3,
+                                     .isas = {DIP_ISA_SCALAR, DIP_ISA_SCALAR},
+                                     .isa_count = 2,
+                                     .sizes = {{64, 48}, {128, 96}},
+                                     .size_count = 2,
+                                     .scales = {0.5, 1.0, 0.75},
+                                     .scale_count = 3,
+                                     .frames = 1,
+                                     .measure.rounds = 1,
+                                     .measure.has_seed = true};
+    dip_bench_plan_make(&plan, &session, &options);
+    assert_int_equal(plan.count, 2 * 3 * 2 * 2 * 3);
+    assert_int_equal(plan.base, 12);
+    const int *at = plan.combinations[plan.base].at;
+    assert_int_equal(at[DIP_BENCH_AXIS_SCALE], 1);
+    assert_int_equal(at[DIP_BENCH_AXIS_SIZE] + at[DIP_BENCH_AXIS_SET] + at[DIP_BENCH_AXIS_ISA] +
+                         at[DIP_BENCH_AXIS_THREADS],
+                     0);
+    for (int i = 0; i < plan.count; i++) {
+        assert_int_equal(dip_bench_fewest_threads(&plan, i), i / 3 * 3 + 1);
+        assert_int_equal(dip_bench_same_pictures(&plan, i), i / 6 * 6);
+    }
+}
+
+static void render_scales_are_named_with_the_size_that_is_drawn(void **state) {
+    (void)state;
+    char name[64];
+    dip_made_single_plan(&plan, 1, 1);
+    dip_bench_value_name(&plan, plan.combinations, DIP_BENCH_AXIS_SCALE, name, sizeof name);
+    assert_string_equal(name, "");
+    DipBenchOptions options = plan.options;
+    options.scales[0] = 0.5;
+    options.scale_count = 1;
+    const DipSession session = {.isa = DIP_ISA_SCALAR};
+    dip_bench_plan_make(&plan, &session, &options);
+    dip_bench_value_name(&plan, plan.combinations, DIP_BENCH_AXIS_SCALE, name, sizeof name);
+    assert_string_equal(name, "scale 0.5 (32x24)");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_axis_changes_fastest),
         cmocka_unit_test(labels_name_what_varies),
         cmocka_unit_test(the_session_fills_in_what_options_leave_open),
         cmocka_unit_test(grids_are_named_by_their_triangles),
+        cmocka_unit_test(rows_know_with_which_rows_they_are_compared),
+        cmocka_unit_test(render_scales_are_named_with_the_size_that_is_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

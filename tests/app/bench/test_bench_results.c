@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,8 +119,9 @@ static void quantiles_are_over_frames_and_rounds(void **state) {
     char *text = dip_printed(print_times, &result);
     for (int line = 0; line < 3; line++) {
         double numbers[DIP_BENCH_STAGE_COUNT + 1];
+        // The ratio stands behind the median of the total.
         assert_int_equal(numbers_after(text, lines[line].name, numbers, DIP_BENCH_STAGE_COUNT + 1),
-                         DIP_BENCH_STAGE_COUNT);
+                         DIP_BENCH_STAGE_COUNT + (line == 0));
         expect_near(numbers[0], 0.25 * lines[line].total);
         expect_near(numbers[DIP_BENCH_STAGE_total], lines[line].total);
     }
@@ -129,7 +131,7 @@ static void quantiles_are_over_frames_and_rounds(void **state) {
 
 // There are two frames and three rounds. This program takes {2, 4}, {2, 4} and {3, 4} ms; the
 // median is (3 + 4) / 2 = 3.5. The other program takes twice as long for each frame. Its fastest
-// frames take 4 + 8 = 12 ms, those of this program 2 + 4 = 6 ms.
+// frames take 4 + 8 = 12 ms, those of this program 2 + 4 = 6 ms. The ratio is that of the result.
 static void ratios_are_the_other_programs_time_over_this_ones(void **state) {
     (void)state;
     const double here_ms[6] = {2, 4, 2, 4, 3, 4};
@@ -142,13 +144,14 @@ static void ratios_are_the_other_programs_time_over_this_ones(void **state) {
     dip_made_single_plan(&plan, 2, 3);
     dip_made_result(&results[0], &plan, here_ms);
     dip_made_result(&results[1], &plan, other_ms);
+    results[1].ratios[0] = (DipEstimate){.value = 2.0, .low = 1.5, .high = 2.0};
     char *text = dip_printed(print_ratios, results);
     assert_int_equal(numbers_after(text, "aa=none", numbers, 4), 4);
     expect_near(numbers[0], 7.0);
     expect_near(numbers[1], 3.5);
     expect_near(numbers[2], 2.0);
-    expect_near(numbers[3], 2.0);
-    // The interval, the ratio of the fastest frames, and the ratios of the four stages.
+    expect_near(numbers[3], 1.5);
+    // The end of the interval, the ratio of the fastest frames, and the ratios of the four stages.
     assert_int_equal(numbers_after(text, " to ", numbers, 6), 6);
     for (int i = 0; i < 6; i++) {
         expect_near(numbers[i], 2.0);
@@ -164,21 +167,21 @@ static void ratios_are_the_other_programs_time_over_this_ones(void **state) {
     dip_bench_result_free(&results[1]);
 }
 
-// One slow round of three widens the interval of the median ratio, but does not change the ratio of
-// the fastest rounds.
+// One slow round of three does not change the ratio of the fastest rounds. An interval that is not
+// known is a dash.
 static void the_fastest_rounds_ignore_noise(void **state) {
     (void)state;
     const double here_ms[3] = {1, 1, 1};
     const double other_ms[3] = {1, 50, 1};
-    double numbers[2];
+    double fastest;
     DipBenchResult results[2];
     dip_made_single_plan(&plan, 1, 3);
     dip_made_result(&results[0], &plan, here_ms);
     dip_made_result(&results[1], &plan, other_ms);
+    results[1].ratios[0] = dip_estimate_unknown(17.333);
     char *text = dip_printed(print_ratios, results);
-    assert_int_equal(numbers_after(text, " to ", numbers, 2), 2);
-    expect_near(numbers[0], 50.0); // 26 % of resamples draw the slow round at least twice
-    expect_near(numbers[1], 1.0);
+    assert_int_equal(numbers_after(text, " 17.333                 - ", &fastest, 1), 1);
+    expect_near(fastest, 1.0);
     free(text);
     dip_bench_result_free(&results[0]);
     dip_bench_result_free(&results[1]);
@@ -213,12 +216,12 @@ static void csv_has_a_line_per_program_round_and_frame(void **state) {
         remove(file);
         assert_int_equal(count_lines(text), 1 + 4 * programs);
         assert_int_equal(strncmp(text, programs == 2 ? "program,settings," : "settings,", 9), 0);
-        const char *line = "\"aa=none\",64,48,1,scalar,,1,0,0.8750,0.8750,0.8750,0.8750,3.5000,";
+        const char *line = "\"aa=none\",64,48,1,1,scalar,,1,0,0.8750,0.8750,0.8750,0.8750,3.5000,";
         const char *at = strstr(text, line);
         assert_non_null(at);
         if (programs == 2) {
             assert_int_equal(strncmp(at - 5, "this,", 5), 0);
-            assert_non_null(strstr(text, "\nother,\"aa=none\",64,48,1,scalar,,1,1,"));
+            assert_non_null(strstr(text, "\nother,\"aa=none\",64,48,1,1,scalar,,1,1,"));
         }
     }
     dip_bench_result_free(&results[0]);
@@ -231,6 +234,7 @@ typedef struct FakeProgram {
     double factor;
     int hashed; // number of draws with a hash
     int drawn;  // number of all draws
+    int other;  // the combination whose picture is another one in frame 2; 0: none
 } FakeProgram;
 
 static bool fake_draw(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
@@ -241,7 +245,9 @@ static bool fake_draw(void *context, int combination, int frame, bool hash, DipB
     sample->ms[DIP_BENCH_STAGE_total] = program->factor * (10.0 * combination + frame + 1.0);
     sample->counters.texels_fetched = (uint64_t)(100 * combination + frame);
     if (hash) {
-        snprintf(sample->hash, sizeof sample->hash, "%d/%d", combination, frame);
+        // Combinations 2 i and 2 i + 1 differ in the number of threads only.
+        snprintf(sample->hash, sizeof sample->hash, "%d/%d%s", combination / 2, frame,
+                 program->other && combination == program->other && frame == 2 ? " other" : "");
         program->hashed++;
     }
     program->drawn++;
@@ -252,7 +258,7 @@ static void each_program_fills_its_own_result(void **state) {
     (void)state;
     dip_made_plan(&plan, 3, 2);
     for (int count = 1; count <= 2; count++) {
-        FakeProgram programs[2] = {{1.0, 0, 0}, {3.0, 0, 0}};
+        FakeProgram programs[2] = {{1.0, 0, 0, 0}, {3.0, 0, 0, 0}};
         const DipBenchSource sources[2] = {{fake_draw, &programs[0]}, {fake_draw, &programs[1]}};
         DipBenchResult results[2];
         for (int p = 0; p < count; p++) {
@@ -261,8 +267,9 @@ static void each_program_fills_its_own_result(void **state) {
         assert_true(dip_bench_measure(&plan, sources, count, results, NULL));
         for (int p = 0; p < count; p++) {
             assert_int_equal(programs[p].hashed, 8 * 3);
-            // If one program is measured alone, each visit begins with one untimed frame.
-            assert_int_equal(programs[p].drawn, 8 * 3 + 2 * 8 * (count == 1 ? 4 : 3));
+            // If one program is measured alone, each visit begins with one untimed frame, and the
+            // base has a visit in both blocks of a round.
+            assert_int_equal(programs[p].drawn, 8 * 3 + 2 * (count == 1 ? 9 * 4 : 8 * 3));
             for (int c = 0; c < plan.count; c++) {
                 const double *ms = dip_bench_result_ms(&results[p], c, DIP_BENCH_STAGE_total);
                 for (int i = 0; i < 6; i++) {
@@ -277,6 +284,61 @@ static void each_program_fills_its_own_result(void **state) {
     }
 }
 
+// The mean times of combination c are 10 c + 2 ms.
+static void rows_are_compared_with_the_base_and_with_the_fewest_threads(void **state) {
+    (void)state;
+    dip_made_plan(&plan, 3, 4);
+    FakeProgram programs[2] = {{1.0, 0, 0, 0}, {3.0, 0, 0, 0}};
+    const DipBenchSource sources[2] = {{fake_draw, &programs[0]}, {fake_draw, &programs[1]}};
+    DipBenchResult results[2];
+    assert_true(dip_bench_result_init(&results[0], &plan, NULL));
+    assert_true(dip_bench_result_init(&results[1], &plan, NULL));
+    assert_true(dip_bench_measure(&plan, sources, 1, results, NULL));
+    for (int c = 0; c < plan.count; c++) {
+        expect_near(results[0].ratios[c].value / (5.0 * c + 1.0), 1.0);
+        const double fewest = c % 2 ? (10.0 * (c - 1) + 2.0) / (10.0 * c + 2.0) : 1.0;
+        expect_near(results[0].speed_ups[c].value, fewest);
+    }
+    assert_true(isnan(results[0].ratios[0].low)); // The base itself.
+    assert_true(results[0].ratios[3].low < results[0].ratios[3].value);
+    double numbers[2];
+    char *text = dip_printed(print_times, &results[0]);
+    assert_int_equal(numbers_after(text, " 1.000              base    1.000", numbers, 1), 0);
+    assert_int_equal(numbers_after(text, " to 6.", numbers, 2), 2);
+    expect_near(numbers[1], 2.0 / 12.0);
+    free(text);
+    assert_true(dip_bench_measure(&plan, sources, 2, results, NULL));
+    for (int c = 0; c < plan.count; c++) {
+        expect_near(results[1].ratios[c].value, 3.0);
+    }
+    dip_bench_result_free(&results[0]);
+    dip_bench_result_free(&results[1]);
+}
+
+static void other_pictures_end_the_measurement(void **state) {
+    (void)state;
+    dip_made_plan(&plan, 3, 2);
+    for (int program = 0; program < 2; program++) {
+        FakeProgram programs[2] = {{1.0, 0, 0, program == 0 ? 3 : 0},
+                                   {1.0, 0, 0, program == 1 ? 3 : 0}};
+        const DipBenchSource sources[2] = {{fake_draw, &programs[0]}, {fake_draw, &programs[1]}};
+        DipBenchResult results[2];
+        DipError err = {0};
+        assert_true(dip_bench_result_init(&results[0], &plan, NULL));
+        assert_true(dip_bench_result_init(&results[1], &plan, NULL));
+        // The other program's pictures are not this program's fault.
+        assert_int_equal(dip_bench_measure(&plan, sources, 2, results, &err), program == 1);
+        if (program == 0) {
+            assert_int_equal(err.code, DIP_ERROR_RUNTIME);
+            assert_string_equal(err.message,
+                                "the picture of frame 2 with 64x48, aa=4, 2 threads has the hash "
+                                "1/2 other, but row 3 has 1/2; they must be the same");
+        }
+        dip_bench_result_free(&results[0]);
+        dip_bench_result_free(&results[1]);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_are_found_where_they_were_put),
@@ -286,6 +348,8 @@ int main(void) {
         cmocka_unit_test(the_fastest_rounds_ignore_noise),
         cmocka_unit_test(csv_has_a_line_per_program_round_and_frame),
         cmocka_unit_test(each_program_fills_its_own_result),
+        cmocka_unit_test(rows_are_compared_with_the_base_and_with_the_fewest_threads),
+        cmocka_unit_test(other_pictures_end_the_measurement),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,7 @@
 // Tests what the writers and readers of reports do when memory runs out: a file is written whole or
 // stays as it was, and a journal never loses a measurement.
+#include "app/bench/enlarge.h"
 #include "app/cost/advise/advise_output.h"
-#include "app/cost/axes/axes.h"
-#include "app/cost/axes/axes_enlarge.h"
 #include "app/report/page/data_uri.h"
 #include "app/cost/diff/diff.h"
 #include "app/cost/diff/diff_cause.h"
@@ -91,18 +90,6 @@ static bool write_pfm(void *context, DipError *err) {
     static const float rgb[3 * 8 * 6] = {0.25f, 0.5f};
     (void)context;
     return dip_pfm_write(w.file, rgb, 8, 6, err);
-}
-
-static DipCostAxes axes;
-
-static bool write_axes_json(void *context, DipError *err) {
-    (void)context;
-    return dip_cost_axes_write_json(&axes, w.file, err);
-}
-
-static bool write_axes_csv(void *context, DipError *err) {
-    (void)context;
-    return dip_cost_axes_write_csv(&axes, w.file, err);
 }
 
 static bool enlarge(void *context, DipError *err) {
@@ -196,10 +183,6 @@ static void files_are_written_whole_or_stay(void **state) {
     check_writer("a PFM", "picture.pfm", write_pfm, 0);
     check_writer("cost.csv", "cost.csv", write_csv, 0);
     check_writer("cost.html", "cost.html", write_html, 100);
-    axes.report = w.report; // Borrowed.
-    assert_true(axes.report.row_count <= DIP_COST_AXES_MAX_ROWS);
-    check_writer("axes.json", "axes.json", write_axes_json, 200);
-    check_writer("axes.csv", "axes.csv", write_axes_csv, 0);
     dip_cost_report_free(&w.report);
 }
 

@@ -28,7 +28,6 @@ static const char *const complete[] = {
     "cost merge --out x y",
     "cost diff x y",
     "cost advise x --budget-ms 8",
-    "cost axes",
     "cost predict x",
     "path info x",
     "path convert x y.pth",

@@ -1,11 +1,37 @@
 // Bilinear enlargement: bands of rows on the pool's threads.
-#include "app/cost/axes/axes_enlarge.h"
+#include "app/bench/enlarge.h"
 
 #include "renderer/base/srgb.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { BAND_ROWS = 16 };
+
+static int divisor(int a, int b) {
+    while (b != 0) {
+        const int rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+static int scaled(int size, double scale) {
+    const int rounded = (int)(size * scale + 0.5);
+    return rounded > 0 ? rounded : 1;
+}
+
+void dip_enlarger_source_size(int width, int height, double scale, int *to_width, int *to_height) {
+    const int steps = divisor(width, height); // Sizes of the same shape that are at most as large.
+    const int step = scaled(steps, scale);
+    *to_width = width / steps * step;
+    *to_height = height / steps * step;
+    if (fabs(*to_width - scale * width) > 0.02 * scale * width) {
+        *to_width = scaled(width, scale);
+        *to_height = scaled(height, scale);
+    }
+}
 
 // Where a pixel of the destination lies between two pixels of the source.
 typedef struct Place {
@@ -55,7 +81,7 @@ DipEnlarger *dip_enlarger_create(const DipEnlargerDef *def, DipError *err) {
     }
     if (!e || !e->across || !e->down || !e->rows || !e->rgba8) {
         dip_enlarger_destroy(&e);
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost axes", "out of memory");
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
         return NULL;
     }
     DipSrgbDecodeTable table;

@@ -6,14 +6,19 @@
 // pixels, first along x, then along y; beyond the outermost centres the picture is constant. sRGB
 // codes are decoded before and encoded after, rounded to the nearest code; alpha is interpolated as
 // it is. The result has the same bits on every machine and with any number of threads.
-#ifndef DIP_APP_COST_AXES_AXES_ENLARGE_H
-#define DIP_APP_COST_AXES_AXES_ENLARGE_H
+#ifndef DIP_APP_BENCH_ENLARGE_H
+#define DIP_APP_BENCH_ENLARGE_H
 
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
 
 #include <stddef.h>
 #include <stdint.h>
+
+// Writes the size at which a picture is drawn at a render scale of at most 1: the nearest size with
+// exactly the same shape if its width is within 2 % of scale * width, so that the enlarged picture
+// is not stretched; otherwise the width and the height are rounded.
+void dip_enlarger_source_size(int width, int height, double scale, int *to_width, int *to_height);
 
 typedef struct DipEnlarger DipEnlarger;
 
