@@ -89,6 +89,7 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->floors);
     free(report->has_floor);
     free(report->predicted.list);
+    free(report->analysis);
     *report = (DipCostReport){0};
 }
 

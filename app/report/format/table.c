@@ -1,9 +1,8 @@
 // Printing a report as tables for a terminal.
 #include "app/report/format/formats.h"
 
-#include "app/report/fit.h"
+#include "app/report/analysis.h"
 #include "app/report/front.h"
-#include "app/report/interaction.h"
 #include "app/report/order.h"
 #include "app/report/tiers.h"
 #include "app/files/put.h"
@@ -138,8 +137,8 @@ static void print_front(const DipCostReport *report, FILE *out) {
 }
 
 static void print_fit(const DipCostReport *report, FILE *out) {
-    const DipCostFit fit = dip_cost_fit(report);
-    if (fit.rows == 0) {
+    const DipCostFit *fit = report->analysis ? &report->analysis->fit : NULL;
+    if (!fit || fit->rows == 0) {
         return;
     }
     char smaller[48] = "";
@@ -154,11 +153,11 @@ static void print_fit(const DipCostReport *report, FILE *out) {
         "%.1f %%).\n"
         "Each row predicted from all others: median error %.1f %%, %.0f %% within 10 %%.\n"
         "Nanoseconds per unit of work:\n",
-        fit.rows, smaller, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
-        100.0 * fit.others.within_10);
-    for (int i = 0; i < fit.count; i++) {
-        if (fit.ns[i] > 0.0) {
-            dip_put_text(out, "  %-9s %10.3g per %s\n", fit.stages[i], fit.ns[i], fit.names[i]);
+        fit->rows, smaller, fit->r2, 100.0 * fit->median_miss, 100.0 * fit->others.median,
+        100.0 * fit->others.within_10);
+    for (int i = 0; i < fit->count; i++) {
+        if (fit->ns[i] > 0.0) {
+            dip_put_text(out, "  %-9s %10.3g per %s\n", fit->stages[i], fit->ns[i], fit->names[i]);
         }
     }
 }
@@ -238,8 +237,8 @@ static void print_advice(const DipCostReport *report, FILE *out) {
 }
 
 static void print_interactions(const DipCostReport *report, FILE *out) {
-    DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
-    const int count = report->predicted.count == 0 ? dip_cost_interactions(report, list) : 0;
+    const DipCostInteraction *list = report->analysis ? report->analysis->interactions : NULL;
+    const int count = list ? report->analysis->interaction_count : 0;
     for (int i = 0; i < count; i++) {
         char time[32] = "";
         if (i == 0) {
