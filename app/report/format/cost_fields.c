@@ -56,7 +56,7 @@ static const DipField metrics_fields[] = {
      "How different two pictures look when one alternates between them, 0 to 1.",
      DIP_FACT(NUMBER, DipMetrics, flip), .digits = 4},
 };
-static const DipRecord metrics_record = DIP_RECORD(
+const DipRecord dip_cost_metrics_record = DIP_RECORD(
     "metrics", "Metrics of pictures against the truth.", metrics_fields, DipMetrics, NULL);
 
 typedef struct Region {
@@ -472,7 +472,7 @@ static const DipField path_fields[] = {
     {"same_row", NULL, NULL, "The baseline once more, timed as if it were another setting (A/A).",
      DIP_FACT(WHOLE, Path, same_row), .most = DIP_COST_MAX_ROWS - 1},
     {"floor", NULL, NULL, "Estimates of the metrics that the noise of the path's truths alone has.",
-     DIP_DERIVED(RECORD, derive_floor), .record = &metrics_record},
+     DIP_DERIVED(RECORD, derive_floor), .record = &dip_cost_metrics_record},
 };
 static const DipRecord path_record = DIP_RECORD("path", "A camera path.", path_fields, Path, NULL);
 
@@ -735,7 +735,7 @@ static bool check_prediction(const DipFieldAt *at) {
     return ((const DipCostPrediction *)at->item)->row < report_of(at)->row_count;
 }
 
-static const DipRecord prediction_record = DIP_RECORD(
+const DipRecord dip_cost_prediction_of_report_record = DIP_RECORD(
     "prediction", "A combination whose time and error were predicted from measured rows.",
     prediction_fields, DipCostPrediction, check_prediction);
 
@@ -744,7 +744,8 @@ static const DipField predictions_fields[] = {
      DIP_FACT(WHOLE, DipCostPredictions, trained), .most = DIP_COST_MAX_ROWS},
     {"misses", NULL, NULL, "How well the prediction did.", RECORD, .record = &all_misses_record},
     {"combinations", NULL, NULL, "What was predicted.", LIST,
-     OWNED(DipCostPredictions, list, count, DIP_COST_MAX_ROWS, &prediction_record)},
+     OWNED(DipCostPredictions, list, count, DIP_COST_MAX_ROWS,
+           &dip_cost_prediction_of_report_record)},
 };
 static const DipRecord predictions_record = DIP_RECORD(
     "predictions", "What --predict ranked.", predictions_fields, DipCostPredictions, NULL);

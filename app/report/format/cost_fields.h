@@ -29,10 +29,12 @@
     { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), sizeof(TYPE), CHECK }
 #define DIP_FIELD_COUNT_OF(fields) (int)(sizeof(fields) / sizeof *(fields))
 
-extern const DipRecord dip_cost_report_record;    // DipCostReport
-extern const DipRecord dip_cost_row_record;       // DipCostRow
-extern const DipRecord dip_cost_misses_record;    // DipCostMisses
-extern const DipRecord dip_cost_elsewhere_record; // DipCostElsewhere
+extern const DipRecord dip_cost_report_record;               // DipCostReport
+extern const DipRecord dip_cost_row_record;                  // DipCostRow
+extern const DipRecord dip_cost_metrics_record;              // DipMetrics
+extern const DipRecord dip_cost_prediction_of_report_record; // DipCostPrediction
+extern const DipRecord dip_cost_misses_record;               // DipCostMisses
+extern const DipRecord dip_cost_elsewhere_record;            // DipCostElsewhere
 
 // The format of all files that are written. It changes when a reader of the last format would
 // misread a file.

@@ -295,9 +295,11 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
         }
     }
     print_floors(report, out);
+    if (report->refused_count > 0) {
+        dip_put_text(out, "\nSteps left out, with the reason:\n");
+    }
     for (int i = 0; i < report->refused_count; i++) {
-        dip_put_text(out, "%s  %s\n", i ? "" : "\nSteps left out, with the reason:\n",
-                     report->refused[i]);
+        dip_put_text(out, "  %s\n", report->refused[i]);
     }
     print_interactions(report, out);
     print_prediction(report, out);

@@ -662,8 +662,8 @@ static void csv_and_page_are_complete(void **state) {
         }
     }
     assert_int_equal(lines, 1 + 2 + 3 + 1); // One of two combinations was only predicted.
-    assert_non_null(strstr(text, "\npredicted,\"\",\"DEFAULT\",\"aa=4,"));
-    assert_non_null(strstr(text, ",flip_p50,flip_p95,flip_p99,worst_flip,worst_viewpoint,"));
+    assert_non_null(strstr(text, "\n\"predicted\",\"\",\"DEFAULT\",\"aa=4,"));
+    assert_non_null(strstr(text, ",flip_tail_p50,flip_tail_p95,flip_tail_p99,flip_tail_worst,"));
     // aa=4 is row 3: the means of equal percentiles, and the worst block at the first viewpoint.
     assert_non_null(strstr(text, ",0.0025,0.025,0.05,0.075,0,1,32,16,32,32,"));
     free(text);
