@@ -5,7 +5,7 @@
 #define DIP_APP_COST_AXES_AXES_H
 
 #include "app/cost/axes/axes_options.h"
-#include "app/report/fields.h"
+#include "app/report/format/fields.h"
 #include "app/report/report.h"
 #include "app/session/session.h"
 

@@ -8,7 +8,7 @@
 #define DIP_APP_COST_DIFF_DIFF_H
 
 #include "app/bench/result.h"
-#include "app/report/fields.h"
+#include "app/report/format/fields.h"
 #include "app/report/report.h"
 
 #include <stdbool.h>

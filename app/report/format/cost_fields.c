@@ -1,7 +1,7 @@
 // The fields of cost.json, in the order in which they are written and read.
 #include "app/report/format/cost_fields.h"
 
-#include "app/report/analysis.h"
+#include "app/report/format/analysis.h"
 #include "app/report/viewpoints.h"
 
 #include <limits.h>
@@ -38,7 +38,7 @@ static bool is_row(const DipCostReport *report, int row) {
     return row >= 0 && row < report->row_count;
 }
 
-#define SETTING_KEY(key, NAME, title, def, steps, text) #key,
+#define SETTING_KEY(key, ...) #key,
 static const char *const setting_keys[] = {DIP_SETTING_LIST(SETTING_KEY)};
 #undef SETTING_KEY
 

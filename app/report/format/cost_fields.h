@@ -3,7 +3,7 @@
 #ifndef DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 #define DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 
-#include "app/report/fields.h"
+#include "app/report/format/fields.h"
 #include "app/report/report.h"
 
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // Fields as comma-separated values (RFC 4180).
 #include "app/files/put.h"
-#include "app/report/fields.h"
+#include "app/report/format/fields.h"
 #include "renderer/scene/quality.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 // Fields as JSON: written to a stream, and read from cJSON's tree.
 #include "app/files/put.h"
-#include "app/report/fields.h"
+#include "app/report/format/fields.h"
 #include "renderer/scene/quality.h"
 
 #include <cjson/cJSON.h>
@@ -158,14 +158,21 @@ static bool read_number(const cJSON *item, const DipField *field, bool null, dou
     return (null && cJSON_IsNull(item)) || is_in_range(field, *value);
 }
 
+// Reads an end of an interval, which may lie beyond the range of values, or NAN.
+static bool read_end(const cJSON *item, double *value) {
+    *value = cJSON_IsNumber(item) ? item->valuedouble : NAN;
+    return cJSON_IsNull(item) || isfinite(*value);
+}
+
 static bool read_estimate(const cJSON *object, const DipField *field, DipStatsEstimate *to) {
     const char *const ends[] = {"", "_low", "_high"};
     double *const values[] = {&to->value, &to->low, &to->high};
     for (int i = 0; i < 3; i++) {
         char name[NAME_ROOM];
         snprintf(name, sizeof name, "%s%s", field->name, ends[i]);
-        if (!read_number(cJSON_GetObjectItemCaseSensitive(object, name), field,
-                         i > 0 || field->known, values[i])) {
+        const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
+        if (i == 0 ? !read_number(item, field, field->known, values[i])
+                   : !read_end(item, values[i])) {
             return false;
         }
     }

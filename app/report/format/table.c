@@ -1,7 +1,7 @@
 // Printing a report as tables for a terminal.
 #include "app/report/format/formats.h"
 
-#include "app/report/analysis.h"
+#include "app/report/format/analysis.h"
 #include "app/report/front.h"
 #include "app/report/order.h"
 #include "app/report/tiers.h"

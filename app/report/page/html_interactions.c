@@ -1,7 +1,7 @@
 // Interactions of settings in the HTML page.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/analysis.h"
+#include "app/report/format/analysis.h"
 #include "app/files/put.h"
 
 static void write_interaction(const DipCostInteraction *interaction, FILE *out) {

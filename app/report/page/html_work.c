@@ -1,7 +1,7 @@
 // Tables of all steps in the HTML page: errors of the parts of the picture, and work counters.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/analysis.h"
+#include "app/report/format/analysis.h"
 #include "app/files/put.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // What all forms ask of a field.
-#include "app/report/fields.h"
+#include "app/report/format/fields.h"
 
 #include "renderer/base/assert.h"
 

@@ -1,7 +1,7 @@
 // What is computed from a whole report for its readers, once, before it is written: how times
 // follow from work, and which settings do more or less together than alone.
-#ifndef DIP_APP_REPORT_ANALYSIS_H
-#define DIP_APP_REPORT_ANALYSIS_H
+#ifndef DIP_APP_REPORT_FORMAT_ANALYSIS_H
+#define DIP_APP_REPORT_FORMAT_ANALYSIS_H
 
 #include "app/report/fit.h"
 #include "app/report/interaction.h"

@@ -1,5 +1,5 @@
 // Analyses a whole report.
-#include "app/report/analysis.h"
+#include "app/report/format/analysis.h"
 
 #include <stdlib.h>
 

@@ -4,8 +4,8 @@
 // A fact is a member of the record, and is read back. A derived field is computed from facts; it is
 // written and never read, so that a file cannot contradict its own measurements. An estimate is
 // written as x, x_low and x_high in every form, all three always.
-#ifndef DIP_APP_REPORT_FIELDS_H
-#define DIP_APP_REPORT_FIELDS_H
+#ifndef DIP_APP_REPORT_FORMAT_FIELDS_H
+#define DIP_APP_REPORT_FORMAT_FIELDS_H
 
 #include "app/measure/stats/statistics.h"
 #include "renderer/base/error.h"
