@@ -160,7 +160,7 @@ static void add_chosen(const DipCostSegmentList *list, const DipCostSegmentAdvic
                        cJSON *object) {
     cJSON_AddNumberToObject(object, "mean_flip", advice->flip);
     cJSON_AddNumberToObject(object, "ms", advice->ms);
-    cJSON_AddNumberToObject(object, "ms_high", advice->bound);
+    cJSON_AddNumberToObject(object, "bound_ms", advice->bound);
     cJSON_AddNumberToObject(object, "flip_per_ms", advice->slope);
     cJSON *chosen = cJSON_AddArrayToObject(object, "chosen");
     for (int s = 0; s < list->segments->count; s++) {
@@ -168,7 +168,7 @@ static void add_chosen(const DipCostSegmentList *list, const DipCostSegmentAdvic
         cJSON *item = cJSON_CreateObject();
         add_settings(item, quality_of(list, advice->chosen[s]));
         cJSON_AddNumberToObject(item, "ms", value->ms);
-        cJSON_AddNumberToObject(item, "ms_high", value->bound);
+        cJSON_AddNumberToObject(item, "bound_ms", value->bound);
         cJSON_AddNumberToObject(item, "flip", value->flip);
         add_to_array(chosen, item);
     }
