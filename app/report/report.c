@@ -83,6 +83,7 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->has_floor);
     free(report->predicted.list);
     dip_cost_choice_free(&report->choice);
+    free(report->analysis);
     *report = (DipCostReport){0};
 }
 

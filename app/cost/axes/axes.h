@@ -5,6 +5,7 @@
 #define DIP_APP_COST_AXES_AXES_H
 
 #include "app/cost/axes/axes_options.h"
+#include "app/report/format/fields.h"
 #include "app/report/report.h"
 #include "app/session/session.h"
 
@@ -67,6 +68,7 @@ bool dip_cost_axes_check_picture(const DipCostAxes *axes, int row, int frame, co
 bool dip_cost_axes_compare_threads(DipCostAxes *axes, DipError *err);
 
 // Writing. Each file is written whole or not at all.
+extern const DipRecord dip_cost_axes_record; // DipCostAxes
 void dip_cost_axes_print(const DipCostAxes *axes, FILE *out);
 bool dip_cost_axes_write_json(const DipCostAxes *axes, const char *file, DipError *err);
 bool dip_cost_axes_write_csv(const DipCostAxes *axes, const char *file, DipError *err);

@@ -1,7 +1,6 @@
-// Printing the rows of `diptych cost axes` for a terminal, and writing them as CSV.
+// Printing the rows of `diptych cost axes` for a terminal.
 #include "app/cost/axes/axes.h"
 
-#include "app/files/whole_file.h"
 #include "app/files/put.h"
 
 #include <math.h>
@@ -159,70 +158,4 @@ void dip_cost_axes_print(const DipCostAxes *axes, FILE *out) {
         }
         print_row(axes, row, out);
     }
-}
-
-// --- CSV -----------------------------------------------------------------------------------------
-
-static void write_known(double value, FILE *out) {
-    if (isfinite(value)) {
-        dip_put_text(out, ",%.8g", value);
-    } else {
-        dip_put_text(out, ",");
-    }
-}
-
-static void write_estimate(const DipStatsEstimate *estimate, FILE *out) {
-    write_known(estimate->value, out);
-    write_known(estimate->low, out);
-    write_known(estimate->high, out);
-}
-
-static void write_row(const DipCostAxes *axes, int row, FILE *out) {
-    const DipCostReport *report = &axes->report;
-    const DipCostAxisRow *r = &axes->rows[row];
-    const bool scaled = r->axis == DIP_COST_AXIS_SCALE, threads = r->axis == DIP_COST_AXIS_THREADS;
-    const DipStatsEstimate none = {NAN, NAN, NAN};
-    DipMetrics errors = {.rmse_lin = NAN, .flip = NAN};
-    if (is_judged(axes, row)) {
-        errors = dip_cost_row_metrics(report, row, 0);
-    }
-    dip_put_text(out, "%s,", dip_cost_axis_names[r->axis]);
-    dip_put_csv_text(out, r->name);
-    dip_put_text(out, ",%d,%d,%d,%d,%d,%s", r->width, r->height, r->shown_width, r->shown_height,
-                 r->threads, dip_isa_name(r->isa));
-    write_estimate(&time_of(axes, row)->mean_ms, out);
-    write_estimate(&time_of(axes, row)->ratio, out);
-    write_known(ns_per_pixel(axes, row), out);
-    write_known(scaled ? draw_ms(axes, row) : NAN, out);
-    write_known(scaled ? enlarge_ms(axes, row) : NAN, out);
-    write_known(errors.rmse_lin, out);
-    write_known(errors.flip, out);
-    write_estimate(threads ? &r->speed_up : &none, out);
-    write_known(threads ? r->efficiency : NAN, out);
-    write_known(r->memory_bytes, out);
-    write_known(r->frame_mj, out);
-    dip_put_text(out, ",%s\n", dip_cost_verdict_names[report->verdict]);
-}
-
-bool dip_cost_axes_write_csv(const DipCostAxes *axes, const char *file, DipError *err) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    }
-    dip_put_text(out,
-                 "axis,value,width,height,shown_width,shown_height,threads,isa,ms,ms_low,ms_high,"
-                 "ratio,ratio_low,ratio_high,ns_per_pixel,draw_ms,enlarge_ms,rmse_lin,flip,"
-                 "speed_up,speed_up_low,speed_up_high,efficiency,memory_bytes,frame_mj,verdict\n");
-    for (int row = 0; row < axes->report.row_count; row++) {
-        write_row(axes, row, out);
-    }
-    bool made = !ferror(out);
-    made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
-    const bool written = made
-                             ? dip_whole_file_write(file, text, size, err)
-                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    free(text);
-    return written;
 }

@@ -35,7 +35,7 @@ typedef struct PairedTiming {
     int block_count;
     double wait_ms, cpu_ms, run_ms; // Sums over all timed runs.
     bool has_wait;
-    int64_t repeated;
+    int repeated;
 } PairedTiming;
 
 static int frame_count(const PairedTiming *t) {

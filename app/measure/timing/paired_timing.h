@@ -94,11 +94,11 @@ typedef struct DipPairedTimingCalls {
 
 // What the measurement tells about the machine.
 typedef struct DipPairedTimingResult {
-    bool settled;     // The time was steady before the rounds; true if settling was not asked for.
-    bool has_wait;    // The machine tells how long threads wait. If not, no pair is disturbed, and
-                      // wait is 1 - processor time / (time * threads).
-    double wait;      // Waiting time of all timed runs / (their time * threads).
-    int64_t repeated; // Number of pairs that were timed again.
+    bool settled;  // The time was steady before the rounds; true if settling was not asked for.
+    bool has_wait; // The machine tells how long threads wait. If not, no pair is disturbed, and
+                   // wait is 1 - processor time / (time * threads).
+    double wait;   // Waiting time of all timed runs / (their time * threads).
+    int repeated;  // Number of pairs that were timed again.
 } DipPairedTimingResult;
 
 // Runs all phases. `pairs` has room for subject_count * rounds * frames_per_round pairs; the index

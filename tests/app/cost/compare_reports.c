@@ -92,6 +92,8 @@ static bool is_time(const char *key) {
                                        "ratio_low",
                                        "ratio_high",
                                        "ratio_over_runs",
+                                       "ratio_over_runs_low",
+                                       "ratio_over_runs_high",
                                        "stages_ms",
                                        NULL};
     return is_one_of(key, keys);
