@@ -1,13 +1,13 @@
 // `diptych bench`: measuring this program, or two programs in turn.
 #include "app/bench/bench.h"
 
-#include "app/bench/child.h"
 #include "app/bench/context.h"
 #include "app/bench/measure.h"
 #include "app/bench/options.h"
 #include "app/bench/plots.h"
 #include "app/bench/table.h"
 #include "app/files/folder.h"
+#include "app/measure/timing/child.h"
 #include "renderer/base/assert.h"
 
 #include <stdlib.h>
@@ -50,26 +50,55 @@ static bool measure_here(const DipBenchPlan *plan, const DipSession *session,
     return done;
 }
 
+typedef struct Server {
+    const DipBenchPlan *plan;
+    DipBenchSource source;
+} Server;
+
+static bool answer(void *context, const char *request, DipBenchSample *sample, DipError *err) {
+    const Server *server = context;
+    int combination, frame, hash;
+    if (sscanf(request, "draw %d %d %d", &combination, &frame, &hash) != 3 || combination < 0 ||
+        combination >= server->plan->count || frame < 0 || frame >= server->plan->options.frames) {
+        return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
+                                     "'%.60s' is not a request; give draw COMBINATION FRAME 0|1",
+                                     request);
+    }
+    return server->source.draw(server->source.context, combination, frame, hash != 0, sample, err);
+}
+
 static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
     DipBenchContext *bench;
-    DipBenchSource source;
+    Server server = {.plan = plan};
     const bool done =
-        open_here(&bench, plan, session, &source, err) && dip_bench_serve(plan, &source, err);
+        open_here(&bench, plan, session, &server.source, err) &&
+        dip_child_serve("bench", plan->count, plan->options.frames, answer, &server, err);
     dip_bench_context_destroy(&bench);
     return done;
+}
+
+static bool draw_there(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
+                       DipError *err) {
+    char request[64];
+    DipTimed timed;
+    snprintf(request, sizeof request, "draw %d %d %d", combination, frame, hash);
+    return dip_child_draw(context, request, sample, &timed, err);
 }
 
 // Runs both programs as processes of their own, so that neither has an advantage.
 static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
                          const DipBenchArguments *arguments, DipError *err) {
     const char *const programs[2] = {"/proc/self/exe", arguments->bench.vs};
-    DipBenchChild *children[2] = {NULL, NULL};
+    DipChild *children[2] = {NULL, NULL};
     DipBenchResult results[2] = {{0}, {0}};
     DipBenchSource sources[2];
     bool done = true;
     for (int p = 0; done && p < 2; p++) {
-        children[p] = dip_bench_child_start(programs[p], plan, err);
-        sources[p] = (DipBenchSource){dip_bench_child_draw, children[p]};
+        const DipChildDef def = {programs[p], plan->options.argv, plan->options.argc,
+                                 "bench",     plan->count,        plan->options.frames,
+                                 "--vs"};
+        children[p] = dip_child_start(&def, err);
+        sources[p] = (DipBenchSource){draw_there, children[p]};
         done = children[p] && dip_bench_result_init(&results[p], plan, err);
     }
     done = done && dip_bench_measure(plan, sources, 2, results, err);
@@ -80,7 +109,7 @@ static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
     done = done &&
            (!arguments->bench.csv || dip_bench_write_csv(arguments->bench.csv, results, 2, err));
     for (int p = 0; p < 2; p++) {
-        dip_bench_child_stop(&children[p]);
+        dip_child_stop(&children[p], false);
         dip_bench_result_free(&results[p]);
     }
     return done;

@@ -1,54 +1,72 @@
 // Measuring the combinations and programs in turn.
 #include "app/bench/measure.h"
 
-#include "app/measure/timing/timing.h"
-#include "app/cli/progress.h"
+#include "app/cli/drive.h"
 
+#include <math.h>
+#include <stdlib.h>
+
+// Subject i is combination i / source_count of source i % source_count. If there are two sources,
+// the first one is the base of the second.
 typedef struct BenchTiming {
     const DipBenchSource *sources;
+    int source_count;
     DipBenchResult *results;
-    DipBenchSample sample; // the sample of the latest run
-    DipProgress progress;
-    int64_t drawn; // frames drawn so far by all sources
 } BenchTiming;
 
-static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
-    BenchTiming *t = context;
-    const DipBenchSource *source = &t->sources[turn->version];
-    const bool hash = turn->phase == DIP_TIMING_WARM_UP;
-    return source->draw(source->context, turn->subject, turn->frame, hash, &t->sample, err);
+static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
+    const BenchTiming *t = context;
+    const DipBenchSource *source = &t->sources[turn->subject % t->source_count];
+    const int combination = turn->subject / t->source_count;
+    const bool first = turn->phase == DIP_DRIVER_WARM_UP;
+    DipBenchSample sample;
+    if (!source->draw(source->context, combination, turn->frame, first, &sample, err)) {
+        return false;
+    }
+    if (first) {
+        dip_bench_result_set_first(&t->results[turn->subject % t->source_count], combination,
+                                   turn->frame, &sample);
+    }
+    dip_bench_sample_time(&sample, timed);
+    timed->wait = NAN;
+    return true;
 }
 
-// Stores the sample, which has the times that the source itself measured for each stage. `ms` is
-// not used, because it also includes the communication with a child process.
-static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
-    (void)ms;
-    (void)err;
-    BenchTiming *t = context;
-    DipBenchResult *result = &t->results[turn->version];
-    if (turn->phase == DIP_TIMING_WARM_UP) {
-        dip_bench_result_set_first(result, turn->subject, turn->frame, &t->sample);
-    } else if (turn->phase == DIP_TIMING_TIMED) {
-        dip_bench_result_add(result, turn->subject, turn->round, turn->frame, &t->sample);
+static void keep_times(const BenchTiming *t, const DipTimes *times) {
+    for (int i = 0; i < times->count; i++) {
+        const DipTimed *timed = &times->list[i];
+        dip_bench_result_add(&t->results[timed->subject % t->source_count],
+                             timed->subject / t->source_count, timed);
     }
-    dip_progress_show(&t->progress, ++t->drawn);
-    return true;
 }
 
 bool dip_bench_measure(const DipBenchPlan *plan, const DipBenchSource *sources, int source_count,
                        DipBenchResult *results, DipError *err) {
-    const DipTimingDef def = {
-        .subject_count = plan->count,
-        .frame_count = plan->options.frames,
-        .version_count = source_count,
-        .round_count = plan->options.rounds,
-        .seed = (uint64_t)plan->options.seed,
-        .rest_ns = 1000000,
+    const int subjects = plan->count * source_count;
+    int base_of[2 * DIP_BENCH_MAX_COMBINATIONS];
+    for (int s = 0; s < subjects; s++) {
+        base_of[s] = s - s % source_count;
+    }
+    const DipDriverDef def = {
+        .subjects = subjects,
+        .base_of = base_of,
+        .block_subjects = 1,
+        .starts = 1,
+        .rounds = plan->options.measure.rounds,
+        .frames = plan->options.frames,
+        .warm_frames = plan->options.frames,
+        .seed = (uint64_t)plan->options.measure.seed,
+        .in_turn = source_count == 2,
+        .rest_ns = source_count == 2 ? 1000000 : 0,
     };
-    BenchTiming t = {.sources = sources, .results = results};
-    const DipTimingCalls calls = {.run = draw, .after_run = after_draw, .context = &t};
-    t.progress = dip_progress_begin("frames", dip_timing_run_count(&def, 0));
-    const bool done = dip_timing_run(&def, &calls, NULL, err);
-    dip_progress_end(&t.progress, t.drawn);
+    BenchTiming t = {.sources = sources, .source_count = source_count, .results = results};
+    const DipDriverCalls calls = {.draw = draw, .context = &t};
+    DipDriver *driver = dip_driver_create(&def, &calls, err);
+    const bool done = driver && dip_drive(driver, "frames", "bench", "interrupted", err);
+    if (done) {
+        const DipTimes times = dip_driver_times(driver);
+        keep_times(&t, &times);
+    }
+    dip_driver_destroy(&driver);
     return done;
 }

@@ -1,4 +1,4 @@
-// Measuring every combination of a plan in interleaved rounds (app/measure/timing/timing.h).
+// Measuring every combination of a plan in interleaved rounds (app/measure/timing/driver.h).
 #ifndef DIP_APP_BENCH_MEASURE_H
 #define DIP_APP_BENCH_MEASURE_H
 

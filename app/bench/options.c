@@ -123,21 +123,6 @@ static const DipOptionRow measure_rows[] = {
      .field = FIELD(frames),
      .least = 1,
      .most = DIP_BENCH_MAX_FRAMES},
-    {.name = "--rounds",
-     .argument = "N",
-     .text = "Draw the frames of each combination this many times. The default is 10.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(rounds),
-     .least = 1,
-     .most = DIP_BENCH_MAX_ROUNDS},
-    {.name = "--seed",
-     .argument = "N",
-     .text = "Seed of the random order of the combinations in each round. The default comes from "
-             "the clock. The bench prints the seed.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(seed),
-     .given = FIELD(has_seed),
-     .most = INT32_MAX},
     {.name = "--vs",
      .argument = "PROGRAM",
      .text = "Compare this program with another build of diptych. The two draw in turn, and the "
@@ -170,6 +155,7 @@ static const DipOptionTable measure_table = {"Measuring and output", measure_row
 static const DipOptionPart parts[] = {
     {&axis_table, offsetof(DipBenchArguments, bench)},
     {&measure_table, offsetof(DipBenchArguments, bench)},
+    {&dip_measure_option_table, offsetof(DipBenchArguments, bench.measure)},
     {&dip_scene_option_table, offsetof(DipBenchArguments, session)},
     {&dip_path_option_table, offsetof(DipBenchArguments, session)},
     {&dip_category_option_table, offsetof(DipBenchArguments, session)},
@@ -189,7 +175,7 @@ static bool add_set(void *fields, const DipOptionRow *row, const char *value, Di
 void dip_bench_options_default(void *arguments, int argc, char *const *argv) {
     DipBenchOptions *bench = &((DipBenchArguments *)arguments)->bench;
     bench->frames = 12;
-    bench->rounds = 10;
+    bench->measure.rounds = 10;
     bench->argc = argc;
     bench->argv = argv;
     dip_option_each(bench, &axis_rows[0], default_sets, ';', add_set, NULL);

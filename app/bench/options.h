@@ -5,6 +5,7 @@
 #define DIP_APP_BENCH_OPTIONS_H
 
 #include "app/cli/command.h"
+#include "app/cli/measure_options.h"
 #include "app/session/session_options.h"
 #include "renderer/base/isa.h"
 #include "renderer/scene/quality.h"
@@ -15,8 +16,7 @@
 enum {
     DIP_BENCH_MAX_VALUES = 32, // Values of one axis.
     DIP_BENCH_MAX_COMBINATIONS = 512,
-    DIP_BENCH_MAX_FRAMES = 10000,
-    DIP_BENCH_MAX_ROUNDS = 10000
+    DIP_BENCH_MAX_FRAMES = 10000
 };
 
 typedef struct DipBenchSet {
@@ -44,9 +44,7 @@ typedef struct DipBenchOptions {
     int grid_count;
     bool grid_out_of_view;
     int frames;
-    int rounds;
-    bool has_seed;
-    int seed;
+    DipMeasureOptions measure; // Its seed is filled in by the plan.
     const char *csv;
     const char *svg;
     const char *vs;

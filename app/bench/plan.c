@@ -2,7 +2,6 @@
 #include "app/bench/plan.h"
 
 #include "app/cli/machine.h"
-#include "renderer/base/clock.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -24,9 +23,7 @@ static void fill_in(DipBenchOptions *options, const DipSession *session) {
         options->sizes[options->size_count++] =
             (DipBenchSize){config->res.width, config->res.height};
     }
-    if (!options->has_seed) {
-        options->seed = (int)(dip_clock_ns() / 1000 % 1000000);
-    }
+    options->measure.seed = dip_measure_seed(&options->measure);
 }
 
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,

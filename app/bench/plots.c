@@ -140,7 +140,7 @@ static void add_point(Series *series, double x, const double *ms, int count, dou
 static int collect(const DipBenchResult *result, const struct Kind *kind, Series *series,
                    double *scratch) {
     const DipBenchPlan *plan = result->plan;
-    const int values = plan->options.rounds * plan->options.frames;
+    const int values = plan->options.measure.rounds * plan->options.frames;
     int count = 0;
     for (int c = 0; c < plan->count; c++) {
         const DipBenchCombination *combination = &plan->combinations[c];
@@ -184,7 +184,7 @@ static bool write_kind(const char *folder, const struct Kind *kind, const DipBen
     dip_machine_processor(processor, sizeof processor);
     dip_bench_fixed_label(plan, fixed);
     snprintf(subtitle, sizeof subtitle, "%.50s, %.40s; %d drawings each", processor, fixed,
-             plan->options.rounds * plan->options.frames);
+             plan->options.measure.rounds * plan->options.frames);
     const DipPlot plot = {.title = kind->title,
                           .subtitle = subtitle,
                           .x_title = kind->x_title,
@@ -208,7 +208,7 @@ bool dip_bench_write_plots(const char *folder, const DipBenchResult *result, Dip
     const DipBenchPlan *plan = result->plan;
     Series *series = calloc((size_t)plan->count, sizeof *series);
     double *scratch =
-        malloc(sizeof *scratch * (size_t)(plan->options.rounds * plan->options.frames));
+        malloc(sizeof *scratch * (size_t)(plan->options.measure.rounds * plan->options.frames));
     bool done = (series && scratch) ||
                 dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--svg", "out of memory");
     for (size_t k = 0; done && k < sizeof kinds / sizeof *kinds; k++) {

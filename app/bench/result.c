@@ -4,26 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT] = {
-#define STAGE_NAME(name, text) #name,
-    DIP_STAGE_LIST(STAGE_NAME)
-#undef STAGE_NAME
-        "total"};
-
-void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash) {
-#define SET_STAGE(name, text) sample->ms[DIP_BENCH_STAGE_##name] = frame->stages.name##_ms;
-    DIP_STAGE_LIST(SET_STAGE)
-#undef SET_STAGE
-    sample->ms[DIP_BENCH_STAGE_total] = frame->stages.total_ms;
-    sample->counters = frame->counters;
-    sample->hash[0] = '\0';
-    if (hash) {
-        dip_frame_hash(frame, sample->hash);
-    }
-}
-
 static size_t values_per_stage(const DipBenchPlan *plan) {
-    return (size_t)plan->options.rounds * (size_t)plan->options.frames;
+    return (size_t)plan->options.measure.rounds * (size_t)plan->options.frames;
 }
 
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err) {
@@ -48,12 +30,11 @@ static size_t first_index(const DipBenchResult *result, int combination, DipBenc
     return ((size_t)combination * DIP_BENCH_STAGE_COUNT + stage) * values_per_stage(result->plan);
 }
 
-void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
-                          const DipBenchSample *sample) {
-    const int value = round * result->plan->options.frames + frame;
+void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed) {
+    const int value = timed->round * result->plan->options.frames + timed->frame;
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         result->ms[first_index(result, combination, (DipBenchStage)stage) + (size_t)value] =
-            sample->ms[stage];
+            stage == DIP_BENCH_STAGE_total ? timed->ms : timed->parts_ms[stage];
     }
 }
 

@@ -4,26 +4,7 @@
 #define DIP_APP_BENCH_RESULT_H
 
 #include "app/bench/plan.h"
-
-// Indices of a frame's times: the renderer's stages, then the total.
-typedef enum DipBenchStage {
-#define DIP_BENCH_STAGE_ENUM(name, text) DIP_BENCH_STAGE_##name,
-    DIP_STAGE_LIST(DIP_BENCH_STAGE_ENUM)
-#undef DIP_BENCH_STAGE_ENUM
-        DIP_BENCH_STAGE_total,
-    DIP_BENCH_STAGE_COUNT
-} DipBenchStage;
-
-extern const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
-
-// The measurements of one drawing of a frame.
-typedef struct DipBenchSample {
-    double ms[DIP_BENCH_STAGE_COUNT];
-    DipCounters counters;
-    char hash[33]; // Hash of the pixels, or "" if no hash was requested.
-} DipBenchSample;
-
-void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
+#include "app/measure/timing/sample.h"
 
 // The results of one program. The bench measures one program, or two with --vs. Owns its arrays,
 // borrows the plan.
@@ -40,8 +21,8 @@ void dip_bench_result_free(DipBenchResult *result);
 void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
                                 const DipBenchSample *sample);
 
-void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
-                          const DipBenchSample *sample);
+// Stores the times of a frame of a round.
+void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed);
 
 // Returns the times of a stage: rounds * frames values, [round * frames + frame].
 const double *dip_bench_result_ms(const DipBenchResult *result, int combination,

@@ -53,7 +53,7 @@ void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session
     fprintf(out, "fixed    %s", fixed);
     fprintf(out,
             "\nframes   %d along the path, drawn in %d rounds, in a random order by seed %d\n\n",
-            plan->options.frames, plan->options.rounds, plan->options.seed);
+            plan->options.frames, plan->options.measure.rounds, plan->options.measure.seed);
 }
 
 // --- times -------------------------------------------------------------------------------------
@@ -70,7 +70,7 @@ static int label_width(const DipBenchPlan *plan) {
 }
 
 static int value_count(const DipBenchPlan *plan) {
-    return plan->options.rounds * plan->options.frames;
+    return plan->options.measure.rounds * plan->options.frames;
 }
 
 static void print_quantile(const DipBenchResult *result, int combination, double share,
@@ -181,7 +181,7 @@ static double fastest_ms(const DipBenchResult *result, int combination) {
     double sum = 0.0;
     for (int frame = 0; frame < options->frames; frame++) {
         double least = ms[frame];
-        for (int round = 1; round < options->rounds; round++) {
+        for (int round = 1; round < options->measure.rounds; round++) {
             least = fmin(least, ms[round * options->frames + frame]);
         }
         sum += least;
@@ -204,7 +204,7 @@ static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *ot
     const DipStatsInterval interval =
         dip_stats_ratio_interval(dip_bench_result_ms(other, combination, DIP_BENCH_STAGE_total),
                                  dip_bench_result_ms(here, combination, DIP_BENCH_STAGE_total),
-                                 plan->options.frames, plan->options.rounds, scratch);
+                                 plan->options.frames, plan->options.measure.rounds, scratch);
     const double other_ms = medians[1][DIP_BENCH_STAGE_total];
     const double here_ms = medians[0][DIP_BENCH_STAGE_total];
     fprintf(out, " %8.3f %8.3f  %6.3f  %5.3f to %5.3f  %7.3f ", other_ms, here_ms,

@@ -5,6 +5,9 @@
 #include "app/cost/gallery_truth.h"
 #include "app/cli/interrupt.h"
 
+// Rounds that draw a frame of the baseline, so that slow frames and slow moments can be told apart.
+enum { BASE_COPIES = 3 };
+
 // Compresses the textures if the settings of any row of the report need it. This is done before any
 // frame is drawn or timed.
 static bool prepare_textures(const DipCostContext *cost, DipError *err) {
@@ -89,9 +92,9 @@ static int64_t timed_ns(const DipCostContext *cost, int path, int index) {
            dip_cost_frame_count(cost->report) * index;
 }
 
-bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int index,
+bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipFrame *frame, DipError *err) {
-    return draw(cost, quality, 0, timed_ns(cost, 0, index), index, frame, err);
+    return draw(cost, quality, path, timed_ns(cost, path, index), index, frame, err);
 }
 
 bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err) {
@@ -121,9 +124,30 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
     return dip_truth_get(truth, &def, cost->cache, cost->session->pool, progress, context, err);
 }
 
+DipDriverDef dip_cost_driver_def(const DipCostReport *report, int subjects, int block_subjects) {
+    const int rounds = report->options.rounds;
+    return (DipDriverDef){
+        .subjects = subjects,
+        .block_subjects = block_subjects,
+        .starts = 1,
+        .rounds = rounds,
+        .frames = dip_cost_frame_count(report),
+        .base_copies = rounds < BASE_COPIES ? rounds : BASE_COPIES,
+        .warm_frames = 1,
+        .seed = (uint64_t)report->options.seed,
+        .most_wait = DIP_TIMED_MOST_WAIT,
+    };
+}
+
+void dip_cost_stage_parts(const DipFrame *frame, double parts_ms[DIP_TIMED_PARTS]) {
+    _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is a part");
+#define WRITE_STAGE(name, text) *parts_ms++ = frame->stages.name##_ms;
+    DIP_STAGE_LIST(WRITE_STAGE)
+#undef WRITE_STAGE
+}
+
 bool dip_cost_interrupted(const DipCostContext *cost, DipError *err) {
     (void)cost;
     return dip_interrupted() &&
-           !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost",
-                          "interrupted; run the same command again to continue");
+           !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost", DIP_COST_INTERRUPTED);
 }

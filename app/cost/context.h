@@ -7,6 +7,7 @@
 
 #include "app/cost/journal.h"
 #include "app/cost/plan.h"
+#include "app/measure/timing/driver.h"
 #include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
 
@@ -22,6 +23,10 @@ typedef struct DipCostContext {
     // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows.
     // They share one renderer so that they are all drawn in the same memory.
     DipPainter *renderers[2];
+    // The command line that a start of the measurement gets (starts.h); NULL: frames are timed
+    // here.
+    char *const *argv;
+    int argc;
 } DipCostContext;
 
 // Opens the context of a report. Without `judges`, it has no truths: it draws and times only.
@@ -34,8 +39,8 @@ void dip_cost_context_close(DipCostContext *cost);
 bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
                    DipError *err);
 
-// Draws the timed frame `index` of path 0 with any settings.
-bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int index,
+// Draws the timed frame `index` of a path with any settings.
+bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipFrame *frame, DipError *err);
 
 // Draws the row's timed frame `index`, 0..dip_cost_frame_count - 1.
@@ -46,6 +51,16 @@ bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *fra
 bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,
                             DipTruthProgress *progress, void *context, DipTruth *truth,
                             DipError *err);
+
+// Returns how the report's frames are timed, for the given number of subjects; the caller adds the
+// bases. The seed is that of the report.
+DipDriverDef dip_cost_driver_def(const DipCostReport *report, int subjects, int block_subjects);
+
+// Writes the times of a frame's stages.
+void dip_cost_stage_parts(const DipFrame *frame, double parts_ms[DIP_TIMED_PARTS]);
+
+// What an interrupted command says.
+#define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
 
 // Returns true and fills *err if the user has pressed Ctrl-C. All measurements made before remain
 // in the journal (journal.h).

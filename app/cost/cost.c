@@ -6,9 +6,9 @@
 #include "app/report/format/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
-#include "app/report/levels.h"
 #include "app/report/page/report_pictures.h"
 #include "app/report/same_pictures.h"
+#include "app/cost/starts.h"
 #include "app/cost/steps.h"
 #include "app/cost/truth_files.h"
 #include "app/files/folder.h"
@@ -107,10 +107,11 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
         dip_cost_journal_close(&journal, false);
         return false;
     }
+    cost.argv = arguments->argv;
+    cost.argc = arguments->argc;
     bool done = measure(&cost, err);
     if (done) {
         set_date(report);
-        dip_cost_remember_level(report, cost.cache);
         const DipCostFrameSource source = dip_cost_drawn_frames(&cost);
         done = save_truths(&cost, err) && dip_cost_analyse(report, err) &&
                dip_cost_write_report(report, &source, arguments->out, err);
@@ -129,16 +130,27 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     return done;
 }
 
+// Times frames for the process that started this one.
+static bool serve(DipSession *session, DipCostReport *report, DipError *err) {
+    DipCostContext cost;
+    if (!dip_cost_context_open(&cost, session, report, NULL, NULL, false, err)) {
+        return false;
+    }
+    const bool done = dip_cost_serve(&cost, err);
+    dip_cost_context_close(&cost);
+    return done;
+}
+
 bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipError *err) {
     DipCostReport report;
-    dip_interrupt_watch();
-    bool done = dip_cost_plan(&report, session, &arguments->cost, err);
-    if (done) {
-        if (!report.options.has_seed) {
-            report.options.seed = (int)(time(NULL) % 1000000);
-        }
-        done = run(session, arguments, &report, err);
+    DipCostOptions options = arguments->cost;
+    dip_cost_set_measure(&options, &arguments->measure, arguments->measure.starts);
+    if (!arguments->serve) {
+        dip_interrupt_watch(); // A start ends with the process that started it.
     }
+    const bool done =
+        dip_cost_plan(&report, session, &options, err) &&
+        (arguments->serve ? serve(session, &report, err) : run(session, arguments, &report, err));
     dip_cost_report_free(&report);
     return done;
 }

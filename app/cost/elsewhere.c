@@ -2,8 +2,7 @@
 #include "app/cost/elsewhere.h"
 
 #include "app/cost/steps.h"
-#include "app/measure/timing/paired_timing.h"
-#include "app/cli/progress.h"
+#include "app/cli/drive.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,85 +30,71 @@ typedef struct Elsewhere {
     DipCostContext *there;
     DipCostElsewhere *rows;
     bool *counted; // [row * frames + frame]: the frame's counters are in the row's sums.
-    DipFrame frame;
-    DipProgress progress;
-    int64_t drawn;
 } Elsewhere;
 
-static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
-    Elsewhere *e = context;
-    return turn->subject == 0
-               ? dip_cost_draw_timed(e->cost, e->cost->report->base_rows[0], turn->frame, &e->frame,
-                                     err)
-               : dip_cost_draw_settings(e->there, &e->rows[turn->subject - 1].quality, turn->frame,
-                                        &e->frame, err);
-}
-
-static void stage_ms(void *context, double ms[DIP_TIME_PARTS]) {
-    const Elsewhere *e = context;
-#define WRITE_STAGE(name, text) *ms++ = e->frame.stages.name##_ms;
-    DIP_STAGE_LIST(WRITE_STAGE)
-#undef WRITE_STAGE
-}
-
-static void count_work(Elsewhere *e, int row, int frame) {
+static void count_work(const Elsewhere *e, int row, int frame, const DipFrame *drawn) {
     bool *counted = &e->counted[row * dip_cost_frame_count(e->cost->report) + frame];
     double *value = e->rows[row].counters;
     if (!*counted) {
-#define ADD_COUNTER(name, text) *value++ += (double)e->frame.counters.name;
+#define ADD_COUNTER(name, text) *value++ += (double)drawn->counters.name;
         DIP_COUNTER_LIST(ADD_COUNTER)
 #undef ADD_COUNTER
         *counted = true;
     }
 }
 
-static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
-    (void)ms;
-    Elsewhere *e = context;
-    if (turn->subject > 0) {
-        count_work(e, turn->subject - 1, turn->frame);
+static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
+    const Elsewhere *e = context;
+    const int row = turn->subject - 1;
+    DipFrame frame;
+    if (row < 0) {
+        return dip_cost_draw_timed(e->cost, e->cost->report->base_rows[0], turn->frame, &frame,
+                                   err);
     }
-    e->drawn += turn->round < e->cost->report->options.rounds;
-    dip_progress_show(&e->progress, e->drawn);
-    return !dip_cost_interrupted(e->cost, err);
+    if (!dip_cost_draw_settings(e->there, &e->rows[row].quality, 0, turn->frame, &frame, err)) {
+        return false;
+    }
+    dip_cost_stage_parts(&frame, timed->parts_ms);
+    count_work(e, row, turn->frame, &frame);
+    return true;
 }
 
-static bool run(Elsewhere *e, int count, const int *base_of, DipTimePair *pairs,
-                const char *progress, DipPairedTimingResult *machine, DipError *err) {
+// Times the rows, and estimates their ratios to the baseline.
+static bool run(Elsewhere *e, int count, const int *base_of, DipTimePair *pairs, DipTimesFit **fit,
+                const char *progress, DipDriverMachine *machine, DipError *err) {
     const DipCostReport *report = e->cost->report;
-    const DipPairedTimingDef def = {
-        .subject_count = count + 1,
-        .base_of = base_of,
-        .block_subjects = BLOCK_ROWS,
-        .rounds = report->options.rounds,
-        .frames_per_round = report->options.timed_frames,
-        .seed = (uint64_t)report->options.seed ^ SEED_SALT,
-    };
-    const DipPairedTimingCalls calls = {
-        .run = draw, .after_run = after_draw, .part_ms = stage_ms, .context = e};
-    e->progress = dip_progress_begin(progress, dip_paired_timing_run_count(&def, 0));
-    const bool done = dip_paired_timing_run(&def, &calls, report->threads, pairs, machine, err);
-    dip_progress_end(&e->progress, e->drawn);
+    DipDriverDef def = dip_cost_driver_def(report, count + 1, BLOCK_ROWS);
+    def.base_of = base_of;
+    def.seed ^= SEED_SALT;
+    const DipDriverCalls calls = {.draw = draw, .context = e};
+    DipDriver *driver = dip_driver_create(&def, &calls, err);
+    bool done = driver && dip_drive(driver, progress, "cost", DIP_COST_INTERRUPTED, err);
+    if (done) {
+        const DipTimes times = dip_driver_times(driver);
+        *machine = dip_driver_machine(driver, report->threads);
+        done = dip_times_pairs(&times, pairs, err);
+        *fit = done ? dip_times_fit(&times, err) : NULL;
+        done = *fit != NULL;
+    }
+    dip_driver_destroy(&driver);
     return done;
 }
 
-static bool estimate(Elsewhere *e, int count, const DipTimePair *pairs, DipError *err) {
+static void estimate(Elsewhere *e, int count, const DipTimePair *pairs, const DipTimesFit *fit) {
     const DipCostReport *report = e->cost->report;
     const int frames = dip_cost_frame_count(report);
-    bool done = true;
-    for (int i = 0; done && i < count; i++) {
+    for (int i = 0; i < count; i++) {
+        const DipEstimate ratio = dip_times_ratio(fit, i + 1);
         DipCostElsewhere *row = &e->rows[i];
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
             row->counters[c] /= frames;
         }
-        done =
-            dip_cost_estimate_elsewhere(report, pairs + (size_t)(i + 1) * (size_t)frames, row, err);
+        dip_cost_estimate_elsewhere(report, &ratio, pairs + (size_t)(i + 1) * (size_t)frames, row);
     }
-    return done;
 }
 
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
-                             int count, const char *progress, DipPairedTimingResult *machine,
+                             int count, const char *progress, DipDriverMachine *machine,
                              DipError *err) {
     const size_t frames = (size_t)dip_cost_frame_count(cost->report);
     const size_t values = ((size_t)count + 1) * frames;
@@ -122,8 +107,12 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
     }
     const bool made = (base_of && pairs && e.counted) ||
                       dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-    const bool done = made && run(&e, count, base_of, pairs, progress, machine, err) &&
-                      estimate(&e, count, pairs, err);
+    DipTimesFit *fit = NULL;
+    const bool done = made && run(&e, count, base_of, pairs, &fit, progress, machine, err);
+    if (done) {
+        estimate(&e, count, pairs, fit);
+    }
+    dip_times_fit_free(&fit);
     free(base_of);
     free(pairs);
     free(e.counted);
@@ -168,7 +157,7 @@ bool dip_cost_time_smaller(DipCostContext *cost, DipError *err) {
         return false;
     }
     list_smaller(report);
-    DipPairedTimingResult machine;
+    DipDriverMachine machine;
     const bool done =
         dip_cost_time_elsewhere(cost, &context, report->smaller, report->smaller_count,
                                 "smaller frames timed", &machine, err);

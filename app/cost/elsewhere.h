@@ -19,7 +19,7 @@ void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report,
 // *machine gets what the timing tells about the machine, except whether it settled. Fails with
 // MEMORY, as the renderer does, and with RUNTIME after Ctrl-C or if too many frames were disturbed.
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
-                             int count, const char *progress, DipPairedTimingResult *machine,
+                             int count, const char *progress, DipDriverMachine *machine,
                              DipError *err);
 
 #endif

@@ -7,6 +7,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -247,27 +248,89 @@ bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
     return append(journal, false, key, values, ERROR_VALUES, err);
 }
 
-// The first value of a round's entry is the number of the round.
-const double *dip_cost_journal_round(const DipCostJournal *journal, int round, int count) {
+// --- rounds --------------------------------------------------------------------------------------
+
+// A round's entry has its seed, and then the numbers of each frame.
+enum { TIMED_VALUES = 10 + DIP_TIMED_PARTS };
+
+static void write_timed(const DipTimed *timed, double values[TIMED_VALUES]) {
+    const double all[10] = {
+        timed->subject,          timed->start, timed->round, timed->block,  timed->frame,
+        (double)timed->begin_ns, timed->ms,    timed->wait,  timed->cpu_ms, timed->switches};
+    memcpy(values, all, sizeof all);
+    memcpy(values + 10, timed->parts_ms, sizeof timed->parts_ms);
+}
+
+// Returns -1 for what is no index. Such a frame fits no round.
+static int read_index(double value) {
+    return value >= 0.0 && value <= INT_MAX ? (int)value : -1;
+}
+
+static DipTimed read_timed(const double values[TIMED_VALUES]) {
+    DipTimed timed = {
+        .subject = read_index(values[0]),
+        .start = read_index(values[1]),
+        .round = read_index(values[2]),
+        .block = read_index(values[3]),
+        .frame = read_index(values[4]),
+        .begin_ns = fabs(values[5]) < 9e18 ? (int64_t)values[5] : 0,
+        .ms = values[6],
+        .wait = values[7],
+        .cpu_ms = values[8],
+        .switches = values[9],
+    };
+    memcpy(timed.parts_ms, values + 10, sizeof timed.parts_ms);
+    return timed;
+}
+
+static const Entry *find_round(const DipCostJournal *journal, int round, int *rounds) {
+    *rounds = 0;
     for (int i = 0; i < journal->count; i++) {
         const Entry *entry = &journal->entries[i];
-        if (entry->is_round && entry->count == count + 1 && entry->values[0] == round &&
-            strcmp(entry->key, journal->plan) == 0) {
-            return entry->values + 1;
+        if (entry->is_round && entry->count % TIMED_VALUES == 1 &&
+            strcmp(entry->key, journal->plan) == 0 && (*rounds)++ == round) {
+            return entry;
         }
     }
     return NULL;
 }
 
-bool dip_cost_journal_add_round(DipCostJournal *journal, int round, const double *values, int count,
+int dip_cost_journal_round_count(const DipCostJournal *journal) {
+    int count;
+    find_round(journal, -1, &count);
+    return count;
+}
+
+DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count) {
+    int rounds;
+    const Entry *entry = find_round(journal, round, &rounds);
+    *count = entry && entry->values[0] == seed ? entry->count / TIMED_VALUES : 0;
+    DipTimed *timed = malloc(((size_t)*count + 1) * sizeof *timed);
+    for (int i = 0; timed && i < *count; i++) {
+        timed[i] = read_timed(entry->values + 1 + i * TIMED_VALUES);
+    }
+    return timed;
+}
+
+void dip_cost_journal_seed(const DipCostJournal *journal, int *seed) {
+    int rounds;
+    const Entry *entry = find_round(journal, 0, &rounds);
+    if (entry) {
+        *seed = read_index(entry->values[0]);
+    }
+}
+
+bool dip_cost_journal_add_round(DipCostJournal *journal, int seed, const DipTimed *timed, int count,
                                 DipError *err) {
-    double *entry = malloc(((size_t)count + 1) * sizeof *entry);
-    if (!entry) {
+    double *values = malloc(((size_t)count * TIMED_VALUES + 1) * sizeof *values);
+    if (!values) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     }
-    entry[0] = round;
-    memcpy(entry + 1, values, (size_t)count * sizeof *values);
-    const bool added = append(journal, true, journal->plan, entry, count + 1, err);
-    free(entry);
+    values[0] = seed;
+    for (int i = 0; i < count; i++) {
+        write_timed(&timed[i], values + 1 + i * TIMED_VALUES);
+    }
+    const bool added = append(journal, true, journal->plan, values, count * TIMED_VALUES + 1, err);
+    free(values);
     return added;
 }

@@ -1,14 +1,15 @@
 // The journal of an unfinished report: a file in the report's folder with every measurement made so
 // far. The next run continues from the journal. A measurement is either the errors of one burst or
-// the times of one round. A burst is the successive frames that are drawn at a viewpoint; its
-// errors are measured against truths (converged pictures). A round times every frame of every row
-// once. Each line of the file is one measurement and its checksum. The program may be ended at any
-// time, because the next run drops a line that was cut short.
+// the times of one round (app/measure/timing/driver.h). A burst is the successive frames that are
+// drawn at a viewpoint; its errors are measured against truths (converged pictures). Each line of
+// the file is one measurement and its checksum. The program may be ended at any time, because the
+// next run drops a line that was cut short.
 #ifndef DIP_APP_COST_JOURNAL_H
 #define DIP_APP_COST_JOURNAL_H
 
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
+#include "app/measure/stats/rounds.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
@@ -37,10 +38,17 @@ bool dip_cost_journal_find(const DipCostJournal *journal, const char *key,
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
                           const DipCostBurstErrors *errors, DipError *err);
 
-// Returns the values of the round with this number, or NULL if the journal has none with its own
-// plan hash and `count` values. The values are borrowed until the journal is closed.
-const double *dip_cost_journal_round(const DipCostJournal *journal, int round, int count);
-bool dip_cost_journal_add_round(DipCostJournal *journal, int round, const double *values, int count,
+// Returns the number of rounds that were stored with the journal's own plan hash.
+int dip_cost_journal_round_count(const DipCostJournal *journal);
+
+// Returns the frames of such a round, in the order in which they were stored: 0 of them if the
+// seed is another. The caller frees them. Returns NULL when memory runs out.
+DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count);
+
+// Sets *seed to that of the first of these rounds, if there are any.
+void dip_cost_journal_seed(const DipCostJournal *journal, int *seed);
+
+bool dip_cost_journal_add_round(DipCostJournal *journal, int seed, const DipTimed *timed, int count,
                                 DipError *err);
 
 #endif

@@ -290,14 +290,6 @@ static const DipOptionRow time_rows[] = {
      .text = "Measure only errors, and no times.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(errors_only)},
-    {.name = "--rounds",
-     .argument = "N",
-     .text = "Measure times in this many rounds. Each round times other frames of the path. The "
-             "default is 16.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(rounds),
-     .least = 2,
-     .most = 10000},
     {.name = "--timed",
      .argument = "N",
      .text = "Time this many frames in each round, spread evenly over the path. The default is 4.",
@@ -310,16 +302,16 @@ static const DipOptionRow time_rows[] = {
              "wrong. The report is written all the same.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(require_quiet)},
-    {.name = "--seed",
-     .argument = "N",
-     .text = "Seed of the random order of measurements in each round. The default comes from the "
-             "clock.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(seed),
-     .given = FIELD(has_seed),
-     .most = INT32_MAX},
 };
 
+static const DipOptionRow serve_rows[] = {
+    {.name = "--serve",
+     .text = "Answer requests for frames on standard input. Cost starts itself so with --starts.",
+     .kind = DIP_OPTION_FLAG,
+     .field = offsetof(DipCostArguments, serve)},
+};
+
+static const DipOptionTable serve_table = {"Starts", serve_rows, DIP_ARRAY_COUNT(serve_rows)};
 static const DipOptionTable out_table = {"What to measure", out_rows, DIP_ARRAY_COUNT(out_rows)};
 static const DipOptionTable merge_table = {"Output", merge_rows, DIP_ARRAY_COUNT(merge_rows)};
 static const DipOptionTable choice_table = {"What to measure", choice_rows,
@@ -337,6 +329,9 @@ static const DipOptionPart cost_parts[] = {
     {&dip_cost_budget_option_table, offsetof(DipCostArguments, cost)},
     {&error_table, offsetof(DipCostArguments, cost)},
     {&time_table, offsetof(DipCostArguments, cost)},
+    {&dip_measure_option_table, offsetof(DipCostArguments, measure)},
+    {&dip_starts_option_table, offsetof(DipCostArguments, measure)},
+    {&serve_table, 0},
     {&picture_table, offsetof(DipCostArguments, cost)},
     {&cache_table, offsetof(DipCostArguments, cost)},
     {&truth_table, offsetof(DipCostArguments, cost)},
@@ -360,15 +355,16 @@ const DipOptionParts dip_cost_merge_option_parts = {merge_parts, DIP_ARRAY_COUNT
 // --- defaults and checks -------------------------------------------------------------------------
 
 void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
-    (void)argc;
-    (void)argv;
-    ((DipCostArguments *)arguments)->cost = (DipCostOptions){
+    DipCostArguments *all = arguments;
+    all->argc = argc;
+    all->argv = argv;
+    all->measure = (DipMeasureOptions){.rounds = 4, .starts = 4};
+    all->cost = (DipCostOptions){
         .baseline = dip_quality_default(),
         .places = 3,
         .burst = 2,
         .samples = 64,
         .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
-        .rounds = 16,
         .timed_frames = 4,
     };
 }
@@ -378,10 +374,28 @@ static bool check_out(const char *out, DipError *err) {
                                 "there is no folder for the report; give one with --out DIR");
 }
 
+void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure, int starts) {
+    cost->rounds = measure->rounds * starts;
+    cost->starts = starts;
+    cost->has_seed = measure->has_seed;
+    cost->seed = dip_measure_seed(measure);
+}
+
+bool dip_cost_check_rounds(const DipMeasureOptions *measure, int starts, DipError *err) {
+    const int rounds = measure->rounds * starts;
+    return (rounds >= 2 && rounds <= DIP_MEASURE_MOST_ROUNDS) ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--rounds",
+                         "there are %d rounds of all starts; accepted are 2 to %d", rounds,
+                         DIP_MEASURE_MOST_ROUNDS);
+}
+
 bool dip_cost_options_check(const void *arguments, DipError *err) {
     const DipCostArguments *all = arguments;
     const DipCostOptions *cost = &all->cost;
     if (!check_out(all->out, err)) {
+        return false;
+    }
+    if (!dip_cost_check_rounds(&all->measure, all->measure.starts, err)) {
         return false;
     }
     if (cost->end_place > cost->places) {

@@ -3,6 +3,7 @@
 #define DIP_APP_COST_OPTIONS_H
 
 #include "app/cli/command.h"
+#include "app/cli/measure_options.h"
 #include "app/report/report_plan.h"
 #include "app/session/session_options.h"
 
@@ -12,8 +13,12 @@
 typedef struct DipCostArguments {
     DipProgramOptions program;
     DipSessionOptions session;
-    const char *out; // Folder of the report.
-    DipCostOptions cost;
+    const char *out;     // Folder of the report.
+    DipCostOptions cost; // Without what `measure` has.
+    DipMeasureOptions measure;
+    bool serve; // This process is a start of another one.
+    int argc;   // The command line.
+    char *const *argv;
 } DipCostArguments;
 
 // The whole command line of `diptych cost merge`.
@@ -37,6 +42,12 @@ void dip_cost_default_budgets(DipCostOptions *options);
 
 // Reads the value of --samples into DipCostOptions.
 bool dip_cost_read_samples(void *fields, const DipOptionRow *row, const char *value, DipError *err);
+
+// Sets rounds, starts and seed.
+void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure, int starts);
+
+// Refuses fewer than two rounds of all starts, which have no interval, and too many.
+bool dip_cost_check_rounds(const DipMeasureOptions *measure, int starts, DipError *err);
 
 void dip_cost_options_default(void *arguments, int argc, char *const *argv);
 bool dip_cost_options_check(const void *arguments, DipError *err);

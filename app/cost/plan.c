@@ -363,15 +363,11 @@ void dip_cost_plan_hash(const DipCostReport *report, const DipSession *session, 
     dip_hash_text(&hash, report->scene_hash);
     dip_hash_text(&hash, report->processor);
     dip_hash_text(&hash, report->isa);
-    const int values[] = {report->threads,
-                          report->width,
-                          report->height,
-                          report->options.places,
-                          report->options.burst,
-                          report->options.samples,
-                          report->options.rounds,
-                          report->options.timed_frames,
-                          session->force_all_effects};
+    const int values[] = {
+        report->threads,           report->width,          report->height,
+        report->options.places,    report->options.burst,  report->options.samples,
+        report->options.rounds,    report->options.starts, report->options.timed_frames,
+        session->force_all_effects};
     dip_hash_bytes(&hash, values, sizeof values);
     for (int path = 0; path < report->path_count; path++) {
         const int frames = dip_cost_frame_count(report);

@@ -24,7 +24,7 @@ static bool count(Counting *c, const DipQuality *quality, double *counters, DipE
     for (int k = 0; k < DIP_COST_COUNTED_FRAMES; k++) {
         DipFrame frame;
         const int index = counted_frame(c->cost->report, k);
-        if (!dip_cost_draw_settings(c->cost, quality, index, &frame, err)) {
+        if (!dip_cost_draw_settings(c->cost, quality, 0, index, &frame, err)) {
             return false;
         }
         double *value = counters;

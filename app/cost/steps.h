@@ -14,7 +14,7 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err);
 // their errors against the truths.
 bool dip_cost_judge(DipCostContext *cost, DipError *err);
 
-// Times every row beside the baseline of its path (app/measure/timing/paired_timing.h), counts its
+// Times every row beside the baseline of its path (app/measure/timing/driver.h), counts its
 // work and computes the verdict on the machine.
 bool dip_cost_time_rows(DipCostContext *cost, DipError *err);
 

@@ -1,8 +1,9 @@
 // Timing every row beside the baseline of its path, and counting its work. Counters are the same
 // in every run of a frame, so each frame is counted once.
+#include "app/cli/drive.h"
+#include "app/cli/interrupt.h"
+#include "app/cost/starts.h"
 #include "app/cost/steps.h"
-#include "app/measure/timing/paired_timing.h"
-#include "app/cli/progress.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,13 +13,18 @@
 // baseline per round, at the same cost.
 enum { BLOCK_ROWS = 4 };
 
+// A start may take this share of the time of its rounds.
+static const double most_start = 0.1;
+
+// A measurement of some rows of the report.
 typedef struct RowTiming {
     DipCostContext *cost;
-    bool *counted;  // [row * frames + frame]: the frame's counters are in the row's sums.
-    DipFrame frame; // The frame of the latest run.
-    DipProgress progress;
-    int64_t drawn;
-    bool again; // Rounds with disturbed frames are being timed again.
+    const int *rows;    // [subject]
+    const int *base_of; // [subject]
+    int count;          // Subjects.
+    bool *counted;      // [subject * frames + frame]: the frame's counters are in the row's sums.
+    DipTimePair *pairs; // [subject * frames + frame]
+    DipChild *child;    // The start that draws; NULL: this process does.
 } RowTiming;
 
 static bool out_of_memory(DipError *err) {
@@ -29,13 +35,12 @@ static bool out_of_memory(DipError *err) {
 
 // Adds a frame's counters to the row's sums. The sums are whole numbers, so that they do not depend
 // on the order of the frames: an interrupted run has another order.
-static void count_work(RowTiming *t, int row, int frame) {
+static void count_work(const RowTiming *t, int subject, int frame, const DipCounters *counters) {
     DipCostReport *report = t->cost->report;
-    const int frames = dip_cost_frame_count(report);
-    bool *counted = &t->counted[(size_t)row * (size_t)frames + (size_t)frame];
-    double *value = report->rows[row].counters;
+    bool *counted = &t->counted[subject * dip_cost_frame_count(report) + frame];
+    double *value = report->rows[t->rows[subject]].counters;
     if (!*counted) {
-#define ADD_COUNTER(name, text) *value++ += (double)t->frame.counters.name;
+#define ADD_COUNTER(name, text) *value++ += (double)counters->name;
         DIP_COUNTER_LIST(ADD_COUNTER)
 #undef ADD_COUNTER
         *counted = true;
@@ -50,226 +55,173 @@ static void average_work(DipCostReport *report, int row) {
 }
 
 // Draws the frames of rounds that the journal had, since the journal has no counters.
-static bool count_known_rounds(RowTiming *t, DipError *err) {
-    const DipCostReport *report = t->cost->report;
-    const int frames = dip_cost_frame_count(report);
-    for (int row = 0; row < report->row_count; row++) {
-        for (int f = 0; f < frames; f++) {
-            if (t->counted[row * frames + f]) {
-                continue;
-            }
-            if (dip_cost_interrupted(t->cost, err) ||
-                !dip_cost_draw_timed(t->cost, row, f, &t->frame, err)) {
-                return false;
-            }
-            count_work(t, row, f);
+static bool count_known_rounds(const RowTiming *t, DipError *err) {
+    const int frames = dip_cost_frame_count(t->cost->report);
+    DipFrame drawn;
+    for (int i = 0; i < t->count * frames; i++) {
+        if (t->counted[i]) {
+            continue;
         }
+        if (dip_cost_interrupted(t->cost, err) ||
+            !dip_cost_draw_timed(t->cost, t->rows[i / frames], i % frames, &drawn, err)) {
+            return false;
+        }
+        count_work(t, i / frames, i % frames, &drawn.counters);
     }
     return true;
 }
 
-// --- runs and rounds ---------------------------------------------------------------------------
+// --- drawing -------------------------------------------------------------------------------------
 
-static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
+static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
+    const RowTiming *t = context;
+    const int row = t->rows[turn->subject];
+    DipFrame frame;
+    if (t->child) {
+        if (!dip_cost_start_draw(t->child, &t->cost->report->rows[row], turn->frame,
+                                 &frame.counters, timed, err)) {
+            return false;
+        }
+    } else {
+        if (!dip_cost_draw_timed(t->cost, row, turn->frame, &frame, err)) {
+            return false;
+        }
+        dip_cost_stage_parts(&frame, timed->parts_ms);
+    }
+    count_work(t, turn->subject, turn->frame, &frame.counters);
+    return true;
+}
+
+static bool start(void *context, int index, DipError *err) {
     RowTiming *t = context;
-    return dip_cost_draw_timed(t->cost, turn->subject, turn->frame, &t->frame, err);
+    (void)index;
+    dip_child_stop(&t->child, dip_interrupted());
+    t->child = dip_cost_start(t->cost, err);
+    return t->child != NULL;
 }
 
-static void write_stage_ms(const DipFrame *frame, double ms[DIP_TIME_PARTS]) {
-    _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIME_PARTS, "each stage is a part");
-#define WRITE_STAGE(name, text) *ms++ = frame->stages.name##_ms;
-    DIP_STAGE_LIST(WRITE_STAGE)
-#undef WRITE_STAGE
-}
-
-static void stage_ms(void *context, double ms[DIP_TIME_PARTS]) {
+static bool keep_round(void *context, const DipTimed *timed, int count, DipError *err) {
     const RowTiming *t = context;
-    write_stage_ms(&t->frame, ms);
+    return dip_cost_journal_add_round(t->cost->journal, t->cost->report->options.seed, timed, count,
+                                      err);
 }
 
-// The frames until times are steady are not known in advance, so the progress does not include
-// them. Of the rounds that have disturbed frames, these are timed again, with a progress of their
-// own.
-static void show_round(RowTiming *t, const DipTimingTurn *turn) {
-    const int rounds = t->cost->report->options.rounds;
-    if (turn->round < rounds) {
-        t->drawn += turn->phase != DIP_TIMING_SETTLE;
-        return;
+// Hands the rounds of the journal to the driver. It skips those that are not the next.
+static bool resume(const RowTiming *t, DipDriver *driver, DipError *err) {
+    const DipCostJournal *journal = t->cost->journal;
+    const int seed = t->cost->report->options.seed;
+    for (int i = 0; i < dip_cost_journal_round_count(journal); i++) {
+        int count;
+        DipTimed *timed = dip_cost_journal_round(journal, i, seed, &count);
+        if (!timed) {
+            return out_of_memory(err);
+        }
+        dip_driver_resume(driver, timed, count);
+        free(timed);
     }
-    if (!t->again) {
-        t->again = true;
-        dip_progress_end(&t->progress, t->drawn);
-        t->progress =
-            dip_progress_begin("rounds searched for disturbed frames to time again", rounds);
-    }
-    t->drawn = turn->round - rounds;
+    return true;
 }
 
-static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
-    (void)ms;
-    RowTiming *t = context;
-    count_work(t, turn->subject, turn->frame);
-    show_round(t, turn);
-    dip_progress_show(&t->progress, t->drawn);
-    return !dip_cost_interrupted(t->cost, err);
-}
-
-static int round_value_count(const DipCostReport *report) {
-    return report->row_count * report->options.timed_frames * DIP_TIME_PAIR_VALUES;
-}
-
-static const DipTimePair *known_round(void *context, int round) {
-    const RowTiming *t = context;
-    return (const DipTimePair *)dip_cost_journal_round(t->cost->journal, round,
-                                                       round_value_count(t->cost->report));
-}
-
-static bool keep_round(void *context, int round, const DipTimePair *pairs, bool known,
-                       DipError *err) {
-    const RowTiming *t = context;
-    return known || dip_cost_journal_add_round(t->cost->journal, round, (const double *)pairs,
-                                               round_value_count(t->cost->report), err);
-}
-
-// --- the whole ---------------------------------------------------------------------------------
-
-// Lists the baseline of every row's path.
-static int *list_bases(const DipCostReport *report) {
-    int *base_of = malloc((size_t)report->row_count * sizeof *base_of);
-    for (int r = 0; base_of && r < report->row_count; r++) {
-        base_of[r] = report->base_rows[report->rows[r].path];
-    }
-    return base_of;
-}
-
-static bool run_timing(DipCostContext *cost, RowTiming *t, const int *base_of, DipTimePair *pairs,
-                       DipError *err) {
-    DipCostReport *report = cost->report;
-    const DipPairedTimingDef def = {
-        .subject_count = report->row_count,
-        .base_of = base_of,
-        .block_subjects = BLOCK_ROWS,
-        .rounds = report->options.rounds,
-        .frames_per_round = report->options.timed_frames,
-        .seed = (uint64_t)report->options.seed,
-        .settle = true,
-    };
-    const DipPairedTimingCalls calls = {
-        .run = draw,
-        .after_run = after_draw,
-        .known_round = known_round,
-        .after_round = keep_round,
-        .part_ms = stage_ms,
+// Times the subjects in the report's starts. With `keep`, the journal and the report get
+// everything.
+static bool drive(RowTiming *t, DipDriverDef *def, bool keep, const char *progress, DipError *err) {
+    DipCostReport *report = t->cost->report;
+    const bool starts = report->options.starts > 1 && t->cost->argv;
+    const DipDriverCalls calls = {
+        .draw = draw,
+        .start = starts ? start : NULL,
+        .keep = keep ? keep_round : NULL,
         .context = t,
     };
-    int known = 0;
-    while (known < def.rounds && known_round(t, known)) {
-        known++;
+    def->starts = starts ? report->options.starts : 1;
+    def->rounds = report->options.rounds / def->starts;
+    def->most_start = keep ? most_start : 0.0;
+    DipDriver *driver = dip_driver_create(def, &calls, err);
+    bool done = driver && (!keep || resume(t, driver, err)) &&
+                dip_drive(driver, progress, "cost", DIP_COST_INTERRUPTED, err);
+    if (done) {
+        const DipTimes times = dip_driver_times(driver);
+        done = dip_times_pairs(&times, t->pairs, err) &&
+               dip_cost_log_add(report, &times, t->rows, err);
+        if (keep) {
+            report->machine = dip_driver_machine(driver, report->threads);
+            report->options.starts = times.starts;
+        }
     }
-    t->progress = dip_progress_begin("frames timed", dip_paired_timing_run_count(&def, known));
-    const bool timed =
-        dip_paired_timing_run(&def, &calls, report->threads, pairs, &report->machine, err);
-    dip_progress_end(&t->progress, t->drawn);
-    return timed && count_known_rounds(t, err);
+    dip_child_stop(&t->child, dip_interrupted());
+    dip_driver_destroy(&driver);
+    return done && count_known_rounds(t, err);
 }
+
+static bool open_timing(RowTiming *t, DipError *err) {
+    const size_t values = (size_t)t->count * (size_t)dip_cost_frame_count(t->cost->report);
+    t->counted = calloc(values, sizeof *t->counted);
+    t->pairs = calloc(values, sizeof *t->pairs);
+    return (t->counted && t->pairs) || out_of_memory(err);
+}
+
+static void close_timing(RowTiming *t) {
+    free(t->counted);
+    free(t->pairs);
+}
+
+// --- all rows ------------------------------------------------------------------------------------
 
 bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     DipCostReport *report = cost->report;
     const size_t frames = (size_t)dip_cost_frame_count(report);
-    const size_t values = (size_t)report->row_count * frames;
-    RowTiming t = {.cost = cost, .counted = calloc(values, sizeof *t.counted)};
-    int *base_of = list_bases(report);
-    DipTimePair *pairs = calloc(values, sizeof *pairs);
-    bool done = (t.counted && base_of && pairs) || out_of_memory(err);
-    done = done && run_timing(cost, &t, base_of, pairs, err);
+    int *rows = malloc(2 * (size_t)report->row_count * sizeof *rows);
+    RowTiming t = {.cost = cost, .rows = rows, .count = report->row_count};
+    for (int r = 0; rows && r < report->row_count; r++) {
+        rows[r] = r;
+        rows[report->row_count + r] = report->base_rows[report->rows[r].path];
+    }
+    if (!report->options.has_seed) {
+        dip_cost_journal_seed(cost->journal, &report->options.seed);
+    }
+    DipDriverDef def = dip_cost_driver_def(report, report->row_count, BLOCK_ROWS);
+    def.base_of = rows ? rows + report->row_count : NULL;
+    def.settle = true;
+    dip_cost_log_clear(report);
+    bool done = (rows || out_of_memory(err)) && open_timing(&t, err) &&
+                drive(&t, &def, true, "frames timed", err);
     for (int r = 0; done && r < report->row_count; r++) {
-        memcpy(report->rows[r].pairs, pairs + (size_t)r * frames, frames * sizeof *pairs);
+        memcpy(report->rows[r].pairs, t.pairs + (size_t)r * frames, frames * sizeof *t.pairs);
         average_work(report, r);
     }
     if (done) {
         report->rounds = report->options.rounds;
         done = dip_cost_estimate_times(report, err);
     }
-    free(t.counted);
-    free(base_of);
-    free(pairs);
+    close_timing(&t);
+    free(rows);
     return done;
 }
 
 // --- some rows of path 0 -------------------------------------------------------------------------
 
-// Subject 0 is the baseline; subject i is rows[i - 1].
-typedef struct SomeTiming {
-    RowTiming rows_timing; // Its counted rows and its frame.
-    const int *rows;
-    DipTimePair *pairs;
-    bool counts; // The runs count the rows' work.
-} SomeTiming;
-
-static int row_of(const SomeTiming *t, int subject) {
-    return subject == 0 ? t->rows_timing.cost->report->base_rows[0] : t->rows[subject - 1];
-}
-
-static bool draw_some(void *context, const DipTimingTurn *turn, DipError *err) {
-    SomeTiming *t = context;
-    return dip_cost_draw_timed(t->rows_timing.cost, row_of(t, turn->subject), turn->frame,
-                               &t->rows_timing.frame, err);
-}
-
-static bool after_draw_some(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
-    (void)ms;
-    SomeTiming *t = context;
-    if (t->counts && turn->subject > 0) {
-        count_work(&t->rows_timing, row_of(t, turn->subject), turn->frame);
+// Times the rows beside the baseline in as many rounds as dip_cost_time_rows. Subject 0 is the
+// baseline; subject i is rows[i - 1]. `counts`: the rows' work is not counted yet.
+static bool time_some(RowTiming *t, DipCostContext *cost, const int *rows, int count,
+                      int block_rows, uint64_t seed, bool counts, DipError *err) {
+    const DipCostReport *report = cost->report;
+    const size_t frames = (size_t)dip_cost_frame_count(report);
+    int *subjects = malloc(((size_t)count + 1) * sizeof *subjects);
+    int *base_of = calloc((size_t)count + 1, sizeof *base_of);
+    *t = (RowTiming){.cost = cost, .rows = subjects, .count = count + 1};
+    bool done = ((subjects && base_of) || out_of_memory(err)) && open_timing(t, err);
+    if (done) {
+        subjects[0] = report->base_rows[0];
+        memcpy(subjects + 1, rows, (size_t)count * sizeof *rows);
+        memset(t->counted, true, counts ? frames : (size_t)t->count * frames);
+        DipDriverDef def = dip_cost_driver_def(report, t->count, block_rows);
+        def.base_of = base_of;
+        def.seed = seed;
+        done = drive(t, &def, false, "frames timed for the advice", err);
     }
-    return !dip_cost_interrupted(t->rows_timing.cost, err);
-}
-
-static void some_stage_ms(void *context, double ms[DIP_TIME_PARTS]) {
-    const SomeTiming *t = context;
-    write_stage_ms(&t->rows_timing.frame, ms);
-}
-
-// Times the rows beside the baseline in as many rounds as dip_cost_time_rows. The pairs of row i
-// begin at pairs[(i + 1) * frames].
-static bool time_some(SomeTiming *t, int count, int block_rows, uint64_t seed, DipError *err) {
-    const DipCostReport *report = t->rows_timing.cost->report;
-    int *base_of = calloc((size_t)count + 1, sizeof *base_of); // The baseline is subject 0.
-    const DipPairedTimingDef def = {
-        .subject_count = count + 1,
-        .base_of = base_of,
-        .block_subjects = block_rows,
-        .rounds = report->options.rounds,
-        .frames_per_round = report->options.timed_frames,
-        .seed = seed,
-    };
-    const DipPairedTimingCalls calls = {
-        .run = draw_some,
-        .after_run = after_draw_some,
-        .part_ms = some_stage_ms,
-        .context = t,
-    };
-    DipPairedTimingResult result;
-    const bool done =
-        base_of ? dip_paired_timing_run(&def, &calls, report->threads, t->pairs, &result, err)
-                : out_of_memory(err);
+    free(subjects);
     free(base_of);
     return done;
-}
-
-static bool open_some(SomeTiming *t, DipCostContext *cost, const int *rows, int count, bool counts,
-                      DipError *err) {
-    const size_t frames = (size_t)dip_cost_frame_count(cost->report);
-    *t = (SomeTiming){.rows_timing = {.cost = cost}, .rows = rows, .counts = counts};
-    t->pairs = calloc(((size_t)count + 1) * frames, sizeof *t->pairs);
-    t->rows_timing.counted =
-        calloc((size_t)cost->report->row_count * frames, sizeof *t->rows_timing.counted);
-    return (t->pairs && t->rows_timing.counted) || out_of_memory(err);
-}
-
-static void close_some(SomeTiming *t) {
-    free(t->pairs);
-    free(t->rows_timing.counted);
 }
 
 // Joins a new pair to the one before. If both are good, their ratios' geometric mean is kept: the
@@ -291,33 +243,31 @@ bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int t
                          DipError *err) {
     DipCostReport *report = cost->report;
     const size_t frames = (size_t)dip_cost_frame_count(report);
-    SomeTiming t;
+    RowTiming t;
     const uint64_t seed = (uint64_t)report->options.seed + (uint64_t)times_before;
     // One row per block: two rows that are compared with a budget get a baseline each.
-    const bool done =
-        open_some(&t, cost, rows, count, false, err) && time_some(&t, count, 1, seed, err);
+    const bool done = time_some(&t, cost, rows, count, 1, seed, false, err);
     for (int i = 0; done && i < count; i++) {
         for (size_t f = 0; f < frames; f++) {
             join_pair(&report->rows[rows[i]].pairs[f], &t.pairs[(size_t)(i + 1) * frames + f],
                       times_before);
         }
     }
-    close_some(&t);
+    close_timing(&t);
     return done;
 }
 
 bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err) {
     DipCostReport *report = cost->report;
     const size_t frames = (size_t)dip_cost_frame_count(report);
-    SomeTiming t;
+    RowTiming t;
     const uint64_t seed = (uint64_t)report->options.seed + UINT64_C(0x10000) + (uint64_t)rows[0];
-    const bool done =
-        open_some(&t, cost, rows, count, true, err) && time_some(&t, count, BLOCK_ROWS, seed, err);
+    const bool done = time_some(&t, cost, rows, count, BLOCK_ROWS, seed, true, err);
     for (int i = 0; done && i < count; i++) {
         memcpy(report->rows[rows[i]].pairs, t.pairs + (size_t)(i + 1) * frames,
                frames * sizeof *t.pairs);
         average_work(report, rows[i]);
     }
-    close_some(&t);
+    close_timing(&t);
     return done;
 }

@@ -11,18 +11,24 @@ static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
 }
 
+// Returns a time without the error of the level that all rows share. What is not known stays so.
 static DipEstimate time_of_kind(const DipPathEstimate *time, DipTimeKind kind, int rounds) {
-    const double values[DIP_TIME_KIND_COUNT] = {
-        [DIP_TIME_P95] = time->p95_ms.value,
-        [DIP_TIME_MEAN] = time->mean_ms.value,
-        [DIP_TIME_WORST] = time->worst_ms.value,
+    const DipEstimate times[DIP_TIME_KIND_COUNT] = {
+        [DIP_TIME_P95] = time->p95_ms,
+        [DIP_TIME_MEAN] = time->mean_ms,
+        [DIP_TIME_WORST] = time->worst_ms,
     };
     const double errors[DIP_TIME_KIND_COUNT] = {
         [DIP_TIME_P95] = time->p95_error,
         [DIP_TIME_MEAN] = time->ratio_error,
         [DIP_TIME_WORST] = time->worst_error,
     };
-    return dip_estimate_make(values[kind], hypot(errors[kind], least_error), rounds - 1);
+    const DipEstimate *whole = &times[kind];
+    if (isnan(whole->log_error)) {
+        return dip_estimate_unknown(whole->value);
+    }
+    return dip_estimate_make(whole->value, hypot(errors[kind], least_error),
+                             whole->degrees >= 1.0 ? whole->degrees : rounds - 1);
 }
 
 DipCandidate dip_candidate_of_row(const DipCostReport *report, int row, DipTimeKind kind) {

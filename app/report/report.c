@@ -84,6 +84,8 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->predicted.list);
     dip_cost_choice_free(&report->choice);
     free(report->analysis);
+    dip_times_fit_free(&report->fit);
+    free(report->log);
     *report = (DipCostReport){0};
 }
 
@@ -116,39 +118,24 @@ const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
     return dip_cost_at_floor(report, row) ? "at floor" : "";
 }
 
-void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]) {
-    const DipCostLevelSpread *spread = &report->level_spread;
-    if (spread->factor > 0.0) {
-        char ratios[96] = "repeat far better";
-        if (spread->ratio_factor > 0.0) {
-            snprintf(ratios, sizeof ratios, "of steps lie within %.1f %% of those of another run",
-                     100.0 * (spread->ratio_factor - 1.0));
-        }
-        snprintf(text, DIP_COST_REASON,
-                 "Milliseconds are those of this run. In %d runs on this machine the baseline took "
-                 "%.2f to %.2f ms, so in another run all times may be %.0f %% longer or %.0f %% "
-                 "shorter; ratios %s.",
-                 spread->runs, spread->least_ms, spread->most_ms, 100.0 * (spread->factor - 1.0),
-                 100.0 * (1.0 - 1.0 / spread->factor), ratios);
-    } else {
-        snprintf(text, DIP_COST_REASON,
-                 "Milliseconds are those of this run. In another run all times may differ by a "
-                 "tenth; ratios repeat far better.");
+void dip_cost_interval_text(const DipEstimate *estimate, int digits, char text[DIP_COST_INTERVAL]) {
+    text[0] = '\0';
+    if (!isnan(estimate->low) && !isnan(estimate->high)) {
+        snprintf(text, DIP_COST_INTERVAL, "%.*f to %.*f", digits, estimate->low, digits,
+                 estimate->high);
     }
 }
 
-bool dip_cost_ratio_over_runs(const DipCostReport *report, const DipStatsEstimate *ratio,
-                              DipStatsEstimate *over_runs) {
-    const DipCostLevelSpread *spread = &report->level_spread;
-    if (!(spread->ratio_factor > 0.0) || !(ratio->low > 0.0)) {
-        return false;
+void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]) {
+    int length = snprintf(text, DIP_COST_REASON,
+                          "Milliseconds are those of this run. In another run all times may differ "
+                          "by a tenth; ratios repeat far better.");
+    if (report->doubt > 0.0 && length > 0 && length < DIP_COST_REASON) {
+        snprintf(
+            text + length, (size_t)(DIP_COST_REASON - length),
+            " All intervals of times were widened by what the machine's unrest showed, %.1f %%.",
+            100.0 * (exp(report->doubt) - 1.0));
     }
-    // The factor is for two runs: exp(t sqrt(2) deviation).
-    const double between = log(spread->ratio_factor) / sqrt(2.0);
-    const double half = hypot(log(ratio->high / ratio->low) / 2.0, between);
-    *over_runs = (DipStatsEstimate){
-        .value = ratio->value, .low = ratio->value * exp(-half), .high = ratio->value * exp(half)};
-    return true;
 }
 
 // --- errors ------------------------------------------------------------------------------------

@@ -1,15 +1,17 @@
 // A cost report: its measurements, and the values computed from them. Errors are measured against
 // truths (converged pictures, app/measure/metrics/truth.h), at a few viewpoints of each camera
 // path. Times are measured along each path, each beside a time of the path's baseline
-// (app/measure/timing/paired_timing.h).
+// (app/measure/timing/driver.h).
 #ifndef DIP_APP_REPORT_REPORT_H
 #define DIP_APP_REPORT_REPORT_H
 
 #include "app/report/report_plan.h"
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
-#include "app/measure/stats/paired.h"
-#include "app/measure/timing/paired_timing.h"
+#include "app/measure/stats/rounds.h"
+#include "app/measure/stats/statistics.h"
+#include "app/measure/timing/driver.h"
+#include "app/measure/timing/pairs.h"
 #include "app/report/choice.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
@@ -50,6 +52,21 @@ enum {
     DIP_COST_REASON = 512
 };
 
+// A row's times along its path. Intervals include the doubt of an amber verdict.
+typedef struct DipPathEstimate {
+    DipEstimate ratio;    // The row's time over its baseline's, for all frames.
+    DipEstimate mean_ms;  // Mean over the frames.
+    DipEstimate p95_ms;   // 95th percentile over the frames.
+    DipEstimate worst_ms; // The slowest frame.
+    // Standard errors of the logarithms of ratio, p95 and worst, without that of the baseline's
+    // level, which all rows of a path share.
+    double ratio_error;
+    double p95_error;
+    double worst_error;
+    double level_error;
+    int used; // Number of frames that were not disturbed.
+} DipPathEstimate;
+
 // One measured combination: quality settings on a camera path.
 typedef struct DipCostRow {
     DipQuality quality;
@@ -76,7 +93,7 @@ typedef struct DipCostSweep {
     int path;
     int base; // Row of the step that the baseline has, with which the other steps are compared.
     int rows[DIP_COST_MAX_SWEEP_ROWS];
-    DipStatsEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Times of the rows over that of the base.
+    DipEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Times of the rows over that of the base.
     int row_count;
 } DipCostSweep;
 
@@ -97,7 +114,7 @@ typedef struct DipCostChoice {
 typedef struct DipCostElsewhere {
     DipQuality quality;
     double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
-    DipStatsEstimate ms;                     // Mean time of a frame.
+    DipEstimate ms;                          // Mean time of a frame.
     double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of ms.value; they add up to it.
 } DipCostElsewhere;
 
@@ -141,18 +158,6 @@ typedef enum DipCostVerdict {
 
 extern const char *const dip_cost_verdict_names[]; // "green", "amber", "red"
 
-// How far the baseline's times, and the ratios of steps, lie apart in several runs on one machine
-// (levels.h).
-typedef struct DipCostLevelSpread {
-    int runs;               // Number of runs, with this one; 0 if they are not known.
-    double least_ms;        // Of the baseline, in the fastest run.
-    double most_ms;         // In the slowest run.
-    double deviation;       // Standard deviation of the logarithm.
-    double factor;          // 95 % of the ratios of two runs are at most this; 0 for too few runs.
-    double ratio_deviation; // The same for the ratio of a step's time to that of its sweep's base,
-    double ratio_factor;    // over all steps; 0 for too few runs.
-} DipCostLevelSpread;
-
 typedef struct DipCostReport {
     char scene[DIP_COST_TEXT];
     char scene_hash[33];
@@ -183,9 +188,13 @@ typedef struct DipCostReport {
     int sweep_count;
     char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps that were left out, with reasons.
     int refused_count;
-    int rounds;                    // Number of rounds timed; 0 if the report has no times.
-    DipPairedTimingResult machine; // What the timing tells about the machine.
-    DipCostLevelSpread level_spread;
+    int rounds;               // Number of rounds timed; 0 if the report has no times.
+    DipDriverMachine machine; // What the timing tells about the machine.
+    DipTimed *log; // Every timed frame; a frame's subject is its row. Owned; NULL: see the pairs.
+    int log_count;
+    int starts;       // Process starts of the log, each with rounds / starts rounds; 0 or more.
+    DipTimesFit *fit; // Computed from the log, or from the pairs. Owned; NULL without times.
+    double doubt;     // Error of the logarithm of all times that an amber verdict adds.
     DipCostVerdict verdict; // Valid if the report has times.
     char verdict_reason[DIP_COST_REASON];
     // Noise floors of the truths, [path * options.places + viewpoint]. Both arrays are owned.
@@ -213,7 +222,7 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
                             DipError *err);
 void dip_cost_report_free(DipCostReport *report);
 
-// Writes a sentence that says which runs the report's milliseconds hold for.
+// Writes a sentence that says what the report's milliseconds and ratios hold for.
 void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]);
 
 void dip_cost_row_free(DipCostRow *row);
@@ -224,6 +233,10 @@ void dip_cost_row_free(DipCostRow *row);
 static inline void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]) {
     dip_quality_format_changes(quality, text, DIP_COST_TEXT);
 }
+
+// Writes an interval, "1.23 to 1.45" with two digits, or "" if it is not known.
+enum { DIP_COST_INTERVAL = 64 };
+void dip_cost_interval_text(const DipEstimate *estimate, int digits, char text[DIP_COST_INTERVAL]);
 
 // Returns the plural ending of a noun after a number: "" or "s".
 static inline const char *dip_cost_plural(int count) {
@@ -255,11 +268,11 @@ DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region
 // Returns the mean of a row's FLIP over the judged viewpoints, with the 95 % interval of the mean
 // of all viewpoints that the path could have been cut into: Student's t of the viewpoints' own
 // means. With a single viewpoint there is no interval, and low and high are NAN.
-DipStatsEstimate dip_cost_flip(const DipCostReport *report, int row);
+DipEstimate dip_cost_flip(const DipCostReport *report, int row);
 
 // The same of the difference of two rows of one path, which is far narrower: viewpoints differ more
 // than settings do. Only viewpoints that both rows have count.
-DipStatsEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base);
+DipEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base);
 
 // The distribution of a row's FLIP over pixels.
 typedef struct DipCostTail {
@@ -293,17 +306,17 @@ bool dip_cost_at_floor(const DipCostReport *report, int row);
 
 // --- times -------------------------------------------------------------------------------------
 
-// The interval of a step's ratio that holds its usual value over many runs on this machine: the
-// ratio's own interval, which knows this run alone, and the spread between runs (level_spread), as
-// the root of the sum of squares. Returns false if too few runs are known.
-bool dip_cost_ratio_over_runs(const DipCostReport *report, const DipStatsEstimate *ratio,
-                              DipStatsEstimate *over_runs);
-
 // Number of frames that are timed along a path.
 int dip_cost_frame_count(const DipCostReport *report);
 
-// Computes the time of every row from its pairs, the ratios of all sweeps, the verdict and the
-// choice. Call it once all pairs are there. Fails with DIP_ERROR_MEMORY.
+// Adds timed frames to the report's log. rows[subject] is the row of a subject. Their rounds and
+// starts are those of the log. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_log_add(DipCostReport *report, const DipTimes *times, const int *rows, DipError *err);
+void dip_cost_log_clear(DipCostReport *report);
+
+// Computes the time of every row from the log, or without one from its pairs, the ratios of all
+// sweeps, the verdict and the choice. Call it once all pairs are there. Fails with
+// DIP_ERROR_MEMORY.
 bool dip_cost_estimate_times(DipCostReport *report, DipError *err);
 
 bool dip_cost_is_timed(const DipCostReport *report, int row);
@@ -313,19 +326,15 @@ double dip_cost_ms(const DipCostReport *report, int row);
 
 // Computes the times of some rows of one path at every timed frame, in milliseconds:
 // ms[i * dip_cost_frame_count + frame] for rows[i]. The means over the frames are dip_cost_ms.
-// Fails with DIP_ERROR_MEMORY.
-bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms,
-                          DipError *err);
+void dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms);
 
-// Computes the times of a combination that was timed elsewhere from `pairs`, the times of
-// dip_cost_frame_count frames beside the baseline of path 0. The report's times must be estimated.
-// Fails with DIP_ERROR_MEMORY, or with DIP_ERROR_RUNTIME if too many frames were disturbed.
-bool dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimePair *pairs,
-                                 DipCostElsewhere *row, DipError *err);
+// Computes the times of a combination that was timed elsewhere from its ratio to the baseline of
+// path 0, and their stages from its pairs. The report's times must be estimated.
+void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipEstimate *ratio,
+                                 const DipTimePair *pairs, DipCostElsewhere *row);
 
-// Computes the ratio of the times of two rows of one path. Fails with DIP_ERROR_MEMORY.
-bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEstimate *ratio,
-                    DipError *err);
+// Returns the ratio of the times of two rows of one path. A row's ratio to itself has no interval.
+DipEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 
 // --- choosing ----------------------------------------------------------------------------------
 

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 const char *const dip_cost_verdict_names[] = {"green", "amber", "red"};
 
@@ -65,39 +64,13 @@ DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_CO
     return verdict;
 }
 
-// Computes the spread of a path's A/A ratio over the rounds. Returns NAN when memory runs out.
-static double spread_of(const DipCostReport *report, int path) {
-    const int rounds = report->options.rounds;
-    const int frames = report->options.timed_frames;
-    const DipTimePair *pairs = report->rows[report->same_rows[path]].pairs;
-    double *ms = malloc(2 * (size_t)rounds * (size_t)frames * sizeof *ms);
-    if (!ms) {
-        return NAN;
-    }
-    double *base_ms = ms + rounds * frames;
-    for (int r = 0; r < rounds; r++) {
-        for (int f = 0; f < frames; f++) {
-            const DipTimePair *pair = &pairs[r + f * rounds];
-            ms[r * frames + f] = dip_time_pair_is_disturbed(pair) ? NAN : pair->ms;
-            base_ms[r * frames + f] = pair->base_ms;
-        }
-    }
-    const double spread =
-        dip_paired_spread(&(DipPairedTimes){ms, base_ms, .rounds = rounds, .frames = frames});
-    free(ms);
-    return spread < 0.0 ? INFINITY : spread; // Every round was disturbed.
-}
-
-bool dip_cost_judge_machine(DipCostReport *report, DipError *err) {
+void dip_cost_judge_machine(DipCostReport *report) {
     DipCostSigns signs = {.wait = report->machine.wait, .settled = report->machine.settled};
     for (int p = 0; p < report->path_count; p++) {
-        const double spread = spread_of(report, p);
-        if (isnan(spread)) {
-            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-        }
-        signs.spread = fmax(signs.spread, spread);
-        const double ratio = report->rows[report->same_rows[p]].time.ratio.value;
-        signs.offset = fmax(signs.offset, fabs(log(ratio)));
+        const int same = report->same_rows[p];
+        const double offset = fabs(log(dip_times_ratio(report->fit, same).value));
+        signs.spread = fmax(signs.spread, dip_times_spread(report->fit, same));
+        signs.offset = fmax(signs.offset, offset);
     }
     int64_t disturbed = 0;
     for (int r = 0; r < report->row_count; r++) {
@@ -108,5 +81,8 @@ bool dip_cost_judge_machine(DipCostReport *report, DipError *err) {
     signs.disturbed =
         (double)disturbed / ((double)report->row_count * (double)dip_cost_frame_count(report));
     report->verdict = dip_cost_verdict_of(&signs, report->verdict_reason);
-    return true;
+    // What was drawn twice should cost the same. How far it differs, and how far from round to
+    // round, is what the machine adds to every comparison.
+    const double of_rounds = signs.spread / sqrt(report->options.rounds);
+    report->doubt = report->verdict == DIP_COST_AMBER ? fmax(signs.offset, of_rounds) : 0.0;
 }

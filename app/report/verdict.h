@@ -35,8 +35,9 @@ extern const DipCostLimits dip_cost_offset_limits;
 // Returns the verdict, and writes the reason as a sentence.
 DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_COST_REASON]);
 
-// Fills in the verdict of a report whose times are estimated. Fails with DIP_ERROR_MEMORY.
-bool dip_cost_judge_machine(DipCostReport *report, DipError *err);
+// Fills in the verdict of a report whose report->fit is made, and report->doubt: if the verdict
+// is amber, how far the baseline, timed twice, differs from itself, or from round to round.
+void dip_cost_judge_machine(DipCostReport *report);
 
 #ifdef __cplusplus
 }

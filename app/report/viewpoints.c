@@ -98,33 +98,43 @@ static Spread spread_of(const Values *v) {
 
 // --- estimates -----------------------------------------------------------------------------------
 
-DipStatsEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric) {
+// An interval without width tells nothing: the viewpoints agree to the last bit.
+static DipEstimate between(double value, double low, double high) {
+    DipEstimate estimate = dip_estimate_unknown(value);
+    if (low < high) {
+        estimate.low = low;
+        estimate.high = high;
+    }
+    return estimate;
+}
+
+DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric) {
     const Spread s = spread_of(&(Values){report, row, -1, metric});
     const double value = metric_of(s.mean, metric);
     if (isnan(s.half)) {
-        return (DipStatsEstimate){value, NAN, NAN};
+        return dip_estimate_unknown(value);
     }
     if (is_of_squares(metric)) {
         const double factor = s.mean > 0.0 ? exp(s.half / s.mean) : 1.0;
         const double less = metric_of(s.mean / factor, metric);
         const double more = metric_of(s.mean * factor, metric);
-        return (DipStatsEstimate){value, fmin(less, more), fmax(less, more)};
+        return between(value, fmin(less, more), fmax(less, more));
     }
     const double most = metric == DIP_COST_SSIM ? 1.0 : INFINITY;
-    return (DipStatsEstimate){value, s.mean - s.half, fmin(s.mean + s.half, most)};
+    return between(value, s.mean - s.half, fmin(s.mean + s.half, most));
 }
 
-DipStatsEstimate dip_cost_metric_change(const DipCostReport *report, int row, int base,
-                                        DipCostMetric metric) {
+DipEstimate dip_cost_metric_change(const DipCostReport *report, int row, int base,
+                                   DipCostMetric metric) {
     const Spread s = spread_of(&(Values){report, row, base, metric});
-    return (DipStatsEstimate){s.mean, s.mean - s.half, s.mean + s.half};
+    return between(s.mean, s.mean - s.half, s.mean + s.half);
 }
 
-DipStatsEstimate dip_cost_flip(const DipCostReport *report, int row) {
+DipEstimate dip_cost_flip(const DipCostReport *report, int row) {
     return dip_cost_metric(report, row, DIP_COST_FLIP);
 }
 
-DipStatsEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base) {
+DipEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base) {
     return dip_cost_metric_change(report, row, base, DIP_COST_FLIP);
 }
 

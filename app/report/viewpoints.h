@@ -23,12 +23,12 @@ extern const char *const dip_cost_metric_names[DIP_COST_METRIC_COUNT];
 // other metrics come from a mean of squares, which is positive and skewed: Student's t of its
 // logarithm, whose standard error is that of the mean over the mean. With a single viewpoint there
 // is no interval, and low and high are NAN.
-DipStatsEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric);
+DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric);
 
 // Returns the mean of a row's metric at the viewpoints minus that of another row of the same path,
 // with Student's interval. Only viewpoints that both rows have count.
-DipStatsEstimate dip_cost_metric_change(const DipCostReport *report, int row, int base,
-                                        DipCostMetric metric);
+DipEstimate dip_cost_metric_change(const DipCostReport *report, int row, int base,
+                                   DipCostMetric metric);
 
 // Returns estimates of the metrics that a path's truths themselves have, from their halves, whose
 // noise is independent. The mean of the halves has a quarter of the mean square that lies between

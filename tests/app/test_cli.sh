@@ -338,9 +338,9 @@ fi
 check "the page contains its pictures" grep -q 'data:image/png;base64' whole/cost.html
 # The other checks use a scene that loads quickly.
 cost="$cost --model $source/tests/assets/data/square.gltf"
-expect 0 '' $cost --out part0 --part 0:1 --rounds 2 --combine aa --pictures full
+expect 0 '' $cost --out part0 --part 0:1 --starts 1 --rounds 2 --combine aa --pictures full
 check "the page has whole frames" grep -q 'data-part="frame"[^>]*data:image/jpeg;base64' part0/cost.html
-expect 0 '' $cost --out part1 --part 1:2 --errors-only --rounds 2 --combine aa \
+expect 0 '' $cost --out part1 --part 1:2 --errors-only --starts 1 --rounds 2 --combine aa \
     --pictures none --save-truths pfm
 check "the page has no pictures" test "$(grep -c '<img' part1/cost.html)" = 0
 check "the truths of the part's viewpoints are saved" \
@@ -350,7 +350,7 @@ expect 0 '' "$diptych" cost merge --out merged $square part1/cost.json part0
 sums_of() {
     grep -oE '"(sums|half_against_half)":\[[^]]*\]' "$1/cost.json" | sort
 }
-expect 0 '' $cost --out once --rounds 2 --combine aa
+expect 0 '' $cost --out once --starts 1 --rounds 2 --combine aa
 sums_of once >once.txt
 sums_of merged >merged.txt
 figures_of() {
@@ -430,11 +430,11 @@ esac
 
 # --- cost, interrupted while it runs
 for wait in 0.4 0.8 1.2; do
-    timeout -s KILL $wait $cost --out killed --rounds 8 >out.txt 2>err.txt
+    timeout -s KILL $wait $cost --out killed --starts 1 --rounds 8 >out.txt 2>err.txt
     check "there is no incomplete report after $wait s" test ! -e killed/cost.json -o -s killed/cost.html
 done
 # The program catches signals from its start, before it writes its first line.
-$cost --out stopped --rounds 5000 >out.txt 2>err.txt &
+$cost --out stopped --rounds 2500 >out.txt 2>err.txt &
 for tenth in $(seq 600); do
     [ -s stopped/cost.state ] && break
     sleep 0.1
@@ -443,9 +443,9 @@ kill -INT $!
 wait $!
 check "after Ctrl-C, cost says that the same command continues the report" grep -q 'interrupted; run the same command again' err.txt
 check "the measurements are kept" test -s stopped/cost.state
-expect 0 '' $cost --out stopped --rounds 4
+expect 0 '' $cost --out stopped --rounds 1
 check "the same command finishes the report" test -s stopped/cost.html -a ! -e stopped/cost.state
-expect 0 '' $cost --out killed --rounds 8
+expect 0 '' $cost --out killed --starts 1 --rounds 8
 check "the killed run is finished, too" test -s killed/cost.html -a ! -e killed/cost.state
 
 echo "$checks checks, $failures failed"

@@ -30,6 +30,10 @@ find renderer config campaths assets app -name '*.[ch]' | sort |
         }
     }
     FNR == 1 { from = library_of(FILENAME) }
+    /^#include "tests\// {
+        printf "%s:%d: the product may not include what stands under tests/\n", FILENAME, FNR
+        crossed = 1
+    }
     /^#include "/ {
         split($0, part, "\"")
         to = library_of(part[2])

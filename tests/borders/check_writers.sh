@@ -22,4 +22,9 @@ if grep -nE 'dip_put_markup\(out, [^")]*\)' $sources | grep -vE '(\(const char \
     echo "these lines write a text as markup"
     failed=1
 fi
+# A value is passed as a value, not read back from its text.
+if grep -rn 'sscanf *(' app/preview app/report app/ui; then
+    echo "these lines read a text that the program itself wrote, or should use a reader"
+    failed=1
+fi
 exit $failed

@@ -32,7 +32,7 @@ typedef struct DipCostAxisRow {
     double memory_bytes;
     double frame_mj; // Energy per frame in millijoules; NAN if the machine does not tell.
     // Axis threads: how many times as fast as the row with the fewest threads.
-    DipStatsEstimate speed_up;
+    DipEstimate speed_up;
     double efficiency; // The speed-up over the ratio of the numbers of threads.
 } DipCostAxisRow;
 
@@ -64,8 +64,8 @@ bool dip_cost_axes_has_base_picture(const DipCostAxes *axes, int row);
 bool dip_cost_axes_check_picture(const DipCostAxes *axes, int row, int frame, const char *hash,
                                  const char *base_hash, DipError *err);
 
-// Computes the speed-ups once the report's times are estimated. Fails with MEMORY.
-bool dip_cost_axes_compare_threads(DipCostAxes *axes, DipError *err);
+// Computes the speed-ups once the report's times are estimated.
+void dip_cost_axes_compare_threads(DipCostAxes *axes);
 
 // Writing. Each file is written whole or not at all.
 extern const DipRecord dip_cost_axes_record; // DipCostAxes

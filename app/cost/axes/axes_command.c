@@ -48,9 +48,6 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     }
     dip_interrupt_watch();
     bool done = dip_cost_axes_plan(axes, session, arguments, err);
-    if (done && !axes->report.options.has_seed) {
-        axes->report.options.seed = (int)(time(NULL) % 1000000);
-    }
     done = done && measure(axes, session, arguments, err);
     if (done) {
         set_date(&axes->report);

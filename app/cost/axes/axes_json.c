@@ -40,12 +40,12 @@ static bool is_compared(const DipFieldAt *at) {
         return scratch;                                                                            \
     }
 #define AXIS_METRIC(METRIC)                                                                        \
-    DERIVE(derive_##METRIC, DipStatsEstimate,                                                      \
+    DERIVE(derive_##METRIC, DipEstimate,                                                           \
            dip_cost_metric(&axes_of(at)->report, at->index, DIP_COST_##METRIC))                    \
-    DERIVE(derive_change_##METRIC, DipStatsEstimate,                                               \
+    DERIVE(derive_change_##METRIC, DipEstimate,                                                    \
            dip_cost_metric_change(&axes_of(at)->report, at->index, 0, DIP_COST_##METRIC))
-DERIVE(derive_ms, DipStatsEstimate, row_of(at)->time.mean_ms)
-DERIVE(derive_ratio, DipStatsEstimate, row_of(at)->time.ratio)
+DERIVE(derive_ms, DipEstimate, row_of(at)->time.mean_ms)
+DERIVE(derive_ratio, DipEstimate, row_of(at)->time.ratio)
 DERIVE(derive_draw, double, row_of(at)->stage_ms[0])
 DERIVE(derive_enlarge, double, row_of(at)->stage_ms[1])
 DERIVE(derive_textures, double, (double)axes_of(at)->scene_texture_bytes)
@@ -56,10 +56,8 @@ DERIVE(derive_pixel, double,
             axes_of(at)->rows[at->index].shown_height))
 AXIS_METRIC(RMSE)
 AXIS_METRIC(FLIP)
-DERIVE(derive_PSNR, DipStatsEstimate,
-       dip_cost_metric(&axes_of(at)->report, at->index, DIP_COST_PSNR))
-DERIVE(derive_SSIM, DipStatsEstimate,
-       dip_cost_metric(&axes_of(at)->report, at->index, DIP_COST_SSIM))
+DERIVE(derive_PSNR, DipEstimate, dip_cost_metric(&axes_of(at)->report, at->index, DIP_COST_PSNR))
+DERIVE(derive_SSIM, DipEstimate, dip_cost_metric(&axes_of(at)->report, at->index, DIP_COST_SSIM))
 
 static const void *derive_counters(const DipFieldAt *at, DipFieldScratch *scratch) {
     (void)scratch;

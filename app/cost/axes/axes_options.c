@@ -187,14 +187,6 @@ static const DipOptionRow cost_rows[] = {
      .text = "The settings of all rows. By default, every setting has its default.",
      .kind = DIP_OPTION_SETTINGS,
      .field = COST(baseline)},
-    {.name = "--rounds",
-     .argument = "N",
-     .text = "Measure times in this many rounds. Each round times other frames of the path. The "
-             "default is 8.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = COST(rounds),
-     .least = 2,
-     .most = 10000},
     {.name = "--timed",
      .argument = "N",
      .text = "Time this many frames in each round, spread evenly over the path. The default is 4.",
@@ -232,14 +224,6 @@ static const DipOptionRow cost_rows[] = {
              "wrong. The table and the files are written all the same.",
      .kind = DIP_OPTION_FLAG,
      .field = COST(require_quiet)},
-    {.name = "--seed",
-     .argument = "N",
-     .text = "Seed of the random order of measurements in each round. The default comes from the "
-             "clock.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = COST(seed),
-     .given = COST(has_seed),
-     .most = INT32_MAX},
 };
 
 static const DipOptionTable value_table = {"Rows and output", value_rows,
@@ -249,6 +233,7 @@ static const DipOptionTable cost_table = {"Measuring", cost_rows, DIP_ARRAY_COUN
 static const DipOptionPart parts[] = {
     {&value_table, offsetof(DipCostAxesArguments, values)},
     {&cost_table, offsetof(DipCostAxesArguments, cost)},
+    {&dip_measure_option_table, offsetof(DipCostAxesArguments, measure)},
     {&dip_scene_option_table, offsetof(DipCostAxesArguments, session)},
     {&dip_path_option_table, offsetof(DipCostAxesArguments, session)},
     {&dip_category_option_table, offsetof(DipCostAxesArguments, session)},
@@ -266,13 +251,13 @@ void dip_cost_axes_options_default(void *arguments, int argc, char *const *argv)
     DipCostAxesArguments *all = arguments;
     all->values.axes = (1u << DIP_COST_AXIS_COUNT) - 1;
     all->values.powercap = DIP_ENERGY_FOLDER;
+    all->measure.rounds = 8;
     all->cost = (DipCostOptions){
         .baseline = dip_quality_default(),
         .places = 3,
         .burst = 1,
         .samples = 64,
         .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
-        .rounds = 8,
         .timed_frames = 4,
     };
 }
@@ -289,7 +274,8 @@ static bool check_list(const DipCostAxisValues *values, DipCostAxis axis, const 
 bool dip_cost_axes_options_check(const void *arguments, DipError *err) {
     const DipCostAxesArguments *all = arguments;
     const DipCostAxisValues *v = &all->values;
-    return check_list(v, DIP_COST_AXIS_SIZE, "--sizes", v->size_count, err) &&
+    return dip_cost_check_rounds(&all->measure, 1, err) &&
+           check_list(v, DIP_COST_AXIS_SIZE, "--sizes", v->size_count, err) &&
            check_list(v, DIP_COST_AXIS_SCALE, "--scales", v->scale_count, err) &&
            check_list(v, DIP_COST_AXIS_THREADS, "--thread-counts", v->threads_count, err) &&
            check_list(v, DIP_COST_AXIS_ISA, "--isas", v->isa_count, err) &&

@@ -2,6 +2,7 @@
 #ifndef DIP_APP_COST_AXES_AXES_OPTIONS_H
 #define DIP_APP_COST_AXES_AXES_OPTIONS_H
 
+#include "app/cli/measure_options.h"
 #include "app/cost/options.h"
 
 enum { DIP_COST_AXIS_MAX_VALUES = 16 };
@@ -42,11 +43,12 @@ typedef struct DipCostAxisValues {
 } DipCostAxisValues;
 
 // The whole command line. Of `cost`, these fields are used: baseline (--settings), places, samples,
-// pixels_per_degree, rounds, timed_frames, has_seed, seed, require_quiet and cache.
+// pixels_per_degree, timed_frames, require_quiet and cache.
 typedef struct DipCostAxesArguments {
     DipProgramOptions program;
     DipSessionOptions session;
     DipCostAxisValues values;
+    DipMeasureOptions measure;
     DipCostOptions cost;
 } DipCostAxesArguments;
 

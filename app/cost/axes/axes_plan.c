@@ -158,6 +158,7 @@ bool dip_cost_axes_plan(DipCostAxes *axes, const DipSession *session,
                         const DipCostAxesArguments *arguments, DipError *err) {
     *axes = (DipCostAxes){.report = {.options = arguments->cost}};
     DipCostReport *report = &axes->report;
+    dip_cost_set_measure(&report->options, &arguments->measure, 1);
     report->rows = calloc(DIP_COST_AXES_MAX_ROWS, sizeof *report->rows);
     if (!report->rows) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost axes", "out of memory");
@@ -202,7 +203,7 @@ bool dip_cost_axes_check_picture(const DipCostAxes *axes, int row, int frame, co
                          frame, dip_cost_axis_titles[r->axis], r->name, hash, base_hash);
 }
 
-bool dip_cost_axes_compare_threads(DipCostAxes *axes, DipError *err) {
+void dip_cost_axes_compare_threads(DipCostAxes *axes) {
     int fewest = -1;
     for (int r = 0; r < axes->report.row_count; r++) {
         if (axes->rows[r].axis == DIP_COST_AXIS_THREADS &&
@@ -215,10 +216,7 @@ bool dip_cost_axes_compare_threads(DipCostAxes *axes, DipError *err) {
         if (row->axis != DIP_COST_AXIS_THREADS) {
             continue;
         }
-        if (!dip_cost_ratio(&axes->report, fewest, r, &row->speed_up, err)) {
-            return false;
-        }
+        row->speed_up = dip_cost_ratio(&axes->report, fewest, r);
         row->efficiency = row->speed_up.value * axes->rows[fewest].threads / row->threads;
     }
-    return true;
 }

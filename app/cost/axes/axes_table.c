@@ -98,7 +98,7 @@ static void print_known(double value, int digits, FILE *out) {
     }
 }
 
-static void print_estimate(const DipStatsEstimate *estimate, int digits, FILE *out) {
+static void print_estimate(const DipEstimate *estimate, int digits, FILE *out) {
     char interval[48];
     snprintf(interval, sizeof interval, "%.*f to %.*f", digits, estimate->low, digits,
              estimate->high);

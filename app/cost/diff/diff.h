@@ -58,12 +58,12 @@ typedef struct DipCostDiffRow {
     bool timed;                                     // Both sides have a time.
     bool is_base;                                   // The baseline of a report's path.
     double ms[2];                                   // Mean time of a frame.
-    DipStatsEstimate ratios[2];                     // Reports only: the time over the baseline's.
-    DipStatsEstimate change; // How many times as long B takes, with its 95 % interval.
-    double surely_above;     // The change is surely greater than this; see dip_cost_diff_mark.
+    DipEstimate ratios[2];                          // Reports only: the time over the baseline's.
+    DipEstimate change;  // How many times as long B takes, with its 95 % interval.
+    double surely_above; // The change is surely greater than this; see dip_cost_diff_mark.
     double surely_below;
     // Programs only: 1 + (B's time in a stage - A's time in it) / A's time of the frame.
-    DipStatsEstimate stages[DIP_COST_DIFF_STAGES];
+    DipEstimate stages[DIP_COST_DIFF_STAGES];
     DipCostDiffMark mark;
 } DipCostDiffRow;
 

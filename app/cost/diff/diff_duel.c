@@ -1,14 +1,12 @@
 // Running the programs, start by start, and estimating from their times.
 #include "app/cost/diff/diff_duel.h"
 
-#include "app/bench/child.h"
 #include "app/cli/interrupt.h"
-#include "app/measure/timing/thread_use.h"
-#include "app/measure/timing/timing.h"
-#include "app/cli/progress.h"
+#include "app/measure/timing/child.h"
+#include "app/cli/drive.h"
 
 #include <math.h>
-#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,140 +40,120 @@ static const bool *disturbed_of(const DipCostDuel *duel, int pair) {
     return duel->disturbed + (size_t)pair * (size_t)time_count(duel);
 }
 
-// --- one start -----------------------------------------------------------------------------------
+// --- drawing -------------------------------------------------------------------------------------
 
-typedef struct Start {
+// Subject i is side i % 2 of pair i / 2; side 0 is the base.
+typedef struct Programs {
     DipCostDuel *duel;
-    DipBenchChild *children[2];
-    DipThreadWatch *watches[2];
-    int start;
-    DipBenchSample sample; // Of the latest run.
-    int64_t waited_ns;     // Waiting time of the latest run's threads.
-    double *sums;          // Of all timed runs: {waiting time, time * threads}, in milliseconds.
-    DipProgress *progress;
-    int64_t *drawn;
-} Start;
+    DipChild *children[2];
+} Programs;
 
-static bool interrupted(DipError *err) {
-    return !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost diff", "interrupted");
-}
-
-static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
-    Start *s = context;
-    const DipCostDuelDef *def = s->duel->def;
-    const int program = def->program_of[turn->subject][turn->version];
-    const bool hash = turn->phase == DIP_TIMING_WARM_UP && s->start == 0;
-    const int64_t before_ns = dip_thread_watch_read(s->watches[program]).wait_ns;
-    const bool drawn = !dip_interrupted() &&
-                       dip_bench_child_draw(s->children[program],
-                                            def->combination_of[turn->subject][turn->version],
-                                            turn->frame, hash, &s->sample, err);
-    s->waited_ns = dip_thread_watch_read(s->watches[program]).wait_ns - before_ns;
-    // Ctrl-C ends the children, too, so a failed draw is then no fault of theirs.
-    return dip_interrupted() ? !interrupted(err) : drawn;
-}
-
-static void keep_time(Start *s, const DipTimingTurn *turn) {
-    DipCostDuel *duel = s->duel;
-    const int at = (s->start * duel->def->rounds + turn->round) * frame_count(duel) + turn->frame;
-    const double total_ms = s->sample.ms[DIP_BENCH_STAGE_total];
-    const double waited_ms = 1e-6 * (double)s->waited_ns;
-    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
-        times_of(duel, turn->version, turn->subject, (DipBenchStage)stage)[at] =
-            s->sample.ms[stage];
+static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
+    const Programs *p = context;
+    DipCostDuel *duel = p->duel;
+    const DipCostDuelDef *def = duel->def;
+    const int pair = turn->subject / 2, side = turn->subject % 2;
+    const int program = def->program_of[pair][side];
+    const bool first = turn->phase == DIP_DRIVER_WARM_UP && turn->start == 0;
+    char request[64];
+    DipBenchSample sample;
+    snprintf(request, sizeof request, "draw %d %d %d", def->combination_of[pair][side], turn->frame,
+             first);
+    if (!dip_child_draw(p->children[program], request, &sample, timed, err)) {
+        return false;
     }
-    duel->disturbed[turn->subject * time_count(duel) + at] |=
-        waited_ms > DIP_PAIRED_MOST_WAIT * total_ms;
-    s->sums[0] += waited_ms;
-    s->sums[1] += total_ms * duel->threads;
-}
-
-static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
-    (void)ms;
-    (void)err;
-    Start *s = context;
-    DipCostDuel *duel = s->duel;
-    if (turn->phase == DIP_TIMING_TIMED) {
-        keep_time(s, turn);
-    } else if (s->start == 0 && turn->phase == DIP_TIMING_WARM_UP) {
-        const int row = turn->version * duel->def->pair_count + turn->subject;
-        duel->first[row * frame_count(duel) + turn->frame] = s->sample;
+    if (first) {
+        duel->first[(side * def->pair_count + pair) * frame_count(duel) + turn->frame] = sample;
     }
-    dip_progress_show(s->progress, ++*s->drawn);
     return true;
 }
+
+// --- starts --------------------------------------------------------------------------------------
 
 // The number of threads that draw. If it was not given, the programs' ini decides, and the threads
 // are counted: bench has a pool of its own beside the session's, and the main thread is in both.
-static int thread_count(const DipCostDuelDef *def, const DipThreadWatch *watch) {
-    const int threads = (dip_thread_watch_count(watch) + 1) / 2;
+static int thread_count(const DipCostDuelDef *def, const DipChild *child) {
+    const int threads = (dip_child_thread_count(child) + 1) / 2;
     return def->threads > 0 ? def->threads : threads > 0 ? threads : 1;
 }
 
-// Starts the programs. A program that does not answer is a mistake on the command line.
-static bool open_start(Start *s, DipError *err) {
-    DipCostDuel *duel = s->duel;
-    for (int p = 0; p < duel->def->program_count; p++) {
-        s->children[p] = dip_bench_child_start(duel->def->programs[p], duel->def->plan, err);
-        if (!s->children[p]) {
-            if (err && err->code != DIP_ERROR_MEMORY && !dip_interrupted()) {
-                err->origin = s->start == 0 ? DIP_ORIGIN_INPUT : DIP_ORIGIN_RUNTIME;
+static void stop_programs(Programs *p) {
+    dip_child_stop(&p->children[0], dip_interrupted());
+    dip_child_stop(&p->children[1], dip_interrupted());
+}
+
+// Starts the programs anew. A program that does not answer is a mistake on the command line.
+static bool start_programs(void *context, int start, DipError *err) {
+    Programs *p = context;
+    DipCostDuel *duel = p->duel;
+    const DipBenchOptions *options = &duel->def->plan->options;
+    stop_programs(p);
+    for (int i = 0; i < duel->def->program_count; i++) {
+        const DipChildDef def = {duel->def->programs[i], options->argv,   options->argc, "bench",
+                                 duel->def->plan->count, options->frames, "--vs"};
+        p->children[i] = dip_child_start(&def, err);
+        if (!p->children[i]) {
+            if (err && err->code != DIP_ERROR_MEMORY) {
+                err->origin = start == 0 ? DIP_ORIGIN_INPUT : DIP_ORIGIN_RUNTIME;
                 memcpy(err->key, "cost diff", sizeof "cost diff");
             }
-            return dip_interrupted() ? !interrupted(err) : false;
+            return false;
         }
-        s->watches[p] = dip_thread_watch_open_process(dip_bench_child_pid(s->children[p]));
-        duel->has_wait = duel->has_wait && s->watches[p];
-        duel->threads = thread_count(duel->def, s->watches[p]);
+        duel->threads = thread_count(duel->def, p->children[i]);
     }
     return true;
 }
 
-static void close_start(Start *s) {
-    for (int p = 0; p < 2; p++) {
-        dip_thread_watch_close(&s->watches[p]);
-        if (s->children[p] && dip_interrupted()) {
-            // Its answer is no longer read, so it must not complain that it cannot be written.
-            kill((pid_t)dip_bench_child_pid(s->children[p]), SIGTERM);
+// Copies the times to the duel's arrays.
+static void keep_times(DipCostDuel *duel, const DipTimes *times) {
+    for (int i = 0; i < times->count; i++) {
+        const DipTimed *timed = &times->list[i];
+        const int pair = timed->subject / 2;
+        const int at = (timed->start * times->rounds + timed->round) * times->frames + timed->frame;
+        for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+            times_of(duel, timed->subject % 2, pair, (DipBenchStage)stage)[at] =
+                stage == DIP_BENCH_STAGE_total ? timed->ms : timed->parts_ms[stage];
         }
-        dip_bench_child_stop(&s->children[p]);
+        duel->disturbed[pair * time_count(duel) + at] |= timed->wait > DIP_TIMED_MOST_WAIT;
     }
-}
-
-static DipTimingDef timing_def(const DipCostDuelDef *def, int start) {
-    return (DipTimingDef){
-        .subject_count = def->pair_count,
-        .frame_count = def->plan->options.frames,
-        .version_count = 2,
-        .round_count = def->rounds,
-        .seed = def->seed + (uint64_t)start,
-        .rest_ns = rest_ns,
-    };
 }
 
 static bool run_starts(DipCostDuel *duel, DipError *err) {
     const DipCostDuelDef *def = duel->def;
-    const DipTimingDef one = timing_def(def, 0);
-    DipProgress progress =
-        dip_progress_begin("frames", def->starts * dip_timing_run_count(&one, 0));
-    double sums[2] = {0.0, 0.0};
-    int64_t drawn = 0;
-    bool done = true;
-    for (int start = 0; done && start < def->starts; start++) {
-        Start s = {
-            .duel = duel, .start = start, .sums = sums, .progress = &progress, .drawn = &drawn};
-        const DipTimingDef timing = timing_def(def, start);
-        const DipTimingCalls calls = {.run = draw, .after_run = after_draw, .context = &s};
-        done = open_start(&s, err) && dip_timing_run(&timing, &calls, NULL, err);
-        close_start(&s);
+    int base_of[2 * DIP_COST_DUEL_MAX_PAIRS];
+    for (int s = 0; s < 2 * def->pair_count; s++) {
+        base_of[s] = s - s % 2;
     }
-    dip_progress_end(&progress, drawn);
-    duel->wait = duel->has_wait && sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    const DipDriverDef timing = {
+        .subjects = 2 * def->pair_count,
+        .base_of = base_of,
+        .block_subjects = 1,
+        .starts = def->starts,
+        .rounds = def->rounds,
+        .frames = def->plan->options.frames,
+        .warm_frames = def->plan->options.frames,
+        .seed = def->seed,
+        .in_turn = true,
+        .rest_ns = rest_ns,
+    };
+    Programs p = {.duel = duel};
+    const DipDriverCalls calls = {.draw = draw, .start = start_programs, .context = &p};
+    DipDriver *driver = dip_driver_create(&timing, &calls, err);
+    const bool done = driver && dip_drive(driver, "frames", "cost diff", "interrupted", err);
+    if (done) {
+        const DipTimes times = dip_driver_times(driver);
+        const DipDriverMachine machine = dip_driver_machine(driver, duel->threads);
+        keep_times(duel, &times);
+        duel->has_wait = machine.has_wait;
+        duel->wait = machine.has_wait ? machine.wait : 0.0;
+    }
+    stop_programs(&p);
+    dip_driver_destroy(&driver);
     return done;
 }
 
 bool dip_cost_duel_run(const DipCostDuelDef *def, DipCostDuel *duel, DipError *err) {
-    *duel = (DipCostDuel){.def = def, .has_wait = true};
+    *duel = (DipCostDuel){.def = def};
     const size_t pairs = (size_t)def->pair_count;
     const size_t times = pairs * (size_t)time_count(duel);
     duel->ms = calloc(2 * DIP_BENCH_STAGE_COUNT * times, sizeof *duel->ms);
@@ -223,7 +201,7 @@ static DipPairedStarts list_times(const DipCostDuel *duel, int pair, DipBenchSta
 }
 
 bool dip_cost_duel_change(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                          DipStatsEstimate *change, DipError *err) {
+                          DipEstimate *change, DipError *err) {
     double *ms = malloc((size_t)time_count(duel) * sizeof *ms);
     if (!ms) {
         return out_of_memory(err);
@@ -262,7 +240,7 @@ bool dip_cost_duel_signs(const DipCostDuel *duel, DipCostSigns *signs, DipError 
     const DipPairedTimes times = {dip_cost_duel_ms(duel, 1, same, DIP_BENCH_STAGE_total),
                                   dip_cost_duel_ms(duel, 0, same, DIP_BENCH_STAGE_total),
                                   duel->def->starts * duel->def->rounds, frame_count(duel)};
-    DipStatsEstimate ratio;
+    DipEstimate ratio;
     if (!dip_cost_duel_change(duel, same, DIP_BENCH_STAGE_total, &ratio, err)) {
         return false;
     }

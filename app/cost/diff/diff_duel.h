@@ -45,7 +45,7 @@ typedef struct DipCostDuel {
     int threads; // Threads of a program.
 } DipCostDuel;
 
-// Fails as dip_bench_child_start does, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with
+// Fails as dip_child_start does, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with
 // DIP_ERROR_MEMORY. On success the caller frees the duel.
 bool dip_cost_duel_run(const DipCostDuelDef *def, DipCostDuel *duel, DipError *err);
 void dip_cost_duel_free(DipCostDuel *duel);
@@ -57,7 +57,7 @@ const double *dip_cost_duel_ms(const DipCostDuel *duel, int side, int pair, DipB
 // difference of the stage's times) / (side 0's time of the frame). Disturbed pairs of times take no
 // part unless more than half are disturbed.
 bool dip_cost_duel_change(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                          DipStatsEstimate *change, DipError *err);
+                          DipEstimate *change, DipError *err);
 
 // Writes the difference of each start in a stage, in milliseconds, and estimates their mean.
 bool dip_cost_duel_difference(const DipCostDuel *duel, int pair, DipBenchStage stage,

@@ -88,7 +88,7 @@ static DipCostSetup *setup_report(const DipCostDiffArguments *arguments, const c
     setup->def.program_count = 1;
     setup->def.programs[0] = program;
     dip_cost_setup_finish(setup, arguments, dip_cost_frame_count(report),
-                          arguments->rounds ? arguments->rounds : 1);
+                          arguments->measure.rounds ? arguments->measure.rounds : 1);
     return setup;
 }
 
@@ -127,7 +127,7 @@ static bool fill_report(const DipCostReport *report, const DipCostSetup *setup, 
         DipCostRow *row = &measured->rows[i];
         row->quality = i ? report->rows[rows[i - 1]].quality : report->options.baseline;
         dip_cost_setup_count(setup, i > 0, i ? i - 1 : 0, row->counters);
-        row->time.ratio = (DipStatsEstimate){1.0, 1.0, 1.0};
+        row->time.ratio = dip_estimate_unknown(1.0);
         row->time.mean_ms.value = dip_cost_duel_mean_ms(&setup->duel, i > 0, i ? i - 1 : 0);
         done = i == 0 || dip_cost_duel_change(&setup->duel, i - 1, DIP_BENCH_STAGE_total,
                                               &row->time.ratio, err);

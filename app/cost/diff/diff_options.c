@@ -60,21 +60,6 @@ static const DipOptionRow run_rows[] = {
      .most = DIP_COST_DIFF_MAX_SETS,
      .separator = ';',
      .read = read_set},
-    {.name = "--starts",
-     .argument = "N",
-     .text = "Start each program anew this many times. The default is 6.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(starts),
-     .least = 2,
-     .most = 100},
-    {.name = "--rounds",
-     .argument = "N",
-     .text = "In each start, draw every frame this many times. The default is 8, or 1 if a program "
-             "is compared with a report.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(rounds),
-     .least = 1,
-     .most = 1000},
     {.name = "--frames",
      .argument = "N",
      .text = "Draw this many frames, which divide the camera path evenly. The default is 6. If a "
@@ -83,13 +68,6 @@ static const DipOptionRow run_rows[] = {
      .field = FIELD(frames),
      .least = 1,
      .most = 1000},
-    {.name = "--seed",
-     .argument = "N",
-     .text = "Seed of the random order of the frames. The default comes from the clock.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(seed),
-     .given = FIELD(has_seed),
-     .most = INT32_MAX},
 };
 
 static const DipOptionTable judge_table = {"Judging and output", judge_rows,
@@ -99,6 +77,8 @@ static const DipOptionTable run_table = {"Timing programs", run_rows, DIP_ARRAY_
 static const DipOptionPart parts[] = {
     {&judge_table, 0},
     {&run_table, 0},
+    {&dip_measure_option_table, offsetof(DipCostDiffArguments, measure)},
+    {&dip_starts_option_table, offsetof(DipCostDiffArguments, measure)},
     {&dip_scene_option_table, offsetof(DipCostDiffArguments, session)},
     {&dip_path_option_table, offsetof(DipCostDiffArguments, session)},
     {&dip_category_option_table, offsetof(DipCostDiffArguments, session)},
@@ -117,7 +97,7 @@ void dip_cost_diff_options_default(void *arguments, int argc, char *const *argv)
     (void)argc;
     (void)argv;
     DipCostDiffArguments *diff = arguments;
-    diff->starts = DIP_COST_DIFF_STARTS;
+    diff->measure.starts = DIP_COST_DIFF_STARTS;
     dip_option_each(diff, &run_rows[0], default_sets, ';', add_set, NULL);
 }
 
@@ -127,6 +107,10 @@ bool dip_cost_diff_options_check(const void *arguments, DipError *err) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost diff",
                              "there is nothing to compare; give two reports or programs: cost diff "
                              "A B");
+    }
+    if (diff->measure.starts < 2) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--starts",
+                             "1 start has no spread; give 2 or more");
     }
     return dip_session_options_check(&diff->session, err);
 }

@@ -4,6 +4,7 @@
 
 #include "app/bench/options.h"
 #include "app/cli/command.h"
+#include "app/cli/measure_options.h"
 #include "app/session/session_options.h"
 
 #include <stdbool.h>
@@ -23,12 +24,9 @@ typedef struct DipCostDiffArguments {
     int side_count;
     DipBenchSet sets[DIP_COST_DIFF_MAX_SETS];
     int set_count;
-    int starts;
-    int rounds; // 0: chosen by what is compared.
-    int frames; // 0: chosen by what is compared.
-    bool has_seed;
-    int seed;
-    double fail_over; // 1.03 for --fail-over 3%; 0: never fail.
+    DipMeasureOptions measure; // Rounds are 0 if what is compared chooses them.
+    int frames;                // 0: chosen by what is compared.
+    double fail_over;          // 1.03 for --fail-over 3%; 0: never fail.
     const char *json;
 } DipCostDiffArguments;
 

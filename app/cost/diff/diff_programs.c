@@ -31,9 +31,9 @@ static DipCostSetup *setup_programs(const DipCostDiffArguments *arguments,
     setup->def.pair_count = same + 1;
     setup->def.program_count = 2;
     memcpy(setup->def.programs, programs, sizeof setup->def.programs);
-    dip_cost_setup_finish(setup, arguments,
-                          arguments->frames ? arguments->frames : DIP_COST_DIFF_FRAMES,
-                          arguments->rounds ? arguments->rounds : DIP_COST_DIFF_ROUNDS);
+    dip_cost_setup_finish(
+        setup, arguments, arguments->frames ? arguments->frames : DIP_COST_DIFF_FRAMES,
+        arguments->measure.rounds ? arguments->measure.rounds : DIP_COST_DIFF_ROUNDS);
     return setup;
 }
 

@@ -219,12 +219,12 @@ static void copy_counters(const DipCostReport *const reports[2], const int rows[
 }
 
 // Half the width of an interval, as a logarithm.
-static double log_half(const DipStatsEstimate *e) {
+static double log_half(const DipEstimate *e) {
     return 0.5 * log(e->high / e->low);
 }
 
 // The quotient of two ratios. Its logarithm's error is that of both ratios and the luck of a start
-// in quadrature.
+// in quadrature. The baseline's ratio to itself has no error.
 static void compare_times(const DipCostReport *const reports[2], const int rows[2],
                           DipCostDiffRow *to) {
     const int rounds = reports[0]->options.rounds < reports[1]->options.rounds
@@ -238,11 +238,12 @@ static void compare_times(const DipCostReport *const reports[2], const int rows[
     if (!to->timed) {
         return;
     }
-    const double t = dip_student_quantile(0.975, rounds - 1);
-    const double half = sqrt(pow(log_half(&to->ratios[0]), 2.0) +
-                             pow(log_half(&to->ratios[1]), 2.0) + pow(t * luck_of_a_start, 2.0));
-    const double change = to->ratios[1].value / to->ratios[0].value;
-    to->change = (DipStatsEstimate){change, change * exp(-half), change * exp(half)};
+    double error = luck_of_a_start;
+    for (int side = 0; side < 2; side++) {
+        const double own = to->ratios[side].log_error;
+        error = hypot(error, isnan(own) ? 0.0 : own);
+    }
+    to->change = dip_estimate_make(to->ratios[1].value / to->ratios[0].value, error, rounds - 1);
 }
 
 // Widens the intervals so that all rows together are judged with 95 %: of a hundred intervals of 95

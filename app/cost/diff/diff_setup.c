@@ -2,7 +2,6 @@
 #include "app/cost/diff/diff_setup.h"
 
 #include "app/cli/machine.h"
-#include "renderer/base/clock.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -82,9 +81,9 @@ void dip_cost_setup_finish(DipCostSetup *setup, const DipCostDiffArguments *argu
     setup->def.threads = !arguments->session.has_threads ? 0
                          : arguments->session.threads    ? arguments->session.threads
                                                          : dip_machine_processor_count();
-    setup->def.starts = arguments->starts;
+    setup->def.starts = arguments->measure.starts;
     setup->def.rounds = rounds;
-    setup->def.seed = arguments->has_seed ? (uint64_t)arguments->seed : (uint64_t)dip_clock_ns();
+    setup->def.seed = (uint64_t)dip_measure_seed(&arguments->measure);
 }
 
 void dip_cost_setup_free(DipCostSetup *setup) {

@@ -122,7 +122,7 @@ static const char *mark_text(DipCostDiffMark mark) {
     return mark == DIP_COST_DIFF_SLOWER ? "slower" : mark == DIP_COST_DIFF_FASTER ? "faster" : "";
 }
 
-static void print_interval(const DipStatsEstimate *change, FILE *out) {
+static void print_interval(const DipEstimate *change, FILE *out) {
     char interval[32];
     snprintf(interval, sizeof interval, "%.3f to %.3f", change->low, change->high);
     dip_put_text(out, "  %6.3f  %-16s", change->value, interval);

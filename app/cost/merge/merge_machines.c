@@ -51,10 +51,10 @@ void dip_cost_machines_add(DipCostMachines *machines, const DipCostReport *part)
 }
 
 static void print_row(const DipCostMachines *machines, int row, FILE *out) {
-    const DipStatsEstimate *first = &machines->list[0].ratios[row];
+    const DipEstimate *first = &machines->list[0].ratios[row];
     dip_put_text(out, "  %-40s", machines->rows[row]);
     for (int m = 0; m < machines->count; m++) {
-        const DipStatsEstimate *ratio = &machines->list[m].ratios[row];
+        const DipEstimate *ratio = &machines->list[m].ratios[row];
         const bool is_apart = ratio->low > first->high || ratio->high < first->low;
         dip_put_text(out, " %7.3f%c", ratio->value, is_apart ? '*' : ' ');
     }

@@ -16,7 +16,7 @@ typedef struct DipCostMachine {
     int threads;
     DipCostVerdict verdict;
     double base_ms; // Mean time of the baseline on path 0.
-    DipStatsEstimate ratios[DIP_COST_MACHINE_ROWS];
+    DipEstimate ratios[DIP_COST_MACHINE_ROWS];
 } DipCostMachine;
 
 // The machines in the order of the parts. Zero-initialise it; it owns nothing.

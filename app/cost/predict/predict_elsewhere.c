@@ -98,7 +98,7 @@ static bool scale_counters(DipCostContext *there, DipError *err) {
     for (int f = 0; f < frames; f++) {
         DipFrame frame;
         if (dip_cost_interrupted(there, err) ||
-            !dip_cost_draw_settings(there, &baseline.quality, f, &frame, err)) {
+            !dip_cost_draw_settings(there, &baseline.quality, 0, f, &frame, err)) {
             return false;
         }
         double *value = all;
@@ -152,7 +152,7 @@ static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, 
 
 static bool time_there(DipCostElsewherePrediction *p, DipCostContext *here, DipCostContext *there,
                        const DipCostPredictArguments *arguments, DipError *err) {
-    DipPairedTimingResult machine = {.wait = 0.0};
+    DipDriverMachine machine = {.wait = 0.0};
     if (!choose_timed(p, arguments->timed, arguments->checked, err)) {
         return false;
     }

@@ -55,7 +55,7 @@ static void print_combination(const DipCostElsewherePrediction *p, const DipCost
     dip_cost_settings_text(&c->quality, text);
     dip_put_text(out, "  %-34s %9.2f %9.2f", text, c->report_ms, c->ms);
     if (c->timed >= 0) {
-        const DipStatsEstimate *ms = &p->timed[c->timed].ms;
+        const DipEstimate *ms = &p->timed[c->timed].ms;
         dip_put_text(out, " %9.2f %8.2f to %.2f", ms->value, ms->low, ms->high);
     }
     dip_put_text(out, "\n");

@@ -2,9 +2,7 @@
 // picture. It links only dip_measure and uses none of Diptych's commands.
 #include "app/measure/metrics/flip.h"
 #include "app/measure/metrics/metrics.h"
-#include "app/measure/stats/paired.h"
-#include "app/measure/stats/statistics.h"
-#include "app/measure/timing/timing.h"
+#include "app/measure/timing/driver.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,8 +19,9 @@ static uint8_t shade(int x, int y, int frame) {
 }
 
 // FULL computes every pixel. EVERY_OTHER computes every second pixel and repeats it.
-static bool fill(void *context, const DipTimingTurn *turn, DipError *err) {
+static bool fill(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     (void)context;
+    (void)timed;
     (void)err;
     const int step = turn->subject == EVERY_OTHER ? 2 : 1;
     uint8_t *to = pictures[turn->subject];
@@ -63,34 +62,40 @@ static double flip_between(int test, int truth) {
 }
 
 int main(void) {
-    const DipTimingDef def = {.subject_count = SUBJECTS,
-                              .frame_count = FRAMES,
-                              .version_count = 1,
-                              .round_count = ROUNDS,
+    static const int base_of[SUBJECTS] = {FULL, FULL, FULL};
+    const DipDriverDef def = {.subjects = SUBJECTS,
+                              .base_of = base_of,
+                              .block_subjects = SUBJECTS - 1,
+                              .starts = 1,
+                              .rounds = ROUNDS,
+                              .frames = FRAMES,
+                              .warm_frames = FRAMES,
                               .seed = 1,
                               .settle = true};
-    const DipTimingCalls calls = {.run = fill};
-    double ms[SUBJECTS * ROUNDS * FRAMES];
     DipError err = {0};
-    if (!dip_timing_run(&def, &calls, ms, &err)) {
+    DipDriver *driver = dip_driver_create(&def, &(DipDriverCalls){.draw = fill}, &err);
+    DipDriverStep step = DIP_DRIVER_FAILED;
+    while (driver && (step = dip_driver_step(driver, &err)) < DIP_DRIVER_DONE) {
+    }
+    const DipTimes times = step == DIP_DRIVER_DONE ? dip_driver_times(driver) : (DipTimes){0};
+    DipTimesFit *fit = step == DIP_DRIVER_DONE ? dip_times_fit(&times, &err) : NULL;
+    dip_driver_destroy(&driver);
+    if (!fit) {
         fprintf(stderr, "%s\n", err.message);
         return 1;
     }
     const char *const names[SUBJECTS] = {"every pixel", "every pixel again", "every other pixel"};
-    const double *base_ms = ms + dip_timing_index(&def, 0, FULL);
     printf("%-18s %8s %24s %8s\n", "", "ms", "ratio (95 % interval)", "FLIP");
     for (int s = 0; s < SUBJECTS; s++) {
-        const double *subject_ms = ms + dip_timing_index(&def, 0, s);
-        const DipPairedTimes times = {subject_ms, base_ms, ROUNDS, FRAMES};
-        DipStatsEstimate ratio;
-        if (!dip_paired_ratio(&times, &ratio, &err)) {
-            fprintf(stderr, "%s\n", err.message);
-            return 1;
+        const DipEstimate ratio = dip_times_ratio(fit, s);
+        printf("%-18s %8.3f    ", names[s], dip_times_along(fit, s).mean_ms.value);
+        if (s == FULL) {
+            printf("%-21s", "1");
+        } else {
+            printf("%.3f (%.3f to %.3f)", ratio.value, ratio.low, ratio.high);
         }
-        double scratch[ROUNDS];
-        printf("%-18s %8.3f    %.3f (%.3f to %.3f) %8.4f\n", names[s],
-               dip_stats_time(subject_ms, FRAMES, ROUNDS, scratch), ratio.value, ratio.low,
-               ratio.high, flip_between(s, FULL));
+        printf(" %8.4f\n", flip_between(s, FULL));
     }
+    dip_times_fit_free(&fit);
     return 0;
 }

@@ -5,12 +5,8 @@
 // alike, so that their ratio holds while the times themselves do not. A pair whose subject's time
 // is NAN was dropped and takes no part.
 //
-// There are two forms of measurement:
-//   - Rounds of the same frames: each round times every frame. A frame's ratio is the median over
-//     the rounds (DipPairedTimes).
-//   - Frames along a path: each frame is timed once, in a round of its own, so that many more
-//     frames are seen in the same time. The ratio of a frame is smoothed over its neighbours
-//     (DipPathTimes).
+// Rounds time the same frames; a frame's ratio is the median over the rounds. rounds.h has the
+// estimates along a path and over starts.
 //
 // Intervals come from the bootstrap (Efron 1979) with a fixed seed, so the same times always give
 // the same interval. The spread of the resampled estimates, times the quantile of Student's t for
@@ -19,6 +15,7 @@
 #ifndef DIP_APP_MEASURE_STATS_PAIRED_H
 #define DIP_APP_MEASURE_STATS_PAIRED_H
 
+#include "app/measure/stats/estimate.h"
 #include "app/measure/stats/statistics.h"
 #include "app/measure/stats/estimate.h"
 #include "renderer/base/error.h"
@@ -44,9 +41,9 @@ typedef struct DipPairedTimes {
 // A frame whose pairs were all dropped is left out. The interval is exp(log ratio +- t s), where s
 // is the bootstrap's standard deviation of the log ratio over whole rounds, times sqrt(R / (R - 1))
 // for R rounds, and t the 97.5 % quantile of Student's t with R - 1 degrees of freedom. With a
-// single round the interval is 0 to infinity. Fails with DIP_ERROR_MEMORY, or with
+// single round there is no interval. Fails with DIP_ERROR_MEMORY, or with
 // DIP_ERROR_RUNTIME if no pair is left.
-bool dip_paired_ratio(const DipPairedTimes *times, DipStatsEstimate *ratio, DipError *err);
+bool dip_paired_ratio(const DipPairedTimes *times, DipEstimate *ratio, DipError *err);
 
 // Computes the ratio of dip_paired_ratio without its interval; NAN if no pair is left. Fails with
 // DIP_ERROR_MEMORY.
@@ -57,53 +54,6 @@ bool dip_paired_ratio_value(const DipPairedTimes *times, double *ratio, DipError
 // (A/A), it tells how noisy the machine is. Returns a negative value if there are fewer than two
 // rounds without dropped pairs, and NAN if memory runs out.
 double dip_paired_spread(const DipPairedTimes *times);
-
-// --- frames along a path -----------------------------------------------------------------------
-
-// Times of `frames` frames in the order of the path. Frame f belongs to round f % rounds.
-typedef struct DipPathTimes {
-    const double *ms;       // Time of the subject; NAN for a pair that was dropped.
-    const double *base_ms;  // Time of the base in the same pair.
-    const double *level_ms; // The base's usual time of this frame: the median of all its timings.
-    int frames;
-    int rounds;
-    double level_error; // Standard error of the level's logarithm; 0 if it is not known.
-} DipPathTimes;
-
-// A row's time along a path. The bounds of mean_ms hold the error of the base's level too.
-typedef struct DipPathEstimate {
-    DipStatsEstimate ratio;   // The subject's time over the base's, for the whole path.
-    DipStatsEstimate mean_ms; // Mean over the frames.
-    DipStatsEstimate p95_ms; // 95th percentile over the frames; `high` is its one-sided 95 % bound.
-    DipStatsEstimate worst_ms; // The slowest frame; `high` is its one-sided 95 % bound.
-    int used;                  // Number of frames whose pair was not dropped.
-    // Standard errors of the logarithms of ratio, p95 and worst, without that of the level.
-    double ratio_error;
-    double p95_error;
-    double worst_error;
-    double level_error; // As in DipPathTimes; all rows beside one base share it.
-} DipPathEstimate;
-
-// Let q_f = log(ms_f / base_ms_f), s = running median of 7 of q along the path (pairs that were
-// dropped are passed over), and time_f = level_f exp(s_f). Then ratio = sum time_f / sum level_f,
-// and mean, percentile and worst are those of time_f. The bootstrap draws the residuals q - s anew
-// with replacement, 1.25 times as large, because the running median follows the noise in part, adds
-// them to s and smooths again. Standard errors of logarithms; the ratio's interval is
-// +- t hypot(s, 0.002). The bounds of p95 and worst are exp(1.75 hypot(s, level_error)).
-// If over a tenth of the pairs was dropped, every error has another 1 % in quadrature.
-// Fails with DIP_ERROR_MEMORY, or with DIP_ERROR_RUNTIME if fewer than half of the pairs are left.
-bool dip_path_estimate(const DipPathTimes *times, DipPathEstimate *estimate, DipError *err);
-
-// Writes time_f of every frame, from which dip_path_estimate makes its values. Fails as that
-// function does.
-bool dip_path_frame_times(const DipPathTimes *times, double *frame_ms, DipError *err);
-
-// Computes the standard error of the logarithm of a level from timings in the order in which they
-// were taken: the timings are cut into 7 groups of successive ones, the groups' medians have the
-// spread s and the correlation r between neighbours, and the error is
-// s / sqrt(7) sqrt((1 + r) / (1 - r)). Each timing is the log of a time over the median time of the
-// same frame. Returns 0 for fewer than 14 timings, and a negative value if memory runs out.
-double dip_level_error(const double *log_times, int count);
 
 #ifdef __cplusplus
 }

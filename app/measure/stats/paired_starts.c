@@ -59,7 +59,7 @@ static int list_starts(const DipPairedStarts *times, double *logs, DipError *err
     return count;
 }
 
-bool dip_paired_starts_ratio(const DipPairedStarts *times, DipStatsEstimate *ratio, DipError *err) {
+bool dip_paired_starts_ratio(const DipPairedStarts *times, DipEstimate *ratio, DipError *err) {
     DIP_ASSERT(times->starts >= 2 && times->rounds > 0 && times->frames > 0);
     const DipPairedTimes all = {times->ms, times->base_ms, times->starts * times->rounds,
                                 times->frames};
@@ -69,8 +69,7 @@ bool dip_paired_starts_ratio(const DipPairedStarts *times, DipStatsEstimate *rat
     const int count = done ? list_starts(times, logs, err) : 0;
     done = done && count >= 0;
     if (done && count < 2) {
-        ratio->low = 0.0;
-        ratio->high = INFINITY;
+        *ratio = dip_estimate_unknown(ratio->value);
     } else if (done) {
         const double middle = hodges_lehmann(logs, count, logs + starts);
         const double half = dip_student_quantile(0.975, count - 1) * standard_error(logs, count);

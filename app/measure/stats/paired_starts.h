@@ -34,9 +34,9 @@ typedef struct DipPairedStarts {
 //     ratios (Hodges and Lehmann 1963), +- t s / sqrt(S), where s is their standard deviation and t
 //     the 97.5 % quantile with S - 1 degrees of freedom for S starts.
 // A start whose pairs were all dropped takes no part. If fewer than two starts are left, the
-// interval is 0 to infinity. Fails with DIP_ERROR_MEMORY, or with DIP_ERROR_RUNTIME if no pair is
+// interval is not known. Fails with DIP_ERROR_MEMORY, or with DIP_ERROR_RUNTIME if no pair is
 // left.
-bool dip_paired_starts_ratio(const DipPairedStarts *times, DipStatsEstimate *ratio, DipError *err);
+bool dip_paired_starts_ratio(const DipPairedStarts *times, DipEstimate *ratio, DipError *err);
 
 // How much longer the subject takes, in milliseconds.
 typedef struct DipStartDifference {

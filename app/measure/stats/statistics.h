@@ -28,13 +28,6 @@ typedef struct DipStatsInterval {
     double high;
 } DipStatsInterval;
 
-// A value with its 95 % interval.
-typedef struct DipStatsEstimate {
-    double value;
-    double low;
-    double high;
-} DipStatsEstimate;
-
 // Computes each frame's median over the rounds, and returns the mean of these medians over the
 // frames. scratch has room for `rounds` values.
 double dip_stats_time(const double *ms, int frames, int rounds, double *scratch);

@@ -46,12 +46,20 @@ static bool add_thread(DipThreadWatch *watch, const char *folder, const char *th
     return read_thread(file, &sum);
 }
 
+// A thread with less priority than this one draws no timed frame, so that its waiting tells
+// nothing.
+static bool is_background(const char *thread) {
+    return getpriority(PRIO_PROCESS, (id_t)strtoul(thread, NULL, 10)) >
+           getpriority(PRIO_PROCESS, 0);
+}
+
 static DipThreadWatch *open_watch(const char *folder) {
     DIR *threads = opendir(folder);
     DipThreadWatch *watch = threads ? calloc(1, sizeof *watch) : NULL;
     bool complete = watch != NULL;
     for (const struct dirent *entry; complete && (entry = readdir(threads)) != NULL;) {
-        complete = entry->d_name[0] == '.' || add_thread(watch, folder, entry->d_name);
+        complete = entry->d_name[0] == '.' || is_background(entry->d_name) ||
+                   add_thread(watch, folder, entry->d_name);
     }
     if (threads) {
         closedir(threads);

@@ -90,35 +90,34 @@ static const DipCostsRow *costs_row(const DipCosts *costs, DipSetting setting) {
     return NULL;
 }
 
-// Copies a step's relative time and its error ("1.56x", "-.0107"). Both are empty if the report
-// does not have the step.
-static void find_figures(const DipCostsRow *row, DipSetting setting, int step, char time[16],
-                         char error[16]) {
-    time[0] = error[0] = '\0';
+// Returns a step of a report, or NULL if the report does not have it.
+static const DipCostsStep *costs_step(const DipCostsRow *row, DipSetting setting, int step) {
     for (int s = 0; row && s < row->step_count; ++s) {
         if (row->steps[s].quality.step[setting] == step) {
-            sscanf(row->steps[s].figures, "%15s %15s", time, error);
-            return;
+            return &row->steps[s];
         }
     }
+    return NULL;
 }
 
-static DipTextColours error_colours(const char *error) {
-    return error[0] == '-' ? gain : error[0] == '+' ? worse : dim;
+static DipTextColours error_colours(const DipCostsStep *step) {
+    return step->flip_change < 0.0 ? gain : step->flip_change > 0.0 ? worse : dim;
 }
 
 // Draws two rows beneath the steps: the relative time of each step, and its error.
 static void draw_figures(DipTextView *view, const DipCostsRow *costs, DipSetting setting, int row,
                          int column, int width) {
     const int count = dip_setting_info(setting)->step_count;
-    char time[16], error[16];
     dip_text_put(&view->screen, row, column - 5, column, dim, "time");
     dip_text_put(&view->screen, row + 1, column - 5, column, dim, "FLIP");
     for (int i = 0; i < count; ++i) {
         const int first = column + i * width, end = first + width;
-        find_figures(costs, setting, dip_setting_step_at(setting, i), time, error);
-        dip_text_put_right(&view->screen, row, first, end - 1, name, time);
-        dip_text_put_right(&view->screen, row + 1, first, end - 1, error_colours(error), error);
+        const DipCostsStep *step = costs_step(costs, setting, dip_setting_step_at(setting, i));
+        if (step) {
+            dip_text_put_right(&view->screen, row, first, end - 1, name, step->time);
+            dip_text_put_right(&view->screen, row + 1, first, end - 1, error_colours(step),
+                               step->flip);
+        }
     }
 }
 
@@ -150,12 +149,14 @@ static void draw_block(DipTextView *view, const DipPreviewState *state, DipSetti
     const DipCostsRow *costs = costs_row(state->costs, setting);
     const DipSettingInfo *info = dip_setting_info(setting);
     if (is_switch(setting)) {
-        char time[16], error[16];
-        find_figures(costs, setting, 1, time, error);
+        const DipCostsStep *step = costs_step(costs, setting, 1);
         dip_text_put(&view->screen, row, column, end - 22,
                      is_focused(view, setting) ? name_focused : title, info->title);
-        dip_text_put_right(&view->screen, row, end - 22, end - 17, name, time);
-        dip_text_put_right(&view->screen, row, end - 17, end - 10, error_colours(error), error);
+        if (step) {
+            dip_text_put_right(&view->screen, row, end - 22, end - 17, name, step->time);
+            dip_text_put_right(&view->screen, row, end - 17, end - 10, error_colours(step),
+                               step->flip);
+        }
         draw_steps(view, state, setting, row, end - 10, 5);
         return;
     }
@@ -205,7 +206,6 @@ static void draw_sum(DipTextView *view, const DipPreviewState *state, DipTextAre
 static void draw_row(DipTextView *view, const DipPreviewState *state, DipSetting setting, int row,
                      int column, int columns) {
     const int end = column + columns - 1;
-    char time[16], error[16];
     dip_text_put(&view->screen, row, column, column + NAME_COLUMNS - 1,
                  is_focused(view, setting) ? name_focused : title,
                  dip_setting_info(setting)->title);
@@ -215,10 +215,12 @@ static void draw_row(DipTextView *view, const DipPreviewState *state, DipSetting
     if (columns < ROW_COLUMNS + FIGURE_COLUMNS) {
         return;
     }
-    find_figures(costs_row(state->costs, setting), setting,
-                 state->quality[DIP_PANE_REQUESTED].step[setting], time, error);
-    dip_text_put_right(&view->screen, row, end - FIGURE_COLUMNS, end - 7, name, time);
-    dip_text_put_right(&view->screen, row, end - 7, end, error_colours(error), error);
+    const DipCostsStep *step = costs_step(costs_row(state->costs, setting), setting,
+                                          state->quality[DIP_PANE_REQUESTED].step[setting]);
+    if (step) {
+        dip_text_put_right(&view->screen, row, end - FIGURE_COLUMNS, end - 7, name, step->time);
+        dip_text_put_right(&view->screen, row, end - 7, end, error_colours(step), step->flip);
+    }
 }
 
 static bool is_wide(int columns) {

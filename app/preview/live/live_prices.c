@@ -109,8 +109,9 @@ DipLivePrices *dip_live_prices_create(DipSession *session, DipPrices *prices, Di
     }
     live->session = session;
     live->prices = prices;
-    live->job =
-        dip_price_job_create(&(DipPriceJobCalls){.draw = draw, .context = live}, prices, err);
+    const DipPriceJobCalls calls = {
+        .draw = draw, .threads = dip_pool_thread_count(session->pool), .context = live};
+    live->job = dip_price_job_create(&calls, prices, err);
     if (!live->job) {
         dip_live_prices_destroy(&live);
     }

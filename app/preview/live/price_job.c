@@ -2,7 +2,9 @@
 #include "app/preview/live/price_job.h"
 
 #include "app/measure/stats/paired.h"
+#include "app/measure/timing/driver.h"
 #include "app/preview/prices/price_question.h"
+#include "app/report/verdict.h"
 #include "renderer/base/clock.h"
 
 #include <math.h>
@@ -12,7 +14,7 @@
 
 enum {
     BLOCK = 4,            // Combinations of a block, besides the base.
-    VISITS = BLOCK + 1,   // Visit i of a round draws members[order[i]]; member 0 is the base.
+    VISITS = BLOCK + 1,   // The base is one of them.
     LEVELS = 64,          // Blocks whose times of the base are kept.
     FRAMES_OF_A_VISIT = 2 // One untimed, one timed.
 };
@@ -20,7 +22,7 @@ enum {
 // A combination that was timed.
 typedef struct Timed {
     DipQuality quality;
-    DipStatsEstimate ratio; // Of its time to that of the base.
+    DipEstimate ratio; // Of its time to that of the base.
     int rounds;             // In which it was timed.
 } Timed;
 
@@ -38,15 +40,9 @@ struct DipPriceJob {
     int rounds; // That each combination gets now: the first rounds, until all have them.
 
     // The block.
+    DipDriver *driver; // Times the members; NULL: there is no block.
     DipQuality members[VISITS];
-    int member_count; // 0: there is no block. Member 0 is the base.
-    int order[VISITS];
-    int block_rounds;
-    int round;
-    int visit;
-    int frame; // Within the visit.
-    double ms[VISITS][DIP_PRICE_JOB_ROUNDS];
-    uint64_t random;
+    int member_count; // Member 0 is the base.
 
     Timed timed[DIP_PRICE_MAX_WANTED * 2];
     int timed_count;
@@ -54,7 +50,16 @@ struct DipPriceJob {
     int blocks;             // Blocks that are complete.
     double drawn_ms;        // Time and number of the frames of this picture.
     int drawn;
+    // Sums over the pairs of times of this picture: the share that the threads waited, and
+    // disturbed ones.
+    double waited;
+    int disturbed;
+    int judged;
 };
+
+static int64_t now_ns(const DipPriceJob *job) {
+    return job->calls.now_ns ? job->calls.now_ns(job->calls.context) : dip_clock_ns();
+}
 
 DipPriceJob *dip_price_job_create(const DipPriceJobCalls *calls, DipPrices *prices, DipError *err) {
     DipPriceJob *job = calloc(1, sizeof *job);
@@ -64,27 +69,34 @@ DipPriceJob *dip_price_job_create(const DipPriceJobCalls *calls, DipPrices *pric
     }
     job->calls = *calls;
     job->prices = prices;
-    job->random = 1;
     job->rounds = DIP_PRICE_JOB_FIRST_ROUNDS;
     return job;
 }
 
 void dip_price_job_destroy(DipPriceJob **job) {
+    if (*job) {
+        dip_driver_destroy(&(*job)->driver);
+    }
     free(*job);
     *job = NULL;
 }
 
 void dip_price_job_interrupt(DipPriceJob *job) {
-    job->member_count = 0;
+    if (job->driver) {
+        dip_driver_drop_round(job->driver);
+    }
 }
 
 void dip_price_job_forget(DipPriceJob *job) {
-    dip_price_job_interrupt(job);
+    dip_driver_destroy(&job->driver);
     dip_prices_forget_rough(job->prices);
+    dip_prices_set_rough_doubtful(job->prices, false);
     job->timed_count = 0;
     job->blocks = 0;
     job->drawn_ms = 0.0;
     job->drawn = 0;
+    job->waited = 0.0;
+    job->disturbed = job->judged = 0;
     job->failed = false;
     job->idle = false;
     job->rounds = DIP_PRICE_JOB_FIRST_ROUNDS;
@@ -140,21 +152,33 @@ void dip_price_job_follow(DipPriceJob *job, const DipQuality *current,
 
 // --- blocks --------------------------------------------------------------------------------------
 
-static uint64_t next_random(DipPriceJob *job) {
-    job->random = job->random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return job->random >> 33;
+static void drop_block(DipPriceJob *job) {
+    dip_driver_destroy(&job->driver);
+    job->member_count = 0;
 }
 
-static void shuffle(DipPriceJob *job) {
-    for (int i = 0; i < job->member_count; i++) {
-        job->order[i] = i;
+// Each round begins with the pattern of temporal AA that the round before timed last.
+static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
+    DipPriceJob *job = context;
+    (void)timed;
+    const bool is_timed = turn->phase == DIP_DRIVER_TIMED;
+    const uint64_t index = (uint64_t)(FRAMES_OF_A_VISIT * turn->round + is_timed + turn->round % 2);
+    const int64_t begin_ns = now_ns(job);
+    if (!job->calls.draw(job->calls.context, &job->members[turn->subject], index, err)) {
+        return false;
     }
-    for (int i = job->member_count - 1; i > 0; i--) {
-        const int other = (int)(next_random(job) % (uint64_t)(i + 1));
-        const int swap = job->order[i];
-        job->order[i] = job->order[other];
-        job->order[other] = swap;
-    }
+    job->drawn_ms += 1e-6 * (double)(now_ns(job) - begin_ns);
+    job->drawn++;
+    return true;
+}
+
+static int64_t clock_ns(void *context) {
+    return now_ns(context);
+}
+
+static DipThreadUse thread_use(void *context) {
+    const DipPriceJob *job = context;
+    return job->calls.thread_use(job->calls.context);
 }
 
 static bool begin_block(DipPriceJob *job) {
@@ -169,10 +193,27 @@ static bool begin_block(DipPriceJob *job) {
         job->members[job->member_count] = job->wanted[job->member_count - 1];
         job->member_count++;
     }
-    job->block_rounds = job->rounds;
-    job->round = job->visit = job->frame = 0;
-    shuffle(job);
-    return true;
+    static const int base_of[VISITS] = {0};
+    const DipDriverDef def = {
+        .subjects = job->member_count,
+        .base_of = base_of,
+        .block_subjects = BLOCK,
+        .starts = 1,
+        .rounds = job->rounds,
+        .frames = 1,
+        .seed = (uint64_t)job->blocks,
+        .most_wait = DIP_TIMED_MOST_WAIT,
+    };
+    const DipDriverCalls calls = {
+        .draw = draw,
+        .clock_ns = clock_ns,
+        .thread_use = job->calls.thread_use ? thread_use : NULL,
+        .context = job,
+    };
+    job->driver = dip_driver_create(&def, &calls, &job->failure);
+    job->failed = !job->driver;
+    job->member_count = job->failed ? 0 : job->member_count;
+    return !job->failed;
 }
 
 // Returns the time of the base: the median over the blocks.
@@ -197,21 +238,68 @@ static bool publish(DipPriceJob *job) {
            dip_error_set(&job->failure, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
 }
 
+// Lists a member's and the base's times in each round. Disturbed rounds are left out, unless more
+// than half of them are. Returns the number of disturbed ones.
+static int list_rounds(const DipTimes *times, int member, double ms[DIP_PRICE_JOB_ROUNDS],
+                       double base_ms[DIP_PRICE_JOB_ROUNDS]) {
+    double waits[DIP_PRICE_JOB_ROUNDS] = {0.0};
+    int disturbed = 0;
+    for (int i = 0; i < times->count; i++) {
+        const DipTimed *timed = &times->list[i];
+        for (int j = 0; timed->subject == member && j < times->count; j++) {
+            const DipTimed *base = &times->list[j];
+            if (base->subject == 0 && base->round == timed->round && base->block == timed->block) {
+                ms[timed->round] = timed->ms;
+                base_ms[timed->round] = base->ms;
+                waits[timed->round] = fmax(timed->wait, base->wait);
+            }
+        }
+    }
+    for (int r = 0; r < times->rounds; r++) {
+        disturbed += waits[r] > DIP_TIMED_MOST_WAIT;
+    }
+    for (int r = 0; r < times->rounds && 2 * disturbed <= times->rounds; r++) {
+        ms[r] = waits[r] > DIP_TIMED_MOST_WAIT ? NAN : ms[r];
+    }
+    return disturbed;
+}
+
+// Tells whether the machine was too busy: by the rule of a report, as far as its signs are known.
+static void judge(DipPriceJob *job, double wait, int disturbed, int rounds) {
+    job->waited += wait * rounds;
+    job->disturbed += disturbed;
+    job->judged += rounds;
+    const DipCostSigns signs = {.wait = job->waited / job->judged,
+                                .disturbed = (double)job->disturbed / job->judged,
+                                .settled = true};
+    char reason[DIP_COST_REASON];
+    dip_prices_set_rough_doubtful(job->prices, dip_cost_verdict_of(&signs, reason) == DIP_COST_RED);
+}
+
 static bool end_block(DipPriceJob *job) {
+    const DipTimes times = dip_driver_times(job->driver);
+    double ms[DIP_PRICE_JOB_ROUNDS], base_ms[DIP_PRICE_JOB_ROUNDS];
+    int disturbed = 0;
     bool done = true;
     for (int m = 1; done && m < job->member_count; m++) {
-        const DipPairedTimes times = {job->ms[m], job->ms[0], job->round, 1};
+        disturbed += list_rounds(&times, m, ms, base_ms);
+        const DipPairedTimes paired = {ms, base_ms, times.rounds, 1};
         Timed *before = find_timed(job, &job->members[m]);
-        Timed timed = {.quality = job->members[m], .rounds = job->round};
-        done = dip_paired_ratio(&times, &timed.ratio, &job->failure);
+        Timed timed = {.quality = job->members[m], .rounds = times.rounds};
+        done = dip_paired_ratio(&paired, &timed.ratio, &job->failure);
         if (done) {
             *(before ? before : &job->timed[job->timed_count++]) = timed;
         }
     }
-    double base_ms[DIP_PRICE_JOB_ROUNDS];
-    memcpy(base_ms, job->ms[0], sizeof base_ms);
-    job->base_ms[job->blocks++ % LEVELS] = dip_stats_median(base_ms, job->round);
-    job->member_count = 0;
+    int kept = 0;
+    for (int r = 0; r < times.rounds; r++) {
+        base_ms[kept] = base_ms[r];
+        kept += !isnan(ms[r]);
+    }
+    job->base_ms[job->blocks++ % LEVELS] = dip_stats_median(base_ms, kept);
+    judge(job, dip_driver_machine(job->driver, job->calls.threads).wait, disturbed,
+          times.rounds * (job->member_count - 1));
+    drop_block(job);
     done = done && publish(job);
     job->failed = !done;
     list_wanted(job);
@@ -220,54 +308,20 @@ static bool end_block(DipPriceJob *job) {
 
 // --- frames --------------------------------------------------------------------------------------
 
-static int64_t now_ns(const DipPriceJob *job) {
-    return job->calls.now_ns ? job->calls.now_ns(job->calls.context) : dip_clock_ns();
-}
-
-static bool draw_frame(DipPriceJob *job) {
-    const int member = job->order[job->visit];
-    const uint64_t index = (uint64_t)(FRAMES_OF_A_VISIT * job->round + job->frame + job->round % 2);
-    const int64_t begin_ns = now_ns(job);
-    if (!job->calls.draw(job->calls.context, &job->members[member], index, &job->failure)) {
-        return false;
-    }
-    const double ms = 1e-6 * (double)(now_ns(job) - begin_ns);
-    job->drawn_ms += ms;
-    job->drawn++;
-    if (job->frame == FRAMES_OF_A_VISIT - 1) {
-        job->ms[member][job->round] = fmax(ms, 1e-6); // A clock may stand still for a frame.
-    }
-    return true;
-}
-
-// Moves on to the next frame. Returns whether a block has ended.
-static bool move_on(DipPriceJob *job) {
-    if (++job->frame < FRAMES_OF_A_VISIT) {
-        return false;
-    }
-    job->frame = 0;
-    if (++job->visit < job->member_count) {
-        return false;
-    }
-    job->visit = 0;
-    shuffle(job);
-    return ++job->round == job->block_rounds;
-}
-
 bool dip_price_job_step(DipPriceJob *job, double budget_ms) {
     const int64_t end_ns = now_ns(job) + (int64_t)(1e6 * budget_ms);
     bool news = false;
     do {
-        if (!job->follows || job->failed || job->idle ||
-            (job->member_count == 0 && !begin_block(job))) {
+        if (!job->follows || job->failed || job->idle || (!job->driver && !begin_block(job))) {
             return news;
         }
-        if (!draw_frame(job)) {
+        const DipDriverStep step = dip_driver_step(job->driver, &job->failure);
+        if (step == DIP_DRIVER_FAILED) {
             job->failed = true;
-            job->member_count = 0;
+            drop_block(job);
             return news;
         }
-        news |= move_on(job) && end_block(job);
+        news |= step == DIP_DRIVER_DONE && end_block(job);
     } while (now_ns(job) < end_ns);
     return news;
 }
@@ -283,13 +337,13 @@ DipPriceProgress dip_price_job_progress(const DipPriceJob *job) {
     const int blocks = (job->wanted_count + BLOCK - 1) / BLOCK; // With the one that is being timed.
     const int visits = job->wanted_count + blocks;
     const int frames = visits * FRAMES_OF_A_VISIT * job->rounds;
-    const int done = FRAMES_OF_A_VISIT * (job->round * job->member_count + job->visit) + job->frame;
+    const DipDriverProgress block =
+        job->driver ? dip_driver_progress(job->driver) : (DipDriverProgress){0};
     progress.first = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS;
-    progress.rounds = job->member_count > 0 ? job->round : 0;
+    progress.rounds = block.rounds;
     progress.combinations = job->wanted_count;
     if (job->drawn > 0) {
-        progress.seconds_left =
-            1e-3 * job->drawn_ms / job->drawn * (frames - (job->member_count > 0 ? done : 0));
+        progress.seconds_left = 1e-3 * job->drawn_ms / job->drawn * (frames - (double)block.drawn);
     }
     return progress;
 }

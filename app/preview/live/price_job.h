@@ -11,6 +11,7 @@
 #ifndef DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
 #define DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
 
+#include "app/measure/timing/thread_use.h"
 #include "app/preview/prices/prices.h"
 #include "renderer/base/error.h"
 
@@ -24,7 +25,9 @@ typedef struct DipPriceJobCalls {
     // Draws a frame with these settings. frame_index: see dip_painter_set_frame_index. If it
     // fails, the job ends until it is told to forget.
     bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err);
-    int64_t (*now_ns)(void *context); // NULL means dip_clock_ns.
+    int64_t (*now_ns)(void *context);          // NULL means dip_clock_ns.
+    DipThreadUse (*thread_use)(void *context); // NULL: a watch of this process' threads.
+    int threads;                               // That draw a frame.
     void *context;
 } DipPriceJobCalls;
 
@@ -38,7 +41,7 @@ void dip_price_job_destroy(DipPriceJob **job); // *job may be NULL.
 // or scene of the picture change.
 void dip_price_job_forget(DipPriceJob *job);
 
-// Drops the block that is being timed, because the preview no longer rests.
+// Drops the round that is being timed, because the preview no longer rests.
 void dip_price_job_interrupt(DipPriceJob *job);
 
 // Tells the panes' settings. Combinations that are known already are not timed again.

@@ -19,22 +19,25 @@ static double flip_of(const DipCostReport *report, int row) {
 static void make_step(DipCostsStep *step, const DipCostReport *report, const DipCostSweep *sweep,
                       int index) {
     const int row = sweep->rows[index];
-    char name[DIP_COST_TEXT], ratio[24] = "", flip[24] = "";
+    char name[DIP_COST_TEXT], flip[DIP_NUMBER_BYTES];
     const double base_flip = flip_of(report, sweep->base);
     const bool is_base = row == sweep->base;
     dip_cost_step_text(report, sweep, row, name);
+    *step = (DipCostsStep){.quality = report->rows[row].quality,
+                           .flip_change = is_base ? 0.0 : flip_of(report, row) - base_flip};
     if (is_base) {
-        snprintf(ratio, sizeof ratio, "1x ");
+        snprintf(step->time, sizeof step->time, "1x");
     } else if (dip_cost_is_timed(report, row) && dip_cost_is_timed(report, sweep->base)) {
-        snprintf(ratio, sizeof ratio, "%.2fx ", sweep->ratios[index].value);
+        snprintf(step->time, sizeof step->time, "%.2fx", sweep->ratios[index].value);
     }
-    const double shown = is_base ? base_flip : flip_of(report, row) - base_flip;
+    const double shown = is_base ? base_flip : step->flip_change;
     if (!isnan(shown)) {
         dip_flip_number(shown, !is_base, "-", flip);
+        snprintf(step->flip, sizeof step->flip, "%.15s", flip);
     }
-    step->quality = report->rows[row].quality;
+    snprintf(step->figures, sizeof step->figures, "%.14s%s%.15s", step->time,
+             step->time[0] && step->flip[0] ? " " : "", step->flip);
     snprintf(step->name, sizeof step->name, "%.23s", name);
-    snprintf(step->figures, sizeof step->figures, "%s%s", ratio, flip);
 }
 
 static void make_row(DipCostsRow *row, const DipCostReport *report, const DipCostSweep *sweep) {

@@ -10,12 +10,15 @@
 // One step (value) of a setting.
 typedef struct DipCostsStep {
     DipQuality quality;
-    char name[24];    // Name of the step: "4".
-    char figures[32]; // Time relative to the baseline, and change of FLIP: "1.56x -.0107".
+    char name[24];      // Name of the step: "4".
+    char time[16];      // Time relative to the baseline, "1.56x"; "" if it is not known.
+    char flip[16];      // Change of FLIP, "-.0107"; "" if it is not known.
+    char figures[32];   // Both: "1.56x -.0107".
+    double flip_change; // Change of FLIP as a number; 0 for the baseline, NAN if it is not known.
 } DipCostsStep;
 
-// One setting's steps. One step is the baseline that the other steps are compared with. The text of
-// the baseline is "1x" and its FLIP.
+// One setting's steps. One step is the baseline that the other steps are compared with. The texts
+// of the baseline are "1x" and its FLIP.
 typedef struct DipCostsRow {
     char title[48]; // "Antialiasing".
     DipSetting setting;

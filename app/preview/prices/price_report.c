@@ -42,7 +42,7 @@ static DipPriceKnown known_of_row(const DipCostReport *report, int row, const Di
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     if (dip_cost_is_timed(report, row)) {
-        const DipStatsEstimate ms = report->rows[row].time.mean_ms;
+        const DipEstimate ms = report->rows[row].time.mean_ms;
         known.state = DIP_PRICE_MEASURED;
         known.ms = ms.value;
         known.ms_low = ms.low;
@@ -167,19 +167,17 @@ static void fill_base(DipPrice *price, const DipCostReport *report, int row) {
 // The time is the difference of the rows' times, that is of their ratios to the path's baseline,
 // times the baseline's time. The interval is that of the rows' own ratio, because both rows share
 // the level of the machine.
-static bool fill_step(DipPrice *price, const DipCostReport *report, int row, int without,
-                      DipError *err) {
-    const DipStatsEstimate change = dip_cost_flip_change(report, row, without);
+static void fill_step(DipPrice *price, const DipCostReport *report, int row, int without) {
+    const DipEstimate change = dip_cost_flip_change(report, row, without);
     if (dip_cost_is_timed(report, row) && dip_cost_is_timed(report, without)) {
-        DipStatsEstimate ratio;
-        if (!dip_cost_ratio(report, row, without, &ratio, err)) {
-            return false;
-        }
+        const DipEstimate ratio = dip_cost_ratio(report, row, without);
         const double base_ms = dip_cost_ms(report, without);
         price->state = DIP_PRICE_MEASURED;
         price->ms = dip_cost_ms(report, row) - base_ms;
-        price->ms_low = price->ms - (ratio.value - ratio.low) * base_ms;
-        price->ms_high = price->ms + (ratio.high - ratio.value) * base_ms;
+        if (row != without) { // The same row stands for both: they differ by nothing.
+            price->ms_low = price->ms - (ratio.value - ratio.low) * base_ms;
+            price->ms_high = price->ms + (ratio.high - ratio.value) * base_ms;
+        }
         price->without_ms = base_ms;
     }
     price->has_flip = !isnan(change.value);
@@ -187,7 +185,6 @@ static bool fill_step(DipPrice *price, const DipCostReport *report, int row, int
         price->flip = change.value;
         price->flip_at_floor = dip_cost_at_floor(report, row);
     }
-    return true;
 }
 
 const DipPrice *dip_price_report_find(const DipPriceReport *report, DipSetting setting,
@@ -241,7 +238,8 @@ static bool add_tag(DipPriceReport *made, const DipCostReport *report, DipSettin
         return true;
     }
     const int without = find_row(report, path, &made->base, &question.without);
-    return fill_step(&tag->price, report, with, without, err);
+    fill_step(&tag->price, report, with, without);
+    return true;
 }
 
 // Makes the tags of the steps of a combination, each beside the company that it has there.

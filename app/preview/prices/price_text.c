@@ -100,7 +100,7 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) 
 // Writes what is known of a doubtful time. An interval that is wider than the whole frame says
 // nothing.
 static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
-    const char *why = price->doubtful ? "the machine was too busy while the report was measured"
+    const char *why = price->doubtful ? "the machine was too busy while it was measured"
                                       : "other programs disturbed the frames that timed it";
     if (price->ms_high - price->ms_low <= price->without_ms) {
         snprintf(text, size_bytes, "\nIts time is doubtful, between %+.1f and %+.1f ms: %s.",

@@ -146,8 +146,8 @@ static DipPrice price_of_list(const DipPrices *prices, const DipPriceQuestion *q
         return (DipPrice){.state = DIP_PRICE_UNKNOWN};
     }
     DipPrice price = question->is_base ? whole_price(with) : difference(with, without);
+    price.doubtful = dip_prices_are_doubtful(prices);
     if (!dip_prices_are_rough(prices)) {
-        price.doubtful = prices->report.doubtful;
         snprintf(price.path, sizeof price.path, "%s", prices->report.path);
     }
     return price;

@@ -136,6 +136,9 @@ void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, dou
 // samples or more are not, at most `room`. Returns their number.
 int dip_prices_list_without_flip(const DipPrices *prices, int samples, DipQuality *list, int room);
 
+// Says whether the machine was too busy for the rough times to be believed.
+void dip_prices_set_rough_doubtful(DipPrices *prices, bool doubtful);
+
 // Returns the number of combinations whose rough times are known.
 int dip_prices_rough_count(const DipPrices *prices);
 
@@ -163,7 +166,7 @@ DipPrice dip_prices_step(const DipPrices *prices, DipSetting setting, int step,
 // know is the sum of the parts, whose intervals are added as independent errors.
 DipPriceSum dip_prices_sum(const DipPrices *prices, const DipQuality *quality);
 
-// Returns whether all times are doubtful, because the report's machine was too busy.
+// Returns whether all times are doubtful, because the machine was too busy while they were taken.
 bool dip_prices_are_doubtful(const DipPrices *prices);
 
 // Says where the prices come from and for what they hold: "Prices: report of this scene, path

@@ -59,6 +59,7 @@ struct DipPrices {
     DipPriceReport report;
     bool prefers_rough;
     DipPriceList rough;
+    bool rough_doubtful;
     DipPriceConditions conditions;
     unsigned changes; // See dip_prices_changes.
     char progress[DIP_PRICE_PROGRESS];

@@ -101,3 +101,7 @@ bool dip_prices_set_progress(DipPrices *prices, const char *text) {
 const char *dip_prices_progress(const DipPrices *prices) {
     return prices->progress;
 }
+
+void dip_prices_set_rough_doubtful(DipPrices *prices, bool doubtful) {
+    prices->rough_doubtful = doubtful;
+}

@@ -57,7 +57,7 @@ bool dip_prices_are_of_other_scene(const DipPrices *prices) {
 }
 
 bool dip_prices_are_doubtful(const DipPrices *prices) {
-    return !dip_prices_are_rough(prices) && prices->report.doubtful;
+    return dip_prices_are_rough(prices) ? prices->rough_doubtful : prices->report.doubtful;
 }
 
 bool dip_prices_source(const DipPrices *prices, int width, int height, char *out,

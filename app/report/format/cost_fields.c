@@ -142,7 +142,7 @@ static const void *derive_over_time(const DipFieldAt *at, DipFieldScratch *scrat
 // A metric of a row with its interval over the viewpoints, and its change from the base of a sweep.
 #define METRIC_FUNCTIONS(METRIC)                                                                   \
     static const void *derive_##METRIC(const DipFieldAt *at, DipFieldScratch *scratch) {           \
-        DipStatsEstimate *to = (DipStatsEstimate *)scratch;                                        \
+        DipEstimate *to = (DipEstimate *)scratch;                                                  \
         int viewpoints;                                                                            \
         dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);                                 \
         *to = dip_cost_metric(report_of(at), row_of(at), DIP_COST_##METRIC);                       \
@@ -150,7 +150,7 @@ static const void *derive_over_time(const DipFieldAt *at, DipFieldScratch *scrat
     }                                                                                              \
     static const void *derive_change_##METRIC(const DipFieldAt *at, DipFieldScratch *scratch) {    \
         const DipCostSweep *sweep = at->owner->item;                                               \
-        DipStatsEstimate *to = (DipStatsEstimate *)scratch;                                        \
+        DipEstimate *to = (DipEstimate *)scratch;                                                  \
         *to = dip_cost_metric_change(report_of(at), sweep->rows[at->index], sweep->base,           \
                                      DIP_COST_##METRIC);                                           \
         return to;                                                                                 \
@@ -451,6 +451,165 @@ static DipErrorCode open_rows(const DipFieldAt *at, int count) {
     return report->rows && dip_cost_report_alloc(report, NULL) ? DIP_ERROR_NONE : DIP_ERROR_MEMORY;
 }
 
+// --- visits --------------------------------------------------------------------------------------
+
+// A frame is timed a few times for the advice, and a baseline's in every block.
+enum { MOST_TIMES = 64 };
+
+// A visit: successive frames of the log, from the index `first` on.
+typedef struct Visit {
+    int row;
+    int start;
+    int round;
+    int block;
+    double begin_ms;
+    int first;
+    int count;
+} Visit;
+
+static bool is_same_visit(const DipTimed *a, const DipTimed *b) {
+    return a->subject == b->subject && a->start == b->start && a->round == b->round &&
+           a->block == b->block;
+}
+
+static int count_visits(const DipFieldAt *at) {
+    const DipCostReport *report = report_of(at);
+    int count = 0;
+    for (int i = 0; i < report->log_count; i++) {
+        count += i == 0 || !is_same_visit(&report->log[i - 1], &report->log[i]);
+    }
+    return count;
+}
+
+// *scratch has the visit before.
+static const void *get_visit(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    const DipCostReport *report = report_of(at);
+    Visit *visit = (Visit *)scratch;
+    const int first = index > 0 ? visit->first + visit->count : 0;
+    const DipTimed *timed = &report->log[first];
+    *visit = (Visit){.row = timed->subject,
+                     .start = timed->start,
+                     .round = timed->round,
+                     .block = timed->block,
+                     .begin_ms = (double)timed->begin_ns / 1e6,
+                     .first = first};
+    while (first + visit->count < report->log_count && is_same_visit(timed, &timed[visit->count])) {
+        visit->count++;
+    }
+    return visit;
+}
+
+// Files without visits are read by their pairs.
+static DipErrorCode open_visits(const DipFieldAt *at, int count) {
+    const DipCostReport *report = report_of(at);
+    return count == 0 || (report->starts > 0 && report->rounds % report->starts == 0)
+               ? DIP_ERROR_NONE
+               : DIP_ERROR_FORMAT;
+}
+
+static bool put_visit(const DipFieldAt *at, int index, const void *item) {
+    const DipCostReport *report = report_of(at);
+    const Visit *visit = item;
+    (void)index;
+    for (int i = visit->first; i < visit->first + visit->count; i++) {
+        DipTimed *timed = &report->log[i];
+        timed->subject = visit->row;
+        timed->start = visit->start;
+        timed->round = visit->round;
+        timed->block = visit->block;
+        timed->begin_ns = llround(1e6 * visit->begin_ms);
+        if (timed->frame >= dip_cost_frame_count(report)) {
+            return false;
+        }
+    }
+    return is_row(report, visit->row) && visit->start < report->starts &&
+           visit->round < report->rounds / report->starts;
+}
+
+static int count_frames(const DipFieldAt *at) {
+    return ((const Visit *)at->item)->count;
+}
+
+// Makes room for the frames of a visit at the end of the log.
+static DipErrorCode open_frames(const DipFieldAt *at, int count) {
+    DipCostReport *report = report_of(at);
+    Visit *visit = (Visit *)at->item;
+    const int64_t needed = (int64_t)report->log_count + count;
+    if (count < 1 ||
+        needed > (int64_t)MOST_TIMES * report->row_count * dip_cost_frame_count(report)) {
+        return DIP_ERROR_FORMAT;
+    }
+    DipTimed *log = realloc(report->log, (size_t)needed * sizeof *log);
+    if (!log) {
+        return DIP_ERROR_MEMORY;
+    }
+    memset(log + report->log_count, 0, (size_t)count * sizeof *log);
+    visit->first = report->log_count;
+    visit->count = count;
+    report->log = log;
+    report->log_count = (int)needed;
+    return DIP_ERROR_NONE;
+}
+
+static DipErrorCode open_times(const DipFieldAt *at, int count) {
+    return count == count_frames(at) ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
+}
+
+#define TIMED_FUNCTION(member)                                                                     \
+    static const void *get_timed_##member(const DipFieldAt *at, int index,                         \
+                                          DipFieldScratch *scratch) {                              \
+        (void)scratch;                                                                             \
+        return &report_of(at)->log[((const Visit *)at->item)->first + index].member;               \
+    }
+TIMED_FUNCTION(frame)
+TIMED_FUNCTION(ms)
+TIMED_FUNCTION(wait)
+
+static bool is_wait_known(const DipFieldAt *at) {
+    return isfinite(*(const double *)at->item);
+}
+
+static const DipField frame_element = {.kind = DIP_FIELD_WHOLE, .most = INT_MAX};
+static const DipField ms_element = {
+    .kind = DIP_FIELD_NUMBER, .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS};
+static const DipField wait_element = {
+    .kind = DIP_FIELD_NUMBER, .most = DIP_COST_MOST_MEAN, .known = is_wait_known};
+
+#define TIMED_FIELD(name, MEMBER, ELEMENT, OPEN, means)                                            \
+    {                                                                                              \
+        name, NULL, NULL, means, LIST, .list = &(const DipFieldList) {                             \
+            .element = &(ELEMENT), .count = count_frames, .item = get_timed_##MEMBER, .open = OPEN \
+        }                                                                                          \
+    }
+static const DipField visit_fields[] = {
+    {"row", NULL, NULL, "Index of the row.", DIP_FACT(WHOLE, Visit, row),
+     .most = DIP_COST_MAX_ROWS - 1},
+    {"start", NULL, NULL, "Start of the program, from 0 on.", DIP_FACT(WHOLE, Visit, start),
+     .most = DIP_TIMED_MOST_STARTS - 1},
+    {"round", NULL, NULL, "Round of the start, from 0 on.", DIP_FACT(WHOLE, Visit, round),
+     .most = INT_MAX},
+    {"block", NULL, NULL,
+     "Visits of one block are compared with each other; the blocks of a round have different "
+     "numbers.",
+     DIP_FACT(WHOLE, Visit, block), .most = INT_MAX - 1},
+    {"begin_ms", NULL, "ms", "When the visit began, since the measurement began.",
+     DIP_FACT(NUMBER, Visit, begin_ms), .most = DIP_COST_MOST_MS},
+    TIMED_FIELD("frames", frame, frame_element, open_frames, "The frames along the path."),
+    TIMED_FIELD("ms", ms, ms_element, open_times, "Time of each frame, in milliseconds."),
+    TIMED_FIELD(
+        "wait", wait, wait_element, open_times,
+        "Time that the frame's threads waited for a processor, as a share of its time; null "
+        "if the machine does not tell."),
+};
+static const DipRecord visit_record = DIP_RECORD(
+    "visit", "A few frames of one row, timed one after another.", visit_fields, Visit, NULL);
+
+static const DipFieldList visit_list = {.record = &visit_record,
+                                        .count = count_visits,
+                                        .item = get_visit,
+                                        .open = open_visits,
+                                        .put = put_visit};
+
 // --- paths and their truths ----------------------------------------------------------------------
 
 typedef struct Path {
@@ -599,13 +758,6 @@ static const void *derive_ratio(const DipFieldAt *at, DipFieldScratch *scratch) 
     return &sweep_of(at)->ratios[at->index];
 }
 
-static const void *derive_over_runs(const DipFieldAt *at, DipFieldScratch *scratch) {
-    DipStatsEstimate *to = (DipStatsEstimate *)scratch;
-    *to = sweep_of(at)->ratios[at->index];
-    return dip_cost_ratio_over_runs(report_of(at), &sweep_of(at)->ratios[at->index], to) ? to
-                                                                                         : NULL;
-}
-
 static const void *derive_row(const DipFieldAt *at, DipFieldScratch *scratch) {
     (void)scratch;
     return &report_of(at)->rows[*(const int *)at->item];
@@ -629,9 +781,6 @@ static const DipField step_fields[] = {
     {"step", "step", NULL, "The step's name.", DIP_DERIVED(TEXT, derive_step)},
     {"ratio", "ratio", NULL, "The step's time divided by that of the sweep's base.",
      DIP_DERIVED(ESTIMATE, derive_ratio), .known = is_step_timed, .digits = 3},
-    {"ratio_over_runs", "ratio over runs", NULL,
-     "The same with the interval that holds over many runs on this machine.",
-     DIP_DERIVED(ESTIMATE, derive_over_runs), .known = is_step_timed, .digits = 3},
     METRIC_LIST(CHANGE_FIELD){"measured", NULL, NULL, "The fields of the step's row.",
                               .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_DERIVED,
                               .derive = derive_row, .record = &dip_cost_row_record},
@@ -904,8 +1053,7 @@ static const void *derive_chosen_ms(const DipFieldAt *at, DipFieldScratch *scrat
     if (!chosen) {
         return NULL;
     }
-    const DipEstimate ms = dip_estimate_widen(&chosen->time, chosen->common_error);
-    *(DipStatsEstimate *)scratch = (DipStatsEstimate){ms.value, ms.low, ms.high};
+    *(DipEstimate *)scratch = dip_estimate_widen(&chosen->time, chosen->common_error);
     return scratch;
 }
 
@@ -981,24 +1129,6 @@ static const DipFieldList advice_list = {.record = &advice_record,
 
 // --- the machine ---------------------------------------------------------------------------------
 
-#define SPREAD_FIELD(name, KIND, MOST, means)                                                      \
-    { #name, NULL, NULL, means, DIP_FACT(KIND, DipCostLevelSpread, name), .most = MOST }
-static const DipField spread_fields[] = {
-    SPREAD_FIELD(runs, WHOLE, INT_MAX, "Number of runs, with this one; 0 if they are not known."),
-    SPREAD_FIELD(least_ms, NUMBER, DIP_COST_MOST_MS, "The baseline's time in the fastest run."),
-    SPREAD_FIELD(most_ms, NUMBER, DIP_COST_MOST_MS, "The baseline's time in the slowest run."),
-    SPREAD_FIELD(deviation, NUMBER, DIP_COST_MOST_MS, "Standard deviation of the logarithm."),
-    SPREAD_FIELD(factor, NUMBER, DIP_COST_MOST_MS,
-                 "95 % of the quotients of two runs are at most this; 0 for too few runs."),
-    SPREAD_FIELD(ratio_deviation, NUMBER, DIP_COST_MOST_MS,
-                 "Standard deviation of the logarithm of the steps' ratios."),
-    SPREAD_FIELD(ratio_factor, NUMBER, DIP_COST_MOST_MS,
-                 "The same as `factor` of the steps' ratios."),
-};
-static const DipRecord spread_record =
-    DIP_RECORD("runs", "How far several runs on one machine lie apart.", spread_fields,
-               DipCostLevelSpread, NULL);
-
 static const void *derive_reason(const DipFieldAt *at, DipFieldScratch *scratch) {
     (void)scratch;
     return report_of(at)->verdict_reason;
@@ -1016,8 +1146,12 @@ static const DipField machine_fields[] = {
      DIP_FACT(FLAG, DipCostReport, machine.has_wait)},
     {"settled", NULL, NULL, "Whether the time was steady before the first round.",
      DIP_FACT(FLAG, DipCostReport, machine.settled)},
-    {"runs", NULL, NULL, "Several runs on this machine.",
-     DIP_FACT(RECORD, DipCostReport, level_spread), .record = &spread_record},
+    {"doubt", NULL, NULL,
+     "Standard error of the logarithm of all times that an amber verdict adds to their intervals.",
+     DIP_COMPUTED(NUMBER, DipCostReport, doubt), .digits = 3},
+    {"starts", NULL, NULL,
+     "Number of starts of the program, each with rounds / starts rounds; 0 without `visits`.",
+     DIP_FACT(WHOLE, DipCostReport, starts), .most = DIP_TIMED_MOST_STARTS},
 };
 static const DipRecord machine_record = DIP_RECORD(
     "machine", "What the timing tells about the machine.", machine_fields, DipCostReport, NULL);
@@ -1099,6 +1233,9 @@ static const DipField report_fields[] = {
                                                .points = true,
                                                .open = open_rows}),
                 "What was measured."),
+    REPORT_LIST("visits", .list = &visit_list,
+                "Every timed frame, from which all times are computed; without visits they are "
+                "computed from the rows' pairs."),
     REPORT_LIST("floors", .list = &floor_list, "The truths' own noise."),
     REPORT_LIST("same_pictures",
                 OWNED(DipCostReport, same, same_count, DIP_COST_MAX_ROWS, &same_record),

@@ -65,17 +65,6 @@ static void upgrade_rows(cJSON *root) {
     }
 }
 
-static void upgrade_machine(cJSON *root) {
-    static const char *const names[] = {"runs",   "least_ms",        "most_ms",     "deviation",
-                                        "factor", "ratio_deviation", "ratio_factor"};
-    cJSON *machine = cJSON_GetObjectItemCaseSensitive(root, "machine");
-    add_missing(machine, "runs", cJSON_CreateObject());
-    for (int i = 0; i < 7; i++) {
-        add_missing(cJSON_GetObjectItemCaseSensitive(machine, "runs"), names[i],
-                    cJSON_CreateNumber(0.0));
-    }
-}
-
 static void upgrade_lists(cJSON *root) {
     cJSON *item;
     const cJSON *smaller = cJSON_GetObjectItemCaseSensitive(root, "smaller");
@@ -87,14 +76,16 @@ static void upgrade_lists(cJSON *root) {
 // Gives a report of format 2 the members of format 3: what was left out is null or empty.
 static void upgrade(cJSON *root) {
     static const char *const parts[] = {"machine", "predicted", "smaller"};
-    static const char *const lists[] = {"left_out", "floors", "same_pictures", "sweeps", "advice"};
+    static const char *const lists[] = {"left_out", "floors", "same_pictures",
+                                        "sweeps",   "advice", "visits"};
     add_nulls(root, parts, 3);
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 6; i++) {
         add_missing(root, lists[i], cJSON_CreateArray());
     }
     add_missing(root, "date", cJSON_CreateString(""));
     upgrade_rows(root);
-    upgrade_machine(root);
+    add_missing(cJSON_GetObjectItemCaseSensitive(root, "machine"), "starts",
+                cJSON_CreateNumber(0.0));
     upgrade_lists(root);
 }
 

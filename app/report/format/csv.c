@@ -10,8 +10,8 @@ typedef struct Line {
     char title[DIP_COST_TEXT];
     int path;
     const DipQuality *quality;
-    int row;                       // -1: the combination was only predicted.
-    const DipStatsEstimate *ratio; // To the base of the sweep; NULL: to that of the path.
+    int row;                  // -1: the combination was only predicted.
+    const DipEstimate *ratio; // To the base of the sweep; NULL: to that of the path.
     const DipCostPrediction *prediction;
 } Line;
 

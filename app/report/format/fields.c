@@ -29,7 +29,7 @@ const void *dip_field_list_item(const DipFieldList *list, const DipFieldAt *at, 
            (size_t)index * (list->stride ? list->stride : size) + list->within;
 }
 
-bool dip_field_has_interval(const DipStatsEstimate *estimate) {
+bool dip_field_has_interval(const DipEstimate *estimate) {
     return isfinite(estimate->low) && isfinite(estimate->high) && estimate->low < estimate->high;
 }
 

@@ -7,7 +7,7 @@
 #ifndef DIP_APP_REPORT_FORMAT_FIELDS_H
 #define DIP_APP_REPORT_FORMAT_FIELDS_H
 
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
@@ -19,7 +19,7 @@ typedef enum DipFieldKind {
     DIP_FIELD_WHOLE,    // int in least..most.
     DIP_FIELD_FLAG,     // bool.
     DIP_FIELD_NUMBER,   // double in least..most; not finite: not known.
-    DIP_FIELD_ESTIMATE, // DipStatsEstimate; low and high are known if low < high.
+    DIP_FIELD_ESTIMATE, // DipEstimate; low and high are known if low < high.
     DIP_FIELD_SETTINGS, // DipQuality: "aa=4,taa=off,...".
     DIP_FIELD_NAMED,    // int: an index of `names`.
     DIP_FIELD_NUMBERS,  // double[size / sizeof(double)]: an object if they have names, or an array.
@@ -69,7 +69,8 @@ typedef struct DipFieldList {
     const DipRecord *record;        // Of the items; NULL if each is a single value:
     const struct DipField *element; // its kind and range. It has no name.
     int (*count)(const DipFieldAt *at);
-    // Returns the item; it may be made up in *scratch.
+    // Returns the item; it may be made up in *scratch. Items are written in order, and *scratch
+    // still has what was made up for the item before.
     const void *(*item)(const DipFieldAt *at, int index, DipFieldScratch *scratch);
     // Makes room for items that are read. Returns DIP_ERROR_NONE, DIP_ERROR_FORMAT (so many are
     // impossible) or DIP_ERROR_MEMORY.
@@ -112,7 +113,7 @@ const void *dip_field_list_item(const DipFieldList *list, const DipFieldAt *at, 
                                 DipFieldScratch *scratch);
 
 // True if both ends of an interval are known: they are finite and not the same.
-bool dip_field_has_interval(const DipStatsEstimate *estimate);
+bool dip_field_has_interval(const DipEstimate *estimate);
 
 // Writes a number with as few digits as tell it from all others.
 void dip_field_format_exact(double value, char text[32]);

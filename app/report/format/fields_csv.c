@@ -60,7 +60,7 @@ static void visit_head(void *context, const DipField *field, const void *value) 
     }
 }
 
-static void put_estimate(Cells *cells, const DipStatsEstimate *estimate) {
+static void put_estimate(Cells *cells, const DipEstimate *estimate) {
     const bool has = estimate && dip_field_has_interval(estimate);
     put_number(cells, estimate ? estimate->value : NAN);
     put_number(cells, has ? estimate->low : NAN);

@@ -25,9 +25,9 @@ static void print_name(const char *name, FILE *out) {
     fputc(':', out);
 }
 
-static void print_estimate(const DipField *field, const DipStatsEstimate *estimate, FILE *out) {
-    static const DipStatsEstimate unknown = {NAN, NAN, NAN};
-    const DipStatsEstimate *shown = estimate ? estimate : &unknown;
+static void print_estimate(const DipField *field, const DipEstimate *estimate, FILE *out) {
+    const DipEstimate unknown = dip_estimate_unknown(NAN);
+    const DipEstimate *shown = estimate ? estimate : &unknown;
     const bool has = dip_field_has_interval(shown);
     const char *const ends[] = {"_low", "_high"};
     const double values[] = {has ? shown->low : NAN, has ? shown->high : NAN};
@@ -58,9 +58,9 @@ static void print_value(const DipField *field, const DipFieldAt *at, const void 
 
 static void print_list(const DipFieldList *list, const DipFieldAt *at, FILE *out) {
     const int count = dip_field_list_count(list, at);
+    DipFieldScratch scratch;
     fputc('[', out);
     for (int i = 0; i < count; i++) {
-        DipFieldScratch scratch;
         const DipFieldAt within = {at->context, dip_field_list_item(list, at, i, &scratch), i, at};
         fputs(i ? "," : "", out);
         if (list->record) {
@@ -164,8 +164,9 @@ static bool read_end(const cJSON *item, double *value) {
     return cJSON_IsNull(item) || isfinite(*value);
 }
 
-static bool read_estimate(const cJSON *object, const DipField *field, DipStatsEstimate *to) {
+static bool read_estimate(const cJSON *object, const DipField *field, DipEstimate *to) {
     const char *const ends[] = {"", "_low", "_high"};
+    *to = dip_estimate_unknown(NAN);
     double *const values[] = {&to->value, &to->low, &to->high};
     for (int i = 0; i < 3; i++) {
         char name[NAME_ROOM];

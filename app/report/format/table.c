@@ -35,20 +35,19 @@ static void print_heading(const DipCostReport *report, FILE *out) {
     dip_put_text(out, "baseline %s\n", baseline);
 }
 
-static void print_times(const DipCostReport *report, int row, const DipStatsEstimate *ratio,
-                        FILE *out) {
+static void print_times(const DipCostReport *report, int row, const DipEstimate *ratio, FILE *out) {
     if (!dip_cost_is_timed(report, row)) {
         dip_put_text(out, " %8s %8s %6s %-14s", "-", "-", "-", "");
         return;
     }
-    char interval[32];
-    snprintf(interval, sizeof interval, "%.3f to %.3f", ratio->low, ratio->high);
+    char interval[DIP_COST_INTERVAL];
+    dip_cost_interval_text(ratio, 3, interval);
     dip_put_text(out, " %8.2f %8.2f %6.3f %-14s", dip_cost_ms(report, row),
                  report->rows[row].time.p95_ms.value, ratio->value, interval);
 }
 
 static void print_row(const DipCostReport *report, const char *name, int row,
-                      const DipStatsEstimate *ratio, FILE *out) {
+                      const DipEstimate *ratio, FILE *out) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     dip_put_text(out, "  %-17s", name);

@@ -88,17 +88,6 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
 
 // --- tables ------------------------------------------------------------------------------------
 
-// Writes FLIP with its interval, which a single viewpoint does not have.
-static void write_flip(const DipCostReport *report, int row, FILE *out) {
-    const DipStatsEstimate flip = dip_cost_flip(report, row);
-    dip_put_html(out, "<td>%.4f</td>", flip.value);
-    if (isfinite(flip.low) && isfinite(flip.high)) {
-        dip_put_html(out, "<td>%.4f to %.4f</td>", flip.low, flip.high);
-    } else {
-        dip_put_html(out, "<td></td>");
-    }
-}
-
 static double flicker_of(const DipCostReport *report, int row) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
@@ -106,12 +95,20 @@ static double flicker_of(const DipCostReport *report, int row) {
 }
 
 // Writes the changes from the candidate before, and what each 1 % of FLIP cost.
-static void write_changes(const DipCandidate *candidate, const DipCandidate *before, FILE *out) {
+static void write_changes(const DipCostReport *report, const DipCandidate *candidate,
+                          const DipCandidate *before, FILE *out) {
     char ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES];
     const double more_ms = candidate->time.value - before->time.value;
     dip_number_text(more_ms, 2, true, "-", ms);
     dip_number_text(candidate->flip - before->flip, 4, true, "-", flip);
     dip_put_html(out, "<td>%s</td><td>%s</td>", ms, flip);
+    // Viewpoints differ more than settings do, so the interval is that of the viewpoints' changes.
+    const DipEstimate change = dip_cost_flip_change(report, candidate->row, before->row);
+    if (isfinite(change.low) && isfinite(change.high)) {
+        dip_put_html(out, "<td>%+.4f to %+.4f</td>", change.low, change.high);
+    } else {
+        dip_put_html(out, "<td></td>");
+    }
     if (candidate->loss > 0.0) {
         dip_put_html(out, "<td>%.3f</td>", more_ms / (100.0 * log(before->loss / candidate->loss)));
     } else {
@@ -129,13 +126,13 @@ static void write_front_row(const DipCostReport *report, int index, FILE *out) {
     dip_html_settings(report, row, out);
     dip_put_html(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1,
                  index == choice->knee ? ", knee" : "", candidate->time.value);
-    write_flip(report, row, out);
-    dip_put_html(out, "<td>%.5f</td><td>%.5f</td>", flicker_of(report, row),
-                 dip_cost_row_metrics(report, row, 0).rmse_lin);
+    const DipMetrics metrics = dip_cost_row_metrics(report, row, 0);
+    dip_put_html(out, "<td>%.4f</td><td>%.5f</td><td>%.5f</td>", metrics.flip,
+                 flicker_of(report, row), metrics.rmse_lin);
     if (index > 0) {
-        write_changes(candidate, &list[choice->front[index - 1]], out);
+        write_changes(report, candidate, &list[choice->front[index - 1]], out);
     } else {
-        dip_put_html(out, "<td></td><td></td><td></td>");
+        dip_put_html(out, "<td></td><td></td><td></td><td></td>");
     }
     dip_put_html(out, "</tr>\n");
 }
@@ -151,11 +148,11 @@ static void write_front_table(const DipCostReport *report, FILE *out) {
     dip_html_column(out, "number", "in the plot");
     dip_html_column(out, dip_time_kind_names[choice->candidates.kind], "ms");
     dip_html_column(out, "FLIP", NULL);
-    dip_html_column(out, "95 % interval", "of FLIP");
     dip_html_column(out, "flicker", "linear");
     dip_html_column(out, "RMSE", "linear");
     dip_html_column(out, "change of time", "ms");
     dip_html_column(out, "change of FLIP", NULL);
+    dip_html_column(out, "95 % interval", "of the change");
     dip_html_column(out, "price of 1 % less FLIP", "ms");
     dip_html_columns_end(out);
     for (int i = 0; i < choice->front_count; i++) {
@@ -165,19 +162,20 @@ static void write_front_table(const DipCostReport *report, FILE *out) {
 }
 
 static void write_combination(const DipCostReport *report, int row, FILE *out) {
-    char all[256];
+    char all[256], of_mean[DIP_COST_INTERVAL], of_ratio[DIP_COST_INTERVAL];
     const DipPathEstimate *time = &report->rows[row].time;
     const DipMetrics f = dip_cost_row_metrics(report, row, 0);
     dip_quality_format(&report->rows[row].quality, all, sizeof all);
+    dip_cost_interval_text(&time->mean_ms, 2, of_mean);
+    dip_cost_interval_text(&time->ratio, 3, of_ratio);
     dip_put_html(out, "<tr data-row=\"%d\" data-settings=\"%s\"><th scope=\"row\">", row, all);
     dip_html_settings(report, row, out);
     dip_put_html(out,
-                 "</th><td>%.2f</td><td>%.2f to %.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to "
-                 "%.3f</td><td>%.4f</td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
+                 "</th><td>%.2f</td><td>%s</td><td>%.2f</td><td>%.3f</td><td>%s</td><td>%.4f</"
+                 "td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
                  "class=\"l\">%s</td></tr>\n",
-                 time->mean_ms.value, time->mean_ms.low, time->mean_ms.high, time->p95_ms.value,
-                 time->ratio.value, time->ratio.low, time->ratio.high, f.flip,
-                 flicker_of(report, row), f.psnr_db, f.ssim, f.rmse_lin,
+                 time->mean_ms.value, of_mean, time->p95_ms.value, time->ratio.value, of_ratio,
+                 f.flip, flicker_of(report, row), f.psnr_db, f.ssim, f.rmse_lin,
                  dip_cost_floor_mark(report, row));
 }
 

@@ -67,10 +67,12 @@ static void write_verdict(const DipCostReport *report, FILE *out) {
     dip_html_column(out, "95 % interval", NULL);
     dip_html_columns_end(out);
     for (int p = 0; p < report->path_count; p++) {
-        const DipStatsEstimate same = report->rows[report->same_rows[p]].time.ratio;
+        const DipEstimate same = report->rows[report->same_rows[p]].time.ratio;
+        char interval[DIP_COST_INTERVAL];
+        dip_cost_interval_text(&same, 3, interval);
         dip_html_line_begin(out, report->same_rows[p]);
-        dip_put_html(out, "<th scope=\"row\">%s</th><td>%.3f</td><td>%.3f to %.3f</td></tr>\n",
-                     report->paths[p], same.value, same.low, same.high);
+        dip_put_html(out, "<th scope=\"row\">%s</th><td>%.3f</td><td>%s</td></tr>\n",
+                     report->paths[p], same.value, interval);
     }
     dip_html_table_end(out);
 }

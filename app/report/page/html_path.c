@@ -80,13 +80,11 @@ static bool alloc_lines(Lines *lines) {
     return lines->positions && lines->ms && lines->flip && lines->texts && lines->titles;
 }
 
-// Fills in the times and positions of the frames. Returns false when memory runs out.
-static bool fill_times(Lines *lines) {
+// Fills in the times and positions of the frames.
+static void fill_times(Lines *lines) {
     const int frames = lines->frames;
     const int step = (frames + MOST_FRAMES - 1) / MOST_FRAMES;
-    if (!dip_cost_frame_times(lines->report, lines->rows, lines->count, lines->ms, NULL)) {
-        return false;
-    }
+    dip_cost_frame_times(lines->report, lines->rows, lines->count, lines->ms);
     lines->frames = (frames + step - 1) / step;
     for (int i = 0; i < lines->count; i++) {
         for (int f = 0; f < lines->frames; f++) {
@@ -94,7 +92,6 @@ static bool fill_times(Lines *lines) {
             lines->positions[f] = 100.0 * f * step / frames;
         }
     }
-    return true;
 }
 
 // Returns a line of `count` points, and writes their titles.
@@ -184,7 +181,10 @@ bool dip_html_path(const DipCostReport *report, FILE *out) {
         return true;
     }
     list_lines(&lines);
-    const bool made = alloc_lines(&lines) && fill_times(&lines);
+    const bool made = alloc_lines(&lines);
+    if (made) {
+        fill_times(&lines);
+    }
     if (made) {
         dip_put_html(
             out,

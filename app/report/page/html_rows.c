@@ -30,8 +30,10 @@ static void format_time(const DipCostReport *report, int row, char text[DIP_COST
     const DipPathEstimate *time = &report->rows[row].time;
     text[0] = '\0';
     if (dip_cost_is_timed(report, row)) {
-        snprintf(text, DIP_COST_TEXT, "%.2f ms (%.2f to %.2f), 95th percentile %.2f ms",
-                 time->mean_ms.value, time->mean_ms.low, time->mean_ms.high, time->p95_ms.value);
+        char interval[DIP_COST_INTERVAL];
+        dip_cost_interval_text(&time->mean_ms, 2, interval);
+        snprintf(text, DIP_COST_TEXT, "%.2f ms%s%s%s, 95th percentile %.2f ms", time->mean_ms.value,
+                 interval[0] ? " (" : "", interval, interval[0] ? ")" : "", time->p95_ms.value);
     }
 }
 

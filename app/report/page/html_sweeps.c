@@ -29,7 +29,8 @@ static Scale find_scale(const DipCostReport *report, const DipCostSweep *sweep) 
     Scale scale = {1e-9, 1e-9};
     for (int i = 0; i < sweep->row_count; i++) {
         if (dip_cost_is_timed(report, sweep->rows[i])) {
-            scale.most_ratio = fmax(scale.most_ratio, sweep->ratios[i].high);
+            const DipEstimate *ratio = &sweep->ratios[i];
+            scale.most_ratio = fmax(scale.most_ratio, fmax(ratio->value, ratio->high));
         }
         scale.most_flip =
             fmax(scale.most_flip, dip_cost_row_metrics(report, sweep->rows[i], 0).flip);
@@ -48,13 +49,16 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
         return;
     }
     const double room = BAR_ROOM - 60.0;
-    const DipStatsEstimate ratio = sweep->ratios[index];
-    const double end = BAR_LEFT + room * ratio.high / most;
+    const DipEstimate ratio = sweep->ratios[index];
+    // The step that the others are compared with has no interval.
+    const double end = BAR_LEFT + room * fmax(ratio.value, ratio.high) / most;
     write_bar(out, BAR_LEFT, y, room * ratio.value / most, "bar-time");
-    dip_put_html(out,
-                 "<line class=\"bar-interval\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>"
-                 "<text x=\"%.1f\" y=\"%.1f\">%.2f</text>\n",
-                 BAR_LEFT + room * ratio.low / most, y + 8.0, end, y + 8.0, end + 6.0, y + 13.0,
+    if (!isnan(ratio.low)) {
+        dip_put_html(
+            out, "<line class=\"bar-interval\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>",
+            BAR_LEFT + room * ratio.low / most, y + 8.0, end, y + 8.0);
+    }
+    dip_put_html(out, "<text x=\"%.1f\" y=\"%.1f\">%.2f</text>\n", end + 6.0, y + 13.0,
                  ratio.value);
 }
 
@@ -115,10 +119,12 @@ static void write_step_line(const DipCostReport *report, const DipCostSweep *swe
     dip_html_line_begin(out, row);
     dip_put_html(out, "<th scope=\"row\">%s%s</th>", step, row == sweep->base ? " (baseline)" : "");
     if (dip_cost_is_timed(report, row)) {
-        const DipStatsEstimate ratio = sweep->ratios[index];
-        dip_put_html(out, "<td>%.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to %.3f</td>",
+        const DipEstimate ratio = sweep->ratios[index];
+        char interval[DIP_COST_INTERVAL];
+        dip_cost_interval_text(&ratio, 3, interval);
+        dip_put_html(out, "<td>%.2f</td><td>%.2f</td><td>%.3f</td><td>%s</td>",
                      dip_cost_ms(report, row), report->rows[row].time.p95_ms.value, ratio.value,
-                     ratio.low, ratio.high);
+                     interval);
     } else {
         dip_put_html(out, "<td></td><td></td><td></td><td></td>");
     }

@@ -19,9 +19,9 @@ void dip_made_plan(DipBenchPlan *plan, int frames, int rounds) {
                                .sizes = {{64, 48}, {128, 96}},
                                .size_count = 2,
                                .frames = frames,
-                               .rounds = rounds,
-                               .has_seed = true,
-                               .seed = 7};
+                               .measure.rounds = rounds,
+                               .measure.has_seed = true,
+                               .measure.seed = 7};
     options.sets[0] = set_of("aa=none");
     options.sets[1] = set_of("aa=4");
     dip_bench_plan_make(plan, &session, &options);
@@ -35,9 +35,9 @@ void dip_made_single_plan(DipBenchPlan *plan, int frames, int rounds) {
                                .sizes = {{64, 48}},
                                .size_count = 1,
                                .frames = frames,
-                               .rounds = rounds,
-                               .has_seed = true,
-                               .seed = 7};
+                               .measure.rounds = rounds,
+                               .measure.has_seed = true,
+                               .measure.seed = 7};
     options.sets[0] = set_of("aa=none");
     dip_bench_plan_make(plan, &session, &options);
 }
@@ -45,13 +45,15 @@ void dip_made_single_plan(DipBenchPlan *plan, int frames, int rounds) {
 void dip_made_result(DipBenchResult *result, const DipBenchPlan *plan, const double *total_ms) {
     dip_bench_result_init(result, plan, NULL);
     const int frames = plan->options.frames;
-    for (int i = 0; i < plan->options.rounds * frames; i++) {
+    for (int i = 0; i < plan->options.measure.rounds * frames; i++) {
         DipBenchSample sample = {.hash = ""};
         for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
             sample.ms[stage] = 0.25 * total_ms[i];
         }
         sample.ms[DIP_BENCH_STAGE_total] = total_ms[i];
-        dip_bench_result_add(result, 0, i / frames, i % frames, &sample);
+        DipTimed timed = {.round = i / frames, .frame = i % frames};
+        dip_bench_sample_time(&sample, &timed);
+        dip_bench_result_add(result, 0, &timed);
     }
     for (int f = 0; f < frames; f++) {
         DipBenchSample sample = {.counters = {.texels_fetched = 10 * (uint64_t)(f + 1)}};

@@ -61,8 +61,8 @@ static void defaults_are_six_settings_and_empty_lists(void **state) {
     assert_int_equal(
         bench->threads_count + bench->isa_count + bench->size_count + bench->grid_count, 0);
     assert_int_equal(bench->frames, 12);
-    assert_int_equal(bench->rounds, 10);
-    assert_false(bench->has_seed);
+    assert_int_equal(bench->measure.rounds, 10);
+    assert_false(bench->measure.has_seed);
     dip_command_line_free(&line);
 }
 
@@ -83,8 +83,8 @@ static void lists_keep_their_order(void **state) {
     assert_int_equal(bench->size_count, 2);
     assert_int_equal(bench->sizes[1].width, 32);
     assert_int_equal(bench->sizes[1].height, 24);
-    assert_true(bench->has_seed);
-    assert_int_equal(bench->seed, 9);
+    assert_true(bench->measure.has_seed);
+    assert_int_equal(bench->measure.seed, 9);
     dip_command_line_free(&line);
 }
 

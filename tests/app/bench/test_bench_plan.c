@@ -52,14 +52,14 @@ static void the_session_fills_in_what_options_leave_open(void **state) {
     session.config.res.width = 320;
     session.config.res.height = 200;
     DipBenchOptions options = {
-        .set_count = 1, .threads = {0}, .threads_count = 1, .frames = 1, .rounds = 1};
+        .set_count = 1, .threads = {0}, .threads_count = 1, .frames = 1, .measure.rounds = 1};
     options.sets[0].quality = dip_quality_default();
     dip_bench_plan_make(&plan, &session, &options);
     assert_int_equal(plan.count, 1);
     assert_int_equal(plan.options.sizes[0].width, 320);
     assert_int_equal(plan.options.sizes[0].height, 200);
     assert_true(plan.options.threads[0] >= 1); // the default 0 means all processors
-    assert_true(plan.options.seed >= 0);
+    assert_true(plan.options.measure.seed >= 0);
 }
 
 static void grids_are_named_by_their_triangles(void **state) {

@@ -68,7 +68,9 @@ static void samples_are_found_where_they_were_put(void **state) {
             for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
                 sample.ms[stage] = 1000.0 * c + 100.0 * stage + i;
             }
-            dip_bench_result_add(&result, c, i / 3, i % 3, &sample);
+            DipTimed timed = {.round = i / 3, .frame = i % 3};
+            dip_bench_sample_time(&sample, &timed);
+            dip_bench_result_add(&result, c, &timed);
         }
     }
     for (int c = 0; c < plan.count; c++) {

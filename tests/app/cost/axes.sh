@@ -58,7 +58,7 @@ refuses "\[--isas\] 'mmx' is not an instruction set; give one of auto\|scalar" -
 refuses "\[--isas\] 'scalar' is in the list twice" --isas scalar,scalar
 refuses "\[--sizes\] --axes leaves out the axis size; add it, or leave out the list$" \
     --axes isa --sizes 6x5
-refuses "\[--rounds\] '1' is not a whole number from 2 to 10000$" --rounds 1
+refuses '\[--rounds\] there are 1 rounds of all starts; accepted are 2 to 10000$' --rounds 1
 refuses "\[--places\] '1001' is not a whole number from 0 to 1000$" --places 1001
 refuses "\[--samples\] '50' is not a square number" --samples 50
 refuses "\[aa\] '3' is no step" --settings aa=3

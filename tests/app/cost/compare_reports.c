@@ -11,7 +11,7 @@
 //   compare_reports forge JOURNAL [errors] [round]
 //       Changes the values of these kinds of lines and mends the checksums. A report that joins
 //       such a line shows it.
-#include "app/measure/timing/paired_timing.h"
+#include "app/measure/stats/rounds.h"
 #include "renderer/base/hash.h"
 
 #include <cjson/cJSON.h>
@@ -73,29 +73,11 @@ static bool is_one_of(const char *key, const char *const *keys) {
 }
 
 static bool is_time(const char *key) {
-    static const char *const keys[] = {"seed",
-                                       "date",
-                                       "machine",
-                                       "fit",
-                                       "advice",
-                                       "time",
-                                       "ms",
-                                       "ms_low",
-                                       "ms_high",
-                                       "p95_ms",
-                                       "p95_ms_low",
-                                       "ratio",
-                                       "p95_ms_high",
-                                       "worst_ms",
-                                       "worst_ms_low",
-                                       "worst_ms_high",
-                                       "ratio_low",
-                                       "ratio_high",
-                                       "ratio_over_runs",
-                                       "ratio_over_runs_low",
-                                       "ratio_over_runs_high",
-                                       "stages_ms",
-                                       NULL};
+    static const char *const keys[] = {"seed",        "date",       "machine",      "fit",
+                                       "advice",      "time",       "ms",           "ms_low",
+                                       "ms_high",     "p95_ms",     "p95_ms_low",   "ratio",
+                                       "p95_ms_high", "worst_ms",   "worst_ms_low", "worst_ms_high",
+                                       "ratio_low",   "ratio_high", "stages_ms",    NULL};
     return is_one_of(key, keys);
 }
 
@@ -118,6 +100,21 @@ static void compare_pairs(const char *path, const cJSON *a, const cJSON *b) {
             const bool is_wall = strcmp(list->string, "cpu_ms") != 0;
             if ((is_wall && !(item->valuedouble > 0.0)) || item->valuedouble > most_ms) {
                 fault(path, "has a time that was not measured");
+            }
+        }
+    }
+}
+
+// The order of visits is random, and frames may be drawn again.
+static void compare_visits(const char *path, const cJSON *a, const cJSON *b) {
+    const cJSON *visit, *ms;
+    if (cJSON_GetArraySize(a) == 0 || cJSON_GetArraySize(b) == 0) {
+        fault(path, "are missing in one of the reports");
+    }
+    cJSON_ArrayForEach(visit, b) {
+        cJSON_ArrayForEach(ms, cJSON_GetObjectItemCaseSensitive(visit, "ms")) {
+            if (!(ms->valuedouble > 0.0 && ms->valuedouble <= most_ms)) {
+                fault(path, "have a time that was not measured");
             }
         }
     }
@@ -159,6 +156,8 @@ static void compare(const char *path, const cJSON *a, const cJSON *b, bool exact
         index++;
         if (item->string && strcmp(item->string, "pairs") == 0) {
             compare_pairs(to, item, other);
+        } else if (item->string && strcmp(item->string, "visits") == 0) {
+            compare_visits(to, item, other);
         } else if (!is_time(item->string)) {
             compare(to, item, other, exactly || is_measured(item->string));
         }
@@ -205,22 +204,51 @@ static void expect_time(const cJSON *row, const char *key, int frame, double val
     }
 }
 
+// The numbers of a frame in a line of the journal.
+enum { SUBJECT, START, ROUND, BLOCK, FRAME, BEGIN, MS, WAIT, FRAME_VALUES = 14 };
+
+// The baseline of a path draws more frames in a round than its rows do.
+static bool is_baseline(const double *frames, int count, double subject, int timed) {
+    int drawn = 0;
+    for (int i = 0; i < count; i++) {
+        drawn += frames[i * FRAME_VALUES + SUBJECT] == subject;
+    }
+    return drawn > timed;
+}
+
+// Returns the frame of the baseline beside a frame: the same one in the same block.
+static const double *find_base(const double *frames, int count, const double *frame, int timed) {
+    for (const double *other = frames; other < frames + count * FRAME_VALUES;
+         other += FRAME_VALUES) {
+        if (other[BLOCK] == frame[BLOCK] && other[FRAME] == frame[FRAME] &&
+            is_baseline(frames, count, other[SUBJECT], timed)) {
+            return other;
+        }
+    }
+    fault("journal", "a frame has no baseline beside it");
+    return frame;
+}
+
 static int expect_round(const cJSON *root, const double *values, int count) {
-    const int rounds = cJSON_GetObjectItem(root, "rounds")->valueint;
     const int timed = cJSON_GetObjectItem(root, "timed_frames")->valueint;
     const cJSON *rows = cJSON_GetObjectItem(root, "rows");
-    const int round = (int)values[0];
-    const DipTimePair *pairs = (const DipTimePair *)(values + 1);
+    const int frames = (count - 1) / FRAME_VALUES;
     int kept = 0;
-    if (count != 1 + cJSON_GetArraySize(rows) * timed * DIP_TIME_PAIR_VALUES) {
-        fault("journal", "a round has another number of times than the report");
+    if (count != 1 + frames * FRAME_VALUES) {
+        fault("journal", "a round has another number of values");
         return 0;
     }
-    for (int i = 0; round < rounds && i < cJSON_GetArraySize(rows) * timed; i++) {
-        const cJSON *row = cJSON_GetArrayItem(rows, i / timed);
-        if (!dip_time_pair_is_disturbed(&pairs[i])) {
-            expect_time(row, "ms", round + i % timed * rounds, pairs[i].ms);
-            expect_time(row, "base_ms", round + i % timed * rounds, pairs[i].base_ms);
+    for (int i = 0; i < frames; i++) {
+        const double *frame = values + 1 + i * FRAME_VALUES;
+        if (frame[BLOCK] >= cJSON_GetArraySize(rows)) {
+            continue; // A repetition.
+        }
+        const double *base = find_base(values + 1, frames, frame, timed);
+        const cJSON *row = cJSON_GetArrayItem(rows, (int)frame[SUBJECT]);
+        if (base != frame && frame[WAIT] <= DIP_TIMED_MOST_WAIT &&
+            base[WAIT] <= DIP_TIMED_MOST_WAIT) {
+            expect_time(row, "ms", (int)frame[FRAME], frame[MS]);
+            expect_time(row, "base_ms", (int)frame[FRAME], base[MS]);
             kept++;
         }
     }
@@ -252,7 +280,7 @@ static void forge_values(double *values, int count, bool is_round) {
     for (int i = is_round; i < count; i++) {
         if (!is_round) {
             values[i] += 1000.0;
-        } else if ((i - 1) % DIP_TIME_PAIR_VALUES < 2) {
+        } else if ((i - 1) % FRAME_VALUES == MS) {
             values[i] = forged_ms;
         }
     }

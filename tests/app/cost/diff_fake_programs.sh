@@ -53,7 +53,7 @@ make ./wild wild
 expect 0 '^verdict  green' '^All pictures and counters are the same' \
     '^No row is surely slower or faster' -- ./base ./base --fail-over 1%
 expect 1 '^af=16 .* slower$' '^(99|100) % of the additional time is in the stage shading\.' \
-    'It grows with texels_fetched, by 5[3-7]([.][0-9]+)? ns each: this work is the likely cause' \
+    'It grows with texels_fetched, by 5[2-8]([.][0-9]+)? ns each: this work is the likely cause' \
     'rows are slower and 0 have a greater error in ./slower, by more than 2 %' \
     -- ./base ./slower --fail-over 2%
 expect 0 '^af=16 .* slower$' -- ./base ./slower

@@ -128,16 +128,16 @@ joins_nothing() {
 
 options="cost --config $source/config/courtyard.ini --size 48x32 --places 2 --samples 16 --timed 1 --combine aa"
 square="$options --model $source/tests/assets/data/square.gltf"
-cost="$diptych $square --rounds 15"
+cost="$diptych $square --starts 2 --rounds 8"
 kill_often "$kills"
 [ $kept -gt 0 ] || fail "no kill came after a round"
 # The courtyard has more paths, and combinations that draw the same pictures.
-cost="$diptych $options --samples 4 --rounds 2"
+cost="$diptych $options --samples 4 --starts 1 --rounds 2"
 kill_often $(((kills + 9) / 10))
 
 # --- journals of other runs
 cp "$source/campaths/aa.pth" poses.pth
-cost="$diptych $square --rounds 60 --path poses.pth"
+cost="$diptych $square --starts 1 --rounds 60 --path poses.pth"
 # Control: the same command joins a forged round, and the comparison sees it.
 leave_journal $cost
 "$compare" forge left/cost.state round || fail "nothing was forged"

@@ -73,7 +73,7 @@ cat >"$work/bin/diptych" <<TEXT
 #!/bin/sh
 [ "\$2" != merge ] || exec "$program" "\$@"
 exec "$program" "\$@" --config "$source/config/courtyard.ini" --size 48x32 --samples 4 \
-    --rounds 3 --timed 1 --combine aa,aaa ${MACHINES_SCENE:+--model "$MACHINES_SCENE"}
+    --starts 1 --rounds 3 --timed 1 --combine aa,aaa ${MACHINES_SCENE:+--model "$MACHINES_SCENE"}
 TEXT
 chmod +x "$work/bin/diptych"
 PATH="$work/bin:$PATH"

@@ -51,8 +51,8 @@ measure() {
         >out.txt 2>err.txt || fail "cost $* does not run"
 }
 
-measure report --model "$square" --size 96x64 --rounds 2 --timed 2
-measure tiny --model "$square" --size 48x36 --rounds 2 --timed 2
+measure report --model "$square" --size 96x64 --starts 1 --rounds 2 --timed 2
+measure tiny --model "$square" --size 48x36 --starts 1 --rounds 2 --timed 2
 measure errors --model "$square" --size 96x64 --errors-only
 
 # --- faults
@@ -114,10 +114,10 @@ assert len(measured) == len(alone["combinations"])
 PYTHON
 
 # --- another camera path of the courtyard, and a scene of the gallery
-measure court --config "$courtyard" --size 96x72 --rounds 2 --timed 1 --combine af
+measure court --config "$courtyard" --size 96x72 --starts 1 --rounds 2 --timed 1 --combine af
 predict 0 court --config "$courtyard" --category AAA --time 2
 has "^there    96x72 pixels, path AAA, "
-measure blend --scene blend --size 96x72 --rounds 2 --timed 1 --combine aa
+measure blend --scene blend --size 96x72 --starts 1 --rounds 2 --timed 1 --combine aa
 predict 0 blend --scene blend --size 64x64 --time 2
 refuses "blend: is of another scene " blend --scene toon
 

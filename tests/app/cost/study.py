@@ -73,7 +73,7 @@ def repeat(options):
 
 
 def interval_over_runs(run, others, key):
-    """Adds to a ratio's interval the spread between the other runs, as dip_cost_ratio_over_runs does.
+    """Adds to a ratio's interval the spread between the other runs.
 
     Returns whether the interval holds the median of the other runs, and its half width.
     """

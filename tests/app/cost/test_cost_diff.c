@@ -158,9 +158,9 @@ static void a_ratio_is_slower_beyond_the_luck_of_a_start(void **state) {
     const DipCostDiffRow *row = &diff.rows[2];
     assert_int_equal(row->mark, DIP_COST_DIFF_SLOWER);
     assert_true(fabs(row->change.value - 1.08) < 1e-12);
-    // Each report's interval is t hypot(0, .002), and the luck is t .006, with t of 15 degrees of
+    // Each report's error is .001, and the luck is .006, with t of 15 degrees of
     // freedom: 2.13144955 (Abramowitz and Stegun, table 26.10).
-    const double half = 2.13144955 * sqrt(0.002 * 0.002 * 2.0 + 0.006 * 0.006);
+    const double half = 2.13144955 * sqrt(0.001 * 0.001 * 2.0 + 0.006 * 0.006);
     assert_true(fabs(log(row->change.high / row->change.value) - half) < 1e-8);
     assert_true(row->surely_above < row->change.low); // All rows are judged together.
     done();

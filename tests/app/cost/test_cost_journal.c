@@ -17,7 +17,17 @@ static const char plan[] = "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa";
 static const char other_plan[] = "bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb";
 static const char key[] = "0123456789abcdef0123456789abcdef";
 static const char other_key[] = "1123456789abcdef0123456789abcdef";
-static const double round_ms[] = {1.0 / 3.0, 2e-9, 12345.678};
+static const DipTimed frames[2] = {
+    {1, 2, 3, 4, 5, INT64_C(1) << 50, 1.0 / 3.0, 2e-9, 12345.678, 7.0, {0.1, 0.2, 0.3, 0.4}},
+    {6, 0, 0, 0, 9, 12, 1e-5, 0.0, 0.25, 0.0, {0.0, 0.0, 0.0, 0.0}},
+};
+enum { SEED = 17 };
+
+// Compares all members. The padding between them is not compared.
+static void assert_same_timed(const DipTimed *a, const DipTimed *b) {
+    assert_memory_equal(a, b, offsetof(DipTimed, frame) + sizeof a->frame);
+    assert_memory_equal(&a->begin_ns, &b->begin_ns, sizeof *a - offsetof(DipTimed, begin_ns));
+}
 
 static DipCostBurstErrors make_errors(int seed) {
     DipCostBurstErrors errors;
@@ -39,7 +49,7 @@ static void write_some(void) {
     DipCostJournal *journal = open_journal(plan);
     const DipCostBurstErrors errors = make_errors(1);
     assert_true(dip_cost_journal_add(journal, key, &errors, NULL));
-    assert_true(dip_cost_journal_add_round(journal, 5, round_ms, 3, NULL));
+    assert_true(dip_cost_journal_add_round(journal, SEED, frames, 2, NULL));
     dip_cost_journal_close(&journal, false);
 }
 
@@ -58,9 +68,18 @@ static void stored_measurements_are_found_again(void **state) {
     assert_true(dip_cost_journal_find(again, key, &errors));
     assert_memory_equal(&errors, &expected, sizeof errors);
     assert_false(dip_cost_journal_find(again, other_key, &errors));
-    assert_memory_equal(dip_cost_journal_round(again, 5, 3), round_ms, sizeof round_ms);
-    assert_null(dip_cost_journal_round(again, 4, 3)); // no such round
-    assert_null(dip_cost_journal_round(again, 5, 4)); // a round of another size
+    int count, seed = 0;
+    assert_int_equal(dip_cost_journal_round_count(again), 1);
+    DipTimed *timed = dip_cost_journal_round(again, 0, SEED, &count);
+    assert_int_equal(count, 2);
+    assert_same_timed(&timed[0], &frames[0]);
+    assert_same_timed(&timed[1], &frames[1]);
+    free(timed);
+    timed = dip_cost_journal_round(again, 0, SEED + 1, &count); // The rounds of another seed.
+    assert_int_equal(count, 0);
+    free(timed);
+    dip_cost_journal_seed(again, &seed);
+    assert_int_equal(seed, SEED);
     dip_cost_journal_close(&again, false);
 }
 
@@ -72,7 +91,10 @@ static void times_of_another_plan_are_ignored(void **state) {
     DipCostJournal *again = open_journal(other_plan);
     DipCostBurstErrors errors;
     assert_true(dip_cost_journal_find(again, key, &errors));
-    assert_null(dip_cost_journal_round(again, 5, 3));
+    int seed = 3;
+    dip_cost_journal_seed(again, &seed);
+    assert_int_equal(seed, 3);
+    assert_int_equal(dip_cost_journal_round_count(again), 0);
     dip_cost_journal_close(&again, false);
 }
 
@@ -97,7 +119,7 @@ static void an_incomplete_line_is_dropped(void **state) {
         write_some();
         assert_int_equal(truncate("cost.state", (off_t)cut), 0);
         DipCostJournal *again = open_journal(plan);
-        assert_null(dip_cost_journal_round(again, 5, 3));
+        assert_int_equal(dip_cost_journal_round_count(again), 0);
         const bool had_errors = dip_cost_journal_find(again, key, &errors);
         const DipCostBurstErrors more = make_errors(9);
         assert_true(dip_cost_journal_add(again, other_key, &more, NULL));
@@ -127,7 +149,7 @@ static void a_changed_byte_drops_its_line(void **state) {
         DipCostJournal *again = open_journal(plan);
         DipCostBurstErrors errors;
         const bool has_errors = dip_cost_journal_find(again, key, &errors);
-        const bool times = dip_cost_journal_round(again, 5, 3) != NULL;
+        const bool times = dip_cost_journal_round_count(again) > 0;
         assert_int_equal(has_errors + times, 1);
         dip_cost_journal_close(&again, false);
     }

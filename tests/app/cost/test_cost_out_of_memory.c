@@ -369,8 +369,9 @@ static void report_is_read_whole_or_not_at_all(void **state) {
 
 static const char plan[] = "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa";
 static const char key[] = "0123456789abcdef0123456789abcdef";
-static const double first_ms[] = {1.0 / 3.0, 2e-9, 12345.678};
-static const double second_ms[] = {4.0, 5.0, 6.0};
+static const DipTimed first = {.subject = 1, .frame = 2, .ms = 1.0 / 3.0, .parts_ms = {2e-9}};
+static const DipTimed second = {.subject = 3, .round = 1, .ms = 12345.678};
+enum { SEED = 5 };
 static DipCostJournal *journal;
 
 static bool open_journal(void *context, DipError *err) {
@@ -381,7 +382,7 @@ static bool open_journal(void *context, DipError *err) {
 
 static bool add_round(void *context, DipError *err) {
     (void)context;
-    return dip_cost_journal_add_round(journal, 1, second_ms, 3, err);
+    return dip_cost_journal_add_round(journal, SEED, &second, 1, err);
 }
 
 static bool add_errors(void *context, DipError *err) {
@@ -399,7 +400,7 @@ static void close_journal(void *context) {
 static void make_journal(void *context) {
     remove("cost.state");
     assert_true(open_journal(context, NULL));
-    assert_true(dip_cost_journal_add_round(journal, 0, first_ms, 3, NULL));
+    assert_true(dip_cost_journal_add_round(journal, SEED, &first, 1, NULL));
     close_journal(context);
 }
 
@@ -408,24 +409,32 @@ static void make_open_journal(void *context) {
     assert_true(open_journal(context, NULL));
 }
 
-static void assert_round(int round, const double *ms) {
-    const double *found = dip_cost_journal_round(journal, round, 3);
-    assert_int_equal(found != NULL, ms != NULL);
-    if (ms) {
-        assert_memory_equal(found, ms, sizeof first_ms);
+// Compares all members. The padding between them is not compared.
+static void assert_same_timed(const DipTimed *a, const DipTimed *b) {
+    assert_memory_equal(a, b, offsetof(DipTimed, frame) + sizeof a->frame);
+    assert_memory_equal(&a->begin_ns, &b->begin_ns, sizeof *a - offsetof(DipTimed, begin_ns));
+}
+
+static void assert_rounds(int rounds) {
+    assert_int_equal(dip_cost_journal_round_count(journal), rounds);
+    for (int i = 0; i < rounds; i++) {
+        int count;
+        DipTimed *timed = dip_cost_journal_round(journal, i, SEED, &count);
+        assert_int_equal(count, 1);
+        assert_same_timed(timed, i ? &second : &first);
+        free(timed);
     }
 }
 
 // Whatever failed, the measurements of the past must still be in the file.
 static void check_opened(void *context, bool succeeded) {
     assert_true(succeeded || open_journal(context, NULL));
-    assert_round(0, first_ms);
+    assert_rounds(1);
 }
 
 static void check_round(void *context, bool succeeded) {
     for (int reopened = 0; reopened < 2; reopened++) {
-        assert_round(0, first_ms);
-        assert_round(1, succeeded ? second_ms : NULL);
+        assert_rounds(1 + succeeded);
         close_journal(context);
         assert_true(open_journal(context, NULL));
     }
@@ -434,7 +443,7 @@ static void check_round(void *context, bool succeeded) {
 static void check_errors(void *context, bool succeeded) {
     DipCostBurstErrors errors;
     for (int reopened = 0; reopened < 2; reopened++) {
-        assert_round(0, first_ms);
+        assert_rounds(1);
         assert_int_equal(dip_cost_journal_find(journal, key, &errors), succeeded);
         close_journal(context);
         assert_true(open_journal(context, NULL));

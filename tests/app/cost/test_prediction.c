@@ -69,7 +69,7 @@ static void make_times(DipCostRow *row, double noise) {
         row->stage_ms[s] *= noise;
         row->time.mean_ms.value += row->stage_ms[s];
     }
-    row->time.p95_ms = (DipStatsEstimate){1.3 * row->time.mean_ms.value, 0.0, 0.0};
+    row->time.p95_ms = dip_estimate_unknown(1.3 * row->time.mean_ms.value);
 }
 
 static void set_flip(DipCostRow *row, double flip) {

@@ -56,24 +56,24 @@ static void intervals_follow_the_tables(void **state) {
         set_errors(&report, 2, p, 1e-4 + 3e-4 * p, 0.95 + 0.01 * p);
     }
     const double half = 4.303 * 3e-4 / sqrt(3.0) / 4e-4; // Of the logarithm.
-    const DipStatsEstimate rmse = dip_cost_metric(&report, 0, DIP_COST_RMSE);
+    const DipEstimate rmse = dip_cost_metric(&report, 0, DIP_COST_RMSE);
     expect_near(rmse.value, 0.02, 1e-12);
     expect_near(rmse.value, dip_cost_row_metrics(&report, 0, 0).rmse_lin, 1e-12);
     expect_near(rmse.low, 0.02 * exp(-half / 2.0), 2e-6);
     expect_near(rmse.high, 0.02 * exp(half / 2.0), 3e-5);
-    const DipStatsEstimate psnr = dip_cost_metric(&report, 0, DIP_COST_PSNR);
+    const DipEstimate psnr = dip_cost_metric(&report, 0, DIP_COST_PSNR);
     expect_near(psnr.value, 10.0 * log10(255.0 * 255.0 / 4.0), 1e-9);
     expect_near(psnr.high - psnr.value, 10.0 / log(10.0) * half, 2e-3);
     expect_near(psnr.value - psnr.low, 10.0 / log(10.0) * half, 2e-3);
-    const DipStatsEstimate flicker = dip_cost_metric(&report, 0, DIP_COST_FLICKER);
+    const DipEstimate flicker = dip_cost_metric(&report, 0, DIP_COST_FLICKER);
     expect_near(flicker.value, 0.01, 1e-12);
     expect_near(flicker.high / flicker.value, rmse.high / rmse.value, 1e-12);
-    const DipStatsEstimate ssim = dip_cost_metric(&report, 0, DIP_COST_SSIM);
+    const DipEstimate ssim = dip_cost_metric(&report, 0, DIP_COST_SSIM);
     expect_near(ssim.value, 0.91, 1e-12);
     expect_near(ssim.low, 0.91 - 4.303 * 0.01 / sqrt(3.0), 1e-5);
     expect_near(dip_cost_metric(&report, 2, DIP_COST_SSIM).high, 0.96 + 4.303 * 0.01 / sqrt(3.0),
                 1e-5);
-    const DipStatsEstimate change = dip_cost_metric_change(&report, 2, 0, DIP_COST_SSIM);
+    const DipEstimate change = dip_cost_metric_change(&report, 2, 0, DIP_COST_SSIM);
     expect_near(change.value, 0.05, 1e-12);
     expect_near(change.high - change.low, 0.0, 1e-12);
     set_errors(&report, 2, 0, 1e-4, 0.8);
@@ -98,7 +98,7 @@ static double coverage(DipCostReport *report, double sigma, DipCostMetric metric
         for (int p = 0; p < 3; p++) {
             set_errors(report, 0, p, exp(sigma * normal()), 0.9);
         }
-        const DipStatsEstimate estimate = dip_cost_metric(report, 0, metric);
+        const DipEstimate estimate = dip_cost_metric(report, 0, metric);
         held += estimate.low <= truth && truth <= estimate.high;
     }
     return (double)held / RUNS;

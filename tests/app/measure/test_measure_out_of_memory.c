@@ -2,7 +2,8 @@
 // a second attempt gives the right numbers.
 #include "app/measure/metrics/meter.h"
 #include "app/measure/metrics/ssim.h"
-#include "app/measure/timing/timing.h"
+#include "app/measure/timing/driver.h"
+#include "app/measure/timing/pairs.h"
 #include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
 #include "renderer/catalogue/scenes.h"
@@ -203,25 +204,45 @@ static void truth_is_drawn_whole_or_not_at_all(void **state) {
 
 // --- timing --------------------------------------------------------------------------------------
 
-static bool run_nothing(void *context, const DipTimingTurn *turn, DipError *err) {
+static DipThreadUse no_use(void *context) {
+    (void)context;
+    return (DipThreadUse){.has_wait = true};
+}
+
+static bool draw_nothing(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     (void)context;
     (void)turn;
     (void)err;
+    timed->ms = 1.0;
     return true;
 }
 
 static bool time_subjects(void *context, DipError *err) {
-    const DipTimingDef def = {
-        .subject_count = 2, .frame_count = 2, .round_count = 1, .version_count = 1};
-    const DipTimingCalls calls = {.run = run_nothing};
-    return dip_timing_run(&def, &calls, context, err);
+    static const int bases[] = {0, 0};
+    const DipDriverDef def = {.subjects = 2,
+                              .base_of = bases,
+                              .block_subjects = 1,
+                              .starts = 1,
+                              .rounds = 2,
+                              .frames = 2,
+                              .base_copies = 1};
+    const DipDriverCalls calls = {.draw = draw_nothing, .thread_use = no_use};
+    DipDriver *driver = dip_driver_create(&def, &calls, err);
+    DipDriverStep step = DIP_DRIVER_FAILED;
+    while (driver && (step = dip_driver_step(driver, err)) < DIP_DRIVER_DONE) {
+    }
+    DipTimePair *pairs = context;
+    const DipTimes times = step == DIP_DRIVER_DONE ? dip_driver_times(driver) : (DipTimes){0};
+    const bool done = step == DIP_DRIVER_DONE && dip_times_pairs(&times, pairs, err);
+    dip_driver_destroy(&driver);
+    return done;
 }
 
 static void timing_says_that_memory_ran_out(void **state) {
     (void)state;
-    double ms[4];
+    DipTimePair pairs[4];
     dip_out_of_memory_check(&(DipOutOfMemory){
-        .name = "timing", .context = ms, .run = time_subjects, .needs_every_allocation = true});
+        .name = "timing", .context = pairs, .run = time_subjects, .needs_every_allocation = true});
 }
 
 int main(int argc, char **argv) {

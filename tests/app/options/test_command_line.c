@@ -277,6 +277,52 @@ static void help_needs_no_complete_command_line(void **state) {
     assert_true(parses("dump --version"));
 }
 
+// Options of this name mean different things, or are yet to be shared. Do not add to this list.
+static bool may_stand_twice(const char *name) {
+    static const char *const names[] = {
+        "--budget-ms", "--budget-of",     "--cache",   "--csv",      "--frames",
+        "--isa",       "--json",          "--out",     "--pictures", "--pixels-per-degree",
+        "--places",    "--require-quiet", "--samples", "--serve",    "--sets",
+        "--size",      "--threads",       "--timed",
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(name, names[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Compares a table with every other table of every command.
+static void check_against_all(const DipOptionTable *table) {
+    for (size_t c = 0; c < dip_command_list.count; c++) {
+        const DipOptionParts *parts = dip_command_list.commands[c]->parts;
+        for (size_t p = 0; p < parts->count; p++) {
+            const DipOptionTable *other = parts->items[p].table;
+            for (size_t i = 0; other != table && i < other->count * table->count; i++) {
+                const char *a = table->rows[i % table->count].name;
+                const char *b = other->rows[i / table->count].name;
+                if (strcmp(a, b) == 0 && !may_stand_twice(a)) {
+                    fail_msg("%s stands in the tables \"%s\" and \"%s\"", a, table->title,
+                             other->title);
+                }
+            }
+        }
+    }
+}
+
+// One option is described once, so that its text, its range and its meaning are the same in every
+// command.
+static void an_option_stands_in_one_table(void **state) {
+    (void)state;
+    for (size_t c = 0; c < dip_command_list.count; c++) {
+        const DipOptionParts *parts = dip_command_list.commands[c]->parts;
+        for (size_t p = 0; p < parts->count; p++) {
+            check_against_all(parts->items[p].table);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_command_is_found_by_its_name),
@@ -290,6 +336,7 @@ int main(void) {
         cmocka_unit_test(help_of_a_group_has_its_commands),
         cmocka_unit_test(mistyped_commands_are_refused),
         cmocka_unit_test(help_needs_no_complete_command_line),
+        cmocka_unit_test(an_option_stands_in_one_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

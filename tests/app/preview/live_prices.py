@@ -40,7 +40,7 @@ def questions():
 def measure_report(options, out):
     subprocess.run([options.diptych, "cost", "--config", options.folder / "config/courtyard.ini",
                     "--size", "320x240", "--threads", str(THREADS), "--places", "2", "--samples",
-                    "4", "--pictures", "none", "--rounds", str(options.rounds), "--timed", "8",
+                    "4", "--pictures", "none", "--starts", "1", "--rounds", str(options.rounds), "--timed", "8",
                     "--combine", "aa,aaa,asd,af,aaf", "--cache", out / "truths", "--out", out],
                    check=True, stdout=subprocess.DEVNULL)
     return out / "cost.json"

@@ -31,7 +31,7 @@ def text_of(settings):
 
 def measure(diptych, folder, out):
     subprocess.run([diptych, "cost", "--size", "48x32", "--places", "2", "--samples", "4",
-                    "--rounds", "3", "--timed", "2", "--combine", "aa,af", "--cache", out / "truths",
+                    "--starts", "1", "--rounds", "3", "--timed", "2", "--combine", "aa,af", "--cache", out / "truths",
                     "--model", folder / "tests/assets/data/square.gltf", "--out", out],
                    check=True, capture_output=True)
     return json.loads((out / "cost.json").read_text())

@@ -80,7 +80,7 @@ class Files:
     def measure_report(self, diptych, environment):
         """Writes cost.json, a report of the watched scene."""
         subprocess.run([diptych, "cost", "--config", self.folder / "scene.ini", "--size", "32x24",
-                        "--places", "2", "--samples", "4", "--rounds", "3", "--timed", "2",
+                        "--places", "2", "--samples", "4", "--starts", "1", "--rounds", "3", "--timed", "2",
                         "--combine", "aa,af", "--out", self.folder / "report"],
                        check=True, capture_output=True, env=environment)
         shutil.copy(self.folder / "report/cost.json", self.folder / "cost.json")

@@ -15,9 +15,12 @@ static DipPrices *prices;
 static DipPriceJob *job;
 static int64_t now_ns;
 static int frames;
-static double drift;       // By how much the machine slows down with each frame.
-static double noise;       // Greatest deviation of a frame's time, relative.
-static unsigned random_;   // State of the noise.
+static double drift;     // By how much the machine slows down with each frame.
+static double noise;     // Greatest deviation of a frame's time, relative.
+static unsigned random_; // State of the noise.
+static double waits;     // Share of a frame that its threads wait.
+static DipThreadUse use;
+static double slow;        // By how much a frame takes longer.
 static bool refuses;       // The painter fails.
 static DipQuality last;    // Settings of the last frame.
 static unsigned parities;  // Bit p: a timed frame had an index of parity p.
@@ -44,12 +47,18 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
     random_ = random_ * 1664525u + 1013904223u;
     const double deviation = noise * ((random_ >> 16) / 32768.0 - 1.0);
     const double ms =
-        true_ms(quality) * (cold ? 3.0 : 1.0) * (1.0 + drift * frames) * (1.0 + deviation);
+        slow * true_ms(quality) * (cold ? 3.0 : 1.0) * (1.0 + drift * frames) * (1.0 + deviation);
     now_ns += (int64_t)llround(1e6 * ms);
+    use.wait_ns += (int64_t)llround(1e6 * ms * waits);
     last = *quality;
     last_was_cold = cold;
     frames++;
     return true;
+}
+
+static DipThreadUse read_use(void *context) {
+    (void)context;
+    return use;
 }
 
 static int64_t read_clock(void *context) {
@@ -72,7 +81,11 @@ static int set_up(void **state) {
     refuses = false;
     parities = 0;
     prices = dip_prices_create(NULL);
-    const DipPriceJobCalls calls = {.draw = draw, .now_ns = read_clock};
+    waits = 0.0;
+    slow = 1.0;
+    use = (DipThreadUse){.has_wait = true};
+    const DipPriceJobCalls calls = {
+        .draw = draw, .now_ns = read_clock, .thread_use = read_use, .threads = 1};
     job = dip_price_job_create(&calls, prices, NULL);
     assert_true(prices && job);
     return 0;
@@ -204,7 +217,7 @@ static void progress_counts_steps_and_seconds(void **state) {
     while (dip_price_job_progress(job).working) {
         dip_price_job_step(job, 0.0);
         const DipPriceProgress progress = dip_price_job_progress(job);
-        assert_in_range(progress.rounds, 0, DIP_PRICE_JOB_ROUNDS - 1);
+        assert_in_range(progress.rounds, 0, DIP_PRICE_JOB_ROUNDS);
         if (frames == 30) {
             seconds = progress.seconds_left + 1e-9 * (double)(now_ns - begin_ns);
         }
@@ -277,14 +290,43 @@ static void an_interrupted_block_leaves_no_price(void **state) {
     (void)state;
     const DipQuality pane = settings("aa=4,af=8");
     follow("aa=none", "aa=4,af=8");
-    for (int i = 0; i < 20; i++) {
+    for (int i = 0; i < 25; i++) {
         dip_price_job_step(job, 0.0);
     }
     dip_price_job_interrupt(job);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).state, DIP_PRICE_UNKNOWN);
-    assert_int_equal(dip_price_job_progress(job).rounds, 0);
+    assert_int_equal(dip_price_job_progress(job).rounds, 2); // Of three; the third begins anew.
     work_until_done();
     check_steps(&pane, 2e-5);
+}
+
+// The rule is that of a report: red above a fifth.
+static void prices_of_a_busy_machine_are_doubtful(void **state) {
+    (void)state;
+    const DipQuality pane = settings("aa=4");
+    for (int busy = 0; busy < 3; busy++) {
+        waits = busy == 1 ? 0.6 : 0.1;
+        dip_price_job_forget(job);
+        follow("aa=none", "aa=4");
+        work_until_done();
+        const DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
+        assert_int_equal(price.doubtful, busy == 1);
+        assert_int_equal(dip_prices_sum(prices, &pane).doubtful, busy == 1);
+        check_near(price.ms, 3.0, 2e-5);
+    }
+}
+
+// A few frames wait. They are left out, or drawn again.
+static void disturbed_frames_make_no_price(void **state) {
+    (void)state;
+    const DipQuality pane = settings("aa=4,af=8,aaf=on");
+    follow("aa=none", "aa=4,af=8,aaf=on");
+    while (dip_price_job_progress(job).working) {
+        slow = frames % 7 == 3 ? 2.0 : 1.0;
+        waits = slow > 1.0 ? 0.5 : 0.0;
+        dip_price_job_step(job, 0.0);
+    }
+    check_steps(&pane, 1e-3);
 }
 
 static void a_painter_that_fails_ends_the_job_with_its_reason(void **state) {
@@ -317,6 +359,8 @@ int main(void) {
         TEST(what_is_known_is_not_timed_again),
         TEST(the_nearest_steps_come_first),
         TEST(an_interrupted_block_leaves_no_price),
+        TEST(prices_of_a_busy_machine_are_doubtful),
+        TEST(disturbed_frames_make_no_price),
         TEST(a_painter_that_fails_ends_the_job_with_its_reason),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,7 +20,7 @@ enum { ROUNDS = 3 };
 // The 97.5 % quantile of Student's t with two degrees of freedom (tables), times the least standard
 // error of a ratio's logarithm (app/measure/stats/paired.h). Times without noise have no other
 // error.
-static const double half_width = 4.302653 * 0.002;
+static const double half_width = 1.959964 * 0.001;
 
 static DipCostReport report;
 static DipPrices *prices;
@@ -277,8 +277,10 @@ static void a_sum_that_was_not_measured_adds_the_parts(void **state) {
     check_near(sum.ms, 8.2 - 0.5);
     check_near(sum.together_ms, 0.0);
     assert_true(add_up(&sum) == sum.ms);
-    check_near(sum.ms_high - sum.ms,
-               hypot(8.2 * (exp(half_width) - 1.0), 1.5 * (exp(half_width) - 1.0)));
+    // The interval of a time has the error of the level, too: .001 in quadrature, and the quantile
+    // of Student's t for four times the level's 2 degrees of freedom.
+    const double of_time = 8.2 * (exp(2.306004 * sqrt(2.0) * 0.001) - 1.0);
+    check_near(sum.ms_high - sum.ms, hypot(of_time, 1.5 * (exp(half_width) - 1.0)));
     quality = settings("aa=2,af=16"); // Not measured together.
     sum = dip_prices_sum(prices, &quality);
     assert_int_equal(sum.state, DIP_PRICE_ROUGH);

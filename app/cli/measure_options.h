@@ -1,0 +1,22 @@
+// The options that every command that times frames shares.
+#ifndef DIP_APP_CLI_MEASURE_OPTIONS_H
+#define DIP_APP_CLI_MEASURE_OPTIONS_H
+
+#include "app/cli/options.h"
+
+enum { DIP_MEASURE_MOST_ROUNDS = 10000, DIP_MEASURE_MOST_STARTS = 100 };
+
+typedef struct DipMeasureOptions {
+    int rounds; // Of each start; 0: the command chooses.
+    int starts; // How often programs are started.
+    bool has_seed;
+    int seed;
+} DipMeasureOptions;
+
+extern const DipOptionTable dip_measure_option_table; // --rounds --seed
+extern const DipOptionTable dip_starts_option_table;  // --starts
+
+// Returns the seed that was given, or one from the clock.
+int dip_measure_seed(const DipMeasureOptions *options);
+
+#endif

@@ -1,0 +1,532 @@
+// The fit of subjects beside their bases, with all units and with each left out.
+#include "app/measure/stats/rounds_fit.h"
+
+#include "app/measure/stats/statistics.h"
+#include "renderer/base/assert.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// More visits of a subject have their median taken instead of the mean of pairs.
+enum { MOST_VISITS = 512 };
+
+// The variance that all subjects of a base have in the mean counts for at most this many degrees of
+// freedom beside a subject's own: subjects differ in how much luck they have.
+static const double most_pooled_degrees = 12.0;
+
+// Noise makes frames differ more than they do; so much more is taken off than expected, since what
+// is expected is uncertain itself.
+static const double noise_margin = 2.0;
+
+// --- order of the log ----------------------------------------------------------------------------
+
+typedef struct Key {
+    int subject, moment, block, frame, index;
+} Key;
+
+static int compare_keys(const void *a, const void *b) {
+    const Key *x = a, *y = b;
+    const int of_x[] = {x->subject, x->moment, x->block, x->frame, x->index};
+    const int of_y[] = {y->subject, y->moment, y->block, y->frame, y->index};
+    for (int i = 0; i < 5; i++) {
+        if (of_x[i] != of_y[i]) {
+            return of_x[i] < of_y[i] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static bool sort_times(DipTimesWork *w) {
+    const DipTimes *times = w->times;
+    Key *keys = malloc((size_t)times->count * sizeof *keys + 1);
+    for (int i = 0; keys && i < times->count; i++) {
+        const DipTimed *t = &times->list[i];
+        DIP_ASSERT(t->subject >= 0 && t->subject < times->subjects && t->start >= 0 &&
+                   t->start < times->starts && t->round >= 0 && t->round < times->rounds &&
+                   t->frame >= 0 && t->frame < times->frames);
+        keys[i] = (Key){t->subject, dip_times_round(times, t), t->block, t->frame, i};
+    }
+    if (keys) {
+        qsort(keys, (size_t)times->count, sizeof *keys, compare_keys);
+        int at = 0;
+        for (int s = 0; s <= times->subjects; s++) {
+            while (at < times->count && keys[at].subject < s) {
+                at++;
+            }
+            w->first_of[s] = at;
+        }
+        for (int i = 0; i < times->count; i++) {
+            w->order[i] = keys[i].index;
+        }
+    }
+    free(keys);
+    return keys != NULL;
+}
+
+// --- a subject's ratios along the path -----------------------------------------------------------
+
+// Returns the base's time of the same frame in the same visit, or NULL.
+static const DipTimed *beside(const DipTimesWork *w, int base, const DipTimed *timed) {
+    const DipTimes *times = w->times;
+    int low = w->first_of[base], high = w->first_of[base + 1];
+    const int wanted[] = {dip_times_round(times, timed), timed->block, timed->frame};
+    while (low < high) {
+        const int middle = low + (high - low) / 2;
+        const DipTimed *t = &times->list[w->order[middle]];
+        const int here[] = {dip_times_round(times, t), t->block, t->frame};
+        int side = 0;
+        for (int i = 0; side == 0 && i < 3; i++) {
+            side = (here[i] > wanted[i]) - (here[i] < wanted[i]);
+        }
+        if (side == 0) {
+            return t;
+        }
+        *(side < 0 ? &low : &high) = side < 0 ? middle + 1 : middle;
+    }
+    return NULL;
+}
+
+static int compare_pairs(const void *a, const void *b) {
+    const DipTimesPair *x = a, *y = b;
+    return x->frame != y->frame ? x->frame - y->frame : x->visit - y->visit;
+}
+
+// Lists the subject's frames beside its base in path order. Of those that were disturbed, only if
+// most were.
+static void list_pairs(DipTimesWork *w, int subject, DipTimesSubject *to) {
+    const DipTimes *times = w->times;
+    const int from = w->first_of[subject], end = w->first_of[subject + 1];
+    for (int pass = 0; pass < 2; pass++) {
+        int block = -1, moment = -1;
+        w->pair_count = 0;
+        w->visit_count = 0;
+        to->timed = 0;
+        for (int i = from; i < end; i++) {
+            const DipTimed *t = &times->list[w->order[i]];
+            const DipTimed *base = beside(w, to->base, t);
+            if (!base || !(t->ms > 0.0) || !(base->ms > 0.0)) {
+                continue;
+            }
+            to->timed++;
+            if (pass == 0 && (t->wait > DIP_TIMED_MOST_WAIT || base->wait > DIP_TIMED_MOST_WAIT)) {
+                continue;
+            }
+            if (t->block != block || dip_times_round(times, t) != moment) {
+                block = t->block;
+                moment = dip_times_round(times, t);
+                w->visit_count++;
+            }
+            w->pairs[w->pair_count++] = (DipTimesPair){
+                t->frame, w->visit_count - 1, dip_times_unit(times, t), log(t->ms / base->ms)};
+        }
+        if (pass == 0) {
+            to->kept = w->pair_count;
+            if (2 * to->kept >= to->timed) {
+                break;
+            }
+        }
+    }
+    qsort(w->pairs, (size_t)w->pair_count, sizeof *w->pairs, compare_pairs);
+}
+
+// The median of the means of all pairs of values, each value paired with itself, too (Hodges and
+// Lehmann 1963).
+static double hodges_lehmann(const double *values, int count, double *means) {
+    int pairs = 0;
+    for (int i = 0; i < count; i++) {
+        for (int j = i; j < count; j++) {
+            means[pairs++] = 0.5 * (values[i] + values[j]);
+        }
+    }
+    return dip_stats_median(means, pairs);
+}
+
+// Index of the first of `count` sorted values that is not less than `value`.
+static int find_sorted(const double *sorted, int count, double value) {
+    int low = 0, high = count;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        *(sorted[middle] < value ? &low : &high) = sorted[middle] < value ? middle + 1 : middle;
+    }
+    return low;
+}
+
+// Returns the median of sorted values, without the one with index `without` (count: with all).
+static double median_of_sorted(const double *sorted, int count, int without) {
+    const int rest = count - (without < count);
+    const int below = (rest - 1) / 2, above = rest / 2;
+    return 0.5 * (sorted[below + (below >= without)] + sorted[above + (above >= without)]);
+}
+
+// Writes the running medians over window / 2 values at either side; with or without the value in
+// the middle itself.
+static void running_median(const double *values, int count, int window, bool without, double *to,
+                           double *sorted) {
+    const int side = window / 2 < count ? window / 2 : count;
+    int in_window = 0;
+    for (int i = -side; i < count; i++) {
+        if (i + side < count) {
+            const double value = values[i + side];
+            const int at = find_sorted(sorted, in_window, value);
+            memmove(sorted + at + 1, sorted + at, (size_t)(in_window++ - at) * sizeof *sorted);
+            sorted[at] = value;
+        }
+        if (i - side - 1 >= 0) {
+            const int at = find_sorted(sorted, in_window, values[i - side - 1]);
+            memmove(sorted + at, sorted + at + 1, (size_t)(--in_window - at) * sizeof *sorted);
+        }
+        if (i >= 0) {
+            to[i] = median_of_sorted(
+                sorted, in_window, without ? find_sorted(sorted, in_window, values[i]) : in_window);
+        }
+    }
+}
+
+// Returns the window of the running median that predicts each value best from its neighbours, which
+// were timed in other rounds. Longer ones are preferred, since most settings cost alike all along
+// the path.
+static int choose_window(DipTimesWork *w, const double *values, int count) {
+    const int windows[] = {2 * count + 1, 31, 15, 7};
+    int best = windows[0];
+    double least = INFINITY;
+    for (int k = 0; k < 4 && count > 2; k++) {
+        running_median(values, count, windows[k], true, w->smooth, w->of_visit);
+        for (int i = 0; i < count; i++) {
+            w->rest[i] = fabs(values[i] - w->smooth[i]);
+        }
+        // Large misses are a visit's bad luck.
+        double sum = 0.0;
+        const double typical = dip_stats_median(w->rest, count);
+        for (int i = 0; i < count; i++) {
+            sum += fmin(w->rest[i], 3.0 * typical);
+        }
+        if (sum < 0.97 * least) {
+            least = sum;
+            best = windows[k];
+        }
+    }
+    return best;
+}
+
+// Sets each value to the median of those of the same frame.
+static void median_of_frames(const double *values, const int *frames, int count, double *smooth,
+                             double *scratch) {
+    for (int first = 0, end; first < count; first = end) {
+        for (end = first; end < count && frames[end] == frames[first]; end++) {
+            scratch[end - first] = values[end];
+        }
+        const double middle = dip_stats_median(scratch, end - first);
+        for (int i = first; i < end; i++) {
+            smooth[i] = middle;
+        }
+    }
+}
+
+// Returns what smoothing leaves that is common to all pairs: Hodges and Lehmann's estimate of the
+// visits' medians; and in w->spread, how far these lie apart. Frames of a visit share their
+// luck, so a visit counts once.
+static double common_rest(DipTimesWork *w, int count, const int *visits, const double *rest) {
+    int found = 0;
+    double *of_visits = w->logs; // No longer needed.
+    for (int v = 0; v < w->visit_count; v++) {
+        int in_visit = 0;
+        for (int i = 0; i < count; i++) {
+            if (visits[i] == v) {
+                w->of_visit[in_visit++] = rest[i];
+            }
+        }
+        if (in_visit > 0) {
+            of_visits[found++] = dip_stats_median(w->of_visit, in_visit);
+        }
+    }
+    w->spread = NAN;
+    if (found > 1) {
+        memcpy(w->of_visit, of_visits, (size_t)found * sizeof *of_visits);
+        const double middle = dip_stats_median(w->of_visit, found);
+        for (int i = 0; i < found; i++) {
+            w->of_visit[i] = fabs(of_visits[i] - middle);
+        }
+        w->spread = DIP_TIMES_MAD_TO_SD * dip_stats_median(w->of_visit, found);
+    }
+    return found <= MOST_VISITS ? hodges_lehmann(of_visits, found, w->means)
+                                : dip_stats_median(of_visits, found);
+}
+
+// Takes what noise adds to the differences between frames off their times: a percentile would be
+// too high otherwise. The mean time stays.
+static void take_off_noise(double *ms, int frames, double noise_variance) {
+    double mean = 0.0, squares = 0.0, before = 0.0, after = 0.0;
+    for (int f = 0; f < frames; f++) {
+        mean += log(ms[f]) / frames;
+        before += ms[f];
+    }
+    for (int f = 0; f < frames; f++) {
+        squares += (log(ms[f]) - mean) * (log(ms[f]) - mean) / frames;
+    }
+    const double share = sqrt(fmax(1.0 - noise_margin * noise_variance / (squares + 1e-12), 0.0));
+    for (int f = 0; f < frames; f++) {
+        ms[f] = exp(mean + share * (log(ms[f]) - mean));
+        after += ms[f];
+    }
+    for (int f = 0; f < frames; f++) {
+        ms[f] *= before / after;
+    }
+}
+
+// Estimates the log ratio of each frame from the pairs in use, w->ratio. Returns the variance of
+// its noise.
+static double fit_ratios(DipTimesWork *w, int count) {
+    if (w->repeats) {
+        median_of_frames(w->logs, w->pair_frames, count, w->smooth, w->of_visit);
+    } else {
+        running_median(w->logs, count, w->window, false, w->smooth, w->of_visit);
+    }
+    for (int i = 0; i < count; i++) {
+        w->rest[i] = w->logs[i] - w->smooth[i];
+        w->of_visit[i] = fabs(w->rest[i]);
+    }
+    const double noise = DIP_TIMES_MAD_TO_SD * dip_stats_median(w->of_visit, count);
+    const double common = common_rest(w, count, w->visits, w->rest);
+    for (int i = 0; i < count; i++) {
+        w->ratio[w->pair_frames[i]] = w->smooth[i] + common;
+    }
+    dip_times_fill_gaps(w->ratio, w->times->frames);
+    const double joined = w->repeats ? (double)count / w->times->frames : fmin(w->window, count);
+    return 1.5 / (joined + 0.5) * noise * noise; // The variance of a median.
+}
+
+// Computes the logarithms of a subject's values without one unit (-1: with all), and its frames'
+// times in w->time. Returns false if no pair is left.
+static bool find_values(DipTimesWork *w, int left_out, double logs[DIP_TIMES_VALUE_COUNT]) {
+    const int frames = w->times->frames;
+    const double *level = w->level + (left_out + 1) * frames;
+    int count = 0;
+    for (int f = 0; f < frames; f++) {
+        w->ratio[f] = w->is_base ? 0.0 : NAN;
+    }
+    for (int i = 0; i < w->pair_count; i++) {
+        if (w->pairs[i].unit != left_out) {
+            w->logs[count] = w->pairs[i].log_ratio;
+            w->pair_frames[count] = w->pairs[i].frame;
+            w->visits[count++] = w->pairs[i].visit;
+        }
+    }
+    if (count == 0 && !w->is_base) {
+        return false;
+    }
+    if (left_out < 0 && count > 0) {
+        w->repeats = count >= 3 * frames;
+        w->window = w->repeats ? 0 : choose_window(w, w->logs, count);
+    }
+    const double noise = w->noise[left_out + 1] + (count > 0 ? fit_ratios(w, count) : 0.0);
+    double base_total = 0.0, total = 0.0, worst = 0.0;
+    for (int f = 0; f < frames; f++) {
+        w->time[f] = exp(level[f] + w->ratio[f]);
+        base_total += exp(level[f]);
+        total += w->time[f];
+    }
+    take_off_noise(w->time, frames, noise);
+    for (int f = 0; f < frames; f++) {
+        worst = fmax(worst, w->time[f]);
+        w->ratio[f] = w->time[f]; // To be sorted.
+    }
+    logs[DIP_TIMES_RATIO] = log(total / base_total);
+    logs[DIP_TIMES_P95] = log(dip_percentile(w->ratio, frames, 0.95) * frames / base_total);
+    logs[DIP_TIMES_WORST] = log(worst * frames / base_total);
+    return true;
+}
+
+// --- how far a unit moves a value ----------------------------------------------------------------
+
+// Fits one subject, with all units and with each left out. A unit moves a value by units - 1 times
+// the difference that leaving it out makes (the jackknife).
+static void fit_subject(DipTimesWork *w, int s) {
+    DipTimesFit *fit = w->fit;
+    DipTimesSubject *subject = &fit->subjects[s];
+    w->is_base = s == subject->base;
+    w->pair_count = 0;
+    if (!w->is_base) {
+        list_pairs(w, s, subject);
+    }
+    double mean[DIP_TIMES_VALUE_COUNT] = {0};
+    for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
+        subject->logs[v] = NAN;
+    }
+    w->spread = NAN;
+    const bool known = find_values(w, -1, subject->logs);
+    subject->spread = w->spread;
+    for (int f = 0; f < fit->frames; f++) {
+        fit->frame_ms[(size_t)s * (size_t)fit->frames + (size_t)f] = known ? w->time[f] : NAN;
+    }
+    for (int unit = 0; unit < fit->units; unit++) {
+        double *move = dip_times_moves(fit, s, unit);
+        if (!find_values(w, unit, move)) {
+            memset(move, 0, DIP_TIMES_VALUE_COUNT * sizeof *move);
+        }
+        for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
+            mean[v] += move[v] / fit->units;
+        }
+    }
+    for (int unit = 0; unit < fit->units; unit++) {
+        double *move = dip_times_moves(fit, s, unit);
+        for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
+            move[v] = (fit->units - 1) * (mean[v] - move[v]);
+        }
+    }
+}
+
+static int list_members(const DipTimesWork *w, int base, int *members) {
+    int count = 0;
+    for (int s = 0; s < w->times->subjects; s++) {
+        if (w->times->base_of[s] == base && s != base &&
+            !isnan(w->fit->subjects[s].logs[DIP_TIMES_RATIO])) {
+            members[count++] = s;
+        }
+    }
+    return count;
+}
+
+// Divides the variance of units into that of the base's luck, which moves all subjects alike, and
+// that of each subject's own.
+static void divide_variance(DipTimesFit *fit, DipTimesBase *base, const int *members, int count,
+                            int v) {
+    const int units = fit->units;
+    double shared_squares = 0.0;
+    for (int unit = 0; unit < units; unit++) {
+        double shared = 0.0;
+        for (int i = 0; count > 1 && i < count; i++) {
+            shared += dip_times_moves(fit, members[i], unit)[v] / count;
+        }
+        shared_squares += shared * shared / (units - 1);
+        for (int i = 0; i < count; i++) {
+            const double own = dip_times_moves(fit, members[i], unit)[v] - shared;
+            const double share = count > 1 ? (count - 1.0) / count : 1.0;
+            fit->subjects[members[i]].variance[v] += own * own / share / (units - 1);
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        base->pooled[v] += fit->subjects[members[i]].variance[v] / count;
+    }
+    if (count > 1) {
+        const double seen = fmax(shared_squares - base->pooled[v] / count, 0.0);
+        base->variance[v] = ((units - 1) * seen + DIP_TIMES_BASE_DEGREES * base->pooled[v]) /
+                            (units - 1 + DIP_TIMES_BASE_DEGREES);
+        base->pooled_degrees = fmin(most_pooled_degrees, (count - 1.0) * (units - 1));
+    }
+}
+
+static void fit_base(DipTimesWork *w, int b, int *members) {
+    DipTimesFit *fit = w->fit;
+    dip_times_fit_levels(w, b);
+    for (int s = 0; s < w->times->subjects; s++) {
+        if (w->times->base_of[s] == b) {
+            fit->subjects[s].base = b;
+            fit_subject(w, s);
+        }
+    }
+    const int count = list_members(w, b, members);
+    for (int v = 0; fit->units > 1 && v < DIP_TIMES_VALUE_COUNT; v++) {
+        divide_variance(fit, &fit->bases[b], members, count, v);
+        for (int unit = 0; unit < fit->units; unit++) {
+            const double move = dip_times_moves(fit, b, unit)[v];
+            fit->subjects[b].variance[v] += move * move / (fit->units - 1);
+        }
+    }
+}
+
+// --- memory --------------------------------------------------------------------------------------
+
+static void close_work(DipTimesWork *w) {
+    free(w->order);
+    free(w->first_of);
+    free(w->cells);
+    free(w->moments);
+    free(w->pairs);
+    free(w->visits);
+    free(w->level);
+    free(w->logs);
+    free(w->means);
+}
+
+static bool open_work(DipTimesWork *w, const DipTimes *times, DipTimesFit *fit) {
+    const size_t count = (size_t)times->count + 1, frames = (size_t)times->frames;
+    const size_t all = count > frames ? count : frames;
+    const size_t sets = 1 + (size_t)fit->units;
+    *w = (DipTimesWork){
+        .times = times,
+        .fit = fit,
+        .order = malloc(count * sizeof(int)),
+        .first_of = malloc(((size_t)times->subjects + 1) * sizeof(int)),
+        .cells = malloc(count * sizeof(DipTimesCell)),
+        .moments = malloc(count * sizeof(DipTimesMoment)),
+        .pairs = malloc(count * sizeof(DipTimesPair)),
+        .visits = malloc(2 * count * sizeof(int)),
+        .level = malloc((sets * (frames + 1) + count + all + 2 * frames) * sizeof(double)),
+        .logs = malloc(4 * all * sizeof(double)),
+    };
+    if (!w->order || !w->first_of || !w->cells || !w->moments || !w->pairs || !w->visits ||
+        !w->level || !w->logs || !sort_times(w)) {
+        return false;
+    }
+    w->noise = w->level + sets * frames;
+    w->speed = w->noise + sets;
+    w->weights = w->speed + count;
+    w->ratio = w->weights + all;
+    w->time = w->ratio + frames;
+    w->pair_frames = w->visits + count;
+    w->smooth = w->logs + all;
+    w->rest = w->smooth + all;
+    w->of_visit = w->rest + all;
+    size_t visits = 1; // Of one subject, at most.
+    for (int s = 0; s < times->subjects; s++) {
+        const size_t length = (size_t)(w->first_of[s + 1] - w->first_of[s]);
+        visits = times->base_of[s] != s && length > visits ? length : visits;
+    }
+    visits = visits < MOST_VISITS ? visits : MOST_VISITS;
+    w->means = malloc(visits * (visits + 1) / 2 * sizeof(double));
+    return w->means;
+}
+
+DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err) {
+    DIP_ASSERT(times->subjects > 0 && times->frames > 0 && times->starts > 0 && times->rounds > 0);
+    const size_t subjects = (size_t)times->subjects, frames = (size_t)times->frames;
+    DipTimesFit *fit = calloc(1, sizeof *fit);
+    DipTimesWork w = {0};
+    int *members = malloc(subjects * sizeof *members);
+    bool made = fit && members;
+    if (made) {
+        fit->frames = times->frames;
+        fit->units = times->starts > 1 ? times->starts : times->rounds;
+        fit->subjects = calloc(subjects, sizeof *fit->subjects);
+        fit->bases = calloc(subjects, sizeof *fit->bases);
+        fit->frame_ms = malloc(subjects * frames * sizeof *fit->frame_ms);
+        fit->moves =
+            calloc(subjects * (size_t)fit->units * DIP_TIMES_VALUE_COUNT, sizeof *fit->moves);
+        made =
+            fit->subjects && fit->bases && fit->frame_ms && fit->moves && open_work(&w, times, fit);
+    }
+    for (int s = 0; made && s < times->subjects; s++) {
+        if (times->base_of[s] == s) {
+            fit_base(&w, s, members);
+        }
+    }
+    close_work(&w);
+    free(members);
+    if (!made) {
+        dip_times_fit_free(&fit);
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "timing", "out of memory");
+    }
+    return fit;
+}
+
+void dip_times_fit_free(DipTimesFit **fit_pointer) {
+    DipTimesFit *fit = *fit_pointer;
+    if (fit) {
+        free(fit->subjects);
+        free(fit->bases);
+        free(fit->frame_ms);
+        free(fit->moves);
+        free(fit);
+        *fit_pointer = NULL;
+    }
+}

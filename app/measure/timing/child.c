@@ -1,0 +1,274 @@
+// Starting another program and talking with it through pipes.
+#include "app/measure/timing/child.h"
+
+#include "app/measure/timing/thread_use.h"
+#include "renderer/base/number.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <math.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { LINE_SIZE = 1024 };
+
+extern char **environ;
+
+struct DipChild {
+    DipChildDef def; // Its texts are borrowed.
+    pid_t pid;       // 0 if there is no process
+    FILE *to;
+    FILE *from;
+    DipThreadWatch *watch; // NULL if the machine does not tell.
+};
+
+// --- starting ----------------------------------------------------------------------------------
+
+// Returns the command line with the program as argv[0] and --serve at the end. The texts are
+// borrowed; the caller frees the array.
+static char **child_arguments(const DipChildDef *def) {
+    char **arguments = calloc((size_t)def->argc + 2, sizeof *arguments);
+    if (arguments) {
+        memcpy(arguments, def->argv, (size_t)def->argc * sizeof *arguments);
+        arguments[0] = (char *)def->program;
+        arguments[def->argc] = (char *)"--serve";
+    }
+    return arguments;
+}
+
+// Starts the child with `in` as its standard input and `out` as its standard output. The child does
+// not inherit the other ends of the pipes, because these ends are close-on-exec. Returns 0 or an
+// errno.
+static int spawn(DipChild *child, int in, int out) {
+    char **arguments = child_arguments(&child->def);
+    posix_spawn_file_actions_t actions;
+    if (!arguments || posix_spawn_file_actions_init(&actions) != 0) {
+        free(arguments);
+        return ENOMEM;
+    }
+    posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
+    const int failure =
+        posix_spawn(&child->pid, child->def.program, &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    free(arguments);
+    child->pid = failure ? 0 : child->pid;
+    return failure;
+}
+
+static bool close_on_exec(const int pipe_ends[2]) {
+    return fcntl(pipe_ends[0], F_SETFD, FD_CLOEXEC) == 0 &&
+           fcntl(pipe_ends[1], F_SETFD, FD_CLOEXEC) == 0;
+}
+
+static bool start(DipChild *child, DipError *err) {
+    int down[2] = {-1, -1};
+    int up[2] = {-1, -1};
+    int failure = ENFILE;
+    if (pipe(down) == 0 && pipe(up) == 0 && close_on_exec(down) && close_on_exec(up)) {
+        failure = spawn(child, down[0], up[1]);
+        child->to = fdopen(down[1], "w");
+        child->from = fdopen(up[0], "r");
+    }
+    const int unused[] = {down[0], up[1], child->to ? -1 : down[1], child->from ? -1 : up[0]};
+    for (int i = 0; i < 4; i++) {
+        if (unused[i] >= 0) {
+            close(unused[i]);
+        }
+    }
+    return (failure == 0 && child->to && child->from) ||
+           dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, child->def.key,
+                         "%s cannot be started: %s", child->def.program, strerror(failure));
+}
+
+static bool read_line(DipChild *child, char line[LINE_SIZE], DipError *err) {
+    return fgets(line, LINE_SIZE, child->from) ||
+           dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, child->def.key,
+                         "%s has ended; see its own message above", child->def.program);
+}
+
+static bool check_greeting(DipChild *child, DipError *err) {
+    const DipChildDef *def = &child->def;
+    char line[LINE_SIZE], what[32];
+    int count, frames;
+    if (!read_line(child, line, err)) {
+        return false;
+    }
+    if (sscanf(line, "diptych-%31s 1 %d %d", what, &count, &frames) != 3 ||
+        strcmp(what, def->what) != 0) {
+        return dip_error_set_runtime(
+            err, DIP_ERROR_FORMAT, NULL, 0, def->key,
+            "%s did not answer as diptych's %s does; is it a diptych of another version?",
+            def->program, def->what);
+    }
+    return (count == def->count && frames == def->frames) ||
+           dip_error_set_runtime(err, DIP_ERROR_CONFLICT, NULL, 0, def->key,
+                                 "%s has %d combinations of %d frames, but this program has %d "
+                                 "combinations of %d frames",
+                                 def->program, count, frames, def->count, def->frames);
+}
+
+DipChild *dip_child_start(const DipChildDef *def, DipError *err) {
+    DipChild *child = calloc(1, sizeof *child);
+    if (!child) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, def->key, "out of memory");
+        return NULL;
+    }
+    child->def = *def;
+    // With SIGPIPE ignored, writing to a child that has ended does not end this program. The next
+    // read finds the end of the file, which is then reported.
+    signal(SIGPIPE, SIG_IGN);
+    if (!start(child, err) || !check_greeting(child, err)) {
+        dip_child_stop(&child, false);
+        return NULL;
+    }
+    child->watch = dip_thread_watch_open_process((long)child->pid);
+    return child;
+}
+
+int dip_child_thread_count(const DipChild *child) {
+    return dip_thread_watch_count(child->watch);
+}
+
+void dip_child_stop(DipChild **child_pointer, bool at_once) {
+    DipChild *child = *child_pointer;
+    if (!child) {
+        return;
+    }
+    dip_thread_watch_close(&child->watch);
+    if (at_once && child->pid) {
+        kill(child->pid, SIGTERM);
+    }
+    if (child->to) {
+        fclose(child->to);
+    }
+    if (child->from) {
+        fclose(child->from);
+    }
+    if (child->pid) {
+        waitpid(child->pid, NULL, 0);
+    }
+    free(child);
+    *child_pointer = NULL;
+}
+
+// --- asking ------------------------------------------------------------------------------------
+
+// How long the threads of the child were on a core and waited for one.
+typedef struct Use {
+    double wait_ms; // NAN: not known.
+    double cpu_ms;
+    double switches;
+} Use;
+
+static Use use_between(const DipThreadUse *before, const DipThreadUse *after) {
+    return (Use){
+        .wait_ms = after->has_wait ? 1e-6 * (double)(after->wait_ns - before->wait_ns) : NAN,
+        .cpu_ms = 1e-6 * (double)(after->cpu_ns - before->cpu_ns),
+        .switches = (double)(after->switches - before->switches),
+    };
+}
+
+static bool store_number(const char *word, size_t length, const char *name, double *value) {
+    return length == strlen(name) && memcmp(word, name, length) == 0 &&
+           dip_number_parse(word + length + 1, strlen(word + length + 1), value);
+}
+
+// Stores one NAME=VALUE of an answer. Ignores an unknown name.
+static void store_word(const char *word, DipBenchSample *sample, Use *use) {
+    const char *equals = strchr(word, '=');
+    const size_t length = equals ? (size_t)(equals - word) : 0;
+    store_number(word, length, "wait_ms", &use->wait_ms);
+    store_number(word, length, "cpu_ms", &use->cpu_ms);
+    store_number(word, length, "switches", &use->switches);
+    if (length == strlen("hash") && memcmp(word, "hash", length) == 0) {
+        snprintf(sample->hash, sizeof sample->hash, "%s", equals + 1);
+    }
+    for (int stage = 0; length && stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        const char *name = dip_bench_stage_names[stage];
+        const size_t name_length = strlen(name);
+        if (length == name_length + 3 && memcmp(word, name, name_length) == 0 &&
+            memcmp(word + name_length, "_ms", 3) == 0) {
+            dip_number_parse(equals + 1, strlen(equals + 1), &sample->ms[stage]);
+        }
+    }
+#define STORE_COUNTER(name, text)                                                                  \
+    if (length == strlen(#name) && memcmp(word, #name, length) == 0) {                             \
+        sample->counters.name = strtoull(equals + 1, NULL, 10);                                    \
+    }
+    DIP_COUNTER_LIST(STORE_COUNTER)
+#undef STORE_COUNTER
+}
+
+bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample, DipTimed *timed,
+                    DipError *err) {
+    char line[LINE_SIZE];
+    *sample = (DipBenchSample){.hash = ""};
+    const DipThreadUse before = dip_thread_watch_read(child->watch);
+    fprintf(child->to, "%s\n", request);
+    fflush(child->to);
+    if (!read_line(child, line, err)) {
+        return false;
+    }
+    const DipThreadUse after = dip_thread_watch_read(child->watch);
+    // Older builds do not tell. The watch also sees how long the child waits until it reads the
+    // request.
+    Use use = use_between(&before, &after);
+    char *rest = NULL;
+    for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {
+        store_word(word, sample, &use);
+    }
+    dip_bench_sample_time(sample, timed);
+    timed->wait = use.wait_ms / timed->ms;
+    timed->cpu_ms = use.cpu_ms;
+    timed->switches = use.switches;
+    return timed->ms > 0.0 ||
+           dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, child->def.key,
+                                 "%s answered without a time", child->def.program);
+}
+
+// --- answering ---------------------------------------------------------------------------------
+
+static void answer(const DipBenchSample *sample, const Use *use) {
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        printf("%s_ms=%.6f ", dip_bench_stage_names[stage], sample->ms[stage]);
+    }
+#define PRINT_COUNTER(name, text) printf("%s=%" PRIu64 " ", #name, sample->counters.name);
+    DIP_COUNTER_LIST(PRINT_COUNTER)
+#undef PRINT_COUNTER
+    if (!isnan(use->wait_ms)) {
+        printf("wait_ms=%.6f cpu_ms=%.6f switches=%.0f ", use->wait_ms, use->cpu_ms, use->switches);
+    }
+    printf("hash=%s\n", sample->hash);
+    fflush(stdout);
+}
+
+bool dip_child_serve(const char *what, int count, int frames,
+                     bool (*draw)(void *context, const char *request, DipBenchSample *sample,
+                                  DipError *err),
+                     void *context, DipError *err) {
+    char line[LINE_SIZE];
+    bool done = true;
+    DipThreadWatch *watch = dip_thread_watch_open();
+    printf("diptych-%s 1 %d %d\n", what, count, frames);
+    fflush(stdout);
+    while (done && fgets(line, sizeof line, stdin)) {
+        DipBenchSample sample;
+        line[strcspn(line, "\n")] = '\0';
+        const DipThreadUse before = dip_thread_watch_read(watch);
+        done = draw(context, line, &sample, err);
+        if (done) {
+            const DipThreadUse after = dip_thread_watch_read(watch);
+            const Use use = use_between(&before, &after);
+            answer(&sample, &use);
+        }
+    }
+    dip_thread_watch_close(&watch);
+    return done;
+}

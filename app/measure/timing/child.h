@@ -1,0 +1,50 @@
+// Timing frames in another process: another build of this program, or this one started anew. The
+// process runs as a child, `PROGRAM ... --serve`, and is controlled through two pipes.
+//
+// The protocol consists of lines of text. The child first sends the greeting "diptych-WHAT 1
+// COMBINATIONS FRAMES". It answers each request for a frame with "total_ms=1.5 geometry_ms=...
+// hash=...", or writes an error to standard error and ends. Unknown names are ignored, so that
+// builds with different stages can be compared.
+#ifndef DIP_APP_MEASURE_TIMING_CHILD_H
+#define DIP_APP_MEASURE_TIMING_CHILD_H
+
+#include "app/measure/timing/sample.h"
+#include "renderer/base/error.h"
+
+typedef struct DipChild DipChild;
+
+// Texts are borrowed while the child lives.
+typedef struct DipChildDef {
+    const char *program; // File to run.
+    char *const *argv;   // Its command line; argv[0] is replaced, and --serve is added.
+    int argc;
+    const char *what; // The command: "bench".
+    int count;        // Combinations that the greeting must state.
+    int frames;       // Frames that it must state.
+    const char *key;  // Of errors.
+} DipChildDef;
+
+// Starts a program and its watch. Fails if the program cannot be started or does not send the
+// expected greeting.
+DipChild *dip_child_start(const DipChildDef *def, DipError *err);
+
+// Returns the number of the child's threads; 0 if the machine does not tell.
+int dip_child_thread_count(const DipChild *child);
+
+// Closes the child's standard input and waits until it has ended. `at_once`: ends it, because its
+// answer is no longer read, so it must not complain that it cannot be written.
+void dip_child_stop(DipChild **child, bool at_once);
+
+// Asks for a frame. Writes its time, the parts of the time, and how long the child's threads waited
+// (NAN if the machine does not tell).
+bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample, DipTimed *timed,
+                    DipError *err);
+
+// Runs in the child: answers requests on standard input until standard input is closed. `draw` gets
+// the line of a request.
+bool dip_child_serve(const char *what, int count, int frames,
+                     bool (*draw)(void *context, const char *request, DipBenchSample *sample,
+                                  DipError *err),
+                     void *context, DipError *err);
+
+#endif

@@ -1,0 +1,734 @@
+// Plans starts and rounds as lists of frames, and draws the next frame of a list in each step.
+#include "app/measure/timing/driver.h"
+
+#include "app/measure/stats/random.h"
+#include "app/measure/stats/statistics.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/clock.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { SETTLE_RUNS = 5, SETTLE_TRIES = 20 };
+static const double settle_tolerance = 0.02;
+
+// A frame of a plan.
+typedef struct Draw {
+    DipDriverPhase phase;
+    int subject;
+    int block;
+    int frame;
+    bool begins_visit;
+} Draw;
+
+typedef struct Block {
+    int base;
+    int first; // Index of its first subject in DipDriver.members.
+    int count; // Subjects besides the base.
+} Block;
+
+// What the next step does.
+typedef enum Stage { PLAN, WARM_UP, SETTLE, DRAW, DONE, FAILED } Stage;
+
+struct DipDriver {
+    DipDriverDef def; // Its starts and rounds change if starts take long.
+    DipDriverCalls calls;
+    DipThreadWatch *watch; // NULL if the caller has its own, or if the machine does not tell.
+    int *base_of;
+    int *deal; // [copy * frames + frame]: the round that draws it; NULL if every round draws all
+               // frames.
+    Stage stage;
+    int start; // The start that has begun; -1: none.
+    // The round that is drawn next, of all starts. Rounds that repeat the others follow them.
+    int round;
+    bool starts_are_fixed;
+
+    // The plan of the start or of the round.
+    Draw *plan;
+    int plan_count, plan_room;
+    int next;      // Index of the draw of the next step.
+    int *members;  // Subjects of the round, grouped by base.
+    Block *blocks; // In the order in which they are drawn.
+    int *order;    // Scratch for shuffling.
+    int *frames;   // Frames of the round, then those that only the base draws.
+    int frame_count, all_frame_count;
+    bool *is_needed; // [subject]: the round draws it.
+    int *score;      // [subject]: undisturbed frames less three times the disturbed ones.
+
+    DipTimed *fresh; // Frames of the incomplete round.
+    int fresh_count;
+    DipTimed *log;     // Frames of all complete rounds.
+    double *base_wait; // [log]: wait of the base's frame beside it.
+    int log_count, log_room;
+    int *log_begin; // [round]: index of its first frame in the log.
+
+    double settle_ms[SETTLE_RUNS];
+    double settle_last_ms; // Median of the runs before.
+    int settle_runs;
+
+    int64_t origin_ns, visit_ns, start_begin_ns, round_begin_ns, start_ns;
+    bool has_begun;
+    int64_t drawn, left;            // Frames of starts and rounds, of rounds.
+    int64_t paced, pace_ns;         // All frames of this driver, and their time.
+    double wait_ms, cpu_ms, run_ms; // Sums over all timed frames.
+    bool has_wait, settled;
+    int repeated;
+};
+
+static bool out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "timing", "out of memory");
+}
+
+static int round_count(const DipDriver *d) {
+    return d->def.starts * d->def.rounds;
+}
+
+static bool is_base(const DipDriver *d, int subject) {
+    return d->base_of[subject] == subject;
+}
+
+// The round whose frames the driver's round draws.
+static int first_round_of(const DipDriver *d) {
+    return d->round % round_count(d);
+}
+
+// The round of a frame, of all starts.
+static int round_of(const DipDriver *d, const DipTimed *timed) {
+    return timed->start * d->def.rounds + timed->round;
+}
+
+static bool repeats(const DipDriver *d) {
+    return d->round >= round_count(d);
+}
+
+static bool is_disturbed(const DipDriver *d, double wait, double base_wait) {
+    return d->def.most_wait > 0.0 && (wait > d->def.most_wait || base_wait > d->def.most_wait);
+}
+
+// --- plans
+// -----------------------------------------------------------------------------------------
+
+static bool add_draw(DipDriver *d, DipDriverPhase phase, int subject, int block, int frame,
+                     bool begins_visit) {
+    if (d->plan_count == d->plan_room) {
+        const int room = d->plan_room ? 2 * d->plan_room : 256;
+        Draw *plan = realloc(d->plan, (size_t)room * sizeof *plan);
+        if (!plan) {
+            return false;
+        }
+        d->plan = plan;
+        d->plan_room = room;
+    }
+    d->plan[d->plan_count++] = (Draw){phase, subject, block, frame, begins_visit};
+    return true;
+}
+
+static bool plan_start(DipDriver *d) {
+    bool done = true;
+    d->plan_count = d->next = 0;
+    for (int s = 0; s < d->def.subjects; s++) {
+        for (int f = 0; done && f < d->def.warm_frames; f++) {
+            done = add_draw(d, DIP_DRIVER_WARM_UP, s, 0, f, false);
+        }
+    }
+    return done;
+}
+
+static void list_frames(DipDriver *d, int round) {
+    const int copies = d->deal && !repeats(d) ? d->def.base_copies : 1;
+    d->all_frame_count = 0;
+    for (int i = 0; i < copies * d->def.frames; i++) {
+        if (i == d->def.frames) {
+            d->frame_count = d->all_frame_count;
+        }
+        if (!d->deal || d->deal[i] == round) {
+            d->frames[d->all_frame_count++] = i % d->def.frames;
+        }
+    }
+    d->frame_count = copies == 1 ? d->all_frame_count : d->frame_count;
+}
+
+// Finds the subjects that the round draws. A repetition draws those with a disturbed frame in it if
+// less than three quarters of their frames are undisturbed.
+static void find_needed(DipDriver *d, int round) {
+    for (int s = 0; s < d->def.subjects; s++) {
+        d->is_needed[s] = !repeats(d);
+        d->score[s] = 0;
+    }
+    for (int i = 0; repeats(d) && i < d->log_count; i++) {
+        const DipTimed *timed = &d->log[i];
+        const bool disturbed = is_disturbed(d, timed->wait, d->base_wait[i]);
+        d->score[timed->subject] += disturbed ? -3 : 1;
+        d->is_needed[timed->subject] |= disturbed && round_of(d, timed) == round;
+    }
+    for (int s = 0; repeats(d) && s < d->def.subjects; s++) {
+        d->is_needed[s] &= d->score[s] < 0;
+    }
+}
+
+// Lists the base's subjects that the round draws, in random order, and cuts them into blocks.
+static int add_blocks(DipDriver *d, int base, int first, int *block_count, uint64_t *random) {
+    int count = 0;
+    for (int s = 0; s < d->def.subjects; s++) {
+        if (d->base_of[s] == base && s != base && d->is_needed[s]) {
+            d->members[first + count++] = s;
+        }
+    }
+    dip_random_shuffle(random, d->members + first, count);
+    const bool alone = count == 0 && !repeats(d); // A base that nothing is compared with.
+    for (int at = 0; at < count || (alone && at == 0); at += d->def.block_subjects) {
+        const int rest = count - at;
+        const int size = rest < d->def.block_subjects ? rest : d->def.block_subjects;
+        d->blocks[(*block_count)++] = (Block){base, first + at, size};
+    }
+    return first + count;
+}
+
+static int subject_of(const DipDriver *d, const Block *block, int visit) {
+    return visit < block->count ? d->members[block->first + visit] : block->base;
+}
+
+static bool plan_visit(DipDriver *d, int subject, int number, int block_of_base,
+                       int blocks_of_base) {
+    bool done = add_draw(d, DIP_DRIVER_UNTIMED, subject, number, d->frames[0], true);
+    for (int f = 0; done && f < d->frame_count; f++) {
+        done = add_draw(d, DIP_DRIVER_TIMED, subject, number, d->frames[f], false);
+    }
+    // The frames that only the base draws are shared by its blocks.
+    for (int f = d->frame_count + block_of_base;
+         done && is_base(d, subject) && f < d->all_frame_count; f += blocks_of_base) {
+        done = add_draw(d, DIP_DRIVER_TIMED, subject, number, d->frames[f], false);
+    }
+    return done;
+}
+
+static bool plan_block(DipDriver *d, const Block *block, int number, int block_of_base,
+                       int blocks_of_base, uint64_t *random) {
+    bool done = true;
+    for (int v = 0; v <= block->count; v++) {
+        d->order[v] = v;
+    }
+    for (int f = 0; done && d->def.in_turn && f < d->frame_count; f++) {
+        dip_random_shuffle(random, d->order, block->count + 1);
+        for (int v = 0; done && v <= block->count; v++) {
+            done = add_draw(d, DIP_DRIVER_TIMED, subject_of(d, block, d->order[v]), number,
+                            d->frames[f], true);
+        }
+    }
+    dip_random_shuffle(random, d->order, block->count + 1);
+    for (int v = 0; done && !d->def.in_turn && v <= block->count; v++) {
+        done =
+            plan_visit(d, subject_of(d, block, d->order[v]), number, block_of_base, blocks_of_base);
+    }
+    return done;
+}
+
+static void shuffle_blocks(DipDriver *d, int count, uint64_t *random) {
+    for (int i = count - 1; i > 0; i--) {
+        const int other = dip_random_below(random, i + 1);
+        const Block swap = d->blocks[i];
+        d->blocks[i] = d->blocks[other];
+        d->blocks[other] = swap;
+    }
+}
+
+// Each round has a seed of its own, so that its order does not depend on which rounds were known.
+// Blocks of a repetition have numbers of their own.
+static bool plan_round(DipDriver *d) {
+    const int round = first_round_of(d);
+    uint64_t random = d->def.seed * UINT64_C(0x9e3779b97f4a7c15) +
+                      (uint64_t)d->round * UINT64_C(0x632be59bd9b4e019);
+    int blocks = 0, first = 0;
+    bool done = true;
+    d->plan_count = d->next = d->fresh_count = 0;
+    list_frames(d, round);
+    find_needed(d, round);
+    for (int s = 0; s < d->def.subjects; s++) {
+        if (is_base(d, s)) {
+            first = add_blocks(d, s, first, &blocks, &random);
+        }
+    }
+    shuffle_blocks(d, blocks, &random);
+    for (int b = 0; done && b < blocks; b++) {
+        int of_base = 0, before = 0;
+        for (int other = 0; other < blocks; other++) {
+            of_base += d->blocks[other].base == d->blocks[b].base;
+            before += other < b && d->blocks[other].base == d->blocks[b].base;
+        }
+        done = plan_block(d, &d->blocks[b], b + (repeats(d) ? d->def.subjects : 0), before, of_base,
+                          &random);
+    }
+    if (done && d->plan_count > 0) {
+        DipTimed *fresh = realloc(d->fresh, (size_t)d->plan_count * sizeof *fresh);
+        done = fresh != NULL;
+        d->fresh = fresh ? fresh : d->fresh;
+    }
+    return done;
+}
+
+// --- complete rounds
+// -------------------------------------------------------------------------------
+
+static bool add_to_log(DipDriver *d, const DipTimed *timed, double base_wait) {
+    if (d->log_count == d->log_room) {
+        const int room = d->log_room ? 2 * d->log_room : 256;
+        DipTimed *log = realloc(d->log, (size_t)room * sizeof *log);
+        d->log = log ? log : d->log;
+        double *wait = realloc(d->base_wait, (size_t)room * sizeof *wait);
+        d->base_wait = wait ? wait : d->base_wait;
+        if (!log || !wait) {
+            return false;
+        }
+        d->log_room = room;
+    }
+    d->log[d->log_count] = *timed;
+    d->base_wait[d->log_count++] = base_wait;
+    return true;
+}
+
+// Returns the base's frame beside fresh frame `at`; a base's frame is beside itself.
+static int find_beside(const DipDriver *d, int at) {
+    const DipTimed *timed = &d->fresh[at];
+    const int base = d->base_of[timed->subject];
+    int begin = at;
+    while (begin > 0 && d->fresh[begin - 1].block == timed->block) {
+        begin--;
+    }
+    while (d->fresh[begin].subject != base || d->fresh[begin].frame != timed->frame) {
+        begin++;
+    }
+    return begin;
+}
+
+static int find_in_log(const DipDriver *d, const DipTimed *timed) {
+    int i = d->log_begin[first_round_of(d)];
+    while (d->log[i].subject != timed->subject || d->log[i].frame != timed->frame) {
+        i++;
+    }
+    return i;
+}
+
+// Whether a base's frame of a repetition is in the log already, beside another subject's.
+static bool is_in_log(const DipDriver *d, const DipTimed *timed) {
+    bool found = false;
+    for (int i = d->log_begin[round_count(d)]; i < d->log_count && !found; i++) {
+        const DipTimed *other = &d->log[i];
+        found = other->subject == timed->subject && other->block == timed->block &&
+                other->frame == timed->frame && round_of(d, other) == round_of(d, timed);
+    }
+    return found;
+}
+
+// Replaces disturbed frames of the log by those of a repetition that waited less. The base's frames
+// beside them join the log.
+static bool keep_better(DipDriver *d) {
+    bool done = true;
+    for (int at = 0; done && at < d->fresh_count; at++) {
+        const DipTimed *timed = &d->fresh[at];
+        if (is_base(d, timed->subject)) {
+            continue;
+        }
+        const DipTimed *base = &d->fresh[find_beside(d, at)];
+        const int to = find_in_log(d, timed);
+        if (is_disturbed(d, d->log[to].wait, d->base_wait[to]) &&
+            timed->wait + base->wait < d->log[to].wait + d->base_wait[to]) {
+            d->log[to] = *timed;
+            d->base_wait[to] = base->wait;
+            done = is_in_log(d, base) || add_to_log(d, base, base->wait);
+        }
+    }
+    return done;
+}
+
+// Adds the fresh frames to the log.
+static bool end_round(DipDriver *d) {
+    bool done = true;
+    for (int i = 0; i < d->fresh_count; i++) {
+        const DipTimed *timed = &d->fresh[i];
+        d->run_ms += timed->ms;
+        d->wait_ms += timed->wait * timed->ms;
+        d->cpu_ms += timed->cpu_ms;
+    }
+    if (repeats(d)) {
+        done = keep_better(d);
+        d->repeated += d->fresh_count;
+    } else {
+        d->log_begin[d->round] = d->log_count;
+        for (int i = 0; done && i < d->fresh_count; i++) {
+            done = add_to_log(d, &d->fresh[i], d->fresh[find_beside(d, i)].wait);
+        }
+        d->log_begin[d->round + 1] = d->log_count;
+    }
+    d->round++;
+    return done;
+}
+
+static bool use_two_starts(DipDriver *d) {
+    const int rounds = round_count(d);
+    if (rounds % 2 != 0) {
+        return false;
+    }
+    d->def.starts = 2;
+    d->def.rounds = rounds / 2;
+    return true;
+}
+
+// Decides on the number of starts, while all rounds so far would be of the first start in any case.
+static void fix_starts(DipDriver *d, int64_t round_ns) {
+    const double room_ns = d->def.most_start * (double)round_ns * d->def.rounds;
+    if (!d->starts_are_fixed && d->def.starts > 2 && d->def.most_start > 0.0 && d->start == 0 &&
+        (double)d->start_ns > room_ns) {
+        use_two_starts(d);
+    }
+    d->starts_are_fixed = true;
+}
+
+bool dip_driver_resume(DipDriver *d, const DipTimed *known, int count) {
+    DIP_ASSERT(d->stage == PLAN && d->start < 0);
+    // A first start with more rounds shows that there are only two.
+    for (int i = 0; i < count && !d->starts_are_fixed; i++) {
+        d->starts_are_fixed =
+            known[i].start == 0 && known[i].round >= d->def.rounds && use_two_starts(d);
+    }
+    for (int at = 0; at < count;) {
+        if (d->round == 2 * round_count(d) || !plan_round(d)) {
+            return false;
+        }
+        for (int p = 0; p < d->plan_count; p++) {
+            const Draw *draw = &d->plan[p];
+            if (draw->phase != DIP_DRIVER_TIMED) {
+                continue;
+            }
+            const DipTimed *timed = &known[at + d->fresh_count];
+            if (at + d->fresh_count == count || timed->subject != draw->subject ||
+                timed->block != draw->block || timed->frame != draw->frame ||
+                round_of(d, timed) != first_round_of(d) || timed->round < 0 ||
+                timed->round >= d->def.rounds || !(timed->ms > 0.0) || !isfinite(timed->ms) ||
+                !(timed->wait >= 0.0)) {
+                return false;
+            }
+            d->fresh[d->fresh_count++] = *timed;
+        }
+        at += d->fresh_count;
+        d->left -= repeats(d) ? 0 : d->plan_count;
+        if (d->fresh_count > 0) {
+            d->origin_ns = -known[at - 1].begin_ns;
+        }
+        if (!end_round(d)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// --- drawing
+// ---------------------------------------------------------------------------------------
+
+static int64_t now_ns(const DipDriver *d) {
+    return d->calls.clock_ns ? d->calls.clock_ns(d->calls.context) : dip_clock_ns();
+}
+
+static DipThreadUse thread_use(const DipDriver *d) {
+    return d->calls.thread_use ? d->calls.thread_use(d->calls.context)
+                               : dip_thread_watch_read(d->watch);
+}
+
+static void rest(int64_t ns) {
+    const struct timespec time = {.tv_sec = (time_t)(ns / 1000000000),
+                                  .tv_nsec = (long)(ns % 1000000000)};
+    nanosleep(&time, NULL);
+}
+
+// Draws a frame. *timed gets its times.
+static bool draw_frame(DipDriver *d, const Draw *draw, DipTimed *timed, DipError *err) {
+    const bool in_round = draw->phase >= DIP_DRIVER_UNTIMED;
+    const int round = first_round_of(d);
+    const DipDriverTurn turn = {
+        .phase = draw->phase,
+        .subject = draw->subject,
+        .start = in_round ? round / d->def.rounds : d->start,
+        .round = in_round ? round % d->def.rounds : -1,
+        .frame = draw->frame,
+    };
+    if (draw->phase == DIP_DRIVER_TIMED && d->def.rest_ns > 0) {
+        rest(d->def.rest_ns);
+    }
+    const DipThreadUse before = thread_use(d);
+    const int64_t begin_ns = now_ns(d);
+    if (!d->has_begun) {
+        d->origin_ns += begin_ns; // It was 0, or less by the time that the known rounds took.
+        d->has_begun = true;
+    }
+    d->visit_ns = draw->begins_visit ? begin_ns : d->visit_ns;
+    *timed = (DipTimed){.subject = draw->subject,
+                        .start = turn.start,
+                        .round = turn.round,
+                        .block = draw->block,
+                        .frame = draw->frame,
+                        .begin_ns = d->visit_ns - d->origin_ns,
+                        .ms = NAN};
+    if (!d->calls.draw(d->calls.context, &turn, timed, err)) {
+        return false;
+    }
+    const int64_t ns = now_ns(d) - begin_ns;
+    if (isnan(timed->ms)) {
+        const DipThreadUse after = thread_use(d);
+        timed->ms = fmax(1e-6 * (double)ns, 1e-6); // A clock may stand still for a frame.
+        timed->wait = 1e-6 * (double)(after.wait_ns - before.wait_ns) / timed->ms;
+        timed->cpu_ms = 1e-6 * (double)(after.cpu_ns - before.cpu_ns);
+        timed->switches = (double)(after.switches - before.switches);
+    } else if (isnan(timed->wait)) {
+        timed->wait = 0.0;
+        d->has_wait = false;
+    }
+    d->paced++;
+    d->pace_ns += ns;
+    return true;
+}
+
+static bool draw_next(DipDriver *d, DipError *err) {
+    const Draw *draw = &d->plan[d->next];
+    DipTimed timed;
+    if (!draw_frame(d, draw, &timed, err)) {
+        return false;
+    }
+    if (draw->phase == DIP_DRIVER_TIMED) {
+        d->fresh[d->fresh_count++] = timed;
+    }
+    const bool counts = d->stage == WARM_UP || !repeats(d);
+    d->drawn += counts;
+    d->left -= counts && d->stage == DRAW;
+    d->next++;
+    return true;
+}
+
+static bool draw_settling(DipDriver *d, DipError *err) {
+    DipTimed timed;
+    if (!draw_frame(d, &(Draw){.phase = DIP_DRIVER_SETTLE}, &timed, err)) {
+        return false;
+    }
+    d->settle_ms[d->settle_runs++ % SETTLE_RUNS] = timed.ms;
+    if (d->settle_runs % SETTLE_RUNS == 0) {
+        const double median = dip_stats_median(d->settle_ms, SETTLE_RUNS);
+        d->settled = d->settle_runs > SETTLE_RUNS &&
+                     fabs(median - d->settle_last_ms) <= settle_tolerance * d->settle_last_ms;
+        d->settle_last_ms = median;
+    }
+    return true;
+}
+
+// --- steps
+// -----------------------------------------------------------------------------------------
+
+// Plans the next round that has frames to draw. Begins a start if the round needs another.
+static bool begin_round(DipDriver *d, DipError *err) {
+    const int rounds = round_count(d);
+    do {
+        if (d->round == 2 * rounds || (repeats(d) && !(d->has_wait && d->def.most_wait > 0.0))) {
+            d->stage = DONE;
+            return true;
+        }
+        if (!plan_round(d)) {
+            return out_of_memory(err);
+        }
+        d->round += d->plan_count == 0; // A repetition for which there is no need.
+    } while (d->plan_count == 0);
+    const int start = !repeats(d)     ? d->round / d->def.rounds
+                      : d->start >= 0 ? d->start
+                                      : d->def.starts - 1;
+    d->stage = DRAW;
+    if (start == d->start) {
+        d->round_begin_ns = now_ns(d);
+        return true;
+    }
+    d->start_begin_ns = now_ns(d);
+    d->start = start;
+    d->stage = WARM_UP;
+    return (!d->calls.start || d->calls.start(d->calls.context, start, err)) &&
+           (plan_start(d) || out_of_memory(err));
+}
+
+static void end_start(DipDriver *d) {
+    d->start_ns = now_ns(d) - d->start_begin_ns;
+    d->stage = d->def.settle && d->settle_runs == 0 ? SETTLE : PLAN;
+}
+
+static DipDriverStep fail(DipDriver *d) {
+    d->stage = FAILED;
+    return DIP_DRIVER_FAILED;
+}
+
+static DipDriverStep complete_round(DipDriver *d, DipError *err) {
+    d->stage = PLAN;
+    if (!end_round(d)) {
+        out_of_memory(err);
+        return fail(d);
+    }
+    fix_starts(d, now_ns(d) - d->round_begin_ns);
+    return !d->calls.keep || d->calls.keep(d->calls.context, d->fresh, d->fresh_count, err)
+               ? DIP_DRIVER_ROUND
+               : fail(d);
+}
+
+DipDriverStep dip_driver_step(DipDriver *d, DipError *err) {
+    while (d->stage == PLAN || (d->stage == WARM_UP && d->next == d->plan_count)) {
+        if (d->stage == WARM_UP) {
+            end_start(d);
+        } else if (!begin_round(d, err)) {
+            return fail(d);
+        }
+    }
+    switch (d->stage) {
+    case SETTLE:
+        if (!draw_settling(d, err)) {
+            return fail(d);
+        }
+        d->stage = d->settled || d->settle_runs == SETTLE_RUNS * SETTLE_TRIES ? PLAN : SETTLE;
+        return DIP_DRIVER_WORKING;
+    case DONE:
+        return DIP_DRIVER_DONE;
+    case FAILED:
+        return DIP_DRIVER_FAILED;
+    default:
+        if (!draw_next(d, err)) {
+            return fail(d);
+        }
+        return d->stage == DRAW && d->next == d->plan_count ? complete_round(d, err)
+                                                            : DIP_DRIVER_WORKING;
+    }
+}
+
+void dip_driver_drop_round(DipDriver *d) {
+    if (d->stage == DRAW) {
+        d->drawn -= repeats(d) ? 0 : d->next;
+        d->left += repeats(d) ? 0 : d->next;
+        d->stage = PLAN;
+    }
+}
+
+// --- the whole
+// -------------------------------------------------------------------------------------
+
+static bool open_driver(DipDriver *d, const DipDriverDef *def) {
+    const size_t subjects = (size_t)def->subjects;
+    const size_t copies = (size_t)(def->base_copies > 0 ? def->base_copies : 1);
+    d->base_of = malloc(subjects * sizeof *d->base_of);
+    d->members = malloc(subjects * sizeof *d->members);
+    d->blocks = malloc(subjects * sizeof *d->blocks);
+    d->order = malloc((subjects + 1) * sizeof *d->order);
+    d->is_needed = malloc(subjects * sizeof *d->is_needed);
+    d->score = malloc(subjects * sizeof *d->score);
+    d->frames = malloc(copies * (size_t)def->frames * sizeof *d->frames);
+    d->log_begin = calloc((size_t)round_count(d) + 1, sizeof *d->log_begin);
+    if (!d->base_of || !d->members || !d->blocks || !d->order || !d->is_needed || !d->score ||
+        !d->frames || !d->log_begin) {
+        return false;
+    }
+    for (int s = 0; s < def->subjects; s++) {
+        d->base_of[s] = def->base_of ? def->base_of[s] : s;
+    }
+    if (def->base_copies > 0) {
+        d->deal = malloc(copies * (size_t)def->frames * sizeof *d->deal);
+        if (!d->deal ||
+            !dip_rounds_deal(def->frames, round_count(d), (int)copies, def->seed, d->deal, NULL)) {
+            return false;
+        }
+    }
+    for (d->round = 0; d->round < round_count(d); d->round++) {
+        if (!plan_round(d)) {
+            return false;
+        }
+        d->left += d->plan_count;
+    }
+    d->round = 0;
+    return true;
+}
+
+DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCalls *calls, DipError *err) {
+    DIP_ASSERT(def->subjects > 0 && def->starts > 0 && def->rounds > 0 && def->frames > 0);
+    DIP_ASSERT(def->block_subjects > 0 && def->warm_frames <= def->frames);
+    DIP_ASSERT(def->base_copies == 0 || def->frames >= def->starts * def->rounds);
+    DIP_ASSERT(def->base_copies <= def->starts * def->rounds);
+    DipDriver *d = calloc(1, sizeof *d);
+    if (!d) {
+        out_of_memory(err);
+        return NULL;
+    }
+    d->def = *def;
+    d->calls = *calls;
+    d->start = -1;
+    d->settled = !def->settle;
+    d->watch = calls->thread_use ? NULL : dip_thread_watch_open();
+    d->has_wait = thread_use(d).has_wait;
+    if (!open_driver(d, def)) {
+        out_of_memory(err);
+        dip_driver_destroy(&d);
+    }
+    return d;
+}
+
+void dip_driver_destroy(DipDriver **driver) {
+    DipDriver *d = *driver;
+    if (d) {
+        dip_thread_watch_close(&d->watch);
+        free(d->base_of);
+        free(d->deal);
+        free(d->plan);
+        free(d->members);
+        free(d->blocks);
+        free(d->order);
+        free(d->is_needed);
+        free(d->score);
+        free(d->frames);
+        free(d->fresh);
+        free(d->log);
+        free(d->base_wait);
+        free(d->log_begin);
+        free(d);
+    }
+    *driver = NULL;
+}
+
+DipTimes dip_driver_times(const DipDriver *d) {
+    return (DipTimes){
+        .list = d->log,
+        .count = d->log_count,
+        .subjects = d->def.subjects,
+        .starts = d->def.starts,
+        .rounds = d->def.rounds,
+        .frames = d->def.frames,
+        .base_of = d->base_of,
+    };
+}
+
+DipDriverProgress dip_driver_progress(const DipDriver *d) {
+    const int rounds = round_count(d);
+    const int begun = d->start >= 0 ? d->start + 1 : d->round / d->def.rounds;
+    const int starts = d->round < rounds ? d->def.starts - begun : 0;
+    const int64_t warming = d->stage == WARM_UP ? d->plan_count - d->next : 0;
+    const int64_t left = d->left + warming + (int64_t)starts * d->def.subjects * d->def.warm_frames;
+    return (DipDriverProgress){
+        .drawn = d->drawn,
+        .total = d->drawn + left,
+        .rounds = repeats(d) ? rounds : d->round,
+        .searched = repeats(d) ? d->round - rounds : 0,
+        .all_rounds = rounds,
+        .seconds_left =
+            d->paced > 0 ? 1e-9 * (double)d->pace_ns / (double)d->paced * (double)left : 0.0,
+    };
+}
+
+DipDriverMachine dip_driver_machine(const DipDriver *d, int threads) {
+    const double room_ms = d->run_ms * threads;
+    DipDriverMachine machine = {
+        .settled = d->settled || d->settle_runs == 0,
+        .has_wait = d->has_wait,
+        .repeated = d->repeated,
+    };
+    if (room_ms > 0.0) {
+        machine.wait = (d->has_wait ? d->wait_ms : room_ms - d->cpu_ms) / room_ms;
+    }
+    return machine;
+}

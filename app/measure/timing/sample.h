@@ -1,0 +1,33 @@
+// What one drawing of a frame gives: times of stages, counters, and the hash of the picture.
+#ifndef DIP_APP_MEASURE_TIMING_SAMPLE_H
+#define DIP_APP_MEASURE_TIMING_SAMPLE_H
+
+#include "app/measure/stats/rounds.h"
+#include "renderer/scene/frame.h"
+
+#include <stdbool.h>
+
+// Indices of a frame's times: the renderer's stages, then the total.
+typedef enum DipBenchStage {
+#define DIP_BENCH_STAGE_ENUM(name, text) DIP_BENCH_STAGE_##name,
+    DIP_STAGE_LIST(DIP_BENCH_STAGE_ENUM)
+#undef DIP_BENCH_STAGE_ENUM
+        DIP_BENCH_STAGE_total,
+    DIP_BENCH_STAGE_COUNT
+} DipBenchStage;
+
+extern const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
+
+// The measurements of one drawing of a frame.
+typedef struct DipBenchSample {
+    double ms[DIP_BENCH_STAGE_COUNT];
+    DipCounters counters;
+    char hash[33]; // Hash of the pixels, or "" if no hash was requested.
+} DipBenchSample;
+
+void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
+
+// Writes the sample's time, and those of its stages as the parts of the time.
+void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed);
+
+#endif
