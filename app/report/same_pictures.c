@@ -31,6 +31,21 @@ static int representative(const DipCostReport *report, int row) {
     return best;
 }
 
+// Gives the log the rows' new indices, without the times of rows that another one stands for.
+static void renumber_log(DipCostReport *report, const int *stands, const int *now) {
+    const int first = report->combined_first;
+    int kept = 0;
+    for (int i = 0; i < report->log_count; i++) {
+        DipTimed timed = report->log[i];
+        const int row = timed.subject;
+        if (row < first || stands[row - first] == row) {
+            timed.subject = row < first ? row : now[row - first];
+            report->log[kept++] = timed;
+        }
+    }
+    report->log_count = kept;
+}
+
 bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
     const int first = report->combined_first;
     const int count = report->row_count - first;
@@ -57,7 +72,10 @@ bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
     for (int i = 0; has_room && i < report->same_count; i++) {
         report->same[i].row = now[report->same[i].row - first];
     }
-    report->row_count = has_room ? kept : report->row_count;
+    if (has_room) {
+        renumber_log(report, stands, now);
+        report->row_count = kept;
+    }
     free(stands);
     free(now);
     return has_room || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");

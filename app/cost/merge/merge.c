@@ -134,7 +134,8 @@ bool dip_cost_merge_run(DipSession *session, const DipCostMergeArguments *argume
                report.options.places);
     }
     report.options.pictures = arguments->cost.pictures;
-    done = done && dip_cost_join_same_pictures(&report, err) && dip_cost_choose(&report, err) &&
+    done = done && dip_cost_join_same_pictures(&report, err) &&
+           (report.rounds == 0 || dip_cost_estimate_times(&report, err)) &&
            dip_cost_analyse(&report, err);
     done = done && (report.options.pictures == DIP_COST_PICTURES_NONE
                         ? dip_cost_write_report(&report, NULL, arguments->out, err)
