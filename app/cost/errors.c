@@ -82,7 +82,6 @@ typedef struct Judge {
     DipCostContext *cost;
     int path;
     int viewpoint;
-    DipFlip flip; // analyses the truths
     DipTruth truths[DIP_COST_MAX_BURST];
     DipFlipAnalysis analyses[DIP_COST_MAX_BURST];
     DipMeter *meters; // one per thread
@@ -108,7 +107,6 @@ static void close_judge(Judge *j) {
     for (int i = 0; i < DIP_COST_MAX_BURST; i++) {
         dip_flip_analysis_free(&j->analyses[i]);
     }
-    dip_flip_free(&j->flip);
     free(j->meters);
     free(j->bursts);
 }
@@ -119,17 +117,18 @@ static bool open_judge(Judge *j, DipCostContext *cost, DipError *err) {
     *j = (Judge){.cost = cost, .meter_count = report->threads, .burst_room = 2 * report->threads};
     j->meters = calloc((size_t)j->meter_count, sizeof *j->meters);
     j->bursts = calloc((size_t)j->burst_room, sizeof *j->bursts);
-    bool made =
-        j->meters && j->bursts && dip_flip_init(&j->flip, report->width, report->height, ppd);
+    bool made = j->meters && j->bursts;
     for (int i = 0; made && i < j->meter_count; i++) {
-        made = dip_meter_init(&j->meters[i], report->width, report->height, ppd);
+        made = dip_meter_init(&j->meters[i],
+                              report->options.burst > 1 ? DIP_METER_BURSTS : DIP_METER_PICTURES,
+                              report->width, report->height, ppd);
     }
     for (int i = 0; made && i < j->burst_room; i++) {
         j->bursts[i].rgba8 = malloc(picture_bytes(j) * (size_t)report->options.burst);
         made = j->bursts[i].rgba8 != NULL;
     }
     for (int i = 0; made && i < report->options.burst; i++) {
-        made = dip_flip_analysis_init(&j->flip, &j->analyses[i]);
+        made = dip_flip_analysis_init(&j->meters[0].flip, &j->analyses[i]);
     }
     if (!made) {
         close_judge(j);
@@ -152,8 +151,8 @@ static void judge_burst(void *context, int index, int worker) {
     dip_meter_begin_burst(meter);
     for (int f = 0; f < j->cost->report->options.burst; f++) {
         const DipSrgbPicture test = picture_of(j, drawn->rgba8 + (size_t)f * picture_bytes(j));
-        const DipMeterStandard standard = {picture_of(j, j->truths[f].rgba8), j->truths[f].rgb_lin,
-                                           &j->analyses[f], j->truths[f].classes};
+        DipMeterStandard standard = dip_truth_standard(&j->truths[f]);
+        standard.analysis = &j->analyses[f];
         if (!dip_meter_add(meter, &test, NULL, &standard, &drawn->errors.sums)) {
             drawn->failed = true;
         }
@@ -249,7 +248,7 @@ static bool judge_viewpoint(Judge *j, DipError *err) {
     while (got < burst && dip_cost_context_truth(j->cost, j->path, j->viewpoint, got, no_progress,
                                                  NULL, &j->truths[got], err)) {
         const DipSrgbPicture picture = picture_of(j, j->truths[got].rgba8);
-        dip_flip_analyse(&j->flip, &picture, &j->analyses[got]);
+        dip_flip_analyse(&j->meters[0].flip, &picture, &j->analyses[got]);
         got++;
     }
     const bool judged = got == burst && judge_rows(j, err);

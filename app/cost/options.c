@@ -1,7 +1,7 @@
 // The options of `diptych cost` and `cost merge`.
 #include "app/cost/options.h"
 
-#include "app/measure/metrics/flip.h"
+#include "app/measure/metrics/truth.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/number.h"
 
@@ -116,7 +116,7 @@ static const Viewing viewings[] = {
 static bool read_viewing(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(viewings); i++) {
         if (strcmp(value, viewings[i].name) == 0) {
-            ((DipCostOptions *)fields)->pixels_per_degree = viewings[i].pixels_per_degree;
+            *(double *)fields = viewings[i].pixels_per_degree;
             return true;
         }
     }
@@ -262,12 +262,20 @@ static const DipOptionRow error_rows[] = {
              "number must be a square. The default is 64.",
      .kind = DIP_OPTION_CUSTOM,
      .read = dip_cost_read_samples},
+    {.name = "--part",
+     .argument = "A:B",
+     .text = "Measure errors only at the viewpoints A to B - 1; the first viewpoint is 0. This "
+             "lets several machines share the work. `diptych cost merge` joins their reports.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_part},
+};
+
+static const DipOptionRow viewing_rows[] = {
     {.name = "--pixels-per-degree",
      .argument = "X",
      .text = "Pixels per degree of the viewer's field of view, for FLIP. The default 67.02 is for "
              "a display that is 0.7 m wide, has 3840 pixels in a row and is seen from 0.7 m.",
      .kind = DIP_OPTION_NUMBER,
-     .field = FIELD(pixels_per_degree),
      .least = DIP_FLIP_MIN_PIXELS_PER_DEGREE,
      .most = DIP_FLIP_MAX_PIXELS_PER_DEGREE},
     {.name = "--viewing",
@@ -277,12 +285,6 @@ static const DipOptionRow error_rows[] = {
          "HD), uhd (67.02, the default) or headset (25).",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_viewing},
-    {.name = "--part",
-     .argument = "A:B",
-     .text = "Measure errors only at the viewpoints A to B - 1; the first viewpoint is 0. This "
-             "lets several machines share the work. `diptych cost merge` joins their reports.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_part},
 };
 
 static const DipOptionRow time_rows[] = {
@@ -321,6 +323,8 @@ static const DipOptionTable picture_table = {"Pictures", picture_rows,
 static const DipOptionTable cache_table = {"Pictures", cache_rows, DIP_ARRAY_COUNT(cache_rows)};
 static const DipOptionTable truth_table = {"Pictures", truth_rows, DIP_ARRAY_COUNT(truth_rows)};
 static const DipOptionTable error_table = {"Errors", error_rows, DIP_ARRAY_COUNT(error_rows)};
+const DipOptionTable dip_viewing_option_table = {"Errors", viewing_rows,
+                                                 DIP_ARRAY_COUNT(viewing_rows)};
 static const DipOptionTable time_table = {"Times", time_rows, DIP_ARRAY_COUNT(time_rows)};
 
 static const DipOptionPart cost_parts[] = {
@@ -328,6 +332,7 @@ static const DipOptionPart cost_parts[] = {
     {&choice_table, offsetof(DipCostArguments, cost)},
     {&dip_cost_budget_option_table, offsetof(DipCostArguments, cost)},
     {&error_table, offsetof(DipCostArguments, cost)},
+    {&dip_viewing_option_table, offsetof(DipCostArguments, cost.pixels_per_degree)},
     {&time_table, offsetof(DipCostArguments, cost)},
     {&dip_measure_option_table, offsetof(DipCostArguments, measure)},
     {&dip_starts_option_table, offsetof(DipCostArguments, measure)},
@@ -363,7 +368,7 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
         .baseline = dip_quality_default(),
         .places = 3,
         .burst = 2,
-        .samples = 64,
+        .samples = DIP_TRUTH_SAMPLES,
         .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
         .timed_frames = 4,
     };

@@ -32,6 +32,7 @@ typedef struct DipCostMergeArguments {
 } DipCostMergeArguments;
 
 extern const DipOptionParts dip_cost_option_parts;
+extern const DipOptionTable dip_viewing_option_table; // For the pixels per degree, a double.
 extern const DipOptionParts dip_cost_merge_option_parts;
 
 // Options of budgets. The fields are those of DipCostOptions.

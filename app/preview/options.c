@@ -1,6 +1,7 @@
 // The options of `diptych preview`.
 #include "app/preview/options.h"
 
+#include "app/cost/options.h"
 #include "renderer/base/assert.h"
 
 #include <stdlib.h>
@@ -76,6 +77,12 @@ static const DipOptionRow rows[] = {
              "what each setting costs and advises the best settings for a time budget.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(cost_report)},
+    {.name = "--cache",
+     .argument = "DIR",
+     .text = "Keep the converged pictures in this folder, as `diptych cost` does. The default is "
+             "$XDG_CACHE_HOME/diptych. If XDG_CACHE_HOME is not set, it is ~/.cache/diptych.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(cache)},
     {.name = "--control",
      .argument = "PATH|-",
      .text = "Let other programs control the preview: it reads requests as lines of JSON and "
@@ -129,10 +136,15 @@ static const DipOptionRow rows[] = {
 static const DipOptionTable table = {"Drawing", rows, DIP_ARRAY_COUNT(rows)};
 
 static const DipOptionPart parts[] = {
-    {&dip_scene_option_table, FIELD(session)},    {&dip_path_option_table, FIELD(session)},
-    {&dip_category_option_table, FIELD(session)}, {&dip_camera_option_table, FIELD(session)},
-    {&dip_pane_option_table, FIELD(session)},     {&dip_size_option_table, FIELD(session)},
-    {&dip_threads_option_table, FIELD(session)},  {&table, 0},
+    {&dip_scene_option_table, FIELD(session)},
+    {&dip_path_option_table, FIELD(session)},
+    {&dip_category_option_table, FIELD(session)},
+    {&dip_camera_option_table, FIELD(session)},
+    {&dip_pane_option_table, FIELD(session)},
+    {&dip_size_option_table, FIELD(session)},
+    {&dip_threads_option_table, FIELD(session)},
+    {&table, 0},
+    {&dip_viewing_option_table, FIELD(pixels_per_degree)},
     {&dip_program_option_table, FIELD(program)},
 };
 const DipOptionParts dip_preview_option_parts = {parts, DIP_ARRAY_COUNT(parts)};

@@ -19,12 +19,14 @@ typedef enum DipDisplayChoice {
 typedef struct DipPreviewOptions {
     DipProgramOptions program;
     DipSessionOptions session;
-    const char *cost_report; // A cost.json of this scene, borrowed from argv, or NULL.
-    const char *control;     // "-" or the path of a socket, borrowed from argv, or NULL.
-    unsigned long window_id; // X11 window to open the preview in; 0: open a window of its own.
-    bool watch;              // Reload what the preview shows when a file changes.
-    bool hides_panel;        // --panel off.
-    double ui_scale;         // Factor by which controls are enlarged; 0 without the option.
+    const char *cost_report;  // A cost.json of this scene, borrowed from argv, or NULL.
+    double pixels_per_degree; // For FLIP; 0 without the options.
+    const char *cache;        // Folder of the cached truths, borrowed from argv, or NULL.
+    const char *control;      // "-" or the path of a socket, borrowed from argv, or NULL.
+    unsigned long window_id;  // X11 window to open the preview in; 0: open a window of its own.
+    bool watch;               // Reload what the preview shows when a file changes.
+    bool hides_panel;         // --panel off.
+    double ui_scale;          // Factor by which controls are enlarged; 0 without the option.
     DipDisplayChoice display;
     DipTerminalColours terminal_colours;
 } DipPreviewOptions;

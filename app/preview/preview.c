@@ -1,6 +1,7 @@
 // Opens the display and runs the loop.
 #include "app/preview/preview.h"
 
+#include "app/cost/cost.h"
 #include "app/cost/plan.h"
 #include "app/display/sdl/sdl_display.h"
 #include "app/display/terminal/terminal_display.h"
@@ -42,6 +43,7 @@ typedef struct Parts {
     DipRemote *remote;
     double ui_scale;
     const char *notice; // Shown at first, or NULL.
+    char cache[PATH_MAX];
     bool hides_panel;
 } Parts;
 
@@ -53,6 +55,7 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const Parts
         .costs = parts->costs,
         .prices = parts->prices,
         .measures_prices = true,
+        .cache = parts->cache[0] ? parts->cache : NULL,
         .reload = parts->reload,
         .flying_speed_m_per_s = dip_flying_speed(session),
         .ui_scale = parts->ui_scale,
@@ -79,6 +82,13 @@ static bool open_parts(Parts *parts, DipSession *session, const DipPreviewOption
     if (!parts->prices ||
         !load_costs(session, options->cost_report, &parts->costs, parts->prices, err)) {
         return false;
+    }
+    dip_prices_set_viewing(parts->prices, options->pixels_per_degree);
+    if (!dip_cost_find_cache(options->cache, parts->cache, err)) {
+        if (options->cache) {
+            return false;
+        }
+        parts->cache[0] = '\0'; // The preview does without the user's folder.
     }
     dip_reload_set_prices(parts->reload, parts->prices);
     if (options->control) {

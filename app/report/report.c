@@ -200,8 +200,8 @@ double dip_cost_floor_rmse(const DipCostReport *report, int path, int region) {
 bool dip_cost_at_floor(const DipCostReport *report, int row) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    return dip_metrics_of(&sums, 0).rmse_lin <
-           DIP_TRUTH_FLOOR_FACTOR * dip_cost_floor_rmse(report, report->rows[row].path, 0);
+    const DipMetricSums floor = dip_cost_floor(report, report->rows[row].path);
+    return dip_truth_hides(&floor, &sums);
 }
 
 double dip_cost_floor_flip(const DipCostReport *report, int path) {

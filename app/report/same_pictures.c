@@ -31,19 +31,19 @@ static int representative(const DipCostReport *report, int row) {
     return best;
 }
 
-// Gives the log the rows' new indices, without the times of rows that another one stands for.
+// Gives the log the rows' new numbers, and drops what it has of rows that are gone.
 static void renumber_log(DipCostReport *report, const int *stands, const int *now) {
     const int first = report->combined_first;
-    int kept = 0;
-    for (int i = 0; i < report->log_count; i++) {
+    size_t kept = 0;
+    for (size_t i = 0; i < (size_t)report->log_count; i++) {
         DipTimed timed = report->log[i];
-        const int row = timed.subject;
-        if (row < first || stands[row - first] == row) {
-            timed.subject = row < first ? row : now[row - first];
+        const bool stays = timed.subject < first || stands[timed.subject - first] == timed.subject;
+        if (stays) {
+            timed.subject = timed.subject < first ? timed.subject : now[timed.subject - first];
             report->log[kept++] = timed;
         }
     }
-    report->log_count = kept;
+    report->log_count = (int)kept;
 }
 
 bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {

@@ -11,9 +11,8 @@
 bool dip_cost_same_pictures(const DipCostReport *report, int a, int b);
 
 // Makes combinations with the same pictures one row: the one with the fewest settings off their
-// defaults stays, and the others are listed in report->same. The log keeps the times of the rows that
-// stay. Call it once every viewpoint has been judged; times that were estimated before must be
-// estimated again. Fails with DIP_ERROR_MEMORY.
+// defaults stays, and the others are listed in report->same. Call it once every viewpoint has been
+// judged. If the report has times, estimate them again afterwards. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err);
 
 #endif

@@ -11,8 +11,6 @@ enum { STEPS_PER_TRUTH = 1000 };
 typedef struct Judge {
     DipCostAxesDrawing *drawing;
     DipCostContext truths; // Draws the truths.
-    DipFlip flip;          // Analyses them.
-    DipFlipAnalysis analysis;
     DipMeter meter;
     DipProgress progress;
     int64_t before; // Steps of the truths that are complete.
@@ -36,11 +34,7 @@ static bool judge_row(Judge *j, int row, int viewpoint, const DipTruth *truth, D
     DipCostReport *report = &j->drawing->axes->report;
     const int64_t time_ns =
         dip_cost_viewpoint_time_ns(report, j->drawing->session, 0, viewpoint, 0);
-    const DipMeterStandard standard = {
-        {truth->rgba8, (size_t)truth->width * 4, truth->width, truth->height},
-        truth->rgb_lin,
-        &j->analysis,
-        truth->classes};
+    const DipMeterStandard standard = dip_truth_standard(truth);
     DipMetricSums *sums = &report->rows[row].viewpoints[viewpoint];
     DipFrame frame;
     if (dip_cost_axes_interrupted(err) ||
@@ -65,9 +59,6 @@ static bool judge_viewpoint(Judge *j, int viewpoint, DipError *err) {
         dip_cost_axes_interrupted(err);
         return false;
     }
-    const DipSrgbPicture picture = {truth.rgba8, (size_t)truth.width * 4, truth.width,
-                                    truth.height};
-    dip_flip_analyse(&j->flip, &picture, &j->analysis);
     report->floors[viewpoint] = truth.floor;
     report->has_floor[viewpoint] = true;
     bool judged = true;
@@ -81,22 +72,17 @@ static bool judge_viewpoint(Judge *j, int viewpoint, DipError *err) {
 
 static void close_judge(Judge *j) {
     dip_meter_free(&j->meter);
-    dip_flip_analysis_free(&j->analysis);
-    dip_flip_free(&j->flip);
     dip_cost_context_close(&j->truths);
 }
 
 static bool open_judge(Judge *j, DipCostAxesDrawing *drawing, const char *cache, DipError *err) {
     DipCostReport *report = &drawing->axes->report;
-    const int width = report->width, height = report->height;
-    const double ppd = report->options.pixels_per_degree;
     *j = (Judge){.drawing = drawing};
     if (!dip_cost_context_open(&j->truths, drawing->session, report, NULL, cache, true, err)) {
         return false;
     }
-    return (dip_flip_init(&j->flip, width, height, ppd) &&
-            dip_flip_analysis_init(&j->flip, &j->analysis) &&
-            dip_meter_init(&j->meter, width, height, ppd)) ||
+    return dip_meter_init(&j->meter, DIP_METER_PICTURES, report->width, report->height,
+                          report->options.pixels_per_degree) ||
            out_of_memory(err);
 }
 

@@ -3,7 +3,7 @@
 
 #include "app/cost/axes/axes_energy.h"
 #include "app/cli/machine.h"
-#include "app/measure/metrics/flip.h"
+#include "app/measure/metrics/truth.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/number.h"
 
@@ -256,7 +256,7 @@ void dip_cost_axes_options_default(void *arguments, int argc, char *const *argv)
         .baseline = dip_quality_default(),
         .places = 3,
         .burst = 1,
-        .samples = 64,
+        .samples = DIP_TRUTH_SAMPLES,
         .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
         .timed_frames = 4,
     };

@@ -39,24 +39,21 @@ static bool fill(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
 
 static double flip_between(int test, int truth) {
     DipFlip flip = {0};
-    DipFlipAnalysis sides[2] = {{{0}, NULL}, {{0}, NULL}};
+    DipFlipAnalysis analysis = {{0}, NULL};
+    const DipSrgbPicture a = {pictures[test], (size_t)WIDTH * 4, WIDTH, HEIGHT};
+    const DipSrgbPicture b = {pictures[truth], (size_t)WIDTH * 4, WIDTH, HEIGHT};
     static float map[WIDTH * HEIGHT];
     double mean = -1.0;
     if (dip_flip_init(&flip, WIDTH, HEIGHT, DIP_FLIP_PIXELS_PER_DEGREE) &&
-        dip_flip_analysis_init(&flip, &sides[0]) && dip_flip_analysis_init(&flip, &sides[1])) {
-        const int shown[2] = {test, truth};
-        for (int i = 0; i < 2; i++) {
-            const DipSrgbPicture picture = {pictures[shown[i]], (size_t)WIDTH * 4, WIDTH, HEIGHT};
-            dip_flip_analyse(&flip, &picture, &sides[i]);
-        }
-        dip_flip_compare(&flip, &sides[0], &sides[1], map);
+        dip_flip_analysis_init(&flip, &analysis)) {
+        dip_flip_analyse(&flip, &b, &analysis);
+        dip_flip_compare(&flip, &a, &analysis, map);
         mean = 0.0;
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             mean += (double)map[i] / (WIDTH * HEIGHT);
         }
     }
-    dip_flip_analysis_free(&sides[0]);
-    dip_flip_analysis_free(&sides[1]);
+    dip_flip_analysis_free(&analysis);
     dip_flip_free(&flip);
     return mean;
 }

@@ -41,15 +41,19 @@ void dip_difference_codes_map(const DipSrgbPicture *test, const DipSrgbPicture *
     }
 }
 
-DipMapSum dip_map_sum(const float *map, size_t pixel_count, DipPixelMask mask) {
-    DipMapSum sum = {0};
+void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count, DipPixelMask mask) {
     for (size_t i = 0; i < pixel_count; i++) {
         const bool counts = !mask.classes || mask.classes[i] == mask.wanted;
         if (counts && !isnan(map[i])) {
-            sum.sum += (double)map[i];
-            sum.pixel_count += 1.0;
+            sum->sum += (double)map[i];
+            sum->pixel_count += 1.0;
         }
     }
+}
+
+DipMapSum dip_map_sum(const float *map, size_t pixel_count, DipPixelMask mask) {
+    DipMapSum sum = {0};
+    dip_map_sum_add(&sum, map, pixel_count, mask);
     return sum;
 }
 

@@ -37,6 +37,9 @@ typedef struct DipMapSum {
 // border) are skipped and not counted.
 DipMapSum dip_map_sum(const float *map, size_t pixel_count, DipPixelMask mask);
 
+// Adds the next pixels of a map to a sum, with the same result as if all were summed at once.
+void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count, DipPixelMask mask);
+
 // Returns the mean; 0 if the sum has no pixels.
 double dip_map_mean(DipMapSum sum);
 

@@ -28,6 +28,7 @@ void dip_flicker_free(DipFlicker *flicker) {
 void dip_flicker_restart(DipFlicker *flicker) {
     memset(flicker->mean, 0, flicker->value_count * sizeof *flicker->mean);
     memset(flicker->deviation, 0, flicker->value_count * sizeof *flicker->deviation);
+    flicker->added = 0;
     flicker->frame_count = 0;
     flicker->squares = 0.0;
     flicker->step_squares = 0.0;
@@ -35,21 +36,25 @@ void dip_flicker_restart(DipFlicker *flicker) {
 }
 
 // Uses Welford's update, which finds mean and deviation without subtracting large sums.
-void dip_flicker_add(DipFlicker *flicker, const float *error_lin) {
-    flicker->frame_count++;
-    for (size_t i = 0; i < flicker->value_count; i++) {
+void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count) {
+    double *mean = flicker->mean + flicker->added;
+    double *deviation = flicker->deviation + flicker->added;
+    float *last = flicker->last + flicker->added;
+    flicker->frame_count += flicker->added == 0;
+    for (size_t i = 0; i < count; i++) {
         const double e = (double)error_lin[i];
-        const double before = (double)flicker->last[i];
-        const double from_old_mean = e - flicker->mean[i];
-        flicker->mean[i] += from_old_mean / flicker->frame_count;
-        flicker->deviation[i] += from_old_mean * (e - flicker->mean[i]);
+        const double before = (double)last[i];
+        const double from_old_mean = e - mean[i];
+        mean[i] += from_old_mean / flicker->frame_count;
+        deviation[i] += from_old_mean * (e - mean[i]);
         flicker->squares += e * e;
         if (flicker->frame_count > 1) {
             flicker->step_squares += (e - before) * (e - before);
             flicker->pair_squares += 0.25 * (e + before) * (e + before);
         }
     }
-    memcpy(flicker->last, error_lin, flicker->value_count * sizeof *error_lin);
+    memcpy(last, error_lin, count * sizeof *error_lin);
+    flicker->added = (flicker->added + count) % flicker->value_count;
 }
 
 DipFlickerResult dip_flicker_result(const DipFlicker *flicker) {

@@ -22,6 +22,7 @@ typedef struct DipFlicker {
     double *deviation; // Sum of squared deviations of e from its mean, per value.
     float *last;       // e of the previous frame.
     size_t value_count;
+    size_t added; // Values of the last frame so far.
     int frame_count;
     double squares;      // Sum of e^2 over all values and frames.
     double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.
@@ -36,8 +37,9 @@ void dip_flicker_free(DipFlicker *flicker);
 // Begins a new burst.
 void dip_flicker_restart(DipFlicker *flicker);
 
-// Adds the next frame: value_count differences as dip_difference_lin writes them.
-void dip_flicker_add(DipFlicker *flicker, const float *error_lin);
+// Adds the next values of a frame, as dip_difference_lin writes them. A frame may come in parts; it
+// ends with its value number value_count.
+void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count);
 
 // Mean squares over all values of the burst. A single frame has no previous frame, so its
 // squared_step and squared_two_mean are 0.

@@ -27,27 +27,49 @@ enum {
 
 // --- memory ------------------------------------------------------------------------------------
 
-enum { SCRATCH_PLANES = 6 };
+// A block with its margin has six planes for filtering, and the planes of its analysis.
+enum { SCRATCH_PLANES = 6 + PLANE_COUNT };
 
-static size_t plane_size(const DipFlip *flip) {
-    return (size_t)flip->width * (size_t)flip->height;
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+// Returns the size of the largest block with its margin.
+static size_t block_width(const DipFlip *flip) {
+    return (size_t)smaller(flip->width, DIP_PICTURE_BLOCK + 2 * flip->reach_px);
+}
+
+static size_t block_size(const DipFlip *flip) {
+    return block_width(flip) *
+           (size_t)smaller(flip->height, DIP_PICTURE_BLOCK + 2 * flip->reach_px);
+}
+
+static int reach_px(const DipFlipKernels *k) {
+    const int radii[] = {k->luma.radius,  k->red_green.radius, k->blue[0].radius, k->blue[1].radius,
+                         k->gauss.radius, k->edge.radius,      k->point.radius};
+    int reach = 0;
+    for (size_t i = 0; i < sizeof radii / sizeof *radii; i++) {
+        reach = radii[i] > reach ? radii[i] : reach;
+    }
+    return reach;
 }
 
 bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree) {
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);
+    *flip = (DipFlip){.width = width, .height = height};
     flip->kernels = malloc(sizeof *flip->kernels);
-    if (flip->kernels) {
-        *flip->kernels = dip_flip_kernels(pixels_per_degree);
+    if (!flip->kernels) {
+        return false;
     }
-    flip->width = width;
-    flip->height = height;
+    *flip->kernels = dip_flip_kernels(pixels_per_degree);
+    flip->reach_px = reach_px(flip->kernels);
     for (int i = 0; i < 256; i++) {
         flip->light[i] = (float)srgb.linear[i];
     }
-    const size_t padded = (size_t)width + 2 * DIP_KERNEL_MAX_RADIUS;
-    flip->scratch = malloc((SCRATCH_PLANES * plane_size(flip) + padded) * sizeof(float));
-    return flip->kernels && flip->scratch;
+    const size_t padded = block_width(flip) + 2 * DIP_KERNEL_MAX_RADIUS;
+    flip->scratch = malloc((SCRATCH_PLANES * block_size(flip) + padded) * sizeof(float));
+    return flip->scratch != NULL;
 }
 
 void dip_flip_free(DipFlip *flip) {
@@ -58,10 +80,10 @@ void dip_flip_free(DipFlip *flip) {
 }
 
 bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis) {
-    analysis->memory = malloc(PLANE_COUNT * plane_size(flip) * sizeof(float));
-    for (int i = 0; i < PLANE_COUNT; i++) {
-        analysis->planes[i] =
-            analysis->memory ? analysis->memory + (size_t)i * plane_size(flip) : NULL;
+    const size_t plane = (size_t)flip->width * (size_t)flip->height;
+    analysis->memory = malloc(PLANE_COUNT * plane * sizeof(float));
+    for (size_t i = 0; i < PLANE_COUNT; i++) {
+        analysis->planes[i] = analysis->memory ? analysis->memory + i * plane : NULL;
     }
     return analysis->memory != NULL;
 }
@@ -130,74 +152,121 @@ static void to_lab(float luma, float red_green, float blue, float lab[3]) {
     lab[2] = 200.0f * (f[1] - f[2]) * (0.01f * lab[0]);
 }
 
-typedef struct Scratch {
+// A block while it is analysed, with its margin. Planes are packed.
+typedef struct Block {
+    DipPixelRect own; // Without the margin.
+    int x;            // Where it begins in the picture.
+    int y;
+    int width;
+    int height;
     float *opponent[3];
     float *rows;
     float *other;
     float *grey;
     float *padded;
-} Scratch;
+    DipFlipAnalysis out;
+} Block;
 
-static Scratch scratch_of(const DipFlip *flip) {
-    const size_t plane = plane_size(flip);
+static Block block_of(const DipFlip *flip, int block) {
+    const DipPixelRect rect =
+        dip_picture_block_with_margin(flip->width, flip->height, block, flip->reach_px);
+    const size_t plane = block_size(flip);
     float *at = flip->scratch;
-    return (Scratch){{at, at + plane, at + 2 * plane},
-                     at + 3 * plane,
-                     at + 4 * plane,
-                     at + 5 * plane,
-                     at + 6 * plane};
-}
-
-static void filter(const DipFlip *flip, const Scratch *s, const DipKernel1D *across,
-                   const DipKernel1D *down, const float *in, float *out) {
-    dip_convolve_rows(across, in, flip->width, flip->height, s->padded, s->rows);
-    dip_convolve_columns(down, s->rows, flip->width, flip->height, out);
-}
-
-static void analyse_colours(const DipFlip *flip, const Scratch *s, DipFlipAnalysis *analysis) {
-    const DipFlipKernels *k = flip->kernels;
-    float *const *lab = analysis->planes;
-    filter(flip, s, &k->luma, &k->luma, s->opponent[0], lab[0]);
-    filter(flip, s, &k->red_green, &k->red_green, s->opponent[1], lab[1]);
-    filter(flip, s, &k->blue[0], &k->blue[0], s->opponent[2], lab[2]);
-    filter(flip, s, &k->blue[1], &k->blue[1], s->opponent[2], s->other);
-    for (size_t i = 0; i < plane_size(flip); i++) {
-        float pixel[3];
-        to_lab(lab[0][i], lab[1][i], lab[2][i] + s->other[i], pixel);
-        lab[0][i] = pixel[0];
-        lab[1][i] = pixel[1];
-        lab[2][i] = pixel[2];
+    Block b = {
+        .own = dip_picture_block(flip->width, flip->height, block),
+        .x = rect.x,
+        .y = rect.y,
+        .width = rect.width,
+        .height = rect.height,
+        .opponent = {at, at + plane, at + 2 * plane},
+        .rows = at + 3 * plane,
+        .other = at + 4 * plane,
+        .grey = at + 5 * plane,
+        .padded = at + SCRATCH_PLANES * plane,
+    };
+    for (size_t i = 0; i < PLANE_COUNT; i++) {
+        b.out.planes[i] = at + (6 + i) * plane;
     }
+    return b;
+}
+
+static void filter(const Block *b, const DipKernel1D *across, const DipKernel1D *down,
+                   const float *in, float *out) {
+    dip_convolve_rows(across, in, b->width, b->height, b->padded, b->rows);
+    dip_convolve_columns(down, b->rows, b->width, b->height, out);
+}
+
+static void analyse_colours(const DipFlipKernels *k, const Block *b) {
+    float *const *lab = b->out.planes;
+    filter(b, &k->luma, &k->luma, b->opponent[0], lab[0]);
+    filter(b, &k->red_green, &k->red_green, b->opponent[1], lab[1]);
+    filter(b, &k->blue[0], &k->blue[0], b->opponent[2], lab[2]);
+    filter(b, &k->blue[1], &k->blue[1], b->opponent[2], b->other);
 }
 
 // Each feature detector is a derivative along one axis and a Gaussian along the other.
-static void analyse_features(const DipFlip *flip, const Scratch *s, DipFlipAnalysis *analysis) {
-    const DipFlipKernels *k = flip->kernels;
-    float *const *out = analysis->planes;
-    const int width = flip->width, height = flip->height;
-    dip_convolve_rows(&k->edge, s->grey, width, height, s->padded, s->rows);
-    dip_convolve_columns(&k->gauss, s->rows, width, height, out[PLANE_EDGE_X]);
-    dip_convolve_rows(&k->point, s->grey, width, height, s->padded, s->rows);
-    dip_convolve_columns(&k->gauss, s->rows, width, height, out[PLANE_POINT_X]);
-    dip_convolve_rows(&k->gauss, s->grey, width, height, s->padded, s->rows);
-    dip_convolve_columns(&k->edge, s->rows, width, height, out[PLANE_EDGE_Y]);
-    dip_convolve_columns(&k->point, s->rows, width, height, out[PLANE_POINT_Y]);
+static void analyse_features(const DipFlipKernels *k, const Block *b) {
+    float *const *out = b->out.planes;
+    filter(b, &k->edge, &k->gauss, b->grey, out[PLANE_EDGE_X]);
+    filter(b, &k->point, &k->gauss, b->grey, out[PLANE_POINT_X]);
+    filter(b, &k->gauss, &k->edge, b->grey, out[PLANE_EDGE_Y]);
+    dip_convolve_columns(&k->point, b->rows, b->width, b->height, out[PLANE_POINT_Y]);
+}
+
+// Returns where row `y` of the picture begins within the block, without the margin on the left.
+static size_t row_in_block(const Block *b, int y) {
+    return (size_t)(y - b->y) * (size_t)b->width + (size_t)(b->own.x - b->x);
+}
+
+// Returns where row `y` of the block begins within the picture.
+static size_t row_in_picture(const DipFlip *flip, const Block *b, int y) {
+    return (size_t)y * (size_t)flip->width + (size_t)b->own.x;
+}
+
+// Fills in the planes of the block. Only its own pixels have CIELab colours.
+static void analyse(const DipFlip *flip, const DipSrgbPicture *picture, const Block *b) {
+    size_t i = 0;
+    for (int y = b->y; y < b->y + b->height; y++) {
+        const uint8_t *row = picture->rgba8 + (size_t)y * picture->stride_bytes + 4 * b->x;
+        for (int x = 0; x < b->width; x++, i++) {
+            const float rgb[3] = {flip->light[row[4 * x]], flip->light[row[4 * x + 1]],
+                                  flip->light[row[4 * x + 2]]};
+            to_opponent(rgb, &b->opponent[0][i], &b->opponent[1][i], &b->opponent[2][i]);
+            b->grey[i] = (b->opponent[0][i] + 16.0f) / 116.0f;
+        }
+    }
+    analyse_colours(flip->kernels, b);
+    analyse_features(flip->kernels, b);
+    float *const *lab = b->out.planes;
+    for (int y = b->own.y; y < b->own.y + b->own.height; y++) {
+        i = row_in_block(b, y);
+        for (const size_t end = i + (size_t)b->own.width; i < end; i++) {
+            float pixel[3];
+            to_lab(lab[0][i], lab[1][i], lab[2][i] + b->other[i], pixel);
+            lab[0][i] = pixel[0];
+            lab[1][i] = pixel[1];
+            lab[2][i] = pixel[2];
+        }
+    }
+}
+
+void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                            DipFlipAnalysis *analysis) {
+    const Block b = block_of(flip, block);
+    analyse(flip, picture, &b);
+    for (int y = b.own.y; y < b.own.y + b.own.height; y++) {
+        for (int i = 0; i < PLANE_COUNT; i++) {
+            memcpy(analysis->planes[i] + row_in_picture(flip, &b, y),
+                   b.out.planes[i] + row_in_block(&b, y), (size_t)b.own.width * sizeof(float));
+        }
+    }
 }
 
 void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnalysis *analysis) {
-    const Scratch s = scratch_of(flip);
-    size_t i = 0;
-    for (int y = 0; y < flip->height; y++) {
-        const uint8_t *row = picture->rgba8 + (size_t)y * picture->stride_bytes;
-        for (int x = 0; x < flip->width; x++, i++) {
-            const float rgb[3] = {flip->light[row[4 * x]], flip->light[row[4 * x + 1]],
-                                  flip->light[row[4 * x + 2]]};
-            to_opponent(rgb, &s.opponent[0][i], &s.opponent[1][i], &s.opponent[2][i]);
-            s.grey[i] = (s.opponent[0][i] + 16.0f) / 116.0f;
-        }
+    const int blocks = dip_picture_block_count(flip->width, flip->height);
+    for (int block = 0; block < blocks; block++) {
+        dip_flip_analyse_block(flip, picture, block, analysis);
     }
-    analyse_colours(flip, &s, analysis);
-    analyse_features(flip, &s, analysis);
 }
 
 // --- comparing ---------------------------------------------------------------------------------
@@ -225,44 +294,44 @@ static float length(float x, float y) {
 
 // Maps the colour distance of a pixel to 0..1. Distances up to `share` times the greatest one map
 // to 0..used, and greater distances to used..1.
-static float colour_error(const DipFlipAnalysis *a, const DipFlipAnalysis *b, size_t i,
+static float colour_error(const DipFlipAnalysis *a, size_t i, const DipFlipAnalysis *b, size_t k,
                           float greatest) {
     const float share = 0.4f, used = 0.95f;
-    const float distance = fabsf(a->planes[PLANE_L][i] - b->planes[PLANE_L][i]) +
-                           length(a->planes[PLANE_A][i] - b->planes[PLANE_A][i],
-                                  a->planes[PLANE_B][i] - b->planes[PLANE_B][i]);
+    const float distance = fabsf(a->planes[PLANE_L][i] - b->planes[PLANE_L][k]) +
+                           length(a->planes[PLANE_A][i] - b->planes[PLANE_A][k],
+                                  a->planes[PLANE_B][i] - b->planes[PLANE_B][k]);
     const float powered = powf(distance, colour_exponent);
     const float limit = share * greatest;
     return powered < limit ? powered * used / limit
                            : used + (powered - limit) / (greatest - limit) * (1.0f - used);
 }
 
-static float feature_error(const DipFlipAnalysis *a, const DipFlipAnalysis *b, size_t i) {
+static float feature_error(const DipFlipAnalysis *a, size_t i, const DipFlipAnalysis *b, size_t k) {
     const float edge = fabsf(length(a->planes[PLANE_EDGE_X][i], a->planes[PLANE_EDGE_Y][i]) -
-                             length(b->planes[PLANE_EDGE_X][i], b->planes[PLANE_EDGE_Y][i]));
+                             length(b->planes[PLANE_EDGE_X][k], b->planes[PLANE_EDGE_Y][k]));
     const float point = fabsf(length(a->planes[PLANE_POINT_X][i], a->planes[PLANE_POINT_Y][i]) -
-                              length(b->planes[PLANE_POINT_X][i], b->planes[PLANE_POINT_Y][i]));
+                              length(b->planes[PLANE_POINT_X][k], b->planes[PLANE_POINT_Y][k]));
     return powf(fmaxf(edge, point) / sqrtf(2.0f), feature_exponent);
 }
 
-void dip_flip_compare(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
-                      float *map) {
+void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                            const DipFlipAnalysis *with, float *map) {
+    const Block b = block_of(flip, block);
     const float greatest = greatest_distance();
-    for (size_t i = 0; i < plane_size(flip); i++) {
-        const float colour = colour_error(a, b, i, greatest);
-        map[i] = colour > 0.0f ? powf(colour, 1.0f - feature_error(a, b, i)) : 0.0f;
+    analyse(flip, picture, &b);
+    for (int y = b.own.y; y < b.own.y + b.own.height; y++) {
+        size_t i = row_in_block(&b, y), k = row_in_picture(flip, &b, y);
+        for (const size_t end = k + (size_t)b.own.width; k < end; i++, k++) {
+            const float colour = colour_error(&b.out, i, with, k, greatest);
+            map[k] = colour > 0.0f ? powf(colour, 1.0f - feature_error(&b.out, i, with, k)) : 0.0f;
+        }
     }
 }
 
-// --- reach -------------------------------------------------------------------------------------
-
-int dip_flip_reach_px(double pixels_per_degree) {
-    const DipFlipKernels k = dip_flip_kernels(pixels_per_degree);
-    const int radii[] = {k.luma.radius,  k.red_green.radius, k.blue[0].radius, k.blue[1].radius,
-                         k.gauss.radius, k.edge.radius,      k.point.radius};
-    int reach = 0;
-    for (size_t i = 0; i < sizeof radii / sizeof *radii; i++) {
-        reach = radii[i] > reach ? radii[i] : reach;
+void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFlipAnalysis *with,
+                      float *map) {
+    const int blocks = dip_picture_block_count(flip->width, flip->height);
+    for (int block = 0; block < blocks; block++) {
+        dip_flip_compare_block(flip, picture, block, with, map);
     }
-    return reach;
 }

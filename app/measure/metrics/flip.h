@@ -3,7 +3,9 @@
 // who alternates between them. FLIP gives each pixel a value in 0..1.
 //
 // Each picture is analysed on its own, so that a picture is filtered once and can be compared with
-// many others. A DipFlip is not thread-safe; use one per thread.
+// many others. The work is done in blocks (picture.h). Each block is filtered with a margin as wide
+// as the filters, so its pixels get the same bits as if the whole picture were filtered at once. A
+// DipFlip is not thread-safe; use one per thread.
 #ifndef DIP_APP_MEASURE_METRICS_FLIP_H
 #define DIP_APP_MEASURE_METRICS_FLIP_H
 
@@ -25,7 +27,8 @@ typedef struct DipFlip {
     struct DipFlipKernels *kernels; // Owned.
     int width;
     int height;
-    float *scratch;   // Owned.
+    int reach_px;     // Greatest distance, along x or y, at which a pixel influences another one.
+    float *scratch;   // Owned; for one block with its margin.
     float light[256]; // Linear light of each 8-bit sRGB value.
 } DipFlip;
 
@@ -43,17 +46,18 @@ bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
 void dip_flip_free(DipFlip *flip);
 void dip_flip_analysis_free(DipFlipAnalysis *analysis);
 
-// Analyses a picture, which must have the size that dip_flip_init received.
+// Analyses a picture, which must have the size that dip_flip_init received, or a block of it.
 void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnalysis *analysis);
+void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                            DipFlipAnalysis *analysis);
 
-// Writes width * height FLIP values; 0 where the pictures look the same. Swapping `a` and `b` does
-// not change the values.
-void dip_flip_compare(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
+// Compares a picture, or a block of it, with a picture that was analysed. Writes the FLIP values at
+// their places in `map`, which has width * height values; 0 where the pictures look the same.
+// Exchanging the pictures does not change the values.
+void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFlipAnalysis *with,
                       float *map);
-
-// Returns the greatest distance in pixels, along x or y, at which one pixel influences the FLIP
-// value of another.
-int dip_flip_reach_px(double pixels_per_degree);
+void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                            const DipFlipAnalysis *with, float *map);
 
 #ifdef __cplusplus
 }

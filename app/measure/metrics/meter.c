@@ -1,21 +1,35 @@
-// Computes every metric over every region of a picture.
+// Computes every metric over every region of a picture: first FLIP and SSIM block by block, then
+// all sums band by band. Sums are added up in pixel order, so that their bits do not depend on
+// blocks and bands.
 #include "app/measure/metrics/meter.h"
 
-#include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/ssim.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-bool dip_meter_init(DipMeter *meter, int width, int height, double pixels_per_degree) {
+enum { BAND_PIXELS = 1 << 15 };
+
+static int band_rows(const DipMeter *meter) {
+    const int rows = BAND_PIXELS / meter->width;
+    return rows < 1 ? 1 : rows < meter->height ? rows : meter->height;
+}
+
+bool dip_meter_init(DipMeter *meter, DipMeterKind kind, int width, int height,
+                    double pixels_per_degree) {
     const size_t count = (size_t)width * (size_t)height;
-    *meter = (DipMeter){0};
-    meter->map = malloc(count * sizeof *meter->map);
-    meter->error_lin = malloc(3 * count * sizeof *meter->error_lin);
-    const bool made = meter->map && meter->error_lin &&
-                      dip_flip_init(&meter->flip, width, height, pixels_per_degree) &&
-                      dip_flip_analysis_init(&meter->flip, &meter->analysis) &&
-                      dip_flicker_init(&meter->flicker, 3 * count) &&
-                      dip_flip_tail_init(&meter->tail);
+    *meter = (DipMeter){.kind = kind, .width = width, .height = height};
+    meter->band = malloc(3 * (size_t)band_rows(meter) * (size_t)width * sizeof *meter->band);
+    bool made = meter->band;
+    if (made && kind >= DIP_METER_FLIP) {
+        meter->flip_map = malloc(count * sizeof *meter->flip_map);
+        made = meter->flip_map && dip_flip_init(&meter->flip, width, height, pixels_per_degree);
+    }
+    if (made && kind >= DIP_METER_PICTURES) {
+        meter->ssim_map = malloc(count * sizeof *meter->ssim_map);
+        made = meter->ssim_map && dip_flip_tail_init(&meter->tail) &&
+               (kind == DIP_METER_PICTURES || dip_flicker_init(&meter->flicker, 3 * count));
+    }
     if (!made) {
         dip_meter_free(meter);
     }
@@ -23,8 +37,9 @@ bool dip_meter_init(DipMeter *meter, int width, int height, double pixels_per_de
 }
 
 void dip_meter_free(DipMeter *meter) {
-    free(meter->map);
-    free(meter->error_lin);
+    free(meter->band);
+    free(meter->flip_map);
+    free(meter->ssim_map);
     dip_flip_analysis_free(&meter->analysis);
     dip_flip_free(&meter->flip);
     dip_flicker_free(&meter->flicker);
@@ -32,72 +47,179 @@ void dip_meter_free(DipMeter *meter) {
     *meter = (DipMeter){0};
 }
 
-static DipPixelMask mask_of(const uint8_t *classes, int region) {
-    return region == 0 ? (DipPixelMask){0} : (DipPixelMask){classes, (uint8_t)(region - 1)};
+void dip_meter_begin_burst(DipMeter *meter) {
+    if (meter->kind == DIP_METER_BURSTS) {
+        dip_flicker_restart(&meter->flicker);
+    }
+    dip_flip_tail_restart(&meter->tail);
 }
 
-// Adds the sum of a map over one region to the field that the map belongs to.
-typedef void AddTo(DipMetricRegionSums *region, DipMapSum sum);
-
-static void add_squared_lin(DipMetricRegionSums *region, DipMapSum sum) {
-    region->pixels += sum.pixel_count;
-    region->squared_lin += sum.sum;
+void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard) {
+    meter->standard = *standard;
+    meter->analysed = 0;
 }
 
-static void add_squared_codes(DipMetricRegionSums *region, DipMapSum sum) {
-    region->squared_codes += sum.sum;
+void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin) {
+    meter->test = *test;
+    meter->test_lin = test_lin;
+    meter->steps = 0;
+    meter->squared_static = 0.0;
+    memset(meter->squared_lin, 0, sizeof meter->squared_lin);
+    memset(meter->squared_codes, 0, sizeof meter->squared_codes);
+    memset(meter->ssim, 0, sizeof meter->ssim);
+    memset(meter->flip_sums, 0, sizeof meter->flip_sums);
 }
 
-static void add_ssim(DipMetricRegionSums *region, DipMapSum sum) {
-    region->ssim += sum.sum;
-    region->ssim_pixels += sum.pixel_count;
+// --- blocks --------------------------------------------------------------------------------------
+
+static bool measure_flip(DipMeter *meter, int block) {
+    const DipFlipAnalysis *standard = meter->standard.analysis;
+    if (!standard) {
+        standard = &meter->analysis;
+        if (!standard->memory && !dip_flip_analysis_init(&meter->flip, &meter->analysis)) {
+            return false;
+        }
+        if (block == meter->analysed) {
+            dip_flip_analyse_block(&meter->flip, &meter->standard.picture, block, &meter->analysis);
+            meter->analysed++;
+        }
+    }
+    dip_flip_compare_block(&meter->flip, &meter->test, block, standard, meter->flip_map);
+    return true;
 }
 
-static void add_flip(DipMetricRegionSums *region, DipMapSum sum) {
-    region->flip += sum.sum;
+// A block with its margin holds every window around its own pixels.
+static bool measure_ssim(DipMeter *meter, int block) {
+    enum { SIDE = DIP_PICTURE_BLOCK + 2 * DIP_SSIM_RADIUS };
+    float map[SIDE * SIDE];
+    const DipPixelRect own = dip_picture_block(meter->width, meter->height, block);
+    const DipPixelRect rect =
+        dip_picture_block_with_margin(meter->width, meter->height, block, DIP_SSIM_RADIUS);
+    const DipSrgbPicture test = dip_picture_part(&meter->test, &rect);
+    const DipSrgbPicture standard = dip_picture_part(&meter->standard.picture, &rect);
+    if (!dip_ssim_map(&test, &standard, map)) {
+        return false;
+    }
+    for (int y = own.y; y < own.y + own.height; y++) {
+        memcpy(meter->ssim_map + (size_t)y * (size_t)meter->width + own.x,
+               map + (y - rect.y) * rect.width + (own.x - rect.x), (size_t)own.width * sizeof *map);
+    }
+    return true;
 }
 
-static void add_map(const DipMeter *meter, const uint8_t *classes, AddTo *add,
-                    DipMetricSums *sums) {
-    const size_t count = (size_t)meter->flip.width * (size_t)meter->flip.height;
-    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
-        add(&sums->regions[r], dip_map_sum(meter->map, count, mask_of(classes, r)));
+static bool measure_block(DipMeter *meter, int block) {
+    return measure_flip(meter, block) &&
+           (meter->kind < DIP_METER_PICTURES || measure_ssim(meter, block));
+}
+
+// --- bands ---------------------------------------------------------------------------------------
+
+// Adds a map of `count` pixels from pixel `first` on to the sums of all regions.
+static void add_map(const DipMeter *meter, const float *map, size_t first, size_t count,
+                    DipMapSum sums[DIP_METRIC_REGION_COUNT]) {
+    dip_map_sum_add(&sums[0], map, count, (DipPixelMask){0});
+    for (int r = 1; meter->kind >= DIP_METER_PICTURES && r < DIP_METRIC_REGION_COUNT; r++) {
+        const DipPixelMask mask = {meter->standard.classes + first, (uint8_t)(r - 1)};
+        dip_map_sum_add(&sums[r], map, count, mask);
     }
 }
 
-void dip_meter_begin_burst(DipMeter *meter) {
-    dip_flicker_restart(&meter->flicker);
-    dip_flip_tail_restart(&meter->tail);
+static void measure_light(DipMeter *meter, const DipSrgbPicture *test, size_t first, size_t count) {
+    const float *standard_lin = meter->standard.rgb_lin + 3 * first;
+    if (meter->test_lin) {
+        for (size_t i = 0; i < 3 * count; i++) {
+            meter->band[i] = meter->test_lin[3 * first + i] - standard_lin[i];
+        }
+    } else {
+        dip_difference_lin(test, standard_lin, meter->band);
+    }
+    if (meter->kind == DIP_METER_BURSTS) {
+        dip_flicker_add(&meter->flicker, meter->band, 3 * count);
+    } else {
+        const double values = 3.0 * meter->width * meter->height;
+        for (size_t i = 0; i < 3 * count; i++) {
+            meter->squared_static += (double)meter->band[i] * (double)meter->band[i] / values;
+        }
+    }
+    dip_difference_squared_map(meter->band, count, meter->band);
+    add_map(meter, meter->band, first, count, meter->squared_lin);
+}
+
+static void measure_band(DipMeter *meter, int y) {
+    const int below = meter->height - y;
+    const DipPixelRect rect = {0, y, meter->width,
+                               below < band_rows(meter) ? below : band_rows(meter)};
+    const DipSrgbPicture test = dip_picture_part(&meter->test, &rect);
+    const DipSrgbPicture standard = dip_picture_part(&meter->standard.picture, &rect);
+    const size_t first = (size_t)y * (size_t)meter->width;
+    const size_t count = (size_t)rect.width * (size_t)rect.height;
+    if (meter->standard.rgb_lin) {
+        measure_light(meter, &test, first, count);
+    }
+    dip_difference_codes_map(&test, &standard, meter->band);
+    add_map(meter, meter->band, first, count, meter->squared_codes);
+    if (meter->kind >= DIP_METER_FLIP) {
+        add_map(meter, meter->flip_map + first, first, count, meter->flip_sums);
+    }
+    if (meter->kind >= DIP_METER_PICTURES) {
+        add_map(meter, meter->ssim_map + first, first, count, meter->ssim);
+    }
+}
+
+// --- the whole -----------------------------------------------------------------------------------
+
+DipStep dip_meter_step(DipMeter *meter) {
+    const int blocks =
+        meter->kind >= DIP_METER_FLIP ? dip_picture_block_count(meter->width, meter->height) : 0;
+    const int rows = band_rows(meter);
+    const int bands = (meter->height + rows - 1) / rows;
+    if (meter->steps >= blocks) {
+        measure_band(meter, (meter->steps - blocks) * rows);
+    } else if (!measure_block(meter, meter->steps)) {
+        return DIP_STEP_FAILED;
+    }
+    if (++meter->steps < blocks + bands) {
+        return DIP_STEP_WORKING;
+    }
+    if (meter->kind >= DIP_METER_PICTURES) {
+        dip_flip_tail_add(&meter->tail, meter->flip_map, meter->width, meter->height);
+    }
+    return DIP_STEP_DONE;
+}
+
+DipMetricSums dip_meter_sums(const DipMeter *meter) {
+    DipMetricSums sums = {.bursts = 0.0};
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
+        sums.regions[r] = (DipMetricRegionSums){
+            .pixels = meter->squared_codes[r].pixel_count,
+            .squared_lin = meter->squared_lin[r].sum,
+            .squared_codes = meter->squared_codes[r].sum,
+            .ssim = meter->ssim[r].sum,
+            .ssim_pixels = meter->ssim[r].pixel_count,
+            .flip = meter->flip_sums[r].sum,
+        };
+    }
+    return sums;
 }
 
 bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
                    const DipMeterStandard *standard, DipMetricSums *sums) {
-    const size_t count = (size_t)meter->flip.width * (size_t)meter->flip.height;
-    if (test_lin) {
-        for (size_t i = 0; i < 3 * count; i++) {
-            meter->error_lin[i] = test_lin[i] - standard->rgb_lin[i];
-        }
-    } else {
-        dip_difference_lin(test, standard->rgb_lin, meter->error_lin);
-    }
-    dip_flicker_add(&meter->flicker, meter->error_lin);
-    dip_difference_squared_map(meter->error_lin, count, meter->map);
-    add_map(meter, standard->classes, add_squared_lin, sums);
-    dip_difference_codes_map(test, &standard->picture, meter->map);
-    add_map(meter, standard->classes, add_squared_codes, sums);
-    if (!dip_ssim_map(test, &standard->picture, meter->map)) {
-        return false;
-    }
-    add_map(meter, standard->classes, add_ssim, sums);
-    dip_flip_analyse(&meter->flip, test, &meter->analysis);
-    dip_flip_compare(&meter->flip, &meter->analysis, standard->analysis, meter->map);
-    add_map(meter, standard->classes, add_flip, sums);
-    dip_flip_tail_add(&meter->tail, meter->map, meter->flip.width, meter->flip.height);
-    return true;
+    DipStep step;
+    dip_meter_set_standard(meter, standard);
+    dip_meter_begin(meter, test, test_lin);
+    do {
+        step = dip_meter_step(meter);
+    } while (step == DIP_STEP_WORKING);
+    const DipMetricSums added = dip_meter_sums(meter);
+    dip_metric_sums_add(sums, &added);
+    return step == DIP_STEP_DONE;
 }
 
 void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums) {
-    const DipFlickerResult result = dip_flicker_result(&meter->flicker);
+    const DipFlickerResult result =
+        meter->kind == DIP_METER_BURSTS
+            ? dip_flicker_result(&meter->flicker)
+            : (DipFlickerResult){.squared_static = meter->squared_static};
     sums->bursts += 1.0;
     sums->squared_static += result.squared_static;
     sums->squared_flicker += result.squared_flicker;

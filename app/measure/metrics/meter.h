@@ -1,8 +1,10 @@
-// A meter computes every metric of a picture at once, by comparing it with another picture (the
-// standard). Use one meter per thread.
+// A meter judges pictures: it computes their metrics by comparing each with another picture (the
+// standard). It works in steps of a few milliseconds, so that a caller can pause between two of
+// them. Commands step to the end. Use one meter per thread.
 #ifndef DIP_APP_MEASURE_METRICS_METER_H
 #define DIP_APP_MEASURE_METRICS_METER_H
 
+#include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/flicker.h"
 #include "app/measure/metrics/flip.h"
 #include "app/measure/metrics/flip_tail.h"
@@ -12,34 +14,81 @@
 extern "C" {
 #endif
 
-// Scratch memory for pictures of one size. Owns everything it points to.
-typedef struct DipMeter {
-    DipFlip flip;
-    DipFlipAnalysis analysis; // Analysis of the picture being judged.
-    DipFlicker flicker;
-    DipFlipTailMeter tail; // The distribution of FLIP in the burst so far.
-    float *map;            // One value per pixel.
-    float *error_lin;      // Three values per pixel.
-} DipMeter;
+// What stepwise work has come to.
+typedef enum DipStep {
+    DIP_STEP_WORKING,
+    DIP_STEP_RESULT, // There is a result, and more work may follow.
+    DIP_STEP_DONE,   // There is nothing left to do.
+    DIP_STEP_FAILED
+} DipStep;
 
-// Returns false when memory runs out; *meter then owns nothing.
-bool dip_meter_init(DipMeter *meter, int width, int height, double pixels_per_degree);
-void dip_meter_free(DipMeter *meter);
+// What is measured. Each kind measures what those before it do.
+typedef enum DipMeterKind {
+    DIP_METER_DIFFERENCES, // Squared differences of whole pictures.
+    DIP_METER_FLIP,        // FLIP of whole pictures.
+    DIP_METER_PICTURES,    // All metrics, by region, of bursts of one frame.
+    DIP_METER_BURSTS       // The same for bursts of several frames (flicker.h).
+} DipMeterKind;
 
 // The picture that others are compared with. Everything is borrowed and may be shared by threads.
 typedef struct DipMeterStandard {
     DipSrgbPicture picture;
-    const float *rgb_lin;            // The same picture in linear light, 3 values per pixel.
-    const DipFlipAnalysis *analysis; // The same picture, analysed.
-    const uint8_t *classes;          // What each pixel shows (DipSeen).
+    const float *rgb_lin; // The same picture in linear light, 3 values per pixel; NULL: squared
+                          // differences in linear light are not measured.
+    const DipFlipAnalysis *analysis; // The same picture, analysed. NULL: the meter analyses it.
+    const uint8_t *classes; // What each pixel shows (DipSeen). Kinds without regions ignore it.
 } DipMeterStandard;
+
+// Owns everything it points to but the pictures.
+typedef struct DipMeter {
+    DipMeterKind kind;
+    int width;
+    int height;
+    DipFlip flip;
+    DipFlipAnalysis analysis; // Of the standard, if the meter analyses it.
+    int analysed;             // Blocks of the standard that the meter has analysed.
+    DipFlicker flicker;       // Of bursts of several frames.
+    double squared_static;    // Of the last frame, if bursts have one.
+    DipFlipTailMeter tail;    // The distribution of FLIP in the burst so far.
+    float *flip_map;          // FLIP of each pixel of the last picture.
+    float *ssim_map;
+    float *band; // Three values for each pixel of a band, which is a few rows.
+    DipSrgbPicture test;
+    const float *test_lin;
+    DipMeterStandard standard;
+    int steps; // Steps taken for the picture.
+    DipMapSum squared_lin[DIP_METRIC_REGION_COUNT];
+    DipMapSum squared_codes[DIP_METRIC_REGION_COUNT];
+    DipMapSum ssim[DIP_METRIC_REGION_COUNT];
+    DipMapSum flip_sums[DIP_METRIC_REGION_COUNT];
+} DipMeter;
+
+// Returns false when memory runs out; *meter then owns nothing.
+bool dip_meter_init(DipMeter *meter, DipMeterKind kind, int width, int height,
+                    double pixels_per_degree);
+void dip_meter_free(DipMeter *meter);
 
 // Begins a burst, a series of successive frames (flicker.h). A new meter has begun its first burst.
 void dip_meter_begin_burst(DipMeter *meter);
 
-// Judges the next picture of the burst and adds its sums to *sums. If the caller has more precise
-// values than the 8-bit codes of `test`, test_lin is the picture in linear light. If test_lin is
-// NULL, linear light is computed from the codes. Returns false when memory runs out.
+// Sets the standard of the next pictures. A standard that the meter has to analyse is analysed
+// once, with the first of these pictures.
+void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard);
+
+// Begins the next picture of the burst, in place of one that is not done. If the caller has more
+// precise values than the 8-bit codes of `test`, test_lin is the picture in linear light; otherwise
+// it is NULL. Picture and standard are borrowed until the last step.
+void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin);
+
+// Measures a block or a band of the picture. The values are to the bit those of the whole picture.
+// Returns DONE after the last one, and FAILED when memory runs out.
+DipStep dip_meter_step(DipMeter *meter);
+
+// Returns the sums of a picture that is done.
+DipMetricSums dip_meter_sums(const DipMeter *meter);
+
+// Sets the standard, begins a picture, steps to its end and adds its sums to *sums. Returns false
+// when memory runs out.
 bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
                    const DipMeterStandard *standard, DipMetricSums *sums);
 

@@ -1,89 +1,198 @@
-// Draws the two halves of a truth (truth.h) on the pool, computes their mean and difference, and
-// reads and writes the cache.
+// Draws the two halves of a truth (truth.h) tile by tile, computes their mean and difference, and
+// keeps what it has drawn in the cache.
 #include "app/measure/metrics/truth.h"
 
-#include "app/files/folder.h"
-#include "app/files/whole_file.h"
+#include "app/measure/metrics/internal/truth_cache.h"
 #include "app/measure/metrics/meter.h"
-#include "renderer/base/file.h"
-#include "renderer/base/hash.h"
 #include "renderer/reference/convergence.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { HALVES = 2, TILES_AT_ONCE = 128 }; // progress is reported after each batch of tiles
+enum {
+    HALVES = 2,
+    TILES_AT_ONCE = 128,       // Tiles that one step of a job with a pool draws.
+    PIXELS_AT_ONCE = 1 << 14,  // Pixels for which one step computes the mean of the halves.
+    LIVE_CACHE_BYTES = 1 << 30 // A live job adds nothing to a cache that holds more than this.
+};
+
+const int dip_truth_level_samples[DIP_TRUTH_LEVELS] = {4, 16, DIP_TRUTH_SAMPLES};
+
+// What the next step does.
+typedef enum Phase { LOAD, PREPARE, DRAW, JOIN, MEASURE_FLOOR, STORE, END } Phase;
+
+struct DipTruthJob {
+    DipTruthDef def;
+    const char *cache; // NULL: none.
+    DipPool *pool;
+    bool live;
+    Phase phase;
+    int level; // Of dip_truth_level_samples; the last one has the samples of the def.
+    DipSrgbEncodeTable encode;
+    DipConvergence *convergence; // NULL if the def draws.
+    double *halves[HALVES];      // Linear light.
+    float *half_lin[HALVES];     // The same, rounded.
+    uint8_t *half_rgba8[HALVES]; // The same, encoded.
+    int drawn;                   // Tiles of the level drawn so far, in both halves together.
+    size_t joined;               // Pixels whose mean is computed.
+    DipMeter meter;              // Compares the halves.
+    DipTruth truth;
+    bool has_truth; // `truth` is that of the last level that is complete.
+};
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "truth", "out of memory");
 }
 
-// --- the key -----------------------------------------------------------------------------------
-
-// Hashes everything that the truth depends on, including a version number of the code that makes
-// it.
-static void find_key(const DipTruthDef *def, char key[33]) {
-    DipHash hash = dip_hash_begin(0);
-    dip_hash_text(&hash, "diptych truth 1");
-    dip_hash_text(&hash, def->scene_hash);
-    for (int i = 0; i < 3; i++) {
-        dip_hash_number(&hash, def->pose.position_world[i]);
-    }
-    for (int i = 0; i < 4; i++) {
-        dip_hash_number(&hash, def->pose.orientation[i]);
-    }
-    dip_hash_number(&hash, def->pose.fov_y_deg);
-    dip_hash_integer(&hash, def->time_ns);
-    dip_hash_integer(&hash, def->width);
-    dip_hash_integer(&hash, def->height);
-    dip_hash_integer(&hash, def->samples);
-    dip_hash_number(&hash, def->pixels_per_degree); // the noise floor's FLIP depends on this number
-    dip_hash_hex(&hash, key);
+static size_t pixel_count(const DipTruthJob *job) {
+    return (size_t)job->def.width * (size_t)job->def.height;
 }
 
-// --- making ------------------------------------------------------------------------------------
+static int samples_of_level(const DipTruthJob *job) {
+    return job->level < DIP_TRUTH_LEVELS - 1 ? dip_truth_level_samples[job->level]
+                                             : job->def.samples;
+}
 
-// One half while it is drawn.
-typedef struct Half {
-    const DipTruthDef *def;
-    const DipConvergence *convergence;
-    double *rgb_lin;
-    uint8_t *classes; // what pixels show; only for the first half, NULL for the second half
-    uint32_t seed;
-    int first_tile; // index of the current batch's first tile
+// Steps over levels that are not coarser than the last one.
+static void next_level(DipTruthJob *job) {
+    do {
+        job->level++;
+    } while (job->level < DIP_TRUTH_LEVELS - 1 &&
+             dip_truth_level_samples[job->level] >= job->def.samples);
+    job->drawn = 0;
+    job->joined = 0;
+}
+
+// Frees everything but the truth.
+static void free_halves(DipTruthJob *job) {
+    dip_convergence_destroy(&job->convergence);
+    dip_meter_free(&job->meter);
+    for (int h = 0; h < HALVES; h++) {
+        free(job->halves[h]);
+        free(job->half_lin[h]);
+        free(job->half_rgba8[h]);
+        job->halves[h] = NULL;
+        job->half_lin[h] = NULL;
+        job->half_rgba8[h] = NULL;
+    }
+}
+
+DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, DipPool *pool,
+                                  bool live, DipError *err) {
+    DipTruthJob *job = calloc(1, sizeof *job);
+    if (!job) {
+        out_of_memory(err);
+        return NULL;
+    }
+    *job = (DipTruthJob){.def = *def, .cache = cache, .pool = pool, .live = live};
+    job->level = live ? -1 : DIP_TRUTH_LEVELS - 2;
+    next_level(job);
+    job->phase = cache ? LOAD : PREPARE;
+    job->truth = (DipTruth){
+        .width = def->width,
+        .height = def->height,
+        .rgb_lin = malloc(pixel_count(job) * 3 * sizeof(float)),
+        .rgba8 = malloc(pixel_count(job) * 4),
+        .classes = malloc(pixel_count(job)),
+    };
+    dip_truth_find_key(def, job->truth.key);
+    dip_srgb_encode_table(&job->encode);
+    if (!job->truth.rgb_lin || !job->truth.rgba8 || !job->truth.classes) {
+        out_of_memory(err);
+        dip_truth_job_destroy(&job);
+    }
+    return job;
+}
+
+void dip_truth_job_destroy(DipTruthJob **job) {
+    if (*job) {
+        free_halves(*job);
+        dip_truth_free(&(*job)->truth);
+        free(*job);
+        *job = NULL;
+    }
+}
+
+// --- drawing -----------------------------------------------------------------------------------
+
+static DipStep prepare(DipTruthJob *job, DipError *err) {
+    const DipTruthDef *def = &job->def;
+    const size_t pixels = pixel_count(job);
+    bool made = true;
+    for (int h = 0; h < HALVES; h++) {
+        job->halves[h] = malloc(pixels * 3 * sizeof(double));
+        job->half_lin[h] = malloc(pixels * 3 * sizeof(float));
+        job->half_rgba8[h] = malloc(pixels * 4);
+        made = made && job->halves[h] && job->half_lin[h] && job->half_rgba8[h];
+    }
+    if (!made) {
+        out_of_memory(err);
+        return DIP_STEP_FAILED;
+    }
+    if (def->draw) {
+        // The caller's function does not say what the pixels show.
+        memset(job->truth.classes, DIP_SEEN_TEXTURED, pixels);
+    } else {
+        dip_reference_set_time(def->reference, def->time_ns);
+        job->convergence =
+            dip_convergence_create(def->reference, &def->pose, def->width, def->height, err);
+        made = job->convergence != NULL;
+    }
+    job->phase = DRAW;
+    return made ? DIP_STEP_WORKING : DIP_STEP_FAILED;
+}
+
+// Parts in which a half is drawn.
+static int part_count(const DipTruthJob *job) {
+    return job->convergence ? dip_convergence_tile_count(job->convergence) : 1;
+}
+
+typedef struct Tiles {
+    DipTruthJob *job;
+    int half;
+    int first;
     atomic_bool failed;
-} Half;
+} Tiles;
 
 static void draw_tile(void *context, int index, int worker) {
     (void)worker;
-    Half *drawn = context;
-    if (!dip_convergence_add_tile(drawn->convergence, drawn->first_tile + index,
-                                  drawn->def->samples, drawn->seed, 1.0, drawn->rgb_lin,
-                                  drawn->classes, NULL)) {
-        drawn->failed = true;
+    Tiles *tiles = context;
+    DipTruthJob *job = tiles->job;
+    if (!dip_convergence_add_tile(job->convergence, tiles->first + index, samples_of_level(job),
+                                  (uint32_t)tiles->half + 1, 1.0, job->halves[tiles->half],
+                                  tiles->half == 0 ? job->truth.classes : NULL, NULL)) {
+        tiles->failed = true;
     }
 }
 
-static bool draw_half(Half *drawn, int half, DipPool *pool, DipTruthProgress *progress,
-                      void *context, DipError *err) {
-    const int tiles = dip_convergence_tile_count(drawn->convergence);
-    drawn->seed = (uint32_t)half + 1;
-    for (int tile = 0; tile < tiles; tile += TILES_AT_ONCE) {
-        const int count = tiles - tile < TILES_AT_ONCE ? tiles - tile : TILES_AT_ONCE;
-        drawn->first_tile = tile;
-        dip_pool_run(pool, count, draw_tile, drawn);
-        if (drawn->failed) {
-            return out_of_memory(err);
-        }
-        if (!progress(context, (half + (double)(tile + count) / tiles) / HALVES)) {
-            return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "truth", "interrupted");
-        }
+static bool draw_tiles(DipTruthJob *job, DipError *err) {
+    const int parts = part_count(job);
+    Tiles tiles = {.job = job, .half = job->drawn / parts, .first = job->drawn % parts};
+    const int most = job->live ? 1 : TILES_AT_ONCE;
+    const int count = parts - tiles.first < most ? parts - tiles.first : most;
+    dip_pool_run(job->pool, count, draw_tile, &tiles);
+    job->drawn += count;
+    return !tiles.failed || out_of_memory(err);
+}
+
+static DipStep draw(DipTruthJob *job, DipError *err) {
+    const int half = job->drawn / part_count(job);
+    if (job->drawn % part_count(job) == 0) {
+        memset(job->halves[half], 0, pixel_count(job) * 3 * sizeof(double));
     }
-    return true;
+    if (!job->def.draw) {
+        if (!draw_tiles(job, err)) {
+            return DIP_STEP_FAILED;
+        }
+    } else if (job->def.draw(&job->def, half, job->halves[half], err)) {
+        job->drawn++;
+    } else {
+        return DIP_STEP_FAILED;
+    }
+    job->phase = job->drawn == HALVES * part_count(job) ? JOIN : DRAW;
+    return DIP_STEP_WORKING;
 }
 
 void dip_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin, size_t pixel_count,
@@ -97,11 +206,7 @@ void dip_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin, si
     }
 }
 
-static void encode(const double *rgb_lin, size_t pixel_count, uint8_t *rgba8) {
-    DipSrgbEncodeTable table;
-    dip_srgb_encode_table(&table);
-    dip_truth_encode(&table, rgb_lin, pixel_count, rgba8);
-}
+// --- the mean and the floor ----------------------------------------------------------------------
 
 static void round_to_floats(const double *rgb_lin, size_t count, float *out) {
     for (size_t i = 0; i < count; i++) {
@@ -109,212 +214,163 @@ static void round_to_floats(const double *rgb_lin, size_t count, float *out) {
     }
 }
 
-// Computes the noise floor: the metrics of the first half against the second half.
-static bool measure_floor(DipTruth *truth, const DipTruthDef *def, double *const halves[HALVES],
-                          DipError *err) {
-    const size_t pixels = (size_t)truth->width * (size_t)truth->height;
-    DipMeter meter;
-    if (!dip_meter_init(&meter, truth->width, truth->height, def->pixels_per_degree)) {
+static DipSrgbPicture half_picture(const DipTruthJob *job, int half) {
+    return (DipSrgbPicture){job->half_rgba8[half], 4 * (size_t)job->def.width, job->def.width,
+                            job->def.height};
+}
+
+// Prepares the comparison of the halves. Levels that are not the last one have only the floor of
+// the squared differences.
+static bool begin_floor(DipTruthJob *job, DipError *err) {
+    const DipTruthDef *def = &job->def;
+    const bool last = job->level == DIP_TRUTH_LEVELS - 1;
+    const DipSrgbPicture first = half_picture(job, 0);
+    const DipMeterStandard standard = {.picture = half_picture(job, 1),
+                                       .rgb_lin = job->half_lin[1],
+                                       .classes = job->truth.classes};
+    dip_meter_free(&job->meter);
+    if (!dip_meter_init(&job->meter, last ? DIP_METER_PICTURES : DIP_METER_DIFFERENCES, def->width,
+                        def->height, def->pixels_per_degree)) {
         return out_of_memory(err);
     }
-    DipFlipAnalysis analysis = {0};
-    uint8_t *codes = malloc(HALVES * pixels * 4);
-    float *light = malloc(HALVES * pixels * 3 * sizeof *light);
-    bool measured = codes && light && dip_flip_analysis_init(&meter.flip, &analysis);
-    if (measured) {
-        DipSrgbPicture pictures[HALVES];
-        for (size_t h = 0; h < HALVES; h++) {
-            encode(halves[h], pixels, codes + h * pixels * 4);
-            round_to_floats(halves[h], pixels * 3, light + h * pixels * 3);
-            pictures[h] = (DipSrgbPicture){codes + h * pixels * 4, (size_t)truth->width * 4,
-                                           truth->width, truth->height};
-        }
-        dip_flip_analyse(&meter.flip, &pictures[1], &analysis);
-        const DipMeterStandard standard = {pictures[1], light + pixels * 3, &analysis,
-                                           truth->classes};
-        truth->floor = (DipMetricSums){0};
-        dip_meter_begin_burst(&meter);
-        measured = dip_meter_add(&meter, &pictures[0], light, &standard, &truth->floor);
-        dip_meter_end_burst(&meter, &truth->floor);
-    }
-    dip_flip_analysis_free(&analysis);
-    free(codes);
-    free(light);
-    dip_meter_free(&meter);
-    return measured || out_of_memory(err);
-}
-
-// Draws both halves with the reference renderer.
-static bool draw_halves(DipTruth *truth, const DipTruthDef *def, double *const halves[HALVES],
-                        DipPool *pool, DipTruthProgress *progress, void *context, DipError *err) {
-    dip_reference_set_time(def->reference, def->time_ns);
-    DipConvergence *convergence =
-        dip_convergence_create(def->reference, &def->pose, def->width, def->height, err);
-    bool made = convergence != NULL;
-    for (int h = 0; made && h < HALVES; h++) {
-        Half drawn = {.def = def,
-                      .convergence = convergence,
-                      .rgb_lin = halves[h],
-                      .classes = h == 0 ? truth->classes : NULL};
-        made = draw_half(&drawn, h, pool, progress, context, err);
-    }
-    dip_convergence_destroy(&convergence);
-    return made;
-}
-
-// Draws both halves with the caller's function, which does not say what the pixels show.
-static bool draw_own_halves(DipTruth *truth, const DipTruthDef *def, double *const halves[HALVES],
-                            DipTruthProgress *progress, void *context, DipError *err) {
-    memset(truth->classes, DIP_SEEN_TEXTURED, (size_t)truth->width * (size_t)truth->height);
-    for (int h = 0; h < HALVES; h++) {
-        if (!def->draw(def, h, halves[h], err)) {
-            return false;
-        }
-        if (!progress(context, (h + 1.0) / HALVES)) {
-            return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "truth", "interrupted");
-        }
-    }
+    dip_meter_set_standard(&job->meter, &standard);
+    dip_meter_begin(&job->meter, &first, job->half_lin[0]);
+    job->phase = MEASURE_FLOOR;
     return true;
 }
 
-static bool make_truth(DipTruth *truth, const DipTruthDef *def, DipPool *pool,
-                       DipTruthProgress *progress, void *context, DipError *err) {
-    const size_t values = (size_t)truth->width * (size_t)truth->height * 3;
-    double *halves[HALVES] = {calloc(values, sizeof(double)), calloc(values, sizeof(double))};
-    bool made = (halves[0] && halves[1]) || out_of_memory(err);
-    made = made && (def->draw ? draw_own_halves(truth, def, halves, progress, context, err)
-                              : draw_halves(truth, def, halves, pool, progress, context, err));
-    made = made && measure_floor(truth, def, halves, err);
-    for (size_t i = 0; made && i < values; i++) {
-        halves[0][i] = 0.5 * (halves[0][i] + halves[1][i]);
+// Computes the mean of the halves for the next pixels.
+static DipStep join_halves(DipTruthJob *job, DipError *err) {
+    const size_t from = job->joined;
+    const size_t left = pixel_count(job) - from;
+    const size_t count = left < PIXELS_AT_ONCE ? left : PIXELS_AT_ONCE;
+    job->has_truth = false;
+    for (int h = 0; h < HALVES; h++) {
+        const double *half = job->halves[h] + 3 * from;
+        dip_truth_encode(&job->encode, half, count, job->half_rgba8[h] + 4 * from);
+        round_to_floats(half, 3 * count, job->half_lin[h] + 3 * from);
     }
-    if (made) {
-        round_to_floats(halves[0], values, truth->rgb_lin);
-        encode(halves[0], values / 3, truth->rgba8);
+    double *mean = job->halves[0] + 3 * from;
+    for (size_t i = 0; i < 3 * count; i++) {
+        mean[i] = 0.5 * (mean[i] + job->halves[1][3 * from + i]);
     }
-    free(halves[0]);
-    free(halves[1]);
-    return made;
+    round_to_floats(mean, 3 * count, job->truth.rgb_lin + 3 * from);
+    dip_truth_encode(&job->encode, mean, count, job->truth.rgba8 + 4 * from);
+    job->joined += count;
+    return count < left || begin_floor(job, err) ? DIP_STEP_WORKING : DIP_STEP_FAILED;
 }
 
-// --- the cache ---------------------------------------------------------------------------------
-
-bool dip_truth_default_folder(char *folder, size_t size_bytes) {
-    const char *cache = getenv("XDG_CACHE_HOME");
-    const char *home = getenv("HOME");
-    const bool has_cache = cache && *cache;
-    if (!has_cache && !(home && *home)) {
-        return false;
+static DipStep measure_floor(DipTruthJob *job, DipError *err) {
+    const DipStep step = dip_meter_step(&job->meter);
+    if (step == DIP_STEP_FAILED) {
+        out_of_memory(err);
     }
-    const int length = snprintf(folder, size_bytes, "%s%s/diptych", has_cache ? cache : home,
-                                has_cache ? "" : "/.cache");
-    return length > 0 && (size_t)length < size_bytes;
+    if (step != DIP_STEP_DONE) {
+        return step;
+    }
+    job->truth.floor = dip_meter_sums(&job->meter);
+    job->truth.samples = HALVES * samples_of_level(job);
+    job->has_truth = true;
+    if (job->level < DIP_TRUTH_LEVELS - 1) {
+        next_level(job);
+        job->phase = DRAW;
+    } else {
+        dip_meter_end_burst(&job->meter, &job->truth.floor);
+        free_halves(job);
+        job->phase = job->cache ? STORE : END;
+    }
+    return DIP_STEP_RESULT;
 }
 
-// A file holds the truth's arrays one after the other, as they lie in memory, and then 32 digits of
-// their hash. Byte order and layout are those of the machine that wrote the file.
-static size_t file_size(const DipTruth *truth) {
-    const size_t pixels = (size_t)truth->width * (size_t)truth->height;
-    return pixels * (3 * sizeof(float) + 4 + 1) + sizeof(DipMetricSums) + 32;
+// --- the job -------------------------------------------------------------------------------------
+
+static DipStep load(DipTruthJob *job) {
+    job->has_truth = dip_truth_load(&job->truth, job->cache);
+    job->phase = job->has_truth ? END : PREPARE;
+    job->truth.samples = HALVES * job->def.samples;
+    return job->has_truth ? DIP_STEP_RESULT : DIP_STEP_WORKING;
 }
 
-static bool file_name(const DipTruth *truth, const char *cache, char file[PATH_MAX]) {
-    const int length = snprintf(file, PATH_MAX, "%s/truth-%s.bin", cache, truth->key);
-    return length > 0 && length < PATH_MAX;
+// A live job can do without the cache.
+static DipStep store(DipTruthJob *job, DipError *err) {
+    job->phase = END;
+    if (job->live && dip_truth_cache_bytes(job->cache) > LIVE_CACHE_BYTES) {
+        return DIP_STEP_DONE;
+    }
+    return dip_truth_store(&job->truth, job->cache, job->live ? NULL : err) || job->live
+               ? DIP_STEP_DONE
+               : DIP_STEP_FAILED;
 }
 
-typedef struct Part {
-    void *bytes;
-    size_t size;
-} Part;
-
-enum { PARTS = 4 };
-
-static void list_parts(DipTruth *truth, Part parts[PARTS]) {
-    const size_t pixels = (size_t)truth->width * (size_t)truth->height;
-    parts[0] = (Part){truth->rgb_lin, pixels * 3 * sizeof(float)};
-    parts[1] = (Part){truth->rgba8, pixels * 4};
-    parts[2] = (Part){truth->classes, pixels};
-    parts[3] = (Part){&truth->floor, sizeof truth->floor};
+DipStep dip_truth_job_step(DipTruthJob *job, DipError *err) {
+    switch (job->phase) {
+    case LOAD:
+        return load(job);
+    case PREPARE:
+        return prepare(job, err);
+    case DRAW:
+        return draw(job, err);
+    case JOIN:
+        return join_halves(job, err);
+    case MEASURE_FLOOR:
+        return measure_floor(job, err);
+    case STORE:
+        return store(job, err);
+    case END:
+        break;
+    }
+    return DIP_STEP_DONE;
 }
 
-static void hash_contents(const unsigned char *bytes, size_t size, char hex[33]) {
-    DipHash hash = dip_hash_begin(0);
-    dip_hash_bytes(&hash, bytes, size);
-    dip_hash_hex(&hash, hex);
+const DipTruth *dip_truth_job_truth(const DipTruthJob *job) {
+    return job->has_truth ? &job->truth : NULL;
 }
 
-static bool load(DipTruth *truth, const char *cache) {
-    char name[PATH_MAX];
-    unsigned char *bytes;
-    size_t size;
-    if (!file_name(truth, cache, name) ||
-        !dip_file_read(name, "truth", file_size(truth), &bytes, &size, NULL)) {
-        return false;
-    }
-    bool loaded = size == file_size(truth);
-    if (loaded) {
-        char hex[33];
-        hash_contents(bytes, size - 32, hex);
-        loaded = memcmp(hex, bytes + size - 32, 32) == 0;
-    }
-    Part parts[PARTS];
-    list_parts(truth, parts);
-    for (size_t p = 0, at = 0; loaded && p < PARTS; at += parts[p++].size) {
-        memcpy(parts[p].bytes, bytes + at, parts[p].size);
-    }
-    free(bytes);
-    return loaded;
-}
-
-static bool store(DipTruth *truth, const char *cache, DipError *err) {
-    char name[PATH_MAX];
-    const size_t size = file_size(truth);
-    unsigned char *bytes = malloc(size);
-    if (!bytes) {
-        return out_of_memory(err);
-    }
-    Part parts[PARTS];
-    list_parts(truth, parts);
-    for (size_t p = 0, at = 0; p < PARTS; at += parts[p++].size) {
-        memcpy(bytes + at, parts[p].bytes, parts[p].size);
-    }
-    char hex[33];
-    hash_contents(bytes, size - 32, hex);
-    memcpy(bytes + size - 32, hex, 32);
-    const bool stored = (file_name(truth, cache, name) ||
-                         dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, cache, 0, "--cache",
-                                               "the name is too long")) &&
-                        dip_whole_file_write(name, bytes, size, err);
-    free(bytes);
-    return stored;
+double dip_truth_job_drawn(const DipTruthJob *job, int *samples) {
+    *samples = job->phase < STORE ? HALVES * samples_of_level(job) : 0;
+    return job->phase >= DRAW && job->phase < STORE
+               ? (double)job->drawn / (HALVES * part_count(job))
+               : 0.0;
 }
 
 bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, DipPool *pool,
                    DipTruthProgress *progress, void *context, DipError *err) {
-    const size_t pixels = (size_t)def->width * (size_t)def->height;
-    *truth = (DipTruth){
-        .width = def->width,
-        .height = def->height,
-        .rgb_lin = malloc(pixels * 3 * sizeof(float)),
-        .rgba8 = malloc(pixels * 4),
-        .classes = malloc(pixels),
-    };
-    find_key(def, truth->key);
-    bool got = (truth->rgb_lin && truth->rgba8 && truth->classes) || out_of_memory(err);
-    if (got && !(cache && load(truth, cache))) {
-        got = make_truth(truth, def, pool, progress, context, err) &&
-              (!cache || store(truth, cache, err));
+    DipTruthJob *job = dip_truth_job_create(def, cache, pool, false, err);
+    DipStep step = job ? DIP_STEP_WORKING : DIP_STEP_FAILED;
+    while (step == DIP_STEP_WORKING || step == DIP_STEP_RESULT) {
+        int samples;
+        const bool draws = job->phase == DRAW;
+        step = dip_truth_job_step(job, err);
+        if (draws && step == DIP_STEP_WORKING &&
+            !progress(context, dip_truth_job_drawn(job, &samples))) {
+            dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "truth", "interrupted");
+            step = DIP_STEP_FAILED;
+        }
     }
-    if (!got) {
-        dip_truth_free(truth);
+    *truth = (DipTruth){0};
+    if (step == DIP_STEP_DONE) {
+        *truth = job->truth;
+        job->truth = (DipTruth){0};
     }
-    return got;
+    dip_truth_job_destroy(&job);
+    return step == DIP_STEP_DONE;
 }
 
 double dip_truth_floor_rmse(const DipMetricSums *floor, int region) {
     // The error of the mean of two independent halves is half of their difference.
     return dip_metrics_of(floor, region).rmse_lin / 2.0;
+}
+
+bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums) {
+    return dip_metrics_of(sums, 0).rmse_lin < 3.0 * dip_truth_floor_rmse(floor, 0);
+}
+
+DipMeterStandard dip_truth_standard(const DipTruth *truth) {
+    return (DipMeterStandard){
+        .picture = {truth->rgba8, 4 * (size_t)truth->width, truth->width, truth->height},
+        .rgb_lin = truth->rgb_lin,
+        .classes = truth->classes,
+    };
 }
 
 void dip_truth_free(DipTruth *truth) {

@@ -7,7 +7,7 @@
 #ifndef DIP_APP_MEASURE_METRICS_TRUTH_H
 #define DIP_APP_MEASURE_METRICS_TRUTH_H
 
-#include "app/measure/metrics/metrics.h"
+#include "app/measure/metrics/meter.h"
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
 #include "renderer/base/srgb.h"
@@ -26,6 +26,7 @@ struct DipReference; // renderer/reference/reference.h
 typedef struct DipTruth {
     int width;
     int height;
+    int samples;         // Samples per pixel of both halves together.
     float *rgb_lin;      // Mean of the halves in linear light, 3 values per pixel.
     uint8_t *rgba8;      // The same picture, encoded to sRGB and rounded; alpha is 255.
     uint8_t *classes;    // What each pixel shows (DipSeen).
@@ -54,25 +55,60 @@ typedef struct DipTruthDef {
     void *context;            // For `draw`.
 } DipTruthDef;
 
+// Samples per pixel of a half unless the user asks for another number, and of the halves of the
+// coarser truths that come before it where the truth is refined.
+enum { DIP_TRUTH_SAMPLES = 64, DIP_TRUTH_LEVELS = 3 };
+extern const int dip_truth_level_samples[DIP_TRUTH_LEVELS]; // The last is DIP_TRUTH_SAMPLES.
+
+// A truth that is drawn in steps.
+typedef struct DipTruthJob DipTruthJob;
+
+// Begins a truth. It is read from the folder `cache` if it is there (a damaged file counts as
+// missing), and otherwise drawn and written to the folder. If `cache` is NULL, there is no cache.
+// Reference, scene hash and folder are borrowed. Processes may share a folder. Two jobs may run at
+// once if their references are separate.
+//
+// A live job is one that a user waits for: it draws coarser truths first, a tile per step, which
+// takes a few milliseconds. It goes on if the truth cannot be written, and does not write it if the
+// folder is full (holds truths of more than 1 GiB). Other jobs draw many tiles per step on the
+// pool; if `pool` is NULL, the calling thread draws alone.
+DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, DipPool *pool,
+                                  bool live, DipError *err);
+void dip_truth_job_destroy(DipTruthJob **job);
+
+// Returns RESULT when a truth is complete, and DONE after the last one, which is then in the cache.
+// Fails with MEMORY, with what the def's function fails with, or with IO if the file cannot be
+// written.
+DipStep dip_truth_job_step(DipTruthJob *job, DipError *err);
+
+// Returns the finest complete truth, or NULL if there is none, or if the step before has begun to
+// put the next one together. Only the last one has the floor of all metrics and regions; the others
+// have that of the whole picture's squared differences. The truth is valid until the next step.
+const DipTruth *dip_truth_job_truth(const DipTruthJob *job);
+
+// Returns how much of the next truth is drawn, from 0 to 1. *samples: its samples per pixel, both
+// halves together; 0 if no other follows.
+double dip_truth_job_drawn(const DipTruthJob *job, int *samples);
+
 // Receives how much of the picture is done, 0..1. Returns false to stop the work.
 typedef bool DipTruthProgress(void *context, double done);
 
-// Reads the truth from the folder `cache`. If the truth is not there, draws it on the pool and
-// writes it to the folder. A damaged file counts as missing. If `cache` is NULL, there is no cache;
-// if `pool` is NULL, the calling thread draws alone. Fails with DIP_ERROR_RUNTIME if `progress`
-// stopped the work, with DIP_ERROR_MEMORY, or with DIP_ERROR_IO if the file cannot be written;
-// *truth is then empty. Two calls may run at once if their references are separate. Processes may
-// share a cache.
+// Runs a job that is not live to its end. Fails as its steps do, and with RUNTIME if `progress`
+// stopped the work; *truth is then empty.
 bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, DipPool *pool,
                    DipTruthProgress *progress, void *context, DipError *err);
 void dip_truth_free(DipTruth *truth);
 
+// Returns the truth as a standard for a meter, without an analysis.
+DipMeterStandard dip_truth_standard(const DipTruth *truth);
+
 // Returns the truth's own error: half of the root mean square difference of its halves, in linear
-// light. For the error of several truths, pass the sum of their floors. A picture's error below
-// DIP_TRUTH_FLOOR_FACTOR times the returned value cannot be told from the truth's noise.
+// light. For the error of several truths, pass the sum of their floors.
 double dip_truth_floor_rmse(const DipMetricSums *floor, int region);
 
-#define DIP_TRUTH_FLOOR_FACTOR 3.0
+// Returns whether the error of pictures is below three times the error of their truths. It then
+// cannot be told from the truths' noise: it is "at floor". `sums` are those of the pictures.
+bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums);
 
 // Encodes linear light (3 values per pixel, clamped to 0..1) to 8-bit sRGB with alpha 255.
 void dip_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin, size_t pixel_count,

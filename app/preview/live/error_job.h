@@ -1,23 +1,17 @@
 // Measures the errors of both panes' pictures against the converged picture from the same pose.
 //
-// The converged picture (the truth) is refined in levels of rising sample counts; each level gives
-// a better result. The work is cut into small steps, so that the caller can drop the work between
-// any two steps.
+// The converged picture (the truth, app/measure/metrics/truth.h) is refined in levels of rising
+// sample counts; each level gives a better result. The work is cut into small steps, so that the
+// caller can drop the work between any two steps.
 #ifndef DIP_APP_PREVIEW_LIVE_ERROR_JOB_H
 #define DIP_APP_PREVIEW_LIVE_ERROR_JOB_H
 
+#include "app/measure/metrics/truth.h"
 #include "app/session/session.h"
 #include "renderer/reference/reference.h"
 
 #include <stdbool.h>
 #include <stdint.h>
-
-enum { DIP_ERROR_JOB_LEVELS = 3 };
-
-// Samples per pixel of one half of the truth, for each level. A level is the mean of two halves
-// with independent samples; the difference of the halves shows the truth's own noise. The last
-// level has the default number of samples of `diptych cost`.
-extern const int dip_error_job_samples[DIP_ERROR_JOB_LEVELS];
 
 // A still: the panes' pictures of one pose, time and size.
 typedef struct DipStill {
@@ -26,6 +20,7 @@ typedef struct DipStill {
     int width;
     int height;
     size_t stride_bytes;
+    double pixels_per_degree; // For FLIP.
     // If both panes show the same picture, the requested pane's pointer is NULL.
     const uint8_t *rgba8[DIP_PANE_COUNT];
     // The pane does not show the scene as the truth does (it shows mip colours), so it has no
@@ -55,8 +50,11 @@ typedef struct DipErrorJobResult {
 
 typedef struct DipErrorJob DipErrorJob;
 
-// The reference renderer is borrowed. The job sets the renderer's time to the time of each still.
-DipErrorJob *dip_error_job_create(DipReference *reference, DipError *err);
+// Everything is borrowed. The job sets the renderer's time to the time of each still. It shares the
+// last level of each truth with `diptych cost` through the folder `cache`, where scene_hash
+// (scene_hash.h) stands for the scene; if the folder is NULL, there is no cache.
+DipErrorJob *dip_error_job_create(DipReference *reference, const char *scene_hash,
+                                  const char *cache, DipError *err);
 void dip_error_job_destroy(DipErrorJob **job);
 
 // Begins to measure a still, in place of the previous still. The new still's pictures are borrowed
@@ -64,15 +62,9 @@ void dip_error_job_destroy(DipErrorJob **job);
 // has drawn of the truth. After a failure the job has no still.
 bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err);
 
-typedef enum DipErrorJobStep {
-    DIP_ERROR_JOB_WORKING,
-    DIP_ERROR_JOB_NEW_RESULT,
-    DIP_ERROR_JOB_DONE, // There is nothing left to do.
-    DIP_ERROR_JOB_FAILED
-} DipErrorJobStep;
-
-// Does a few milliseconds of work.
-DipErrorJobStep dip_error_job_step(DipErrorJob *job, DipError *err);
+// Does a few milliseconds of work. Returns RESULT when there is a new result, and DONE when there
+// is nothing left to do.
+DipStep dip_error_job_step(DipErrorJob *job, DipError *err);
 
 const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
 
@@ -84,7 +76,7 @@ int dip_error_job_next_samples(const DipErrorJob *job);
 double dip_error_job_drawn(const DipErrorJob *job);
 
 // The pictures that belong to the result. They are complete between the step that returned
-// NEW_RESULT and the next step; later steps overwrite them. Rows are packed.
+// RESULT and the next step; later steps overwrite them. Rows are packed.
 
 // Returns the FLIP value of each pixel of a pane, or NULL if the pane is not judged.
 const float *dip_error_job_flip(const DipErrorJob *job, int pane);

@@ -3,6 +3,8 @@
 
 #include "app/preview/live/error_thread.h"
 
+#include "app/cost/scene_hash.h"
+
 #include "app/preview/live/processor_share.h"
 
 #include <limits.h>
@@ -40,6 +42,7 @@ typedef struct Pictures {
 struct DipErrorThread {
     const DipSceneDef *scene;
     DipReflectionDef reflection;
+    const char *cache;
     Still staged; // The next still, which the caller fills without holding the lock.
     unsigned picture_number;
     bool shown;
@@ -71,6 +74,7 @@ struct DipErrorThread {
 typedef struct Worker {
     DipErrorThread *owner;
     DipReference *reference;
+    char scene_hash[33];
     DipErrorJob *job;
     Still still;
     unsigned number;
@@ -224,7 +228,11 @@ static bool prepare(Worker *worker, DipError *err) {
         }
     }
     if (worker->reference && !worker->job) {
-        worker->job = dip_error_job_create(worker->reference, err);
+        if (owner->cache) {
+            dip_cost_scene_hash(owner->scene, &owner->reflection, worker->scene_hash);
+        }
+        worker->job =
+            dip_error_job_create(worker->reference, worker->scene_hash, owner->cache, err);
     }
     return worker->job != NULL;
 }
@@ -239,9 +247,9 @@ static void work(Worker *worker, bool fresh) {
         }
     }
     switch (dip_error_job_step(worker->job, &err)) {
-    case DIP_ERROR_JOB_WORKING:
+    case DIP_STEP_WORKING:
         break;
-    case DIP_ERROR_JOB_NEW_RESULT:
+    case DIP_STEP_RESULT:
         if (!fill_pictures(worker)) {
             answer(worker, DIP_ERROR_STATUS_FAILED);
             break;
@@ -249,10 +257,10 @@ static void work(Worker *worker, bool fresh) {
         pass_pictures(worker);
         answer(worker, DIP_ERROR_STATUS_WORKING);
         break;
-    case DIP_ERROR_JOB_DONE:
+    case DIP_STEP_DONE:
         answer(worker, DIP_ERROR_STATUS_DONE);
         break;
-    case DIP_ERROR_JOB_FAILED:
+    case DIP_STEP_FAILED:
         answer(worker, DIP_ERROR_STATUS_FAILED);
         break;
     }
@@ -276,7 +284,8 @@ static void *run(void *context) {
 // --- the caller --------------------------------------------------------------------------------
 
 DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
-                                        const DipReflectionDef *reflection, DipError *err) {
+                                        const DipReflectionDef *reflection, const char *cache,
+                                        DipError *err) {
     DipErrorThread *owner = calloc(1, sizeof *owner);
     if (!owner) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "truth", "out of memory");
@@ -284,6 +293,7 @@ DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
     }
     owner->scene = scene;
     owner->reflection = *reflection;
+    owner->cache = cache;
     owner->resting = true;
     owner->limit = INT_MAX;
     pthread_mutex_init(&owner->lock, NULL);

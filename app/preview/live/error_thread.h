@@ -12,9 +12,11 @@
 
 typedef struct DipErrorThread DipErrorThread;
 
-// The scene is borrowed. The thread starts, and allocates memory, with the first measurement.
+// The scene is borrowed, and so is the folder of the cached truths, which is NULL for no cache. The
+// thread starts, and allocates memory, with the first measurement.
 DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
-                                        const DipReflectionDef *reflection, DipError *err);
+                                        const DipReflectionDef *reflection, const char *cache,
+                                        DipError *err);
 
 // Ends the thread. Waits until the thread has finished its current step.
 void dip_error_thread_destroy(DipErrorThread **thread);

@@ -3,7 +3,7 @@
 
 #include "app/cost/plan.h"
 #include "app/cli/machine.h"
-#include "app/preview/live/price_errors.h"
+#include "app/measure/metrics/meter.h"
 #include "app/preview/live/processor_share.h"
 #include "renderer/base/clock.h"
 
@@ -27,7 +27,8 @@ struct DipLivePrices {
     char scene[DIP_COST_TEXT];
     char processor[DIP_COST_TEXT];
 
-    DipPriceErrors errors;
+    DipMeter meter;
+    uint8_t *rgba8; // Copy of the picture that is judged, rows packed. Owned; NULL: no meter yet.
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
     DipQuality judged;       // Settings of this picture.
@@ -71,6 +72,9 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
 
 static void forget(DipLivePrices *live) {
     dip_price_job_forget(live->job);
+    dip_meter_free(&live->meter);
+    free(live->rgba8);
+    live->rgba8 = NULL;
     live->measures_errors = live->errors_failed = false;
     live->errors_left = 0;
     live->has_picture = false;
@@ -121,7 +125,8 @@ DipLivePrices *dip_live_prices_create(DipSession *session, DipPrices *prices, Di
 void dip_live_prices_destroy(DipLivePrices **live) {
     if (*live) {
         destroy_painters(*live);
-        dip_price_errors_free(&(*live)->errors);
+        dip_meter_free(&(*live)->meter);
+        free((*live)->rgba8);
         dip_price_job_destroy(&(*live)->job);
         free(*live);
         *live = NULL;
@@ -132,7 +137,8 @@ void dip_live_prices_destroy(DipLivePrices **live) {
 
 static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
     return memcmp(&a->pose, &b->pose, sizeof a->pose) == 0 && a->time_ns == b->time_ns &&
-           a->width == b->width && a->height == b->height && a->look == b->look;
+           a->width == b->width && a->height == b->height && a->look == b->look &&
+           a->pixels_per_degree == b->pixels_per_degree;
 }
 
 // Forgets the prices of another picture. A painter that cannot have the new size is destroyed; the
@@ -154,43 +160,63 @@ static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
 
 // --- errors --------------------------------------------------------------------------------------
 
+// Begins to judge a copy of the frame, since the painter draws over its own picture.
+static bool begin_judging(DipLivePrices *live, const DipSrgbPicture *truth) {
+    const DipLivePicture *picture = &live->picture;
+    const size_t row_bytes = 4 * (size_t)picture->width;
+    if (!live->rgba8) {
+        live->rgba8 = malloc(row_bytes * (size_t)picture->height);
+        if (!live->rgba8 || !dip_meter_init(&live->meter, DIP_METER_FLIP, picture->width,
+                                            picture->height, picture->pixels_per_degree)) {
+            free(live->rgba8);
+            live->rgba8 = NULL;
+            return false;
+        }
+    }
+    if (live->meter.standard.picture.rgba8 != truth->rgba8) {
+        dip_meter_set_standard(&live->meter, &(DipMeterStandard){.picture = *truth});
+    }
+    for (size_t y = 0; y < (size_t)picture->height; y++) {
+        memcpy(live->rgba8 + y * row_bytes, live->frame.rgba8 + y * live->frame.stride_bytes,
+               row_bytes);
+    }
+    const DipSrgbPicture copy = {live->rgba8, row_bytes, picture->width, picture->height};
+    dip_meter_begin(&live->meter, &copy, NULL);
+    return true;
+}
+
 static void begin_errors(DipLivePrices *live) {
     DipQuality list[MOST_ERRORS];
     dip_prices_list_without_flip(live->prices, live->truth.samples, list, MOST_ERRORS);
     live->judged = list[0];
-    live->measures_errors = draw(live, &live->judged, 0, NULL);
-    if (live->measures_errors) {
-        const DipSrgbPicture picture = {live->frame.rgba8, live->frame.stride_bytes,
-                                        live->frame.width, live->frame.height};
-        live->measures_errors = dip_price_errors_begin(&live->errors, &picture);
-    }
+    live->measures_errors =
+        draw(live, &live->judged, 0, NULL) && begin_judging(live, &live->truth.picture);
     live->errors_failed = !live->measures_errors;
     live->errors_left = live->errors_failed ? 0 : live->errors_left;
 }
 
-// Draws a picture or measures a block of it; there is a combination whose error is not known.
+// Draws a picture or measures a part of it; there is a combination whose error is not known.
 // Returns whether an error has become known.
 static bool step_errors(DipLivePrices *live) {
-    double flip;
     if (!live->measures_errors) {
         begin_errors(live);
         return false;
     }
-    switch (dip_price_errors_step(&live->errors, &live->truth.picture, &flip)) {
-    case DIP_PRICE_ERRORS_WORKING:
+    const DipStep step = dip_meter_step(&live->meter);
+    if (step == DIP_STEP_WORKING) {
         return false;
-    case DIP_PRICE_ERRORS_DONE:
-        dip_prices_add_rough_flip(live->prices, &live->judged, flip, live->truth.samples);
-        live->measures_errors = false;
-        live->errors_left--;
-        return true;
-    case DIP_PRICE_ERRORS_FAILED:
-        live->measures_errors = false;
-        live->errors_failed = true;
+    }
+    live->measures_errors = false;
+    live->errors_failed = step == DIP_STEP_FAILED;
+    if (live->errors_failed) {
         live->errors_left = 0;
         return false;
     }
-    return false;
+    const DipMetricSums sums = dip_meter_sums(&live->meter);
+    dip_prices_add_rough_flip(live->prices, &live->judged, dip_metrics_of(&sums, 0).flip,
+                              live->truth.samples);
+    live->errors_left--;
+    return true;
 }
 
 static bool measure_errors(DipLivePrices *live, int64_t end_ns) {
@@ -209,8 +235,13 @@ static bool has_truth(const DipLivePrices *live) {
            truth->height == live->picture.height;
 }
 
+// If the truth has moved in memory, the picture that is being judged is judged again.
 static void follow_truth(DipLivePrices *live, const DipLiveTruth *truth) {
+    if (live->meter.standard.picture.rgba8 != truth->picture.rgba8) {
+        live->measures_errors = false;
+    }
     if (live->truth.samples != truth->samples) {
+        live->meter.standard.picture.rgba8 = NULL; // Another picture in the same memory.
         live->measures_errors = live->errors_failed = false;
     }
     live->truth = *truth;

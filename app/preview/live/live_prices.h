@@ -19,7 +19,8 @@ typedef struct DipLivePicture {
     int64_t time_ns;
     int width; // Size of a pane's frame.
     int height;
-    int look; // Variant of a scene of the gallery.
+    int look;                 // Variant of a scene of the gallery.
+    double pixels_per_degree; // For FLIP.
 } DipLivePicture;
 
 // Session and prices are borrowed. Painters are made when they are first needed. Fails with MEMORY.

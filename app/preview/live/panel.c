@@ -59,7 +59,7 @@ static void add_error(Lines *lines, const DipPaneFigures *figures, int pane) {
         return;
     }
     // The truth is the mean of two halves with equal numbers of samples.
-    const int all_samples = 2 * dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1];
+    const int all_samples = 2 * DIP_TRUTH_SAMPLES;
     if (result->last) {
         add(lines, true, "Error", "%d samples", result->samples);
     } else {

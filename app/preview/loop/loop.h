@@ -45,6 +45,7 @@ typedef struct DipPreviewDef {
     struct DipReload *reload;    // Borrowed; NULL: the preview ignores dropped files.
     DipPrices *prices;           // Borrowed; NULL: the preview has prices of its own.
     bool measures_prices;        // Measure rough prices while the dock is open and nothing moves.
+    const char *cache;           // Folder of the cached truths; borrowed; NULL: none.
     double flying_speed_m_per_s; // Speed of the free camera.
     DipPreviewControl control;   // Its context is borrowed.
     double ui_scale;             // Factor by which controls are enlarged; 0 stands for 1.

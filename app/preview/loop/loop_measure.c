@@ -76,7 +76,8 @@ static bool create_errors(DipPreview *preview, int64_t now_ns) {
     const DipSession *session = preview->def.session;
     DipError err;
     if (!preview->errors && preview->def.load_scene_def(preview->def.context, &err)) {
-        preview->errors = dip_error_thread_create(&session->scene_def, &session->reflection, &err);
+        preview->errors = dip_error_thread_create(&session->scene_def, &session->reflection,
+                                                  preview->def.cache, &err);
     }
     if (!preview->errors) {
         dip_loop_report(preview, &err, now_ns);
@@ -101,6 +102,7 @@ static DipStill still_of(const DipPreview *preview) {
         .width = current->width,
         .height = current->height,
         .stride_bytes = current->stride_bytes,
+        .pixels_per_degree = dip_prices_viewing(preview->prices),
         .rgba8 = {current->rgba8, preview->frame.copied ? NULL : requested->rgba8},
         .unjudged = {shows_mips(preview, DIP_PANE_CURRENT),
                      shows_mips(preview, DIP_PANE_REQUESTED)},
@@ -169,6 +171,7 @@ bool dip_loop_measure_prices(DipPreview *preview) {
         .width = preview->drawn.width,
         .height = preview->drawn.height,
         .look = preview->drawn.look,
+        .pixels_per_degree = dip_prices_viewing(preview->prices),
     };
     const DipLiveTruth truth = truth_for_prices(preview);
     return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality, &truth,

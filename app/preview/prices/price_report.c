@@ -272,6 +272,7 @@ bool dip_price_report_make(DipPriceReport *made, const DipCostReport *report, Di
         .width = report->width,
         .height = report->height,
         .has_times = report->rounds > 0,
+        .pixels_per_degree = report->options.pixels_per_degree,
         .doubtful = report->rounds > 0 && report->verdict == DIP_COST_RED,
     };
     made->base = dip_price_normal(&report->options.baseline, &report->options.baseline);

@@ -1,6 +1,7 @@
 // Prices of steps: from the report's tags, or from the differences of whole times.
 #include "app/preview/prices/prices.h"
 
+#include "app/measure/metrics/flip.h"
 #include "app/report/format/formats.h"
 #include "app/preview/prices/prices_private.h"
 
@@ -64,6 +65,16 @@ DipPriceTrust dip_price_sum_trust(const DipPriceSum *sum) {
 
 void dip_prices_set_conditions(DipPrices *prices, const DipPriceConditions *conditions) {
     prices->conditions = *conditions;
+}
+
+void dip_prices_set_viewing(DipPrices *prices, double pixels_per_degree) {
+    prices->pixels_per_degree = pixels_per_degree;
+}
+
+double dip_prices_viewing(const DipPrices *prices) {
+    return prices->pixels_per_degree > 0.0 ? prices->pixels_per_degree
+           : prices->has_report            ? prices->report.pixels_per_degree
+                                           : DIP_FLIP_PIXELS_PER_DEGREE;
 }
 
 bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipError *err) {

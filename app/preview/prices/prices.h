@@ -98,6 +98,13 @@ typedef struct DipPriceConditions {
 
 void dip_prices_set_conditions(DipPrices *prices, const DipPriceConditions *conditions);
 
+// Sets the viewing distance for which the user wants FLIP, in pixels per degree; 0: none is wanted.
+void dip_prices_set_viewing(DipPrices *prices, double pixels_per_degree);
+
+// Returns the pixels per degree for the FLIP of the panes and of rough prices: those that were set,
+// or else those of the report, or else DIP_FLIP_PIXELS_PER_DEGREE.
+double dip_prices_viewing(const DipPrices *prices);
+
 // Takes prices from a report, which is copied as far as needed. On failure there are no prices from
 // a report. Fails with MEMORY.
 bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipError *err);
@@ -171,8 +178,8 @@ bool dip_prices_are_doubtful(const DipPrices *prices);
 
 // Says where the prices come from and for what they hold: "Prices: report of this scene, path
 // DEFAULT, 640x480, 2 threads. The panes are 320x240." width and height: size of a pane in pixels.
-// Returns whether the prices are stale: the size, scene, threads or machine differ from those of
-// the panes.
+// Returns whether the prices are stale: the size, scene, threads, machine or viewing distance
+// differ from those of the panes.
 bool dip_prices_source(const DipPrices *prices, int width, int height, char *text,
                        size_t size_bytes);
 

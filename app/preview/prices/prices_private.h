@@ -46,6 +46,7 @@ typedef struct DipPriceReport {
     bool has_times;
     bool has_errors;
     bool doubtful;
+    double pixels_per_degree;
     DipQuality base;
     DipPriceList known; // Combinations on path 0, measured or predicted.
     DipPriceTag *tags;  // Owned.
@@ -61,7 +62,8 @@ struct DipPrices {
     DipPriceList rough;
     bool rough_doubtful;
     DipPriceConditions conditions;
-    unsigned changes; // See dip_prices_changes.
+    unsigned changes;         // See dip_prices_changes.
+    double pixels_per_degree; // 0: none was set.
     char progress[DIP_PRICE_PROGRESS];
 };
 

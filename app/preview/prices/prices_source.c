@@ -38,6 +38,11 @@ static bool say_differences(const DipPrices *prices, int width, int height, Text
         say(text, " The panes are %dx%d.", width, height);
         stale = true;
     }
+    if (dip_prices_viewing(prices) != report->pixels_per_degree) {
+        say(text, " FLIP of the panes is for %.1f pixels per degree, that of the report for %.1f.",
+            dip_prices_viewing(prices), report->pixels_per_degree);
+        stale = true;
+    }
     if (now->threads != 0 && now->threads != report->threads) {
         say(text, " The panes have %d thread%s.", now->threads, now->threads == 1 ? "" : "s");
         stale = true;

@@ -179,7 +179,7 @@ static const char *flip_status(const DipMaps *maps, int pane, char *text, size_t
     }
     // The truth is the mean of two halves with equal numbers of samples.
     snprintf(text, size_bytes, "Measuring: %d of %d samples per pixel.", reading->result.samples,
-             2 * dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1]);
+             2 * DIP_TRUTH_SAMPLES);
     return text;
 }
 

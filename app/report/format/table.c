@@ -271,7 +271,7 @@ static void print_answer(const DipCostReport *report, FILE *out) {
         const DipAdvice *advice = &choice->advice[i];
         char budget[DIP_BUDGET_BYTES];
         dip_budget_text(advice->budget_ms, budget);
-        dip_put_text(out, "%s%s on this machine:\n", i > 0 ? "\n" : "", budget);
+        dip_put_text(out, i > 0 ? "\n%s on this machine:\n" : "%s on this machine:\n", budget);
         if (advice->chosen >= 0) {
             print_chosen(report, advice, out);
         } else {
@@ -313,7 +313,9 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
     print_answer(report, out);
     print_tiers(report, out);
     print_front(report, out);
-    dip_put_text(out, "%s", report->choice.candidates.count > 0 ? "\n" : "");
+    if (report->choice.candidates.count > 0) {
+        dip_put_text(out, "\n");
+    }
     print_heading(report, out);
     dip_put_text(out, "\n");
     print_columns(out);

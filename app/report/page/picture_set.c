@@ -29,7 +29,6 @@ static size_t row_bytes(const DipCostCutter *c) {
 
 void dip_cost_cutter_close(DipCostCutter *cutter) {
     dip_flip_analysis_free(&cutter->truth_side);
-    dip_flip_analysis_free(&cutter->side);
     dip_flip_free(&cutter->flip);
     free(cutter->truth);
     free(cutter->frames);
@@ -51,8 +50,7 @@ bool dip_cost_cutter_open(DipCostCutter *cutter, const DipCostReport *report,
     const bool made =
         c->truth && c->frames && c->maps && c->map && c->crop &&
         dip_flip_init(&c->flip, report->width, report->height, report->options.pixels_per_degree) &&
-        dip_flip_analysis_init(&c->flip, &c->truth_side) &&
-        dip_flip_analysis_init(&c->flip, &c->side);
+        dip_flip_analysis_init(&c->flip, &c->truth_side);
     if (!made) {
         dip_cost_cutter_close(c);
         return out_of_memory(err);
@@ -83,8 +81,7 @@ static bool read_frame(DipCostCutter *c, const DipCostPictureSet *set, int index
         return false;
     }
     const DipSrgbPicture picture = picture_of(c, to);
-    dip_flip_analyse(&c->flip, &picture, &c->side);
-    dip_flip_compare(&c->flip, &c->truth_side, &c->side, c->map);
+    dip_flip_compare(&c->flip, &picture, &c->truth_side, c->map);
     for (size_t i = 0; i < pixel_count(c); i++) {
         map[i] = (uint8_t)(255.0f * c->map[i] + 0.5f);
     }

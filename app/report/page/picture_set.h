@@ -50,7 +50,6 @@ typedef struct DipCostCutter {
     const DipCostFrameSource *source; // Borrowed.
     DipFlip flip;
     DipFlipAnalysis truth_side;
-    DipFlipAnalysis side;
     uint8_t *truth;  // The truth's pixels, rgba8.
     uint8_t *frames; // Frames, [picture of the set][pixel], rgba8.
     uint8_t *maps;   // FLIP maps in 1/255, [picture of the set][pixel].

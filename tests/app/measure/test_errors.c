@@ -199,10 +199,11 @@ static float errors[FRAMES][VALUES];
 static DipFlickerResult flicker_of(int frames) {
     DipFlicker flicker;
     assert_true(dip_flicker_init(&flicker, VALUES));
-    dip_flicker_add(&flicker, errors[3]);
+    dip_flicker_add(&flicker, errors[3], VALUES);
     dip_flicker_restart(&flicker);
     for (int t = 0; t < frames; t++) {
-        dip_flicker_add(&flicker, errors[t]);
+        dip_flicker_add(&flicker, errors[t], VALUES / 3); // A frame may come in parts.
+        dip_flicker_add(&flicker, errors[t] + VALUES / 3, VALUES - VALUES / 3);
     }
     const DipFlickerResult result = dip_flicker_result(&flicker);
     dip_flicker_free(&flicker);

@@ -28,17 +28,14 @@ static void expect(const char *what, double found, double expected) {
 static double compare(int width, int height, double pixels_per_degree, DipPatternCode *a,
                       DipPatternCode *b) {
     DipFlip flip;
-    DipFlipAnalysis sides[2];
+    DipFlipAnalysis analysis;
     dip_pattern_fill(&truth, width, height, a);
     dip_pattern_fill(&test, width, height, b);
     assert_true(dip_flip_init(&flip, width, height, pixels_per_degree));
-    assert_true(dip_flip_analysis_init(&flip, &sides[0]) &&
-                dip_flip_analysis_init(&flip, &sides[1]));
-    dip_flip_analyse(&flip, &truth.picture, &sides[0]);
-    dip_flip_analyse(&flip, &test.picture, &sides[1]);
-    dip_flip_compare(&flip, &sides[0], &sides[1], map);
-    dip_flip_analysis_free(&sides[0]);
-    dip_flip_analysis_free(&sides[1]);
+    assert_true(dip_flip_analysis_init(&flip, &analysis));
+    dip_flip_analyse(&flip, &truth.picture, &analysis);
+    dip_flip_compare(&flip, &test.picture, &analysis, map);
+    dip_flip_analysis_free(&analysis);
     dip_flip_free(&flip);
     return dip_map_mean(dip_map_sum(map, (size_t)(width * height), (DipPixelMask){0}));
 }

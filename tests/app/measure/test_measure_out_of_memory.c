@@ -39,20 +39,19 @@ static bool out_of_memory(DipError *err) {
 
 typedef struct Metering {
     DipMeter meter;
-    DipFlipAnalysis analysis;
     DipMetricSums sums;
     DipMetricSums expected;
 } Metering;
 
 static bool init_meter(void *context, DipError *err) {
     Metering *m = context;
-    return dip_meter_init(&m->meter, WIDTH, HEIGHT, 67.0) || out_of_memory(err);
+    return dip_meter_init(&m->meter, DIP_METER_BURSTS, WIDTH, HEIGHT, 67.0) || out_of_memory(err);
 }
 
 static bool judge(void *context, DipError *err) {
     Metering *m = context;
     const DipSrgbPicture test = picture(0);
-    const DipMeterStandard standard = {picture(1), light, &m->analysis, classes};
+    const DipMeterStandard standard = {picture(1), light, NULL, classes};
     m->sums = (DipMetricSums){0};
     dip_meter_begin_burst(&m->meter);
     const bool judged = dip_meter_add(&m->meter, &test, NULL, &standard, &m->sums);
@@ -60,26 +59,12 @@ static bool judge(void *context, DipError *err) {
     return judged || out_of_memory(err);
 }
 
-static bool init_analysis(void *context, DipError *err) {
-    Metering *m = context;
-    return dip_flip_analysis_init(&m->meter.flip, &m->analysis) || out_of_memory(err);
-}
-
 static void must_init_meter(void *context) {
     assert_true(init_meter(context, NULL));
 }
 
-static void must_init_all(void *context) {
-    Metering *m = context;
-    const DipSrgbPicture standard = picture(1);
-    must_init_meter(context);
-    assert_true(init_analysis(context, NULL));
-    dip_flip_analyse(&m->meter.flip, &standard, &m->analysis);
-}
-
 static void free_metering(void *context) {
     Metering *m = context;
-    dip_flip_analysis_free(&m->analysis);
     dip_meter_free(&m->meter);
 }
 
@@ -97,19 +82,13 @@ static void meter_says_that_memory_ran_out(void **state) {
                                               .run = init_meter,
                                               .finish = free_metering,
                                               .needs_every_allocation = true});
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "an analysis for FLIP",
-                                              .context = &m,
-                                              .prepare = must_init_meter,
-                                              .run = init_analysis,
-                                              .finish = free_metering,
-                                              .needs_every_allocation = true});
-    must_init_all(&m);
+    must_init_meter(&m);
     assert_true(judge(&m, NULL));
     m.expected = m.sums;
     free_metering(&m);
     dip_out_of_memory_check(&(DipOutOfMemory){.name = "all metrics of a picture",
                                               .context = &m,
-                                              .prepare = must_init_all,
+                                              .prepare = must_init_meter,
                                               .run = judge,
                                               .check = check_sums,
                                               .finish = free_metering,
@@ -136,9 +115,8 @@ static bool go_on(void *context, double done) {
     return true;
 }
 
-static bool get_truth(void *context, DipError *err) {
-    (void)context;
-    const DipTruthDef def = {
+static DipTruthDef make_def(void) {
+    return (DipTruthDef){
         .reference = fixture.reference,
         .scene_hash = "0123456789abcdef0123456789abcdef",
         .pose = fixture.scene.pose,
@@ -147,7 +125,29 @@ static bool get_truth(void *context, DipError *err) {
         .samples = 4,
         .pixels_per_degree = 67.0,
     };
+}
+
+static bool get_truth(void *context, DipError *err) {
+    (void)context;
+    const DipTruthDef def = make_def();
     return dip_truth_get(&fixture.truth, &def, fixture.cache, fixture.pool, go_on, NULL, err);
+}
+
+// A live truth is complete even if it cannot be stored.
+static bool get_live_truth(void *context, DipError *err) {
+    (void)context;
+    const DipTruthDef def = make_def();
+    DipTruthJob *job = dip_truth_job_create(&def, fixture.cache, NULL, true, err);
+    DipStep step = job ? DIP_STEP_WORKING : DIP_STEP_FAILED;
+    while (step == DIP_STEP_WORKING || step == DIP_STEP_RESULT) {
+        step = dip_truth_job_step(job, err);
+    }
+    const bool same =
+        step == DIP_STEP_FAILED ||
+        memcmp(dip_truth_job_truth(job)->rgba8, fixture.expected, sizeof fixture.expected) == 0;
+    dip_truth_job_destroy(&job);
+    assert_true(same);
+    return step == DIP_STEP_DONE;
 }
 
 static void forget_file(void *context) {
@@ -196,6 +196,10 @@ static void truth_is_drawn_whole_or_not_at_all(void **state) {
     operation.name = "a truth from the cache";
     operation.prepare = NULL;
     dip_out_of_memory_check(&operation);
+    dip_out_of_memory_check(
+        &(DipOutOfMemory){.name = "a live truth", .prepare = forget_file, .run = get_live_truth});
+    assert_true(get_truth(NULL, NULL)); // The file exists again.
+    dip_truth_free(&fixture.truth);
     dip_pool_destroy(&fixture.pool);
     dip_reference_destroy(&fixture.reference);
     dip_test_scene_free(&fixture.scene);

@@ -52,6 +52,25 @@ static void check_same(const DipTruth *a, const DipTruth *b) {
     assert_memory_equal(&a->floor, &b->floor, sizeof a->floor);
 }
 
+static DipTruthJob *begin_live(const DipTruthDef *def, const char *cache) {
+    DipTruthJob *job = dip_truth_job_create(def, cache, NULL, true, NULL);
+    assert_non_null(job);
+    return job;
+}
+
+// Steps to the next truth. Returns the number of steps.
+static int step_to_truth(DipTruthJob *job) {
+    int steps = 0;
+    DipStep step;
+    do {
+        step = dip_truth_job_step(job, NULL);
+        steps++;
+    } while (step == DIP_STEP_WORKING);
+    assert_int_equal(step, DIP_STEP_RESULT);
+    assert_non_null(dip_truth_job_truth(job));
+    return steps;
+}
+
 static void empty_folder(bool corrupt) {
     DIR *folder = opendir(".");
     for (const struct dirent *entry; (entry = readdir(folder));) {
@@ -156,20 +175,119 @@ static void an_interrupted_truth_is_empty_and_not_cached(void **state) {
     empty_folder(false);
 }
 
+// A live truth is refined. Each of its levels is the truth of that number of samples.
+static void a_live_truth_is_refined(void **state) {
+    (void)state;
+    const DipTruthDef def = make_def(DIP_TRUTH_SAMPLES);
+    DipTruthJob *job = begin_live(&def, NULL);
+    int samples;
+    assert_null(dip_truth_job_truth(job));
+    for (int level = 0; level < DIP_TRUTH_LEVELS; level++) {
+        const DipTruthDef level_def = make_def(dip_truth_level_samples[level]);
+        DipTruth whole;
+        dip_truth_job_drawn(job, &samples);
+        assert_int_equal(samples, 2 * dip_truth_level_samples[level]);
+        assert_true(step_to_truth(job) > 4);
+        const DipTruth *truth = dip_truth_job_truth(job);
+        assert_int_equal(truth->samples, samples);
+        assert_true(get(&whole, &level_def, NULL));
+        assert_memory_equal(truth->rgb_lin, whole.rgb_lin, PIXELS * 3 * sizeof(float));
+        assert_memory_equal(truth->rgba8, whole.rgba8, PIXELS * 4);
+        assert_true(dip_truth_floor_rmse(&truth->floor, 0) ==
+                    dip_truth_floor_rmse(&whole.floor, 0));
+        if (level == DIP_TRUTH_LEVELS - 1) {
+            check_same(truth, &whole);
+        }
+        dip_truth_free(&whole);
+    }
+    dip_truth_job_drawn(job, &samples);
+    assert_int_equal(samples, 0);
+    assert_int_equal(dip_truth_job_step(job, NULL), DIP_STEP_DONE);
+    dip_truth_job_destroy(&job);
+    const DipTruthDef coarse = make_def(16);
+    job = begin_live(&coarse, NULL);
+    step_to_truth(job);
+    step_to_truth(job);
+    assert_int_equal(dip_truth_job_truth(job)->samples, 32);
+    assert_int_equal(dip_truth_job_step(job, NULL), DIP_STEP_DONE);
+    dip_truth_job_destroy(&job);
+}
+
+// A truth that a live job has drawn is found by others, and the other way round.
+static void live_truths_share_the_cache(void **state) {
+    (void)state;
+    const DipTruthDef def = make_def(16);
+    DipTruth found, made;
+    DipTruthJob *job = begin_live(&def, ".");
+    step_to_truth(job);
+    step_to_truth(job);
+    assert_int_equal(dip_truth_job_step(job, NULL), DIP_STEP_DONE);
+    assert_true(get(&found, &def, "."));
+    assert_int_equal(calls, 0);
+    check_same(dip_truth_job_truth(job), &found);
+    dip_truth_job_destroy(&job);
+    empty_folder(false);
+    assert_true(get(&made, &def, "."));
+    assert_true(calls > 0);
+    job = begin_live(&def, ".");
+    assert_int_equal(step_to_truth(job), 1);
+    check_same(dip_truth_job_truth(job), &made);
+    assert_int_equal(dip_truth_job_truth(job)->samples, 32);
+    assert_int_equal(dip_truth_job_step(job, NULL), DIP_STEP_DONE);
+    dip_truth_job_destroy(&job);
+    dip_truth_free(&made);
+    dip_truth_free(&found);
+    empty_folder(false);
+}
+
+// A live job that is dropped at any step leaves no file. It goes on if the folder is full or cannot
+// be written; other jobs fail.
+static void a_live_truth_does_without_the_cache(void **state) {
+    (void)state;
+    const DipTruthDef def = make_def(4);
+    DipTruth truth;
+    DipTruthJob *job = begin_live(&def, ".");
+    const int steps = step_to_truth(job);
+    dip_truth_job_destroy(&job);
+    for (int i = 1; i < steps; i += 3) {
+        job = begin_live(&def, ".");
+        for (int k = 0; k < i; k++) {
+            assert_int_equal(dip_truth_job_step(job, NULL), DIP_STEP_WORKING);
+        }
+        dip_truth_job_destroy(&job);
+    }
+    assert_true(get(&truth, &def, NULL));
+    char name[64];
+    snprintf(name, sizeof name, "truth-%s.bin", truth.key);
+    assert_int_not_equal(access(name, F_OK), 0);
+    FILE *large = fopen("truth-large.bin", "wb");
+    assert_true(large && ftruncate(fileno(large), ((off_t)1 << 30) + 1) == 0);
+    fclose(large);
+    job = begin_live(&def, ".");
+    step_to_truth(job);
+    assert_int_equal(dip_truth_job_step(job, NULL), DIP_STEP_DONE);
+    dip_truth_job_destroy(&job);
+    assert_int_not_equal(access(name, F_OK), 0);
+    job = begin_live(&def, "no/such/folder");
+    step_to_truth(job);
+    assert_int_equal(dip_truth_job_step(job, NULL), DIP_STEP_DONE);
+    dip_truth_job_destroy(&job);
+    dip_truth_free(&truth);
+    assert_false(get(&truth, &def, "no/such/folder"));
+    empty_folder(false);
+}
+
 // If a truth is compared with itself, the only error comes from rounding to 8-bit codes.
 static void a_truth_compared_with_itself_has_no_error(void **state) {
     (void)state;
     const DipTruthDef def = make_def(16);
     DipTruth truth;
     DipMeter meter;
-    DipFlipAnalysis side;
     DipMetricSums sums = {0};
     assert_true(get(&truth, &def, NULL));
-    assert_true(dip_meter_init(&meter, WIDTH, HEIGHT, def.pixels_per_degree));
-    assert_true(dip_flip_analysis_init(&meter.flip, &side));
+    assert_true(dip_meter_init(&meter, DIP_METER_PICTURES, WIDTH, HEIGHT, def.pixels_per_degree));
     const DipSrgbPicture picture = {truth.rgba8, (size_t)WIDTH * 4, WIDTH, HEIGHT};
-    dip_flip_analyse(&meter.flip, &picture, &side);
-    const DipMeterStandard standard = {picture, truth.rgb_lin, &side, truth.classes};
+    const DipMeterStandard standard = dip_truth_standard(&truth);
     assert_true(dip_meter_add(&meter, &picture, NULL, &standard, &sums));
     dip_meter_end_burst(&meter, &sums);
     const DipMetrics f = dip_metrics_of(&sums, 0);
@@ -182,7 +300,6 @@ static void a_truth_compared_with_itself_has_no_error(void **state) {
     }
     assert_true(parts == PIXELS);
     assert_true(dip_flicker_metrics_of(&sums).flicker == 0.0);
-    dip_flip_analysis_free(&side);
     dip_meter_free(&meter);
     dip_truth_free(&truth);
 }
@@ -193,6 +310,9 @@ int main(void) {
         cmocka_unit_test(different_truths_have_different_keys),
         cmocka_unit_test(the_floor_estimates_the_truths_own_error),
         cmocka_unit_test(an_interrupted_truth_is_empty_and_not_cached),
+        cmocka_unit_test(a_live_truth_is_refined),
+        cmocka_unit_test(live_truths_share_the_cache),
+        cmocka_unit_test(a_live_truth_does_without_the_cache),
         cmocka_unit_test(a_truth_compared_with_itself_has_no_error),
     };
     char folder[] = "/tmp/test_truth.XXXXXX";

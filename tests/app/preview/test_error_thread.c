@@ -1,9 +1,11 @@
 // Tests of the errors that are measured while the camera rests. The job's results are compared with
 // the truth and the meter of the cost report, and the thread's results with those of the job.
+#include "app/cost/scene_hash.h"
 #include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/meter.h"
 #include "app/measure/metrics/truth.h"
 #include "app/preview/live/error_thread.h"
+#include "app/report/report.h"
 #include "renderer/catalogue/scenes.h"
 
 #include <math.h>
@@ -11,9 +13,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -24,6 +28,8 @@ enum { WIDTH = 211, HEIGHT = 163, PIXELS = WIDTH * HEIGHT, STRIDE = 4 * WIDTH + 
 static DipTestScene scene;
 static DipReference *reference;
 static uint8_t pictures[DIP_PANE_COUNT][STRIDE * HEIGHT];
+
+static double viewing = DIP_FLIP_PIXELS_PER_DEGREE;
 
 static bool go_on(void *context, double done) {
     (void)context;
@@ -59,24 +65,25 @@ static DipStill make_still(bool copied) {
         .width = WIDTH,
         .height = HEIGHT,
         .stride_bytes = STRIDE,
+        .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
         .rgba8 = {pictures[0], copied ? NULL : pictures[1]},
     };
 }
 
 // Computes the metrics in the same way as the cost report.
-static DipMetrics measured_whole(const DipTruth *truth, const uint8_t *picture) {
+static DipMetricSums judged(const DipTruth *truth, const uint8_t *picture) {
     DipMeter meter;
-    DipFlipAnalysis side;
     DipMetricSums sums = {0};
-    assert_true(dip_meter_init(&meter, WIDTH, HEIGHT, DIP_FLIP_PIXELS_PER_DEGREE));
-    assert_true(dip_flip_analysis_init(&meter.flip, &side));
-    const DipSrgbPicture standing = {truth->rgba8, 4 * WIDTH, WIDTH, HEIGHT};
+    assert_true(dip_meter_init(&meter, DIP_METER_PICTURES, WIDTH, HEIGHT, viewing));
     const DipSrgbPicture test = {picture, STRIDE, WIDTH, HEIGHT};
-    dip_flip_analyse(&meter.flip, &standing, &side);
-    const DipMeterStandard standard = {standing, truth->rgb_lin, &side, truth->classes};
+    const DipMeterStandard standard = dip_truth_standard(truth);
     assert_true(dip_meter_add(&meter, &test, NULL, &standard, &sums));
-    dip_flip_analysis_free(&side);
     dip_meter_free(&meter);
+    return sums;
+}
+
+static DipMetrics measured_whole(const DipTruth *truth, const uint8_t *picture) {
+    const DipMetricSums sums = judged(truth, picture);
     return dip_metrics_of(&sums, 0);
 }
 
@@ -90,41 +97,41 @@ static void check_close(double value, double expected) {
                 fabs(value - expected) <= 1e-9 * expected); // PSNR may be infinite
 }
 
-static DipErrorJobStep step_to_news(DipErrorJob *job, int *steps) {
+static DipStep step_to_news(DipErrorJob *job, int *steps) {
     DipError err;
-    DipErrorJobStep step;
+    DipStep step;
     *steps = 0;
     do {
         step = dip_error_job_step(job, &err);
         ++*steps;
-    } while (step == DIP_ERROR_JOB_WORKING);
+    } while (step == DIP_STEP_WORKING);
     return step;
 }
 
 // At every level, the errors equal those of the cost report with the same number of samples.
 static void errors_equal_those_of_the_cost_report(void **state) {
     (void)state;
-    DipErrorJob *job = dip_error_job_create(reference, NULL);
+    DipErrorJob *job = dip_error_job_create(reference, "scene", NULL, NULL);
     const DipStill still = make_still(false);
     int steps;
     assert_non_null(job);
-    assert_true(dip_error_job_step(job, NULL) == DIP_ERROR_JOB_DONE);
+    assert_true(dip_error_job_step(job, NULL) == DIP_STEP_DONE);
     assert_true(dip_error_job_begin(job, &still, NULL));
     assert_int_equal(dip_error_job_result(job)->samples, 0);
-    for (int level = 0; level < DIP_ERROR_JOB_LEVELS; level++) {
-        assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_NEW_RESULT);
+    for (int level = 0; level < DIP_TRUTH_LEVELS; level++) {
+        assert_true(step_to_news(job, &steps) == DIP_STEP_RESULT);
         const DipErrorJobResult *result = dip_error_job_result(job);
-        DipTruth truth = truth_of(&scene.pose, dip_error_job_samples[level]);
-        assert_int_equal(result->samples, 2 * dip_error_job_samples[level]);
-        assert_true(result->last == (level == DIP_ERROR_JOB_LEVELS - 1));
+        DipTruth truth = truth_of(&scene.pose, dip_truth_level_samples[level]);
+        assert_int_equal(result->samples, 2 * dip_truth_level_samples[level]);
+        assert_true(result->last == (level == DIP_TRUTH_LEVELS - 1));
         for (int p = 0; p < DIP_PANE_COUNT; p++) {
             const DipMetrics figures = measured_whole(&truth, pictures[p]);
-            check_close(result->panes[p].rmse_lin, figures.rmse_lin);
-            check_close(result->panes[p].psnr_db, figures.psnr_db);
-            check_close(result->panes[p].flip, figures.flip);
+            assert_true(result->panes[p].rmse_lin == figures.rmse_lin);
+            assert_true(result->panes[p].psnr_db == figures.psnr_db);
+            assert_true(result->panes[p].flip == figures.flip);
             const double floor_rmse = dip_metrics_of(&truth.floor, 0).rmse_lin / 2.0;
             assert_true(result->panes[p].at_floor == (figures.rmse_lin < 3.0 * floor_rmse));
-            check_close(result->floor_rmse, floor_rmse);
+            assert_true(result->floor_rmse == floor_rmse);
             check_close(mean_of(dip_error_job_flip(job, p)), figures.flip);
         }
         assert_memory_equal(dip_error_job_truth(job), truth.rgba8, 4 * PIXELS);
@@ -132,7 +139,7 @@ static void errors_equal_those_of_the_cost_report(void **state) {
     }
     assert_true(dip_error_job_result(job)->panes[0].at_floor);
     assert_false(dip_error_job_result(job)->panes[1].at_floor);
-    assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_DONE && steps == 1);
+    assert_true(step_to_news(job, &steps) == DIP_STEP_DONE && steps == 1);
     dip_error_job_destroy(&job);
 }
 
@@ -140,23 +147,33 @@ static void errors_equal_those_of_the_cost_report(void **state) {
 // pose needs a new truth.
 static void a_truth_is_kept_until_the_pose_changes(void **state) {
     (void)state;
-    DipErrorJob *job = dip_error_job_create(reference, NULL);
+    DipErrorJob *job = dip_error_job_create(reference, "scene", NULL, NULL);
     DipStill still = make_still(true);
     int first, again;
     assert_true(dip_error_job_begin(job, &still, NULL));
-    assert_true(step_to_news(job, &first) == DIP_ERROR_JOB_NEW_RESULT);
+    assert_true(step_to_news(job, &first) == DIP_STEP_RESULT);
     const DipPaneError of_first = dip_error_job_result(job)->panes[0];
     assert_memory_equal(&of_first, &dip_error_job_result(job)->panes[1], sizeof of_first);
     still.rgba8[0] = pictures[1];
     assert_true(dip_error_job_begin(job, &still, NULL));
-    assert_true(step_to_news(job, &again) == DIP_ERROR_JOB_NEW_RESULT);
+    assert_true(step_to_news(job, &again) == DIP_STEP_RESULT);
     assert_true(again < first / 10);
-    assert_int_equal(dip_error_job_result(job)->samples, 2 * dip_error_job_samples[0]);
+    assert_int_equal(dip_error_job_result(job)->samples, 2 * dip_truth_level_samples[0]);
     assert_true(dip_error_job_result(job)->panes[0].flip > of_first.flip);
     still.pose.position_world[0] += 0.01;
     assert_true(dip_error_job_begin(job, &still, NULL));
-    assert_true(step_to_news(job, &again) == DIP_ERROR_JOB_NEW_RESULT);
+    assert_true(step_to_news(job, &again) == DIP_STEP_RESULT);
     assert_int_equal(again, first);
+    still.pixels_per_degree = 25.0; // FLIP and its floor are for another viewing distance.
+    assert_true(dip_error_job_begin(job, &still, NULL));
+    assert_true(step_to_news(job, &again) == DIP_STEP_RESULT);
+    assert_int_equal(again, first);
+    DipTruth truth = truth_of(&still.pose, dip_truth_level_samples[0]);
+    viewing = still.pixels_per_degree;
+    assert_true(dip_error_job_result(job)->panes[0].flip ==
+                measured_whole(&truth, pictures[1]).flip);
+    viewing = DIP_FLIP_PIXELS_PER_DEGREE;
+    dip_truth_free(&truth);
     dip_error_job_destroy(&job);
 }
 
@@ -164,17 +181,17 @@ static void a_truth_is_kept_until_the_pose_changes(void **state) {
 // affected.
 static void an_unjudged_pane_has_no_error(void **state) {
     (void)state;
-    DipErrorJob *job = dip_error_job_create(reference, NULL);
+    DipErrorJob *job = dip_error_job_create(reference, "scene", NULL, NULL);
     DipStill still = make_still(false);
     int steps;
     assert_true(dip_error_job_begin(job, &still, NULL));
-    assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_NEW_RESULT);
+    assert_true(step_to_news(job, &steps) == DIP_STEP_RESULT);
     const DipErrorJobResult both = *dip_error_job_result(job);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         still.unjudged[p] = true;
         still.unjudged[1 - p] = false;
         assert_true(dip_error_job_begin(job, &still, NULL));
-        assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_NEW_RESULT);
+        assert_true(step_to_news(job, &steps) == DIP_STEP_RESULT);
         const DipErrorJobResult *result = dip_error_job_result(job);
         assert_true(result->panes[p].unjudged && result->panes[p].flip == 0.0);
         assert_null(dip_error_job_flip(job, p));
@@ -184,8 +201,43 @@ static void an_unjudged_pane_has_no_error(void **state) {
     }
     still.unjudged[0] = still.unjudged[1] = true;
     assert_true(dip_error_job_begin(job, &still, NULL));
-    assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_NEW_RESULT && steps == 1);
-    assert_int_equal(dip_error_job_result(job)->samples, 2 * dip_error_job_samples[0]);
+    assert_true(step_to_news(job, &steps) == DIP_STEP_RESULT && steps == 1);
+    assert_int_equal(dip_error_job_result(job)->samples, 2 * dip_truth_level_samples[0]);
+    dip_error_job_destroy(&job);
+}
+
+// Returns whether a report that holds this picture says that its error is at the floor.
+static bool report_says_at_floor(const DipTruth *truth, const uint8_t *picture) {
+    DipMetricSums sums = judged(truth, picture), floor = truth->floor;
+    bool known = true;
+    DipCostRow row = {.viewpoints = &sums, .judged = &known};
+    const DipCostReport report = {.options = {.places = 1},
+                                  .rows = &row,
+                                  .row_count = 1,
+                                  .path_count = 1,
+                                  .floors = &floor,
+                                  .has_floor = &known};
+    return dip_cost_at_floor(&report, 0);
+}
+
+static void the_floor_is_that_of_a_report(void **state) {
+    (void)state;
+    static uint8_t noisy[STRIDE * HEIGHT];
+    DipErrorJob *job = dip_error_job_create(reference, "scene", NULL, NULL);
+    DipStill still = make_still(true);
+    DipTruth truth = truth_of(&scene.pose, dip_truth_level_samples[0]);
+    int steps, at_floor = 0;
+    still.rgba8[0] = noisy;
+    for (int noise = 0; noise < 20; noise++) {
+        fill_picture(&truth, 6 * noise, noisy);
+        assert_true(dip_error_job_begin(job, &still, NULL));
+        assert_true(step_to_news(job, &steps) == DIP_STEP_RESULT);
+        const bool found = dip_error_job_result(job)->panes[0].at_floor;
+        assert_int_equal(found, report_says_at_floor(&truth, noisy));
+        at_floor += found;
+    }
+    assert_in_range(at_floor, 2, 18);
+    dip_truth_free(&truth);
     dip_error_job_destroy(&job);
 }
 
@@ -209,7 +261,7 @@ static DipErrorReading await(DipErrorThread *thread, DipErrorStatus status) {
 
 static DipErrorThread *make_thread(void) {
     const DipReflectionDef none = {0};
-    DipErrorThread *thread = dip_error_thread_create(&scene.def, &none, NULL);
+    DipErrorThread *thread = dip_error_thread_create(&scene.def, &none, NULL, NULL);
     assert_non_null(thread);
     return thread;
 }
@@ -238,6 +290,49 @@ static void the_thread_answers_once_per_still(void **state) {
     assert_null(thread);
 }
 
+static bool refuse(void *context, double done) {
+    (void)context;
+    (void)done;
+    return false;
+}
+
+// The preview and `diptych cost` find each other's truths.
+static void the_cache_is_that_of_a_report(void **state) {
+    (void)state;
+    char folder[] = "/tmp/test_error_thread.XXXXXX", file[100];
+    const DipReflectionDef none = {0};
+    const DipStill still = make_still(false);
+    DipTruthDef def = {.reference = reference,
+                       .pose = scene.pose,
+                       .width = WIDTH,
+                       .height = HEIGHT,
+                       .samples = DIP_TRUTH_SAMPLES,
+                       .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE};
+    DipTruth truth;
+    char hash[33];
+    int steps;
+    assert_non_null(mkdtemp(folder));
+    dip_cost_scene_hash(&scene.def, &none, hash);
+    def.scene_hash = hash;
+    DipErrorThread *thread = dip_error_thread_create(&scene.def, &none, folder, NULL);
+    dip_error_thread_measure(thread, &still, 1);
+    await(thread, DIP_ERROR_STATUS_DONE);
+    dip_error_thread_destroy(&thread);
+    assert_true(dip_truth_get(&truth, &def, folder, NULL, refuse, NULL, NULL));
+    snprintf(file, sizeof file, "%s/truth-%s.bin", folder, truth.key);
+    assert_int_equal(remove(file), 0);
+    dip_truth_free(&truth);
+    assert_true(dip_truth_get(&truth, &def, folder, NULL, go_on, NULL, NULL));
+    DipErrorJob *job = dip_error_job_create(reference, hash, folder, NULL);
+    assert_true(dip_error_job_begin(job, &still, NULL));
+    assert_true(step_to_news(job, &steps) == DIP_STEP_RESULT);
+    assert_true(dip_error_job_result(job)->last);
+    assert_memory_equal(dip_error_job_truth(job), truth.rgba8, 4 * PIXELS);
+    dip_truth_free(&truth);
+    dip_error_job_destroy(&job);
+    assert_int_equal(remove(file) | rmdir(folder), 0);
+}
+
 static uint32_t sum_bins(const DipErrorSpread *spread) {
     uint32_t sum = 0;
     for (int i = 0; i < DIP_ERROR_BINS; i++) {
@@ -259,7 +354,7 @@ static void the_pictures_belong_to_the_last_still(void **state) {
     assert_non_null(found);
     assert_true(found->width == WIDTH && found->height == HEIGHT);
     assert_true(found->result.last);
-    DipTruth truth = truth_of(&scene.pose, dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1]);
+    DipTruth truth = truth_of(&scene.pose, dip_truth_level_samples[DIP_TRUTH_LEVELS - 1]);
     assert_memory_equal(found->truth_rgba8, truth.rgba8, 4 * PIXELS);
     dip_truth_free(&truth);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -312,7 +407,7 @@ static void the_thread_drops_stills_that_are_replaced(void **state) {
     still = make_still(false);
     dip_error_thread_measure(thread, &still, 41);
     reading = await(thread, DIP_ERROR_STATUS_DONE);
-    DipTruth truth = truth_of(&scene.pose, dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1]);
+    DipTruth truth = truth_of(&scene.pose, dip_truth_level_samples[DIP_TRUTH_LEVELS - 1]);
     check_close(reading.result.panes[1].flip, measured_whole(&truth, pictures[1]).flip);
     dip_truth_free(&truth);
     dip_error_thread_destroy(&thread);
@@ -337,6 +432,8 @@ int main(void) {
         cmocka_unit_test(errors_equal_those_of_the_cost_report),
         cmocka_unit_test(a_truth_is_kept_until_the_pose_changes),
         cmocka_unit_test(an_unjudged_pane_has_no_error),
+        cmocka_unit_test(the_floor_is_that_of_a_report),
+        cmocka_unit_test(the_cache_is_that_of_a_report),
         cmocka_unit_test(the_thread_answers_once_per_still),
         cmocka_unit_test(the_pictures_belong_to_the_last_still),
         cmocka_unit_test(the_thread_drops_stills_that_are_replaced),

@@ -20,7 +20,7 @@
 #include <cmocka.h>
 
 // No label and no notice covers the rows FIRST_ROW..LAST_ROW.
-enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 230 };
+enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 200 };
 enum { PANE_BYTES = 4 * 200 * (LAST_ROW - FIRST_ROW) };
 
 static DipTestScene scene;

@@ -1,5 +1,6 @@
 // Tests of prices: from reports with made-up times, whose prices are computed by hand, and from
 // rough times.
+#include "app/measure/metrics/flip.h"
 #include "app/preview/prices/price_text.h"
 #include "app/preview/prices/prices.h"
 #include "tests/app/cost/made_report.h"
@@ -373,6 +374,24 @@ static void the_source_names_what_differs(void **state) {
     assert_string_equal(text, "Prices: rep");
 }
 
+// The panes' FLIP is for the viewing distance of the report, unless the user wants another one.
+static void live_and_report_flip_share_pixels_per_degree(void **state) {
+    (void)state;
+    prices = dip_prices_create(NULL);
+    assert_true(dip_prices_viewing(prices) == DIP_FLIP_PIXELS_PER_DEGREE);
+    report.options.pixels_per_degree = 37.9;
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    assert_true(dip_prices_set_report(prices, &report, NULL));
+    assert_true(dip_prices_viewing(prices) == 37.9);
+    assert_false(dip_prices_source(prices, 64, 48, text, sizeof text));
+    dip_prices_set_viewing(prices, 94.2);
+    assert_true(dip_prices_viewing(prices) == 94.2);
+    assert_true(dip_prices_source(prices, 64, 48, text, sizeof text));
+    assert_string_equal(text,
+                        "Prices: report of this scene, path DEFAULT, 64x48, 2 threads. FLIP of "
+                        "the panes is for 94.2 pixels per degree, that of the report for 37.9.");
+}
+
 static void prices_of_a_busy_machine_are_marked(void **state) {
     (void)state;
     assert_true(dip_cost_estimate_times(&report, NULL));
@@ -543,6 +562,7 @@ int main(void) {
         TEST(pictures_that_are_the_same_have_one_price),
         TEST(a_report_without_truth_or_times_has_the_other),
         TEST(the_source_names_what_differs),
+        TEST(live_and_report_flip_share_pixels_per_degree),
         TEST(prices_of_a_busy_machine_are_marked),
         TEST(rough_prices_are_differences_of_whole_times),
         TEST(doubtful_times_are_written_with_one_digit),
