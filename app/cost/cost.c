@@ -3,6 +3,7 @@
 #include "app/cost/cost.h"
 
 #include "app/cost/drawn_frames.h"
+#include "app/report/format/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/report/page/report_pictures.h"
@@ -112,8 +113,8 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     if (done) {
         set_date(report);
         const DipCostFrameSource source = dip_cost_drawn_frames(&cost);
-        done =
-            save_truths(&cost, err) && dip_cost_write_report(report, &source, arguments->out, err);
+        done = save_truths(&cost, err) && dip_cost_analyse(report, err) &&
+               dip_cost_write_report(report, &source, arguments->out, err);
     }
     dip_cost_context_close(&cost);
     dip_cost_journal_close(&journal, done);

@@ -34,3 +34,18 @@ bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes
     free(temporary);
     return written;
 }
+
+bool dip_whole_file_print(const char *file, bool (*print)(const void *context, FILE *out),
+                          const void *context, DipError *err) {
+    char *text = NULL;
+    size_t size_bytes = 0;
+    FILE *out = open_memstream(&text, &size_bytes);
+    bool made = out && print(context, out) && !ferror(out);
+    made =
+        out && fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
+    const bool written = made
+                             ? dip_whole_file_write(file, text, size_bytes, err)
+                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    free(text);
+    return written;
+}

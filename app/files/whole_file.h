@@ -5,10 +5,16 @@
 #include "renderer/base/error.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 // Writes to a temporary file beside `file` and renames it, so that a half-written file never has
 // the final name. On failure, *err has DIP_ERROR_IO, the file's name and the system's reason, and
 // no temporary file is left. Thread-safe for different files.
 bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes, DipError *err);
+
+// Writes what `print` prints. Fails with DIP_ERROR_MEMORY, too: if memory runs out, or if `print`
+// returns false.
+bool dip_whole_file_print(const char *file, bool (*print)(const void *context, FILE *out),
+                          const void *context, DipError *err);
 
 #endif

@@ -83,6 +83,7 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->has_floor);
     free(report->predicted.list);
     dip_cost_choice_free(&report->choice);
+    free(report->analysis);
     dip_times_fit_free(&report->fit);
     free(report->log);
     *report = (DipCostReport){0};

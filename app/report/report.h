@@ -209,6 +209,7 @@ typedef struct DipCostReport {
     int smaller_count; // 0 if they were not timed.
     int smaller_width; // Pixels.
     int smaller_height;
+    struct DipCostAnalysis *analysis; // Owned; NULL until dip_cost_analyse (analysis.h).
 } DipCostReport;
 
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in

@@ -320,7 +320,7 @@ expect 2 "\[--pictures\] 'all' is not crops, full or none" "$diptych" cost --out
 expect 2 "\[cost merge\] there are no parts to join; give the cost.json of each" "$diptych" cost merge --out x
 expect 2 'none.json: cannot open report' "$diptych" cost merge --out x none.json
 echo '{}' >empty.json
-expect 2 'empty.json: \[header\] is missing' "$diptych" cost merge --out x empty.json
+expect 2 'empty.json: \[version\] is missing' "$diptych" cost merge --out x empty.json
 rm -rf x
 expect 0 '' "$diptych" cost --help
 check "help on cost gives examples" grep -q 'cost merge --out report' out.txt
@@ -382,7 +382,7 @@ expect 2 "\[cost diff\] there is nothing to compare; give two reports or program
 expect 2 "\[c\] is one argument too many" "$diptych" cost diff a b c
 expect 2 "\[--fail-over\] '3' is not a share from 0.1% to 1000%" "$diptych" cost diff once part0 --fail-over 3
 expect 2 'none.json: \[cost diff\] cannot be opened' "$diptych" cost diff once none.json
-expect 2 'empty.json: \[header\] is missing' "$diptych" cost diff once empty.json
+expect 2 'empty.json: \[version\] is missing' "$diptych" cost diff once empty.json
 head -c 3000 once/cost.json >broken.json
 expect 2 'broken.json: is not a JSON file' "$diptych" cost diff broken.json once
 expect 2 "\[cost diff\] /bin/true has ended" "$diptych" cost diff /bin/true .
@@ -394,7 +394,7 @@ check "the comparison is there as JSON" grep -q '"failed_errors":' same.json
 sed 's/"samples":4,/"samples":9,/' once/cost.json >else.json
 expect 0 '' "$diptych" cost diff one-thread else.json
 check "reports with other truths are not compared" grep -q 'errors are not compared: A has 2 viewpoints' out.txt
-sed -E '1s/("sums":\[[0-9.]+,)([0-9.]+)/\199\2/' one-thread/cost.json >worse.json
+sed -E '0,/"sums":/s/("sums":\[[0-9.]+,)([0-9.]+)/\199\2/' one-thread/cost.json >worse.json
 expect 1 '\[--fail-over\] 0 rows are slower and 1 have a greater error in worse.json, by more than 3 %' \
     "$diptych" cost diff one-thread worse.json --fail-over 3%
 duel="--model $source/tests/assets/data/square.gltf --starts 2 --rounds 2"

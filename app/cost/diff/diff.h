@@ -8,6 +8,7 @@
 #define DIP_APP_COST_DIFF_DIFF_H
 
 #include "app/measure/timing/sample.h"
+#include "app/report/format/fields.h"
 #include "app/report/report.h"
 
 #include <stdbool.h>
@@ -136,6 +137,7 @@ bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCo
 bool dip_cost_diff_print(const DipCostDiff *diff, FILE *out, DipError *err);
 
 // Writes the comparison to a JSON file.
+extern const DipRecord dip_cost_diff_record; // DipCostDiff
 bool dip_cost_diff_write_json(const DipCostDiff *diff, const char *file, DipError *err);
 
 #ifdef __cplusplus

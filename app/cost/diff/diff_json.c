@@ -1,120 +1,189 @@
-// Writing a comparison as JSON.
+// The fields of a comparison, and its JSON.
 #include "app/cost/diff/diff.h"
-#include "app/report/format/json_memory.h"
 #include "app/files/whole_file.h"
+#include "app/report/format/cost_fields.h"
 
-#include <cjson/cJSON.h>
-#include <math.h>
 #include <string.h>
 
 static const char *const mark_names[] = {"same", "slower", "faster"};
 
-// Takes ownership of an item, even if memory runs out.
-static void add_to_array(cJSON *array, cJSON *item) {
-    if (!cJSON_AddItemToArray(array, item)) {
-        cJSON_Delete(item);
-    }
+// The context of all items is the DipCostDiff.
+static const DipCostDiff *diff_of(const DipFieldAt *at) {
+    return at->context;
 }
 
-// JSON has no infinity: a bound that is not finite is left out.
-static void add_number(cJSON *to, const char *name, double value) {
-    if (isfinite(value)) {
-        cJSON_AddNumberToObject(to, name, value);
-    }
+static bool has_times(const DipFieldAt *at) {
+    return diff_of(at)->has_times;
 }
 
-static void add_estimate(cJSON *to, const char *name, const DipEstimate *estimate) {
-    cJSON *object = cJSON_AddObjectToObject(to, name);
-    add_number(object, "value", estimate->value);
-    add_number(object, "low", estimate->low);
-    add_number(object, "high", estimate->high);
+// --- sides: the item is the name's pointer -------------------------------------------------------
+
+#define OF_SIDE(name, value)                                                                       \
+    static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
+        (void)scratch;                                                                             \
+        return value;                                                                              \
+    }
+OF_SIDE(derive_name, diff_of(at)->names[at->index])
+OF_SIDE(derive_build, diff_of(at)->builds[at->index])
+OF_SIDE(derive_machine, diff_of(at)->machines[at->index])
+OF_SIDE(derive_verdict, dip_cost_verdict_names[diff_of(at)->verdicts[at->index]])
+OF_SIDE(derive_reason, diff_of(at)->reasons[at->index])
+
+static const DipField side_fields[] = {
+    {"name", NULL, NULL, "As on the command line.", DIP_DERIVED(TEXT, derive_name)},
+    {"build", NULL, NULL, "Hash of the program's file.", DIP_DERIVED(TEXT, derive_build)},
+    {"machine", NULL, NULL, "Processor, threads and instruction set.",
+     DIP_DERIVED(TEXT, derive_machine)},
+    {"verdict", NULL, NULL, "How quiet the machine was; null without times.",
+     DIP_DERIVED(TEXT, derive_verdict), .known = has_times},
+    {"reason", NULL, NULL, "What the verdict comes from.", DIP_DERIVED(TEXT, derive_reason),
+     .known = has_times},
+};
+static const DipRecord side_record =
+    DIP_RECORD("side", "A report or a program.", side_fields, char *, NULL);
+
+static int count_sides(const DipFieldAt *at) {
+    (void)at;
+    return 2;
 }
 
-static void add_sides(cJSON *root, const DipCostDiff *diff) {
-    cJSON *sides = cJSON_AddArrayToObject(root, "sides");
-    for (int side = 0; side < 2; side++) {
-        cJSON *object = cJSON_CreateObject();
-        cJSON_AddStringToObject(object, "name", diff->names[side]);
-        cJSON_AddStringToObject(object, "build", diff->builds[side]);
-        cJSON_AddStringToObject(object, "machine", diff->machines[side]);
-        if (diff->has_times) {
-            cJSON_AddStringToObject(object, "verdict",
-                                    dip_cost_verdict_names[diff->verdicts[side]]);
-            cJSON_AddStringToObject(object, "reason", diff->reasons[side]);
-        }
-        add_to_array(sides, object);
-    }
+// --- differences ---------------------------------------------------------------------------------
+
+typedef struct Difference {
+    const char *quantity;
+    double a, b, growth;
+} Difference;
+
+static const void *derive_quantity(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return ((const Difference *)at->item)->quantity;
 }
 
-static void add_times(cJSON *object, const DipCostDiff *diff, const DipCostDiffRow *row) {
-    cJSON_AddStringToObject(object, "mark", mark_names[row->mark]);
-    add_number(object, "a_ms", row->ms[0]);
-    add_number(object, "b_ms", row->ms[1]);
-    add_estimate(object, "change", &row->change);
-    if (diff->kind == DIP_COST_DIFF_REPORTS) {
-        add_estimate(object, "a_ratio", &row->ratios[0]);
-        add_estimate(object, "b_ratio", &row->ratios[1]);
-        return;
-    }
-    cJSON *stages = cJSON_AddObjectToObject(object, "stages");
-    for (int stage = 0; stage < DIP_COST_DIFF_STAGES; stage++) {
-        add_estimate(stages, dip_bench_stage_names[stage], &row->stages[stage]);
-    }
-}
+static const DipField difference_fields[] = {
+    {"quantity", NULL, NULL, "What differs.", DIP_DERIVED(TEXT, derive_quantity)},
+    {"a", NULL, NULL, "Its value in A.", DIP_FACT(NUMBER, Difference, a)},
+    {"b", NULL, NULL, "Its value in B.", DIP_FACT(NUMBER, Difference, b)},
+    {"growth", NULL, NULL, "By what share it grew from A to B; of PSNR and SSIM, the error.",
+     DIP_FACT(NUMBER, Difference, growth)},
+};
+static const DipRecord difference_record =
+    DIP_RECORD("difference", "A quantity that differs.", difference_fields, Difference, NULL);
 
-static void add_differences(cJSON *object, const DipCostDiffRow *row) {
-    cJSON *array = cJSON_AddArrayToObject(object, "differences");
+static int count_differences(const DipFieldAt *at) {
+    int count = 0;
     for (int q = 0; q < DIP_COST_DIFF_QUANTITY_COUNT; q++) {
-        if (dip_cost_diff_differs(row, q)) {
-            cJSON *difference = cJSON_CreateObject();
-            cJSON_AddStringToObject(difference, "quantity", dip_cost_diff_title(q));
-            add_number(difference, "a", row->values[0][q]);
-            add_number(difference, "b", row->values[1][q]);
-            add_number(difference, "growth", dip_cost_diff_growth(row, q));
-            add_to_array(array, difference);
-        }
+        count += dip_cost_diff_differs(at->item, q);
     }
+    return count;
 }
 
-static void add_rows(cJSON *root, const DipCostDiff *diff) {
-    cJSON *rows = cJSON_AddArrayToObject(root, "rows");
-    for (int r = 0; r < diff->row_count; r++) {
-        const DipCostDiffRow *row = &diff->rows[r];
-        char settings[DIP_COST_TEXT];
-        cJSON *object = cJSON_CreateObject();
-        dip_cost_settings_text(&row->quality, settings);
-        cJSON_AddStringToObject(object, "settings", settings);
-        cJSON_AddStringToObject(object, "path", row->path);
-        if (row->timed) {
-            add_times(object, diff, row);
-        }
-        add_differences(object, row);
-        add_to_array(rows, object);
+static const void *get_difference(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    const DipCostDiffRow *row = at->item;
+    int q = 0;
+    for (int left = index; left > 0 || !dip_cost_diff_differs(row, q); q++) {
+        left -= dip_cost_diff_differs(row, q);
     }
+    *(Difference *)scratch = (Difference){dip_cost_diff_title(q), row->values[0][q],
+                                          row->values[1][q], dip_cost_diff_growth(row, q)};
+    return scratch;
+}
+
+static const DipFieldList difference_list = {
+    .record = &difference_record, .count = count_differences, .item = get_difference};
+
+// --- rows ----------------------------------------------------------------------------------------
+
+static bool is_timed(const DipFieldAt *at) {
+    return ((const DipCostDiffRow *)at->item)->timed;
+}
+
+static bool has_ratios(const DipFieldAt *at) {
+    return is_timed(at) && diff_of(at)->kind == DIP_COST_DIFF_REPORTS;
+}
+
+static bool has_stages(const DipFieldAt *at) {
+    return is_timed(at) && diff_of(at)->kind == DIP_COST_DIFF_PROGRAMS;
+}
+
+static const void *derive_settings(const DipFieldAt *at, DipFieldScratch *scratch) {
+    dip_cost_settings_text(&((const DipCostDiffRow *)at->item)->quality, scratch->text);
+    return scratch->text;
+}
+
+#define STAGE(name, text)                                                                          \
+    {#name, NULL, NULL, "Of " text ".",                                                            \
+     DIP_FACT(ESTIMATE, DipCostDiffRow, stages[DIP_BENCH_STAGE_##name])},
+static const DipField stage_fields[] = {DIP_STAGE_LIST(STAGE)};
+static const DipRecord stage_record = DIP_RECORD(
+    "stages of a row", "1 + (B's time in the stage - A's time in it) / A's time of the frame.",
+    stage_fields, DipCostDiffRow, NULL);
+
+#define ROW(KIND, member) DIP_FACT(KIND, DipCostDiffRow, member)
+static const DipField row_fields[] = {
+    {"settings", NULL, NULL, "The settings that are off their defaults.",
+     DIP_DERIVED(TEXT, derive_settings)},
+    {"path", NULL, NULL, "The camera path.", ROW(TEXT, path)},
+    {"mark", NULL, NULL, "Whether B is the same, surely slower or surely faster.", ROW(NAMED, mark),
+     .names = mark_names, .known = is_timed},
+    {"a_ms", NULL, "ms", "Mean time of a frame in A.", ROW(NUMBER, ms[0]), .known = is_timed},
+    {"b_ms", NULL, "ms", "Mean time of a frame in B.", ROW(NUMBER, ms[1]), .known = is_timed},
+    {"change", NULL, NULL, "How many times as long B takes.", ROW(ESTIMATE, change),
+     .known = is_timed},
+    {"a_ratio", NULL, NULL, "A's time divided by its baseline's; reports only.",
+     ROW(ESTIMATE, ratios[0]), .known = has_ratios},
+    {"b_ratio", NULL, NULL, "B's time divided by its baseline's; reports only.",
+     ROW(ESTIMATE, ratios[1]), .known = has_ratios},
+    {"stages", NULL, NULL, "The change in each stage; programs only.", .kind = DIP_FIELD_RECORD,
+     .where = DIP_FIELD_JSON, .record = &stage_record, .known = has_stages},
+    {"differences", NULL, NULL, "Errors, pictures and counters that differ.",
+     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON, .list = &difference_list},
+};
+static const DipRecord row_record =
+    DIP_RECORD("row", "Settings that both sides have.", row_fields, DipCostDiffRow, NULL);
+
+static const void *derive_busy(const DipFieldAt *at, DipFieldScratch *scratch) {
+    *(bool *)scratch = dip_cost_diff_is_busy(diff_of(at));
+    return scratch;
+}
+
+#define DIFF(KIND, member) DIP_FACT(KIND, DipCostDiff, member)
+static const DipField note_element = {.kind = DIP_FIELD_TEXT, .size = DIP_COST_DIFF_NOTE};
+static const DipField diff_fields[] = {
+    {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
+    {"sides", NULL, NULL, "A and B.", .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON,
+     .list = &(const DipFieldList){.record = &side_record,
+                                   .items = offsetof(DipCostDiff, names),
+                                   .count = count_sides}},
+    {"notes", NULL, NULL, "Differences of a whole side.", .kind = DIP_FIELD_LIST,
+     .where = DIP_FIELD_JSON,
+     .list = &(const DipFieldList){.element = &note_element,
+                                   .items = offsetof(DipCostDiff, notes),
+                                   .counted = offsetof(DipCostDiff, note_count)}},
+    {"busy", NULL, NULL, "Whether a machine was too busy for its times to be believed.",
+     DIP_DERIVED(FLAG, derive_busy)},
+    {"slower", NULL, NULL, "Number of rows that are surely slower in B.", DIFF(WHOLE, slower)},
+    {"faster", NULL, NULL, "Number of rows that are surely faster in B.", DIFF(WHOLE, faster)},
+    {"failed_times", NULL, NULL, "Number of rows that are slower by more than --fail-over.",
+     DIFF(WHOLE, failed_times)},
+    {"failed_errors", NULL, NULL, "Number of rows whose error grew by more than --fail-over.",
+     DIFF(WHOLE, failed_errors)},
+    {"cause", NULL, NULL, "The likely cause of a slowdown; \"\" if nothing is sure.",
+     DIFF(TEXT, cause)},
+    {"rows", NULL, NULL, "The rows.", .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON,
+     .list = &(const DipFieldList){.record = &row_record,
+                                   .items = offsetof(DipCostDiff, rows),
+                                   .points = true,
+                                   .counted = offsetof(DipCostDiff, row_count)}},
+};
+const DipRecord dip_cost_diff_record = DIP_RECORD(
+    "comparison", "What `diptych cost diff --json` writes.", diff_fields, DipCostDiff, NULL);
+
+static bool print_json(const void *context, FILE *out) {
+    const DipFieldAt at = {(void *)context, context, 0, NULL};
+    dip_fields_print_json(&dip_cost_diff_record, &at, out);
+    return true;
 }
 
 bool dip_cost_diff_write_json(const DipCostDiff *diff, const char *file, DipError *err) {
-    dip_json_memory_begin();
-    cJSON *root = cJSON_CreateObject();
-    add_sides(root, diff);
-    cJSON *notes = cJSON_AddArrayToObject(root, "notes");
-    for (int i = 0; i < diff->note_count; i++) {
-        add_to_array(notes, cJSON_CreateString(diff->notes[i]));
-    }
-    cJSON_AddBoolToObject(root, "busy", dip_cost_diff_is_busy(diff));
-    cJSON_AddNumberToObject(root, "slower", diff->slower);
-    cJSON_AddNumberToObject(root, "faster", diff->faster);
-    cJSON_AddNumberToObject(root, "failed_times", diff->failed_times);
-    cJSON_AddNumberToObject(root, "failed_errors", diff->failed_errors);
-    cJSON_AddStringToObject(root, "cause", diff->cause);
-    add_rows(root, diff);
-    char *text = cJSON_Print(root);
-    cJSON_Delete(root);
-    const bool complete = text && !dip_json_memory_ran_out();
-    const bool written = complete
-                             ? dip_whole_file_write(file, text, strlen(text), err)
-                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    cJSON_free(text);
-    dip_json_memory_end();
-    return written;
+    return dip_whole_file_print(file, print_json, diff, err);
 }

@@ -3,7 +3,7 @@
 
 #include "app/cost/context.h"
 #include "app/cost/drawn_frames.h"
-
+#include "app/report/format/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/cost/merge/merge_machines.h"
@@ -135,7 +135,8 @@ bool dip_cost_merge_run(DipSession *session, const DipCostMergeArguments *argume
     }
     report.options.pictures = arguments->cost.pictures;
     done = done && dip_cost_join_same_pictures(&report, err) &&
-           (report.rounds == 0 || dip_cost_estimate_times(&report, err));
+           (report.rounds == 0 || dip_cost_estimate_times(&report, err)) &&
+           dip_cost_analyse(&report, err);
     done = done && (report.options.pictures == DIP_COST_PICTURES_NONE
                         ? dip_cost_write_report(&report, NULL, arguments->out, err)
                         : write_with_pictures(&report, session, arguments, err));

@@ -9,6 +9,7 @@
 #define DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 
 #include "app/cost/elsewhere.h"
+#include "app/report/format/fields.h"
 #include "app/report/fit.h"
 #include "app/cost/predict/predict_options.h"
 
@@ -53,6 +54,7 @@ void dip_cost_predict_there_free(DipCostElsewherePrediction *prediction);
 void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *prediction);
 
 void dip_cost_predict_there_print(const DipCostElsewherePrediction *prediction, FILE *out);
+extern const DipRecord dip_cost_prediction_record; // DipCostElsewherePrediction
 bool dip_cost_predict_there_write_json(const DipCostElsewherePrediction *prediction,
                                        const char *file, DipError *err);
 bool dip_cost_predict_there_write_csv(const DipCostElsewherePrediction *prediction,

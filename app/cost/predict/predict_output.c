@@ -1,17 +1,10 @@
 // Printing predictions of times elsewhere, and writing them as JSON and CSV.
 #include "app/cost/predict/predict_elsewhere.h"
 
-#include "app/report/format/json_memory.h"
-#include "app/report/format/json_smaller.h"
+#include "app/report/format/cost_fields.h"
 #include "app/report/verdict.h"
 #include "app/files/whole_file.h"
 #include "app/files/put.h"
-
-#include <cjson/cJSON.h>
-#include <stdlib.h>
-#include <string.h>
-
-enum { JSON_FORMAT = 1 };
 
 // --- the table -----------------------------------------------------------------------------------
 
@@ -92,118 +85,138 @@ void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out
 
 // --- files ---------------------------------------------------------------------------------------
 
-static void add_place(cJSON *root, const char *name, const DipCostReport *place) {
-    cJSON *object = cJSON_AddObjectToObject(root, name);
-    cJSON_AddNumberToObject(object, "width", place->width);
-    cJSON_AddNumberToObject(object, "height", place->height);
-    cJSON_AddStringToObject(object, "path", place->paths[0]);
-    cJSON_AddNumberToObject(object, "threads", place->threads);
-    cJSON_AddStringToObject(object, "isa", place->isa);
+// The context of all items is the prediction.
+static const DipCostElsewherePrediction *prediction_of(const DipFieldAt *at) {
+    return at->context;
 }
 
-static void add_misses(cJSON *root, const char *name, const DipCostMisses *misses) {
-    if (misses->rows > 0) {
-        cJSON *object = cJSON_AddObjectToObject(root, name);
-        cJSON_AddNumberToObject(object, "combinations", misses->rows);
-        cJSON_AddNumberToObject(object, "median", misses->median);
-        cJSON_AddNumberToObject(object, "p90", misses->p90);
-    }
+static const void *derive_what(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)at;
+    (void)scratch;
+    return "diptych cost predict";
 }
 
-static const char *role_of(const DipCostElsewherePrediction *p, const DipCostPredictedThere *c) {
-    return c->timed < 0 ? "predicted" : c->timed < p->timed_count ? "timed" : "checked";
+static const void *derive_there(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &prediction_of(at)->there;
 }
 
-static void add_combination(cJSON *list, const DipCostElsewherePrediction *p,
-                            const DipCostPredictedThere *c) {
-    char settings[256];
-    cJSON *object = cJSON_CreateObject();
-    dip_quality_format(&c->quality, settings, sizeof settings);
-    cJSON_AddStringToObject(object, "settings", settings);
-    cJSON_AddStringToObject(object, "role", role_of(p, c));
-    cJSON_AddNumberToObject(object, "report_ms", c->report_ms);
-    cJSON_AddNumberToObject(object, "report_alone_ms", c->as_is_ms);
-    cJSON_AddNumberToObject(object, "ms", c->ms);
-    if (c->timed >= 0) {
-        dip_cost_elsewhere_add_times(cJSON_AddObjectToObject(object, "timed"), &p->timed[c->timed]);
-    }
-    if (!cJSON_AddItemToArray(list, object)) {
-        cJSON_Delete(object);
-    }
+static const void *derive_role(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const int timed = ((const DipCostPredictedThere *)at->item)->timed;
+    (void)scratch;
+    return timed < 0 ? "predicted" : timed < prediction_of(at)->timed_count ? "timed" : "checked";
 }
 
-static void add_all(cJSON *root, const DipCostElsewherePrediction *p) {
-    cJSON_AddStringToObject(root, "what", "diptych cost predict");
-    cJSON_AddNumberToObject(root, "format", JSON_FORMAT);
-    cJSON_AddStringToObject(root, "scene", p->report.scene);
-    cJSON_AddStringToObject(root, "scene_hash", p->report.scene_hash);
-    add_place(root, "report", &p->report);
-    add_place(root, "there", &p->there);
-    cJSON_AddNumberToObject(root, "factor", p->factor);
-    cJSON_AddNumberToObject(root, "wait", p->wait);
-    cJSON *misses = cJSON_AddObjectToObject(root, "misses");
-    add_misses(misses, "report_rows_left_out", &p->fit);
-    add_misses(misses, "timed_by_report_alone", &p->timed_as_is);
-    add_misses(misses, "timed_left_out", &p->timed_left_out);
-    add_misses(misses, "checked_by_report_alone", &p->checked_as_is);
-    add_misses(misses, "checked", &p->checked_fitted);
-    cJSON *list = cJSON_AddArrayToObject(root, "combinations");
-    for (int i = 0; i < p->count; i++) {
-        add_combination(list, p, &p->list[i]);
+static const void *derive_timed(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const int timed = ((const DipCostPredictedThere *)at->item)->timed;
+    (void)scratch;
+    return timed >= 0 ? &prediction_of(at)->timed[timed] : NULL;
+}
+
+static const DipField place_fields[] = {
+    {"width", NULL, "px", "Width of the pictures.", DIP_FACT(WHOLE, DipCostReport, width)},
+    {"height", NULL, "px", "Height of the pictures.", DIP_FACT(WHOLE, DipCostReport, height)},
+    {"path", NULL, NULL, "The camera path.", DIP_FACT(TEXT, DipCostReport, paths[0])},
+    {"threads", NULL, NULL, "Number of threads.", DIP_FACT(WHOLE, DipCostReport, threads)},
+    {"isa", NULL, NULL, "Instruction set.", DIP_FACT(TEXT, DipCostReport, isa)},
+};
+static const DipRecord place_record =
+    DIP_RECORD("place", "Where something is drawn.", place_fields, DipCostReport, NULL);
+
+static const DipField there_fields[] = {
+    {"settings", "combination", NULL, "All quality settings.",
+     DIP_FACT(SETTINGS, DipCostPredictedThere, quality)},
+    {"role", NULL, NULL, "Whether the combination was predicted, timed or checked.",
+     DIP_DERIVED(TEXT, derive_role)},
+    {"report_ms", "report", "ms", "Mean time in the report: measured, or predicted there.",
+     DIP_FACT(NUMBER, DipCostPredictedThere, report_ms), .digits = 2},
+    {"report_alone_ms", NULL, "ms", "Mean time predicted from the report alone.",
+     DIP_FACT(NUMBER, DipCostPredictedThere, as_is_ms), .digits = 2},
+    {"ms", "predicted", "ms", "Mean time predicted from the report and from what was timed there.",
+     DIP_FACT(NUMBER, DipCostPredictedThere, ms), .digits = 2},
+    {"timed", NULL, NULL, "What was timed there; null otherwise.",
+     DIP_DERIVED(RECORD, derive_timed), .record = &dip_cost_elsewhere_record},
+    {"there", NULL, NULL, "The place.", .kind = DIP_FIELD_RECORD, .derive = derive_there,
+     .record = &place_record},
+};
+static const DipRecord there_record = DIP_RECORD(
+    "combination there", "A combination of the report.", there_fields, DipCostPredictedThere, NULL);
+
+#define MISSES(name, MEMBER, means)                                                                \
+    {                                                                                              \
+        name, NULL, NULL, means, DIP_FACT(RECORD, DipCostElsewherePrediction, MEMBER),             \
+            .record = &dip_cost_misses_record                                                      \
     }
+static const DipField misses_fields[] = {
+    MISSES("report_rows_left_out", fit, "Each row of the report predicted from the others."),
+    MISSES("timed_by_report_alone", timed_as_is, "What was timed, predicted by the report alone."),
+    MISSES("timed_left_out", timed_left_out, "Each that was timed, predicted from the others."),
+    MISSES("checked_by_report_alone", checked_as_is,
+           "What was checked, predicted by the report alone."),
+    MISSES("checked", checked_fitted, "What was checked, predicted from all."),
+};
+static const DipRecord misses_record =
+    DIP_RECORD("misses there", "How well it did.", misses_fields, DipCostElsewherePrediction, NULL);
+
+static const DipField prediction_fields[] = {
+    {"what", NULL, NULL, "The command.", DIP_DERIVED(TEXT, derive_what)},
+    {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
+    {"scene", NULL, NULL, "Name of the scene.",
+     DIP_FACT(TEXT, DipCostElsewherePrediction, report.scene)},
+    {"scene_hash", NULL, NULL, "Hash of the scene.",
+     DIP_FACT(TEXT, DipCostElsewherePrediction, report.scene_hash)},
+    {"report", NULL, NULL, "Where the report was measured.",
+     DIP_FACT(RECORD, DipCostElsewherePrediction, report), .record = &place_record},
+    {"there", NULL, NULL, "What is predicted.", DIP_FACT(RECORD, DipCostElsewherePrediction, there),
+     .record = &place_record},
+    {"factor", NULL, NULL, "How many times as long as the report alone predicts it takes there.",
+     DIP_FACT(NUMBER, DipCostElsewherePrediction, factor)},
+    {"wait", NULL, NULL, "Share of their time that threads waited for a processor.",
+     DIP_FACT(NUMBER, DipCostElsewherePrediction, wait)},
+    {"misses", NULL, NULL, "How well it did.", .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON,
+     .record = &misses_record},
+    {"combinations", NULL, NULL, "The combinations.", .kind = DIP_FIELD_LIST,
+     .where = DIP_FIELD_JSON,
+     .list = &(const DipFieldList){.record = &there_record,
+                                   .items = offsetof(DipCostElsewherePrediction, list),
+                                   .points = true,
+                                   .counted = offsetof(DipCostElsewherePrediction, count)}},
+};
+const DipRecord dip_cost_prediction_record =
+    DIP_RECORD("prediction elsewhere", "What `diptych cost predict --json` writes.",
+               prediction_fields, DipCostElsewherePrediction, NULL);
+
+static bool print_json(const void *context, FILE *out) {
+    dip_fields_print_json(&dip_cost_prediction_record,
+                          &(DipFieldAt){(void *)context, context, 0, NULL}, out);
+    return true;
 }
 
 bool dip_cost_predict_there_write_json(const DipCostElsewherePrediction *p, const char *file,
                                        DipError *err) {
-    dip_json_memory_begin();
-    cJSON *root = cJSON_CreateObject();
-    add_all(root, p);
-    char *text = cJSON_Print(root);
-    cJSON_Delete(root);
-    const bool complete = text && !dip_json_memory_ran_out();
-    const bool written = complete
-                             ? dip_whole_file_write(file, text, strlen(text), err)
-                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    cJSON_free(text);
-    dip_json_memory_end();
-    return written;
+    return dip_whole_file_print(file, print_json, p, err);
 }
 
-static void print_csv(const DipCostElsewherePrediction *p, FILE *out) {
-    dip_put_text(out, "width,height,path,threads,settings,role,report_ms,report_alone_ms,ms,"
-                      "timed_ms,timed_ms_low,timed_ms_high\n");
-    for (int i = 0; i < p->count; i++) {
-        const DipCostPredictedThere *c = &p->list[i];
-        char settings[256];
-        dip_quality_format(&c->quality, settings, sizeof settings);
-        dip_put_text(out, "%d,%d,", p->there.width, p->there.height);
-        dip_put_csv_text(out, p->there.paths[0]);
-        dip_put_text(out, ",%d,", p->there.threads);
-        dip_put_csv_text(out, settings);
-        dip_put_text(out, ",%s,%.6g,%.6g,%.6g", role_of(p, c), c->report_ms, c->as_is_ms, c->ms);
-        if (c->timed >= 0) {
-            const DipEstimate *ms = &p->timed[c->timed].ms;
-            dip_put_text(out, ",%.6g,%.6g,%.6g\n", ms->value, ms->low, ms->high);
-        } else {
-            dip_put_text(out, ",,,\n");
-        }
+static bool print_csv(const void *context, FILE *out) {
+    static const DipColumn columns[] = {{"there.width", "width"},
+                                        {"there.height", "height"},
+                                        {"there.path", "path"},
+                                        {"there.threads", "threads"},
+                                        {"settings", NULL},
+                                        {"role", NULL},
+                                        {"report_ms", NULL},
+                                        {"report_alone_ms", NULL},
+                                        {"ms", NULL},
+                                        {"timed.ms", NULL}};
+    const DipCostElsewherePrediction *p = context;
+    for (int i = -1; i < p->count; i++) {
+        const DipFieldAt at = {(void *)context, i < 0 ? NULL : &p->list[i], i, NULL};
+        dip_fields_print_csv(&there_record, &at, columns, DIP_FIELD_COUNT_OF(columns), out);
     }
+    return true;
 }
 
 bool dip_cost_predict_there_write_csv(const DipCostElsewherePrediction *p, const char *file,
                                       DipError *err) {
-    char *text = NULL;
-    size_t size_bytes = 0;
-    FILE *memory = open_memstream(&text, &size_bytes);
-    if (!memory) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    }
-    print_csv(p, memory);
-    bool complete = !ferror(memory);
-    complete = fclose(memory) == 0 && complete && text; // NULL if memory runs out here.
-    const bool written = complete
-                             ? dip_whole_file_write(file, text, size_bytes, err)
-                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    free(text);
-    return written;
+    return dip_whole_file_print(file, print_csv, p, err);
 }

@@ -74,7 +74,7 @@ struct DipDriver {
     int64_t paced, pace_ns;         // All frames of this driver, and their time.
     double wait_ms, cpu_ms, run_ms; // Sums over all timed frames.
     bool has_wait, settled;
-    int64_t repeated;
+    int repeated;
 };
 
 static bool out_of_memory(DipError *err) {

@@ -134,11 +134,11 @@ DipDriverProgress dip_driver_progress(const DipDriver *driver);
 
 // What the measurement tells about the machine.
 typedef struct DipDriverMachine {
-    bool settled;     // The time was steady before the rounds; true if settling was not asked for.
-    bool has_wait;    // The machine tells how long threads wait. If not, no frame is disturbed, and
-                      // wait is 1 - processor time / (time * threads).
-    double wait;      // Waiting time of all timed frames / (their time * threads).
-    int64_t repeated; // Number of frames that were drawn again.
+    bool settled;  // The time was steady before the rounds; true if settling was not asked for.
+    bool has_wait; // The machine tells how long threads wait. If not, no frame is disturbed, and
+                   // wait is 1 - processor time / (time * threads).
+    double wait;   // Waiting time of all timed frames / (their time * threads).
+    int repeated;  // Number of frames that were drawn again.
 } DipDriverMachine;
 
 // `threads` is the number of threads that a frame keeps busy.

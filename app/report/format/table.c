@@ -1,8 +1,7 @@
 // Printing a report as tables for a terminal.
 #include "app/report/format/formats.h"
 
-#include "app/report/fit.h"
-#include "app/report/interaction.h"
+#include "app/report/format/analysis.h"
 #include "app/report/order.h"
 #include "app/report/tiers.h"
 #include "app/files/put.h"
@@ -135,8 +134,8 @@ static void print_front(const DipCostReport *report, FILE *out) {
 }
 
 static void print_fit(const DipCostReport *report, FILE *out) {
-    const DipCostFit fit = dip_cost_fit(report);
-    if (fit.rows == 0) {
+    const DipCostFit *fit = report->analysis ? &report->analysis->fit : NULL;
+    if (!fit || fit->rows == 0) {
         return;
     }
     char smaller[48] = "";
@@ -151,11 +150,11 @@ static void print_fit(const DipCostReport *report, FILE *out) {
         "%.1f %%).\n"
         "Each row predicted from all others: median error %.1f %%, %.0f %% within 10 %%.\n"
         "Nanoseconds per unit of work:\n",
-        fit.rows, smaller, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
-        100.0 * fit.others.within_10);
-    for (int i = 0; i < fit.count; i++) {
-        if (fit.ns[i] > 0.0) {
-            dip_put_text(out, "  %-9s %10.3g per %s\n", fit.stages[i], fit.ns[i], fit.names[i]);
+        fit->rows, smaller, fit->r2, 100.0 * fit->median_miss, 100.0 * fit->others.median,
+        100.0 * fit->others.within_10);
+    for (int i = 0; i < fit->count; i++) {
+        if (fit->ns[i] > 0.0) {
+            dip_put_text(out, "  %-9s %10.3g per %s\n", fit->stages[i], fit->ns[i], fit->names[i]);
         }
     }
 }
@@ -284,8 +283,8 @@ static void print_answer(const DipCostReport *report, FILE *out) {
 // --- the rest ------------------------------------------------------------------------------------
 
 static void print_interactions(const DipCostReport *report, FILE *out) {
-    DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
-    const int count = report->predicted.count == 0 ? dip_cost_interactions(report, list) : 0;
+    const DipCostInteraction *list = report->analysis ? report->analysis->interactions : NULL;
+    const int count = list ? report->analysis->interaction_count : 0;
     for (int i = 0; i < count; i++) {
         char time[32] = "";
         if (i == 0) {
@@ -342,9 +341,11 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
         }
     }
     print_floors(report, out);
+    if (report->refused_count > 0) {
+        dip_put_text(out, "\nSteps left out, with the reason:\n");
+    }
     for (int i = 0; i < report->refused_count; i++) {
-        dip_put_text(out, "%s  %s\n", i ? "" : "\nSteps left out, with the reason:\n",
-                     report->refused[i]);
+        dip_put_text(out, "  %s\n", report->refused[i]);
     }
     print_interactions(report, out);
     print_prediction(report, out);

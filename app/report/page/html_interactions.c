@@ -1,7 +1,7 @@
 // Interactions of settings in the HTML page.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/interaction.h"
+#include "app/report/format/analysis.h"
 #include "app/files/put.h"
 
 static void write_interaction(const DipCostInteraction *interaction, FILE *out) {
@@ -16,9 +16,8 @@ static void write_interaction(const DipCostInteraction *interaction, FILE *out) 
 }
 
 void dip_html_interactions(const DipCostReport *report, FILE *out) {
-    DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
-    // Predicted combinations are measured where they are good, so means over them mislead.
-    const int count = report->predicted.count == 0 ? dip_cost_interactions(report, list) : 0;
+    const DipCostInteraction *list = report->analysis ? report->analysis->interactions : NULL;
+    const int count = list ? report->analysis->interaction_count : 0;
     if (count == 0) {
         return;
     }

@@ -2,6 +2,7 @@
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
+#include "app/report/format/cost_fields.h"
 
 static void write_left_out(const DipCostReport *report, FILE *out) {
     if (report->refused_count == 0) {
@@ -44,29 +45,32 @@ void dip_html_truth(const DipCostReport *report, FILE *out) {
     write_left_out(report, out);
 }
 
+static void write_word(void *out, const DipField *field, const void *value) {
+    (void)value;
+    dip_put_html(out, "<dt>%s</dt><dd>%s</dd>\n", field->title, field->means);
+}
+
+// Explains fields of a record by their own sentences.
+static void write_words(const DipRecord *record, const char *const *paths, int count, FILE *out) {
+    const DipFieldAt nothing = {NULL, NULL, 0, NULL};
+    for (int i = 0; i < count; i++) {
+        dip_field_visit(record, &nothing, paths[i], write_word, out);
+    }
+}
+
 void dip_html_words(const DipCostReport *report, FILE *out) {
-    dip_put_html(
-        out,
-        "<h2 id=\"words\">What the words mean</h2>\n"
-        "<dl>\n"
-        "<dt>ratio</dt><dd>The step's time for the whole path divided by the baseline's. Each "
-        "frame was timed beside the baseline's same frame. The 95 %% interval comes from a "
-        "bootstrap.</dd>\n"
-        "<dt>mean, p95</dt><dd>Mean and 95th percentile of the times of the frames along the path, "
-        "in milliseconds, in this run.</dd>\n"
-        "<dt>truth</dt><dd>The converged picture: jittered supersampling in linear light. Every "
-        "sample is shaded at its own position, and textures are read from their largest level. An "
-        "error below three times the truth's noise floor is &ldquo;at floor&rdquo;, since it "
-        "cannot be told from the truth's own noise.</dd>\n"
-        "<dt>RMSE</dt><dd>Root mean square error in linear light, 0 to 1.</dd>\n"
-        "<dt>PSNR</dt><dd>Peak signal-to-noise ratio on 8-bit sRGB values, in decibels.</dd>\n"
-        "<dt>SSIM</dt><dd>Structural similarity of luma, at most 1, on 8-bit sRGB values.</dd>\n"
-        "<dt>FLIP</dt><dd>How different two pictures look when one alternates between them, 0 to "
-        "1, on 8-bit sRGB values at %g pixels per degree.</dd>\n"
-        "<dt>flicker</dt><dd>The part of the error that changes from frame to frame: root mean "
-        "square of its deviation over time, in linear light.</dd>\n"
-        "<dt>two-frame mean</dt><dd>Root mean square error of the mean of two successive "
-        "frames.</dd>\n"
-        "</dl>\n",
-        report->options.pixels_per_degree);
+    static const char *const times[] = {"ratio", "ms", "p95_ms"};
+    static const char *const metrics[] = {"rmse_lin", "psnr_db", "ssim", "flip"};
+    static const char *const others[] = {"over_time.flicker_rms_lin",
+                                         "over_time.two_frame_mean_rms_lin", "at_floor"};
+    dip_put_html(out, "<h2 id=\"words\">What the words mean</h2>\n<dl>\n");
+    write_words(&dip_cost_row_record, times, 3, out);
+    dip_put_html(out,
+                 "<dt>truth</dt><dd>The converged picture: jittered supersampling in linear light. "
+                 "Every sample is shaded at its own position, and textures are read from their "
+                 "largest level.</dd>\n");
+    write_words(&dip_cost_metrics_record, metrics, 4, out);
+    write_words(&dip_cost_row_record, others, 3, out);
+    dip_put_html(out, "</dl>\n<p>FLIP is that of %g pixels per degree.</p>\n",
+                 report->options.pixels_per_degree);
 }

@@ -1,7 +1,7 @@
 // Tables of all steps in the HTML page: errors of the parts of the picture, and work counters.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/fit.h"
+#include "app/report/format/analysis.h"
 #include "app/files/put.h"
 
 #include <math.h>
@@ -127,8 +127,8 @@ static void write_counters(const DipCostReport *report, FILE *out) {
 }
 
 static void write_fit(const DipCostReport *report, FILE *out) {
-    const DipCostFit fit = dip_cost_fit(report);
-    if (fit.rows == 0) {
+    const DipCostFit *fit = report->analysis ? &report->analysis->fit : NULL;
+    if (!fit || fit->rows == 0) {
         return;
     }
     char smaller[64] = "";
@@ -143,19 +143,19 @@ static void write_fit(const DipCostReport *report, FILE *out) {
         "R&sup2; is %.3f, the median error is %.1f %%. If each row is predicted from all "
         "others, the median error is %.1f %%, and %.0f %% of the rows are predicted within "
         "10 %%.",
-        fit.rows, smaller, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
-        100.0 * fit.others.within_10);
+        fit->rows, smaller, fit->r2, 100.0 * fit->median_miss, 100.0 * fit->others.median,
+        100.0 * fit->others.within_10);
     dip_html_columns_begin(out);
     dip_html_text_column(out, "unit of work");
     dip_html_text_column(out, "stage");
     dip_html_column(out, "time", "ns");
     dip_html_columns_end(out);
-    for (int i = 0; i < fit.count; i++) {
-        if (fit.ns[i] > 0.0) {
+    for (int i = 0; i < fit->count; i++) {
+        if (fit->ns[i] > 0.0) {
             dip_put_html(out, "<tr><th scope=\"row\">");
-            dip_put_html(out, "%s", fit.names[i]);
-            dip_put_html(out, "</th><td class=\"l\">%s</td><td>%.3g</td></tr>\n", fit.stages[i],
-                         fit.ns[i]);
+            dip_put_html(out, "%s", fit->names[i]);
+            dip_put_html(out, "</th><td class=\"l\">%s</td><td>%.3g</td></tr>\n", fit->stages[i],
+                         fit->ns[i]);
         }
     }
     dip_html_table_end(out);

@@ -138,7 +138,6 @@ def main():
     good["predicted"]["combinations"] = good["predicted"]["combinations"][:2]
     for item in [*good["advice"], *good["predicted"]["combinations"]]:
         item["row"] = min(item["row"], 6)
-        item["runner_up"] = -1
     good["same_pictures"][0]["row"] = 6
     with open("good.json", "w", encoding="utf-8") as file:
         json.dump(good, file)

@@ -1,6 +1,7 @@
 // Writes the page of a made-up report with made-up pictures, for page.py, and the report itself,
 // for hostile.py: make_page FILE [JSON].
 #include "app/report/page/data_uri.h"
+#include "app/report/format/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/files/jpeg.h"
@@ -194,7 +195,8 @@ int main(int argc, char **argv) {
         fill_set(&pictures.sweeps[s], report.sweeps[s].rows, report.sweeps[s].row_count, false);
     }
     fill_set(&pictures.front, (const int[]){first, first + 1, first + 2, first + 49}, 4, true);
-    const bool written = dip_cost_write_html(&report, &pictures, argv[1], &err) &&
+    const bool written = dip_cost_analyse(&report, &err) &&
+                         dip_cost_write_html(&report, &pictures, argv[1], &err) &&
                          (argc < 3 || dip_cost_write_json(&report, argv[2], &err));
     if (!written) {
         fprintf(stderr, "%s\n", err.message);

@@ -10,9 +10,9 @@
 //
 // They are predicted from the trained ones of the report, and from these and six that were timed
 // there.
+#include "app/report/format/cost_fields.h"
 #include "app/report/fit.h"
 #include "app/report/format/formats.h"
-#include "app/report/format/json_smaller.h"
 #include "app/cost/predict.h"
 #include "renderer/base/file.h"
 #include "renderer/base/assert.h"
@@ -114,12 +114,9 @@ static bool read_combinations(const cJSON *root, There *there) {
     const cJSON *object;
     cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "combinations")) {
         const cJSON *timed = cJSON_GetObjectItemCaseSensitive(object, "timed");
-        const cJSON *settings = cJSON_GetObjectItemCaseSensitive(object, "settings");
-        DipCostElsewhere *row = &there->rows[there->count];
-        if (timed && there->count < MOST_THERE) {
-            if (!cJSON_IsString(settings) ||
-                !dip_quality_parse(settings->valuestring, &row->quality, NULL) ||
-                !dip_cost_elsewhere_read_times(timed, row)) {
+        const DipFieldAt at = {NULL, &there->rows[there->count], there->count, NULL};
+        if (cJSON_IsObject(timed) && there->count < MOST_THERE) {
+            if (!dip_fields_read_json(&dip_cost_elsewhere_record, &at, timed, "", NULL)) {
                 return false;
             }
             there->count++;

@@ -1,0 +1,1272 @@
+// The fields of cost.json, in the order in which they are written and read.
+#include "app/report/format/cost_fields.h"
+
+#include "app/measure/stats/estimate.h"
+#include "app/report/choice.h"
+#include "app/report/format/analysis.h"
+#include "app/report/viewpoints.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- items ---------------------------------------------------------------------------------------
+
+static DipCostReport *report_of(const DipFieldAt *at) {
+    return at->context;
+}
+
+// The index of a row that is an item.
+static int row_of(const DipFieldAt *at) {
+    return (int)((const DipCostRow *)at->item - report_of(at)->rows);
+}
+
+// A list that lies in an array of its owner, and one that its owner points to.
+#define ARRAY_OF(OWNER, MEMBER, COUNTED, MOST, RECORD)                                             \
+    .list = &(const DipFieldList) {                                                                \
+        .record = RECORD, .items = offsetof(OWNER, MEMBER), .counted = offsetof(OWNER, COUNTED),   \
+        .most = MOST                                                                               \
+    }
+#define OWNED(OWNER, MEMBER, COUNTED, MOST, RECORD)                                                \
+    .list = &(const DipFieldList) {                                                                \
+        .record = RECORD, .items = offsetof(OWNER, MEMBER), .counted = offsetof(OWNER, COUNTED),   \
+        .most = MOST, .points = true                                                               \
+    }
+
+#define LIST   .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON
+#define RECORD .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON
+static bool is_row(const DipCostReport *report, int row) {
+    return row >= 0 && row < report->row_count;
+}
+
+#define SETTING_KEY(key, ...) #key,
+static const char *const setting_keys[] = {DIP_SETTING_LIST(SETTING_KEY)};
+#undef SETTING_KEY
+
+// --- metrics -------------------------------------------------------------------------------------
+
+static const DipField metrics_fields[] = {
+    {"rmse_lin", "RMSE", "linear", "Root mean square error in linear light, 0 to 1.",
+     DIP_FACT(NUMBER, DipMetrics, rmse_lin), .digits = 5},
+    {"psnr_db", "PSNR", "dB", "Peak signal-to-noise ratio on 8-bit sRGB values; higher is better.",
+     DIP_FACT(NUMBER, DipMetrics, psnr_db), .digits = 2},
+    {"ssim", "SSIM", NULL,
+     "Structural similarity of luma on 8-bit sRGB values, at most 1; higher is better.",
+     DIP_FACT(NUMBER, DipMetrics, ssim), .digits = 4},
+    {"flip", "FLIP", NULL,
+     "How different two pictures look when one alternates between them, 0 to 1.",
+     DIP_FACT(NUMBER, DipMetrics, flip), .digits = 4},
+};
+const DipRecord dip_cost_metrics_record = DIP_RECORD(
+    "metrics", "Metrics of pictures against the truth.", metrics_fields, DipMetrics, NULL);
+
+typedef struct Region {
+    double pixels;
+    DipMetrics metrics;
+} Region;
+
+static const DipField region_fields[] = {
+    {"pixels", NULL, NULL, "Number of pixels of this class, over all judged pictures.",
+     DIP_FACT(NUMBER, Region, pixels)},
+    {"rmse_lin", "RMSE", "linear", "RMSE of these pixels.",
+     DIP_FACT(NUMBER, Region, metrics.rmse_lin), .digits = 5},
+    {"psnr_db", "PSNR", "dB", "PSNR of these pixels.", DIP_FACT(NUMBER, Region, metrics.psnr_db),
+     .digits = 2},
+    {"ssim", "SSIM", NULL, "SSIM of these pixels.", DIP_FACT(NUMBER, Region, metrics.ssim),
+     .digits = 4},
+    {"flip", "FLIP", NULL, "Mean FLIP of these pixels.", DIP_FACT(NUMBER, Region, metrics.flip),
+     .digits = 4},
+};
+static const DipRecord region_record =
+    DIP_RECORD("class of pixels", "Metrics of a part of the picture.", region_fields, Region, NULL);
+
+typedef struct Figures {
+    Region regions[DIP_METRIC_REGION_COUNT];
+} Figures;
+
+#define REGION_FIELD(INDEX, name, text)                                                            \
+    {name,                                                                                         \
+     NULL,                                                                                         \
+     NULL,                                                                                         \
+     "Metrics of the pixels of the class \"" name "\": " text ".",                                 \
+     .kind = DIP_FIELD_RECORD,                                                                     \
+     .where = DIP_FIELD_JSON,                                                                      \
+     .record = &region_record,                                                                     \
+     .offset = (INDEX) * sizeof(Region)},
+#define SEEN_FIELD(NAME, name, text) REGION_FIELD(1 + DIP_SEEN_##NAME, name, text)
+static const DipField figures_fields[] = {REGION_FIELD(0, "all", "the whole picture")
+                                              DIP_SEEN_LIST(SEEN_FIELD)};
+static const DipRecord figures_record =
+    DIP_RECORD("figures", "Metrics of each class of pixels.", figures_fields, Figures, NULL);
+
+// The metrics of a row, or NULL if no viewpoint was judged.
+static const void *derive_figures(const DipFieldAt *at, DipFieldScratch *scratch) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
+    Figures *figures = (Figures *)scratch;
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
+        figures->regions[r] = (Region){sums.regions[r].pixels, {NAN, NAN, NAN, NAN}};
+        if (sums.regions[r].pixels > 0.0) {
+            figures->regions[r].metrics = dip_metrics_of(&sums, r);
+        }
+    }
+    return viewpoints > 0 ? figures : NULL;
+}
+
+static const DipField over_time_fields[] = {
+    {"static_rms_lin", NULL, "linear", "Error that does not change from frame to frame.",
+     DIP_FACT(NUMBER, DipFlickerMetrics, steady), .digits = 5},
+    {"flicker_rms_lin", "flicker", "linear",
+     "The part of the error that changes from frame to frame: root mean square of its deviation "
+     "over time, in linear light.",
+     DIP_FACT(NUMBER, DipFlickerMetrics, flicker), .digits = 5},
+    {"step_rms_lin", NULL, "linear", "Change of the error from one frame to the next.",
+     DIP_FACT(NUMBER, DipFlickerMetrics, step), .digits = 5},
+    {"two_frame_mean_rms_lin", "two-frame mean", "linear",
+     "Root mean square error of the mean of two successive frames.",
+     DIP_FACT(NUMBER, DipFlickerMetrics, two_mean), .digits = 5},
+};
+static const DipRecord over_time_record =
+    DIP_RECORD("over time", "How the error changes within a burst of successive frames.",
+               over_time_fields, DipFlickerMetrics, NULL);
+
+static const void *derive_over_time(const DipFieldAt *at, DipFieldScratch *scratch) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
+    DipFlickerMetrics *flicker = (DipFlickerMetrics *)scratch;
+    *flicker = dip_flicker_metrics_of(&sums);
+    return viewpoints > 0 ? flicker : NULL;
+}
+
+// A metric of a row with its interval over the viewpoints, and its change from the base of a sweep.
+#define METRIC_FUNCTIONS(METRIC)                                                                   \
+    static const void *derive_##METRIC(const DipFieldAt *at, DipFieldScratch *scratch) {           \
+        DipEstimate *to = (DipEstimate *)scratch;                                                  \
+        int viewpoints;                                                                            \
+        dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);                                 \
+        *to = dip_cost_metric(report_of(at), row_of(at), DIP_COST_##METRIC);                       \
+        return viewpoints > 0 ? to : NULL;                                                         \
+    }                                                                                              \
+    static const void *derive_change_##METRIC(const DipFieldAt *at, DipFieldScratch *scratch) {    \
+        const DipCostSweep *sweep = at->owner->item;                                               \
+        DipEstimate *to = (DipEstimate *)scratch;                                                  \
+        *to = dip_cost_metric_change(report_of(at), sweep->rows[at->index], sweep->base,           \
+                                     DIP_COST_##METRIC);                                           \
+        return to;                                                                                 \
+    }
+METRIC_FUNCTIONS(RMSE)
+METRIC_FUNCTIONS(PSNR)
+METRIC_FUNCTIONS(SSIM)
+METRIC_FUNCTIONS(FLIP)
+METRIC_FUNCTIONS(FLICKER)
+
+// X(METRIC, name, title, unit, digits)
+#define METRIC_LIST(X)                                                                             \
+    X(RMSE, "rmse_lin", "RMSE", "linear", 5)                                                       \
+    X(PSNR, "psnr_db", "PSNR", "dB", 2)                                                            \
+    X(SSIM, "ssim", "SSIM", NULL, 4)                                                               \
+    X(FLIP, "flip", "FLIP", NULL, 4)                                                               \
+    X(FLICKER, "flicker_rms_lin", "flicker", "linear", 5)
+
+// --- viewpoints ----------------------------------------------------------------------------------
+
+#define TAIL_FIELD(name, MEMBER, MOST, title, means, DIGITS)                                       \
+    {                                                                                              \
+        name, title, NULL, means, DIP_FACT(NUMBER, DipCostTail, flip.MEMBER), .most = MOST,        \
+                                                                              .digits = DIGITS     \
+    }
+static const DipField tail_fields[] = {
+    TAIL_FIELD("p50", p50, 1.0, "50 %", "Half of the pixels have at most this FLIP.", 4),
+    TAIL_FIELD("p95", p95, 1.0, "95 %", "95 % of the pixels have at most this FLIP.", 4),
+    TAIL_FIELD("p99", p99, 1.0, "99 %", "99 % of the pixels have at most this FLIP.", 4),
+    TAIL_FIELD("worst", worst, 1.0, "worst block",
+               "The greatest mean FLIP of a block of at most 32 x 32 pixels.", 4),
+    TAIL_FIELD("worst_frame", worst_frame, 1e3, "its frame",
+               "The frame of the burst with the worst block, from 0 on.", 0),
+    TAIL_FIELD("worst_x", worst_x, 8192.0, NULL, "Left edge of the worst block, in pixels.", 0),
+    TAIL_FIELD("worst_y", worst_y, 8192.0, NULL, "Top edge of the worst block, in pixels.", 0),
+    TAIL_FIELD("worst_width", worst_width, 8192.0, NULL, "Width of the worst block, in pixels.", 0),
+    TAIL_FIELD("worst_height", worst_height, 8192.0, NULL, "Height of the worst block, in pixels.",
+               0),
+    {"worst_viewpoint", "its viewpoint", NULL,
+     "The viewpoint with the worst block, from 0 on; only of a row.", .kind = DIP_FIELD_WHOLE,
+     .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .offset = offsetof(DipCostTail, worst_viewpoint)},
+};
+static const DipRecord viewpoint_tail_record = {
+    "distribution of FLIP",
+    "How FLIP is distributed over the pixels of a viewpoint.",
+    tail_fields,
+    DIP_FIELD_COUNT_OF(tail_fields) - 1,
+    sizeof(DipFlipTail),
+    NULL};
+static const DipRecord tail_record =
+    DIP_RECORD("distribution of FLIP of a row",
+               "The percentiles are means over the viewpoints; the worst block is that of the "
+               "viewpoint with the worst one.",
+               tail_fields, DipCostTail, NULL);
+
+static const void *derive_tail(const DipFieldAt *at, DipFieldScratch *scratch) {
+    DipCostTail *tail = (DipCostTail *)scratch;
+    *tail = dip_cost_row_tail(report_of(at), row_of(at));
+    return tail->viewpoints > 0 ? tail : NULL;
+}
+
+// A judged viewpoint of a row. The tail comes first, as in DipCostTail.
+typedef struct Viewpoint {
+    DipFlipTail tail;
+    int place;
+    char pictures[33];
+    DipMetricSums sums;
+} Viewpoint;
+
+static bool has_tail(const DipFieldAt *at) {
+    return ((const Viewpoint *)at->item)->tail.worst_width > 0.0;
+}
+
+#define SUMS_FIELD(name, means, TYPE, MEMBER)                                                      \
+    {                                                                                              \
+        name, NULL, NULL, means, DIP_FACT(NUMBERS, TYPE, MEMBER),                                  \
+            .least = -DIP_COST_MOST_MEAN * DIP_COST_MOST_COUNT,                                    \
+            .most = DIP_COST_MOST_MEAN * DIP_COST_MOST_COUNT                                       \
+    }
+static const DipField viewpoint_fields[] = {
+    {"place", "viewpoint", NULL, "Index of the viewpoint on its path.",
+     DIP_FACT(WHOLE, Viewpoint, place), .most = DIP_COST_MAX_PLACES - 1},
+    {"pictures", NULL, NULL, "Hash of the row's pictures and truths; \"\" if it is not known.",
+     DIP_FACT(TEXT, Viewpoint, pictures)},
+    SUMS_FIELD("sums",
+               "Sums over the pixels, from which all metrics are computed (DipMetricSums in "
+               "app/measure/metrics/metrics.h).",
+               Viewpoint, sums),
+    {"flip_tail", NULL, NULL, "How FLIP is distributed over the pixels.",
+     DIP_FACT(RECORD, Viewpoint, tail), .record = &viewpoint_tail_record, .known = has_tail},
+};
+
+// True if there are no or at least one counted things (pixels or bursts), and if the mean of the
+// sum over them is possible.
+static bool is_sum(double sum, double count) {
+    return (count == 0.0 || count >= 1.0) && fabs(sum) <= DIP_COST_MOST_MEAN * count;
+}
+
+static bool are_sums(const DipMetricSums *sums) {
+    const double bursts = sums->bursts;
+    bool ok = is_sum(sums->squared_static, bursts) && is_sum(sums->squared_flicker, bursts) &&
+              is_sum(sums->squared_step, bursts) && is_sum(sums->squared_two_mean, bursts);
+    for (int i = 0; i < DIP_METRIC_REGION_COUNT; i++) {
+        const DipMetricRegionSums *region = &sums->regions[i];
+        ok = ok && is_sum(region->squared_lin, region->pixels) &&
+             is_sum(region->squared_codes, region->pixels) &&
+             is_sum(region->flip, region->pixels) && is_sum(region->ssim, region->ssim_pixels);
+    }
+    return ok;
+}
+
+static const DipRecord viewpoint_record = DIP_RECORD(
+    "viewpoint of a row", "What was judged at a viewpoint.", viewpoint_fields, Viewpoint, NULL);
+
+static int count_viewpoints(const DipFieldAt *at) {
+    int count = 0;
+    for (int p = 0; p < report_of(at)->options.places; p++) {
+        count += ((const DipCostRow *)at->item)->judged[p];
+    }
+    return count;
+}
+
+static const void *get_viewpoint(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    const DipCostRow *row = at->item;
+    int place = 0;
+    for (int left = index + !row->judged[0]; left > 0; left -= row->judged[place]) {
+        place++;
+    }
+    Viewpoint *to = (Viewpoint *)scratch;
+    *to = (Viewpoint){.tail = row->tails[place], .place = place, .sums = row->viewpoints[place]};
+    memcpy(to->pictures, row->pictures[place], sizeof to->pictures);
+    return to;
+}
+
+static DipErrorCode open_places(const DipFieldAt *at, int count) {
+    return count <= report_of(at)->options.places ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
+}
+
+static bool put_viewpoint(const DipFieldAt *at, int index, const void *item) {
+    const Viewpoint *from = item;
+    DipCostRow *row = (DipCostRow *)at->item;
+    (void)index;
+    if (from->place >= report_of(at)->options.places || !are_sums(&from->sums)) {
+        return false;
+    }
+    row->judged[from->place] = true;
+    row->viewpoints[from->place] = from->sums;
+    row->tails[from->place] = from->tail;
+    memcpy(row->pictures[from->place], from->pictures, sizeof from->pictures);
+    return true;
+}
+
+static const DipFieldList viewpoint_list = {.record = &viewpoint_record,
+                                            .count = count_viewpoints,
+                                            .item = get_viewpoint,
+                                            .open = open_places,
+                                            .put = put_viewpoint};
+
+// --- rows ----------------------------------------------------------------------------------------
+
+static bool is_timed(const DipFieldAt *at) {
+    return dip_cost_is_timed(report_of(at), row_of(at));
+}
+
+static int count_pairs(const DipFieldAt *at) {
+    return is_timed(at) ? dip_cost_frame_count(report_of(at)) : 0;
+}
+
+static DipErrorCode open_pairs(const DipFieldAt *at, int count) {
+    return count == count_pairs(at) ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
+}
+
+// X(member, what it is): the fields of DipTimePair. Each is an array in the order of the
+// path.
+#define PAIR_LIST(X)                                                                               \
+    X(ms, "Time of each frame along the path, in milliseconds.")                                   \
+    X(base_ms, "Time of the baseline's same frame beside it, in milliseconds.")                    \
+    X(wait, "Time that the frame's threads waited for a processor, as a share of its time.")       \
+    X(base_wait, "The same share of the baseline's frame.")                                        \
+    X(cpu_ms, "Processor time of all threads in the frame, in milliseconds.")                      \
+    X(switches, "Context switches that the frame's threads did not ask for.")
+
+static const DipField pair_element = {.kind = DIP_FIELD_NUMBER, .most = DIP_COST_MOST_MS};
+
+#define PAIR_FIELD(member, means)                                                                  \
+    {#member,                                                                                      \
+     NULL,                                                                                         \
+     NULL,                                                                                         \
+     means,                                                                                        \
+     LIST,                                                                                         \
+     .list = &(const DipFieldList){.element = &pair_element,                                       \
+                                   .items = offsetof(DipCostRow, pairs),                           \
+                                   .points = true,                                                 \
+                                   .within = offsetof(DipTimePair, member),                        \
+                                   .stride = sizeof(DipTimePair),                                  \
+                                   .count = count_pairs,                                           \
+                                   .open = open_pairs}},
+static const DipField pair_fields[] = {PAIR_LIST(PAIR_FIELD)};
+static const DipRecord pair_record =
+    DIP_RECORD("frames of a row", "The times of the frames along the path, an array each.",
+               pair_fields, DipCostRow, NULL);
+
+static const void *derive_text(const DipFieldAt *at, DipFieldScratch *scratch) {
+    dip_cost_settings_text(&((const DipCostRow *)at->item)->quality, scratch->text);
+    return scratch->text;
+}
+
+static const void *derive_at_floor(const DipFieldAt *at, DipFieldScratch *scratch) {
+    int viewpoints;
+    dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
+    *(bool *)scratch = dip_cost_at_floor(report_of(at), row_of(at));
+    return viewpoints > 0 ? scratch : NULL;
+}
+
+#define TIME_FIELD(NAME, title, unit, means, MEMBER, DIGITS)                                       \
+    {                                                                                              \
+        NAME, title, unit, means, DIP_COMPUTED(ESTIMATE, DipCostRow, time.MEMBER),                 \
+            .known = is_timed, .digits = DIGITS                                                    \
+    }
+#define STAGE_NAMES_FIELD(TYPE, KNOWN)                                                             \
+    {                                                                                              \
+        "stages_ms", NULL, "ms",                                                                   \
+            "The parts of the mean time that each stage of the pipeline takes.",                   \
+            DIP_FACT(NUMBERS, TYPE, stage_ms),                                                     \
+            .names = dip_cost_stage_names, .most = DIP_COST_MOST_MS, .digits = 3, .known = KNOWN   \
+    }
+#define COUNTERS_FIELD(TYPE, KNOWN)                                                                \
+    {                                                                                              \
+        "counters", NULL, NULL, "Work of a frame, as means over the timed frames; it is exact.",   \
+            DIP_FACT(NUMBERS, TYPE, counters), .names = dip_cost_counter_names,                    \
+                                               .most = DIP_COST_MOST_COUNT, .known = KNOWN         \
+    }
+#define OF_VIEWPOINTS(METRIC, NAME, title, unit, DIGITS)                                           \
+    {NAME "_of_viewpoints",                                                                        \
+     title,                                                                                        \
+     unit,                                                                                         \
+     title " over the judged viewpoints, with the interval of what all viewpoints of the path "    \
+           "would have.",                                                                          \
+     DIP_DERIVED(ESTIMATE, derive_##METRIC),                                                       \
+     .digits = DIGITS},
+static const DipField row_fields[] = {
+    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCostRow, quality)},
+    {"text", "settings", NULL, "The settings that are off their defaults.",
+     DIP_DERIVED(TEXT, derive_text)},
+    {"path", "path", NULL, "Index of the camera path in `paths`.",
+     DIP_FACT(WHOLE, DipCostRow, path), .most = DIP_COST_MAX_PATHS - 1},
+    {"places", NULL, NULL, "The judged viewpoints.", LIST, .list = &viewpoint_list},
+    {"figures", NULL, NULL, "Metrics over the judged viewpoints.",
+     DIP_DERIVED(RECORD, derive_figures), .record = &figures_record},
+    {"over_time", NULL, NULL, "Metrics of successive frames.",
+     DIP_DERIVED(RECORD, derive_over_time), .record = &over_time_record},
+    METRIC_LIST(OF_VIEWPOINTS){"flip_tail", NULL, NULL, "How FLIP is distributed over the pixels.",
+                               DIP_DERIVED(RECORD, derive_tail), .record = &tail_record},
+    {"at_floor", "at floor", NULL,
+     "Whether the RMSE is below three times the truth's noise floor, so that it cannot be told "
+     "from the truth's own noise.",
+     DIP_DERIVED(FLAG, derive_at_floor)},
+    TIME_FIELD("ratio", "ratio", NULL,
+               "The time for the whole path divided by the baseline's; each frame was timed beside "
+               "the baseline's same frame.",
+               ratio, 3),
+    TIME_FIELD("ms", "mean", "ms", "Mean time of the frames along the path, in this run.", mean_ms,
+               2),
+    TIME_FIELD("p95_ms", "p95", "ms",
+               "95th percentile of the times of the frames along the path, in this run.", p95_ms,
+               2),
+    TIME_FIELD("worst_ms", "worst", "ms", "Time of the slowest frame along the path, in this run.",
+               worst_ms, 2),
+    STAGE_NAMES_FIELD(DipCostRow, is_timed),
+    COUNTERS_FIELD(DipCostRow, is_timed),
+    {"pairs", NULL, NULL, "What was timed.", RECORD, .record = &pair_record, .known = is_timed},
+};
+
+static bool check_row(const DipFieldAt *at) {
+    const DipCostRow *row = at->item;
+    bool ok = row->path < report_of(at)->path_count;
+    for (int f = 0; f < count_pairs(at); f++) {
+        const DipTimePair *pair = &row->pairs[f];
+        ok = ok && (pair->ms == 0.0 ||
+                    (pair->ms >= DIP_COST_LEAST_MS && pair->base_ms >= DIP_COST_LEAST_MS));
+    }
+    return ok;
+}
+
+const DipRecord dip_cost_row_record =
+    DIP_RECORD("row", "One measured combination: quality settings on a camera path.", row_fields,
+               DipCostRow, check_row);
+
+static DipErrorCode open_rows(const DipFieldAt *at, int count) {
+    DipCostReport *report = report_of(at);
+    if (count < 1 || count > DIP_COST_MAX_ROWS) {
+        return DIP_ERROR_FORMAT;
+    }
+    report->options.rounds = report->rounds;
+    report->options.end_place = report->options.places;
+    report->rows = calloc((size_t)count, sizeof *report->rows);
+    report->row_count = report->rows ? count : 0;
+    return report->rows && dip_cost_report_alloc(report, NULL) ? DIP_ERROR_NONE : DIP_ERROR_MEMORY;
+}
+
+// --- visits --------------------------------------------------------------------------------------
+
+// A frame is timed a few times for the advice, and a baseline's in every block.
+enum { MOST_TIMES = 64 };
+
+// A visit: successive frames of the log, from the index `first` on.
+typedef struct Visit {
+    int row;
+    int start;
+    int round;
+    int block;
+    double begin_ms;
+    int first;
+    int count;
+} Visit;
+
+static bool is_same_visit(const DipTimed *a, const DipTimed *b) {
+    return a->subject == b->subject && a->start == b->start && a->round == b->round &&
+           a->block == b->block;
+}
+
+static int count_visits(const DipFieldAt *at) {
+    const DipCostReport *report = report_of(at);
+    int count = 0;
+    for (int i = 0; i < report->log_count; i++) {
+        count += i == 0 || !is_same_visit(&report->log[i - 1], &report->log[i]);
+    }
+    return count;
+}
+
+// *scratch has the visit before.
+static const void *get_visit(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    const DipCostReport *report = report_of(at);
+    Visit *visit = (Visit *)scratch;
+    const int first = index > 0 ? visit->first + visit->count : 0;
+    const DipTimed *timed = &report->log[first];
+    *visit = (Visit){.row = timed->subject,
+                     .start = timed->start,
+                     .round = timed->round,
+                     .block = timed->block,
+                     .begin_ms = (double)timed->begin_ns / 1e6,
+                     .first = first};
+    while (first + visit->count < report->log_count && is_same_visit(timed, &timed[visit->count])) {
+        visit->count++;
+    }
+    return visit;
+}
+
+// Files without visits are read by their pairs.
+static DipErrorCode open_visits(const DipFieldAt *at, int count) {
+    const DipCostReport *report = report_of(at);
+    return count == 0 || (report->starts > 0 && report->rounds % report->starts == 0)
+               ? DIP_ERROR_NONE
+               : DIP_ERROR_FORMAT;
+}
+
+static bool put_visit(const DipFieldAt *at, int index, const void *item) {
+    const DipCostReport *report = report_of(at);
+    const Visit *visit = item;
+    (void)index;
+    for (int i = visit->first; i < visit->first + visit->count; i++) {
+        DipTimed *timed = &report->log[i];
+        timed->subject = visit->row;
+        timed->start = visit->start;
+        timed->round = visit->round;
+        timed->block = visit->block;
+        timed->begin_ns = llround(1e6 * visit->begin_ms);
+        if (timed->frame >= dip_cost_frame_count(report)) {
+            return false;
+        }
+    }
+    return is_row(report, visit->row) && visit->start < report->starts &&
+           visit->round < report->rounds / report->starts;
+}
+
+static int count_frames(const DipFieldAt *at) {
+    return ((const Visit *)at->item)->count;
+}
+
+// Makes room for the frames of a visit at the end of the log.
+static DipErrorCode open_frames(const DipFieldAt *at, int count) {
+    DipCostReport *report = report_of(at);
+    Visit *visit = (Visit *)at->item;
+    const int64_t needed = (int64_t)report->log_count + count;
+    if (count < 1 ||
+        needed > (int64_t)MOST_TIMES * report->row_count * dip_cost_frame_count(report)) {
+        return DIP_ERROR_FORMAT;
+    }
+    DipTimed *log = realloc(report->log, (size_t)needed * sizeof *log);
+    if (!log) {
+        return DIP_ERROR_MEMORY;
+    }
+    memset(log + report->log_count, 0, (size_t)count * sizeof *log);
+    visit->first = report->log_count;
+    visit->count = count;
+    report->log = log;
+    report->log_count = (int)needed;
+    return DIP_ERROR_NONE;
+}
+
+static DipErrorCode open_times(const DipFieldAt *at, int count) {
+    return count == count_frames(at) ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
+}
+
+#define TIMED_FUNCTION(member)                                                                     \
+    static const void *get_timed_##member(const DipFieldAt *at, int index,                         \
+                                          DipFieldScratch *scratch) {                              \
+        (void)scratch;                                                                             \
+        return &report_of(at)->log[((const Visit *)at->item)->first + index].member;               \
+    }
+TIMED_FUNCTION(frame)
+TIMED_FUNCTION(ms)
+TIMED_FUNCTION(wait)
+
+static bool is_wait_known(const DipFieldAt *at) {
+    return isfinite(*(const double *)at->item);
+}
+
+static const DipField frame_element = {.kind = DIP_FIELD_WHOLE, .most = INT_MAX};
+static const DipField ms_element = {
+    .kind = DIP_FIELD_NUMBER, .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS};
+static const DipField wait_element = {
+    .kind = DIP_FIELD_NUMBER, .most = DIP_COST_MOST_MEAN, .known = is_wait_known};
+
+#define TIMED_FIELD(name, MEMBER, ELEMENT, OPEN, means)                                            \
+    {                                                                                              \
+        name, NULL, NULL, means, LIST, .list = &(const DipFieldList) {                             \
+            .element = &(ELEMENT), .count = count_frames, .item = get_timed_##MEMBER, .open = OPEN \
+        }                                                                                          \
+    }
+static const DipField visit_fields[] = {
+    {"row", NULL, NULL, "Index of the row.", DIP_FACT(WHOLE, Visit, row),
+     .most = DIP_COST_MAX_ROWS - 1},
+    {"start", NULL, NULL, "Start of the program, from 0 on.", DIP_FACT(WHOLE, Visit, start),
+     .most = DIP_TIMED_MOST_STARTS - 1},
+    {"round", NULL, NULL, "Round of the start, from 0 on.", DIP_FACT(WHOLE, Visit, round),
+     .most = INT_MAX},
+    {"block", NULL, NULL,
+     "Visits of one block are compared with each other; the blocks of a round have different "
+     "numbers.",
+     DIP_FACT(WHOLE, Visit, block), .most = INT_MAX - 1},
+    {"begin_ms", NULL, "ms", "When the visit began, since the measurement began.",
+     DIP_FACT(NUMBER, Visit, begin_ms), .most = DIP_COST_MOST_MS},
+    TIMED_FIELD("frames", frame, frame_element, open_frames, "The frames along the path."),
+    TIMED_FIELD("ms", ms, ms_element, open_times, "Time of each frame, in milliseconds."),
+    TIMED_FIELD(
+        "wait", wait, wait_element, open_times,
+        "Time that the frame's threads waited for a processor, as a share of its time; null "
+        "if the machine does not tell."),
+};
+static const DipRecord visit_record = DIP_RECORD(
+    "visit", "A few frames of one row, timed one after another.", visit_fields, Visit, NULL);
+
+static const DipFieldList visit_list = {.record = &visit_record,
+                                        .count = count_visits,
+                                        .item = get_visit,
+                                        .open = open_visits,
+                                        .put = put_visit};
+
+// --- paths and their truths ----------------------------------------------------------------------
+
+typedef struct Path {
+    char name[16];
+    char poses[33];
+    int base_row;
+    int same_row;
+} Path;
+
+static const void *derive_floor(const DipFieldAt *at, DipFieldScratch *scratch) {
+    *(DipMetrics *)scratch = dip_cost_floor_metrics(report_of(at), at->index);
+    return scratch;
+}
+
+static const DipField path_fields[] = {
+    {"name", "path", NULL, "\"DEFAULT\", \"AA\" and so on: the key of the path in the ini.",
+     DIP_FACT(TEXT, Path, name)},
+    {"poses", NULL, NULL, "Hash of the poses that are drawn.", DIP_FACT(TEXT, Path, poses)},
+    {"base_row", NULL, NULL, "The row with which the others of the path are timed.",
+     DIP_FACT(WHOLE, Path, base_row), .most = DIP_COST_MAX_ROWS - 1},
+    {"same_row", NULL, NULL, "The baseline once more, timed as if it were another setting (A/A).",
+     DIP_FACT(WHOLE, Path, same_row), .most = DIP_COST_MAX_ROWS - 1},
+    {"floor", NULL, NULL, "Estimates of the metrics that the noise of the path's truths alone has.",
+     DIP_DERIVED(RECORD, derive_floor), .record = &dip_cost_metrics_record},
+};
+static const DipRecord path_record = DIP_RECORD("path", "A camera path.", path_fields, Path, NULL);
+
+static int count_paths(const DipFieldAt *at) {
+    return report_of(at)->path_count;
+}
+
+static const void *get_path(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    const DipCostReport *report = report_of(at);
+    Path *path = (Path *)scratch;
+    *path = (Path){.base_row = report->base_rows[index], .same_row = report->same_rows[index]};
+    memcpy(path->name, report->paths[index], sizeof path->name);
+    memcpy(path->poses, report->path_hashes[index], sizeof path->poses);
+    return path;
+}
+
+static DipErrorCode open_paths(const DipFieldAt *at, int count) {
+    const bool fits = count > 0 && count <= DIP_COST_MAX_PATHS;
+    report_of(at)->path_count = fits ? count : 0;
+    return fits ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
+}
+
+// Names of paths are those of categories, or of an option's value.
+static bool is_name(const char *text) {
+    return *text && strspn(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                 "0123456789_-") == strlen(text);
+}
+
+static bool put_path(const DipFieldAt *at, int index, const void *item) {
+    DipCostReport *report = report_of(at);
+    const Path *path = item;
+    memcpy(report->paths[index], path->name, sizeof path->name);
+    memcpy(report->path_hashes[index], path->poses, sizeof path->poses);
+    report->base_rows[index] = path->base_row;
+    report->same_rows[index] = path->same_row;
+    return is_name(path->name);
+}
+
+static const DipFieldList path_list = {.record = &path_record,
+                                       .count = count_paths,
+                                       .item = get_path,
+                                       .open = open_paths,
+                                       .put = put_path};
+
+typedef struct Floor {
+    int path;
+    int place;
+    DipMetricSums halves;
+} Floor;
+
+static const DipField floor_fields[] = {
+    {"path", NULL, NULL, "Index of the camera path.", DIP_FACT(WHOLE, Floor, path),
+     .most = DIP_COST_MAX_PATHS - 1},
+    {"place", NULL, NULL, "Index of the viewpoint on its path.", DIP_FACT(WHOLE, Floor, place),
+     .most = DIP_COST_MAX_PLACES - 1},
+    SUMS_FIELD("half_against_half", "Sums of one half of the truth against the other.", Floor,
+               halves),
+};
+static const DipRecord floor_record =
+    DIP_RECORD("noise floor", "The two halves of a viewpoint's truth (converged picture).",
+               floor_fields, Floor, NULL);
+
+static int all_floors(const DipCostReport *report) {
+    return report->path_count * report->options.places;
+}
+
+static int count_floors(const DipFieldAt *at) {
+    int count = 0;
+    for (int i = 0; i < all_floors(report_of(at)); i++) {
+        count += report_of(at)->has_floor[i];
+    }
+    return count;
+}
+
+static const void *get_floor(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    const DipCostReport *report = report_of(at);
+    int i = 0;
+    for (int left = index + !report->has_floor[0]; left > 0; left -= report->has_floor[i]) {
+        i++;
+    }
+    *(Floor *)scratch =
+        (Floor){i / report->options.places, i % report->options.places, report->floors[i]};
+    return scratch;
+}
+
+static DipErrorCode open_floors(const DipFieldAt *at, int count) {
+    return count <= all_floors(report_of(at)) ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
+}
+
+static bool put_floor(const DipFieldAt *at, int index, const void *item) {
+    DipCostReport *report = report_of(at);
+    const Floor *from = item;
+    (void)index;
+    if (from->path >= report->path_count || from->place >= report->options.places ||
+        !are_sums(&from->halves)) {
+        return false;
+    }
+    report->floors[from->path * report->options.places + from->place] = from->halves;
+    report->has_floor[from->path * report->options.places + from->place] = true;
+    return true;
+}
+
+static const DipFieldList floor_list = {.record = &floor_record,
+                                        .count = count_floors,
+                                        .item = get_floor,
+                                        .open = open_floors,
+                                        .put = put_floor};
+
+// --- sweeps --------------------------------------------------------------------------------------
+
+// A step is the index of its row, in the sweep's array.
+static const DipCostSweep *sweep_of(const DipFieldAt *at) {
+    return at->owner->item;
+}
+
+static bool is_step_timed(const DipFieldAt *at) {
+    return dip_cost_is_timed(report_of(at), *(const int *)at->item);
+}
+
+static const void *derive_ratio(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &sweep_of(at)->ratios[at->index];
+}
+
+static const void *derive_row(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &report_of(at)->rows[*(const int *)at->item];
+}
+
+static const void *derive_step(const DipFieldAt *at, DipFieldScratch *scratch) {
+    dip_cost_step_text(report_of(at), sweep_of(at), *(const int *)at->item, scratch->text);
+    return scratch->text;
+}
+
+#define CHANGE_FIELD(METRIC, NAME, title, unit, DIGITS)                                            \
+    {NAME "_change",                                                                               \
+     title,                                                                                        \
+     unit,                                                                                         \
+     title " minus that of the sweep's base, over the viewpoints that both have.",                 \
+     DIP_DERIVED(ESTIMATE, derive_change_##METRIC),                                                \
+     .digits = DIGITS},
+static const DipField step_fields[] = {
+    {"row", NULL, NULL, "Index of the step's row.", .kind = DIP_FIELD_WHOLE,
+     .where = DIP_FIELD_JSON, .most = DIP_COST_MAX_ROWS - 1},
+    {"step", "step", NULL, "The step's name.", DIP_DERIVED(TEXT, derive_step)},
+    {"ratio", "ratio", NULL, "The step's time divided by that of the sweep's base.",
+     DIP_DERIVED(ESTIMATE, derive_ratio), .known = is_step_timed, .digits = 3},
+    METRIC_LIST(CHANGE_FIELD){"measured", NULL, NULL, "The fields of the step's row.",
+                              .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_DERIVED,
+                              .derive = derive_row, .record = &dip_cost_row_record},
+};
+
+static bool check_step(const DipFieldAt *at) {
+    return is_row(report_of(at), *(const int *)at->item);
+}
+
+static const DipRecord step_record =
+    DIP_RECORD("step", "A step of a sweep.", step_fields, int, check_step);
+
+static const void *derive_title(const DipFieldAt *at, DipFieldScratch *scratch) {
+    dip_cost_sweep_title(report_of(at), at->item, scratch->text);
+    return scratch->text;
+}
+
+static const DipField sweep_fields[] = {
+    {"title", NULL, NULL, "The setting, and the others that are off their defaults.",
+     DIP_DERIVED(TEXT, derive_title)},
+    {"setting", NULL, NULL, "Key of the setting.", DIP_FACT(NAMED, DipCostSweep, setting),
+     .names = setting_keys, .name_count = DIP_SETTING_COUNT},
+    {"path", NULL, NULL, "Index of the camera path.", DIP_FACT(WHOLE, DipCostSweep, path),
+     .most = DIP_COST_MAX_PATHS - 1},
+    {"base", NULL, NULL, "Index of the row with which the steps are compared.",
+     DIP_FACT(WHOLE, DipCostSweep, base), .most = DIP_COST_MAX_ROWS - 1},
+    {"steps", NULL, NULL, "The steps, in the order of the setting.", LIST,
+     ARRAY_OF(DipCostSweep, rows, row_count, DIP_COST_MAX_SWEEP_ROWS, &step_record)},
+};
+
+static bool check_sweep(const DipFieldAt *at) {
+    const DipCostSweep *sweep = at->item;
+    return sweep->path < report_of(at)->path_count && is_row(report_of(at), sweep->base);
+}
+
+static const DipRecord sweep_record =
+    DIP_RECORD("sweep", "All steps of one setting on one path, all others held constant.",
+               sweep_fields, DipCostSweep, check_sweep);
+
+// --- same pictures, predictions, smaller pictures ------------------------------------------------
+
+static const DipField same_fields[] = {
+    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCostSame, quality)},
+    {"row", NULL, NULL, "Index of the row that stands for the combination.",
+     DIP_FACT(WHOLE, DipCostSame, row), .most = DIP_COST_MAX_ROWS - 1},
+};
+
+static bool check_same(const DipFieldAt *at) {
+    return is_row(report_of(at), ((const DipCostSame *)at->item)->row);
+}
+
+static const DipRecord same_record =
+    DIP_RECORD("same pictures",
+               "A combination that draws the same pictures as a row with fewer settings off their "
+               "defaults.",
+               same_fields, DipCostSame, check_same);
+
+static const DipField misses_fields[] = {
+    {"rows", NULL, NULL, "Number of combinations that were compared.",
+     DIP_FACT(WHOLE, DipCostMisses, rows), .most = DIP_COST_MAX_ROWS},
+    {"median", NULL, NULL, "Median of |predicted / measured - 1|.",
+     DIP_FACT(NUMBER, DipCostMisses, median), .most = DIP_COST_MOST_MEAN},
+    {"p90", NULL, NULL, "90th percentile of |predicted / measured - 1|.",
+     DIP_FACT(NUMBER, DipCostMisses, p90), .most = DIP_COST_MOST_MEAN},
+    {"within_5_percent", NULL, NULL, "Share that is missed by at most 5 %.",
+     DIP_FACT(NUMBER, DipCostMisses, within_5), .most = 1.0},
+    {"within_10_percent", NULL, NULL, "Share that is missed by at most 10 %.",
+     DIP_FACT(NUMBER, DipCostMisses, within_10), .most = 1.0},
+};
+const DipRecord dip_cost_misses_record = DIP_RECORD(
+    "misses", "How far predictions lie from measurements.", misses_fields, DipCostMisses, NULL);
+
+#define MISSES_FIELD(name, MEMBER, means)                                                          \
+    {                                                                                              \
+        name, NULL, NULL, means, DIP_FACT(RECORD, DipCostPredictions, MEMBER),                     \
+            .record = &dip_cost_misses_record                                                      \
+    }
+static const DipField all_misses_fields[] = {
+    MISSES_FIELD("times", times, "Mean times of rows that were measured after the prediction."),
+    MISSES_FIELD("flip", errors, "FLIP of rows that were measured after the prediction."),
+    MISSES_FIELD("times_left_out", times_left_out,
+                 "Mean times of the first rows, each predicted from the others."),
+    MISSES_FIELD("flip_left_out", errors_left_out,
+                 "FLIP of the first rows, each predicted from the others."),
+};
+static const DipRecord all_misses_record = DIP_RECORD(
+    "misses of --predict", "How well --predict did.", all_misses_fields, DipCostPredictions, NULL);
+
+static const DipField prediction_fields[] = {
+    {"settings", NULL, NULL, "All quality settings.",
+     DIP_FACT(SETTINGS, DipCostPrediction, quality)},
+    {"ms", "predicted mean", "ms", "Predicted mean time of a frame.",
+     DIP_FACT(NUMBER, DipCostPrediction, ms), .most = DIP_COST_MOST_MS, .digits = 2},
+    {"p95_ms", "predicted p95", "ms", "Predicted 95th percentile of the frames along the path.",
+     DIP_FACT(NUMBER, DipCostPrediction, p95_ms), .most = DIP_COST_MOST_MS, .digits = 2},
+    {"flip", "predicted FLIP", NULL, "Predicted mean FLIP.",
+     DIP_FACT(NUMBER, DipCostPrediction, flip), .most = DIP_COST_MOST_MEAN, .digits = 4},
+    {"row", NULL, NULL, "Index of the row that measured the combination later, or -1.",
+     DIP_FACT(WHOLE, DipCostPrediction, row), .least = -1, .most = DIP_COST_MAX_ROWS - 1},
+};
+
+static bool check_prediction(const DipFieldAt *at) {
+    return ((const DipCostPrediction *)at->item)->row < report_of(at)->row_count;
+}
+
+const DipRecord dip_cost_prediction_of_report_record = DIP_RECORD(
+    "prediction", "A combination whose time and error were predicted from measured rows.",
+    prediction_fields, DipCostPrediction, check_prediction);
+
+static const DipField predictions_fields[] = {
+    {"trained", NULL, NULL, "Number of rows that were measured to predict all others.",
+     DIP_FACT(WHOLE, DipCostPredictions, trained), .most = DIP_COST_MAX_ROWS},
+    {"misses", NULL, NULL, "How well the prediction did.", RECORD, .record = &all_misses_record},
+    {"combinations", NULL, NULL, "What was predicted.", LIST,
+     OWNED(DipCostPredictions, list, count, DIP_COST_MAX_ROWS,
+           &dip_cost_prediction_of_report_record)},
+};
+static const DipRecord predictions_record = DIP_RECORD(
+    "predictions", "What --predict ranked.", predictions_fields, DipCostPredictions, NULL);
+
+static const DipField elsewhere_fields[] = {
+    {"settings", NULL, NULL, "All quality settings.",
+     DIP_FACT(SETTINGS, DipCostElsewhere, quality)},
+    {"ms", "mean", "ms", "Mean time of a frame.", DIP_FACT(ESTIMATE, DipCostElsewhere, ms),
+     .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS, .digits = 2},
+    STAGE_NAMES_FIELD(DipCostElsewhere, NULL),
+    COUNTERS_FIELD(DipCostElsewhere, NULL),
+};
+
+static bool check_elsewhere(const DipFieldAt *at) {
+    return isfinite(((const DipCostElsewhere *)at->item)->ms.value);
+}
+
+const DipRecord dip_cost_elsewhere_record =
+    DIP_RECORD("combination elsewhere",
+               "A combination that was timed at another size, on another path or with other "
+               "threads, in milliseconds of the report.",
+               elsewhere_fields, DipCostElsewhere, check_elsewhere);
+
+enum { MOST_SIDE = 16384 }; // Pixels.
+
+static const DipField smaller_fields[] = {
+    {"width", NULL, "px", "Width of these pictures.", DIP_FACT(WHOLE, DipCostReport, smaller_width),
+     .least = 1, .most = MOST_SIDE},
+    {"height", NULL, "px", "Height of these pictures.",
+     DIP_FACT(WHOLE, DipCostReport, smaller_height), .least = 1, .most = MOST_SIDE},
+    {"combinations", NULL, NULL, "The combinations.", LIST,
+     ARRAY_OF(DipCostReport, smaller, smaller_count, DIP_COST_MAX_SMALLER,
+              &dip_cost_elsewhere_record)},
+};
+
+static bool check_smaller(const DipFieldAt *at) {
+    return report_of(at)->smaller_count > 0;
+}
+
+static const DipRecord smaller_record =
+    DIP_RECORD("smaller pictures",
+               "A few combinations at about half the width and height, which tell work that grows "
+               "with the picture from work that does not.",
+               smaller_fields, DipCostReport, check_smaller);
+
+// --- what is computed ----------------------------------------------------------------------------
+
+static const DipField interaction_fields[] = {
+    {"a", NULL, NULL, "Key of one setting.", DIP_FACT(NAMED, DipCostInteraction, a),
+     .names = setting_keys},
+    {"b", NULL, NULL, "Key of the other setting.", DIP_FACT(NAMED, DipCostInteraction, b),
+     .names = setting_keys},
+    {"combinations", "combinations", "of the others",
+     "Number of combinations of the other settings over which the means are taken.",
+     DIP_FACT(WHOLE, DipCostInteraction, contexts)},
+    {"flip", "FLIP", "difference",
+     "FLIP of both settings together, less that of each alone, plus that of neither. Above 0, both "
+     "together lower FLIP by less than the sum of what each lowers it.",
+     DIP_FACT(NUMBER, DipCostInteraction, flip), .digits = 5},
+    {"time", "time", "factor",
+     "Time of both together times that of neither, divided by the times of each alone. Above 1, "
+     "both together cost more than the product of their ratios; 0 without times.",
+     DIP_FACT(NUMBER, DipCostInteraction, time), .digits = 3},
+};
+static const DipRecord interaction_record =
+    DIP_RECORD("interaction", "Two settings at their last steps together, against each alone.",
+               interaction_fields, DipCostInteraction, NULL);
+
+static int count_interactions(const DipFieldAt *at) {
+    return report_of(at)->analysis ? report_of(at)->analysis->interaction_count : 0;
+}
+
+static const void *get_interaction(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &report_of(at)->analysis->interactions[index];
+}
+
+static const DipFieldList interaction_list = {
+    .record = &interaction_record, .count = count_interactions, .item = get_interaction};
+
+// The price of a kind of work: an index of the fit's terms.
+static const void *derive_stage(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return report_of(at)->analysis->fit.stages[at->index];
+}
+
+static const void *derive_work(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return report_of(at)->analysis->fit.names[at->index];
+}
+
+static const DipField price_fields[] = {
+    {"stage", "stage", NULL, "Stage of the pipeline.", DIP_DERIVED(TEXT, derive_stage)},
+    {"work", "unit of work", NULL, "The kind of work; \"frame\" is what every frame takes.",
+     DIP_DERIVED(TEXT, derive_work)},
+    {"ns", "time", "ns", "Time of a unit of this work.", .kind = DIP_FIELD_NUMBER,
+     .where = DIP_FIELD_JSON, .digits = 3},
+};
+static const DipRecord price_record =
+    DIP_RECORD("price of work", "What a unit of work takes.", price_fields, double, NULL);
+
+static const DipField fit_fields[] = {
+    {"prices", NULL, NULL, "The price of each kind of work.", LIST,
+     ARRAY_OF(DipCostFit, ns, count, 0, &price_record)},
+    {"r2", NULL, NULL, "Share of the relative variance of the times that the fit explains.",
+     DIP_FACT(NUMBER, DipCostFit, r2), .digits = 3},
+    {"median_miss", NULL, NULL, "Median of |fitted / measured - 1|.",
+     DIP_FACT(NUMBER, DipCostFit, median_miss), .digits = 3},
+    {"median_miss_of_others", NULL, NULL, "The same if each row is predicted from all others.",
+     DIP_FACT(NUMBER, DipCostFit, others.median), .digits = 3},
+    {"within_10_percent_of_others", NULL, NULL,
+     "Share of the rows that are predicted from all others within 10 %.",
+     DIP_FACT(NUMBER, DipCostFit, others.within_10), .digits = 3},
+};
+static const DipRecord fit_record = DIP_RECORD(
+    "fit", "A linear fit of the times of the stages to their work.", fit_fields, DipCostFit, NULL);
+
+static const void *derive_fit(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipCostAnalysis *analysis = report_of(at)->analysis;
+    (void)scratch;
+    return analysis && analysis->fit.rows > 0 ? &analysis->fit : NULL;
+}
+
+// --- advice --------------------------------------------------------------------------------------
+
+// Only the budgets are facts: advice is computed again from times and errors.
+static const DipCandidate *candidate_of(const DipFieldAt *at, int index) {
+    return index >= 0 ? &report_of(at)->choice.candidates.list[index] : NULL;
+}
+
+static const DipCandidate *chosen_of(const DipFieldAt *at) {
+    return candidate_of(at, ((const DipAdvice *)at->item)->chosen);
+}
+
+static const DipCandidate *next_of(const DipFieldAt *at) {
+    return candidate_of(at, ((const DipAdvice *)at->item)->next);
+}
+
+static const void *derive_chosen(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipCandidate *chosen = chosen_of(at);
+    *(int *)scratch = chosen ? chosen->row : -1;
+    return scratch;
+}
+
+static const void *derive_next(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipCandidate *next = next_of(at);
+    *(int *)scratch = next ? next->row : -1;
+    return scratch;
+}
+
+// The chosen time, with the error that all candidates share.
+static const void *derive_chosen_ms(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipCandidate *chosen = chosen_of(at);
+    if (!chosen) {
+        return NULL;
+    }
+    *(DipEstimate *)scratch = dip_estimate_widen(&chosen->time, chosen->common_error);
+    return scratch;
+}
+
+static int count_ties(const DipFieldAt *at) {
+    const int count = ((const DipAdvice *)at->item)->tie_count;
+    return count < DIP_ADVICE_TIES ? count : DIP_ADVICE_TIES;
+}
+
+static const void *get_tie(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &candidate_of(at, ((const DipAdvice *)at->item)->ties[index])->row;
+}
+
+static bool has_next(const DipFieldAt *at) {
+    return ((const DipAdvice *)at->item)->next >= 0;
+}
+
+static const DipField tie_element = {.kind = DIP_FIELD_WHOLE};
+
+static const DipField advice_fields[] = {
+    {"budget_ms", "budget", "ms", "The time that a frame may take.",
+     DIP_FACT(NUMBER, DipAdvice, budget_ms), .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS},
+    {"row", NULL, NULL, "Index of the chosen row, or -1 if none is surely within the budget.",
+     DIP_DERIVED(WHOLE, derive_chosen)},
+    {"ms", NULL, "ms", "The row's time, of the kind that the budget is meant for (`budget_of`).",
+     DIP_DERIVED(ESTIMATE, derive_chosen_ms), .digits = 2},
+    {"fits", "fits", NULL, "Probability that this time is within the budget.",
+     DIP_COMPUTED(NUMBER, DipAdvice, fits)},
+    {"ties", NULL, NULL,
+     "Up to eight other rows that are as good: they surely fit, too, and their FLIP is within 1 % "
+     "of the least. The fastest comes first.",
+     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED,
+     .list = &(const DipFieldList){.element = &tie_element, .count = count_ties, .item = get_tie}},
+    {"tie_count", NULL, NULL, "Number of all rows that are as good.",
+     DIP_COMPUTED(WHOLE, DipAdvice, tie_count)},
+    {"next", NULL, NULL,
+     "Index of the next better row, or of the fastest row if none is chosen; -1 if there is none.",
+     DIP_DERIVED(WHOLE, derive_next)},
+    {"next_ms", NULL, "ms",
+     "How much longer that row takes than the chosen one, or than the budget if none is chosen.",
+     DIP_COMPUTED(NUMBER, DipAdvice, next_ms), .known = has_next, .digits = 2},
+    {"next_fits", NULL, NULL, "Probability that the time of that row is within the budget.",
+     DIP_COMPUTED(NUMBER, DipAdvice, next_fits), .known = has_next},
+};
+static const DipRecord advice_record =
+    DIP_RECORD("advice", "The row to choose for one time budget.", advice_fields, DipAdvice, NULL);
+
+static int count_advice(const DipFieldAt *at) {
+    return report_of(at)->choice.advice_count;
+}
+
+static const void *get_advice(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &report_of(at)->choice.advice[index];
+}
+
+static DipErrorCode open_advice(const DipFieldAt *at, int count) {
+    const bool fits = count <= DIP_COST_MAX_BUDGETS;
+    report_of(at)->options.budget_count = fits ? count : 0;
+    return fits ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
+}
+
+static bool put_advice(const DipFieldAt *at, int index, const void *item) {
+    report_of(at)->options.budgets_ms[index] = ((const DipAdvice *)item)->budget_ms;
+    return true;
+}
+
+static const DipFieldList advice_list = {.record = &advice_record,
+                                         .count = count_advice,
+                                         .item = get_advice,
+                                         .open = open_advice,
+                                         .put = put_advice};
+
+// --- the machine ---------------------------------------------------------------------------------
+
+static const void *derive_reason(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return report_of(at)->verdict_reason;
+}
+
+static const DipField machine_fields[] = {
+    {"verdict", "machine", NULL, "How quiet the machine was: green, amber or red.",
+     DIP_COMPUTED(NAMED, DipCostReport, verdict), .names = dip_cost_verdict_names},
+    {"reason", NULL, NULL, "What the verdict comes from.", DIP_DERIVED(TEXT, derive_reason)},
+    {"wait", NULL, NULL, "Waiting time of all timed frames divided by (their time x threads).",
+     DIP_FACT(NUMBER, DipCostReport, machine.wait), .most = DIP_COST_MOST_MEAN},
+    {"repeated", NULL, NULL, "Number of frames that were timed again.",
+     DIP_FACT(WHOLE, DipCostReport, machine.repeated), .most = INT_MAX},
+    {"has_wait", NULL, NULL, "Whether the machine tells how long threads wait.",
+     DIP_FACT(FLAG, DipCostReport, machine.has_wait)},
+    {"settled", NULL, NULL, "Whether the time was steady before the first round.",
+     DIP_FACT(FLAG, DipCostReport, machine.settled)},
+    {"doubt", NULL, NULL,
+     "Standard error of the logarithm of all times that an amber verdict adds to their intervals.",
+     DIP_COMPUTED(NUMBER, DipCostReport, doubt), .digits = 3},
+    {"starts", NULL, NULL,
+     "Number of starts of the program, each with rounds / starts rounds; 0 without `visits`.",
+     DIP_FACT(WHOLE, DipCostReport, starts), .most = DIP_TIMED_MOST_STARTS},
+};
+static const DipRecord machine_record = DIP_RECORD(
+    "machine", "What the timing tells about the machine.", machine_fields, DipCostReport, NULL);
+
+// --- the report ----------------------------------------------------------------------------------
+
+static const DipField left_out_element = {.kind = DIP_FIELD_TEXT, .size = DIP_COST_REASON};
+
+static bool has_times(const DipFieldAt *at) {
+    return report_of(at)->rounds > 0;
+}
+
+static bool has_predictions(const DipFieldAt *at) {
+    return report_of(at)->predicted.count > 0;
+}
+
+static bool has_smaller(const DipFieldAt *at) {
+    return report_of(at)->smaller_count > 0;
+}
+
+const void *dip_cost_derive_format(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)at;
+    *(int *)scratch = DIP_COST_JSON_FORMAT;
+    return scratch;
+}
+
+#define HEADER_TEXT(member, means)                                                                 \
+    { #member, NULL, NULL, means, DIP_FACT(TEXT, DipCostReport, member) }
+#define HEADER_NUMBER(member, LEAST, MOST, means)                                                  \
+    {                                                                                              \
+#member, NULL, NULL, means, DIP_FACT(WHOLE, DipCostReport, member), .least = LEAST,        \
+                                                                            .most = MOST           \
+    }
+#define OPTION_NUMBER(member, LEAST, MOST, means)                                                  \
+    {                                                                                              \
+#member, NULL, NULL, means, DIP_FACT(WHOLE, DipCostReport, options.member),                \
+            .least = LEAST, .most = MOST                                                           \
+    }
+#define REPORT_LIST(name, LISTED, means)                                                           \
+    { name, NULL, NULL, means, LIST, LISTED }
+static const DipField report_fields[] = {
+    {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
+    HEADER_TEXT(version, "Version of Diptych."),
+    HEADER_TEXT(build, "Hash of the program's file."),
+    HEADER_TEXT(scene, "Name of the scene."),
+    HEADER_TEXT(scene_hash, "Hash of the scene."),
+    HEADER_TEXT(processor, "The processor."),
+    HEADER_TEXT(isa, "The instruction set that was used."),
+    HEADER_TEXT(date, "When the measurement ended, ISO 8601 in UTC; \"\" if it is not known."),
+    HEADER_NUMBER(threads, 1, 256, "Number of threads."),
+    HEADER_NUMBER(width, 1, 8192, "Width of the pictures, in pixels."),
+    HEADER_NUMBER(height, 1, 8192, "Height of the pictures, in pixels."),
+    HEADER_NUMBER(rounds, 0, 10000, "Number of rounds timed; 0 if the report has no times."),
+    HEADER_NUMBER(combined_first, 0, DIP_COST_MAX_ROWS,
+                  "Rows from this index on are the combinations, on path 0."),
+    OPTION_NUMBER(places, 1, DIP_COST_MAX_PLACES, "Number of viewpoints on each path."),
+    OPTION_NUMBER(burst, 1, DIP_COST_MAX_BURST, "Number of successive frames at each viewpoint."),
+    OPTION_NUMBER(samples, 0, 4096, "Samples per pixel in each half of the truth."),
+    OPTION_NUMBER(timed_frames, 1, 100, "Number of frames per path in each round."),
+    OPTION_NUMBER(budget_of, 0, 2, "The time that budgets are meant for: 0 p95, 1 mean, 2 worst."),
+    OPTION_NUMBER(seed, 0, INT_MAX, "Seed of the random order of the timing."),
+    {"pixels_per_degree", NULL, NULL, "Pixels per degree of the field of view, for FLIP.",
+     DIP_FACT(NUMBER, DipCostReport, options.pixels_per_degree), .most = DIP_COST_MOST_COUNT},
+    {"baseline", NULL, NULL, "All settings of the baseline.",
+     DIP_FACT(SETTINGS, DipCostReport, options.baseline)},
+    REPORT_LIST("paths", .list = &path_list, "The camera paths."),
+    {"machine", NULL, NULL, "What the timing tells about the machine; null without times.", RECORD,
+     .record = &machine_record, .known = has_times},
+    REPORT_LIST("left_out",
+                .list = (&(const DipFieldList){.element = &left_out_element,
+                                               .items = offsetof(DipCostReport, refused),
+                                               .counted = offsetof(DipCostReport, refused_count),
+                                               .most = DIP_COST_MAX_REFUSED}),
+                "Steps that were left out, with the reason."),
+    REPORT_LIST("rows",
+                .list = (&(const DipFieldList){.record = &dip_cost_row_record,
+                                               .items = offsetof(DipCostReport, rows),
+                                               .counted = offsetof(DipCostReport, row_count),
+                                               .points = true,
+                                               .open = open_rows}),
+                "What was measured."),
+    REPORT_LIST("visits", .list = &visit_list,
+                "Every timed frame, from which all times are computed; without visits they are "
+                "computed from the rows' pairs."),
+    REPORT_LIST("floors", .list = &floor_list, "The truths' own noise."),
+    REPORT_LIST("same_pictures",
+                OWNED(DipCostReport, same, same_count, DIP_COST_MAX_ROWS, &same_record),
+                "Combinations that another row stands for."),
+    REPORT_LIST("sweeps",
+                ARRAY_OF(DipCostReport, sweeps, sweep_count, DIP_COST_MAX_SWEEPS, &sweep_record),
+                "The steps of each setting."),
+    {"interactions", NULL, NULL, "Pairs of settings.", .kind = DIP_FIELD_LIST,
+     .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .list = &interaction_list},
+    {"fit", NULL, NULL, "How times follow from work; null with too few rows.",
+     DIP_DERIVED(RECORD, derive_fit), .record = &fit_record},
+    {"predicted", NULL, NULL, "What --predict ranked; null without it.",
+     DIP_FACT(RECORD, DipCostReport, predicted), .record = &predictions_record,
+     .known = has_predictions},
+    {"smaller", NULL, NULL, "Combinations at a smaller size; null if there are none.", RECORD,
+     .record = &smaller_record, .known = has_smaller},
+    REPORT_LIST("advice", .list = &advice_list, "The row to choose for each time budget."),
+};
+
+static bool check_report(const DipFieldAt *at) {
+    const DipCostReport *report = report_of(at);
+    bool ok = report->combined_first <= report->row_count &&
+              report->rounds != 1; // One round has no interval.
+    for (int p = 0; p < report->path_count; p++) {
+        ok = ok && is_row(report, report->base_rows[p]) && is_row(report, report->same_rows[p]) &&
+             report->rows[report->base_rows[p]].path == p &&
+             report->rows[report->same_rows[p]].path == p;
+    }
+    return ok;
+}
+
+const DipRecord dip_cost_report_record =
+    DIP_RECORD("report", "What `diptych cost` writes to cost.json.", report_fields, DipCostReport,
+               check_report);

@@ -1,0 +1,44 @@
+// The fields of cost.json: of a report, its rows, sweeps and advice. The context of all items is
+// the DipCostReport.
+#ifndef DIP_APP_REPORT_FORMAT_COST_FIELDS_H
+#define DIP_APP_REPORT_FORMAT_COST_FIELDS_H
+
+#include "app/report/format/fields.h"
+#include "app/report/report.h"
+
+#include <stddef.h>
+
+// Ranges of measurements, far beyond what can be measured. They keep all values that are computed
+// from measurements finite.
+#define DIP_COST_LEAST_MS   1e-6
+#define DIP_COST_MOST_MS    1e9
+#define DIP_COST_MOST_COUNT 1e15
+#define DIP_COST_MOST_MEAN  1e6
+
+// A fact that is a member of a struct, a member that is computed from facts, and a value that a
+// function computes.
+#define DIP_FACT(KIND, TYPE, member)                                                               \
+    .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON, .offset = offsetof(TYPE, member),           \
+    .size = sizeof(((TYPE *)0)->member)
+#define DIP_COMPUTED(KIND, TYPE, member)                                                           \
+    .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED,                         \
+    .offset = offsetof(TYPE, member), .size = sizeof(((TYPE *)0)->member)
+#define DIP_DERIVED(KIND, function)                                                                \
+    .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .derive = function
+#define DIP_RECORD(NAME, MEANS, fields, TYPE, CHECK)                                               \
+    { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), sizeof(TYPE), CHECK }
+#define DIP_FIELD_COUNT_OF(fields) (int)(sizeof(fields) / sizeof *(fields))
+
+extern const DipRecord dip_cost_report_record;               // DipCostReport
+extern const DipRecord dip_cost_row_record;                  // DipCostRow
+extern const DipRecord dip_cost_metrics_record;              // DipMetrics
+extern const DipRecord dip_cost_prediction_of_report_record; // DipCostPrediction
+extern const DipRecord dip_cost_misses_record;               // DipCostMisses
+extern const DipRecord dip_cost_elsewhere_record;            // DipCostElsewhere
+
+// The format of all files that are written. It changes when a reader of the last format would
+// misread a file.
+enum { DIP_COST_JSON_FORMAT = 3 };
+DipFieldDerive dip_cost_derive_format;
+
+#endif

@@ -1,0 +1,167 @@
+// Writing and reading cost.json.
+#include "app/files/whole_file.h"
+#include "app/report/format/cost_fields.h"
+#include "app/report/format/formats.h"
+#include "app/report/format/json_memory.h"
+#include "renderer/base/file.h"
+
+#include <cjson/cJSON.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { MAX_FILE_BYTES = 1 << 29, PAIR_NUMBERS = 6 };
+
+static bool print_report(const void *context, FILE *out) {
+    const DipFieldAt at = {(void *)context, context, 0, NULL};
+    dip_fields_print_json(&dip_cost_report_record, &at, out);
+    return true;
+}
+
+bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError *err) {
+    return dip_whole_file_print(file, print_report, report, err);
+}
+
+// --- the last format -----------------------------------------------------------------------------
+
+// Adds a member that is missing. Takes ownership of the item.
+static void add_missing(cJSON *object, const char *name, cJSON *item) {
+    if (!object || cJSON_GetObjectItemCaseSensitive(object, name) ||
+        !cJSON_AddItemToObject(object, name, item)) {
+        cJSON_Delete(item);
+    }
+}
+
+static void add_nulls(cJSON *object, const char *const *names, int count) {
+    for (int i = 0; i < count; i++) {
+        add_missing(object, names[i], cJSON_CreateNull());
+    }
+}
+
+// An interval whose ends are the same was not known.
+static void forget_no_interval(cJSON *object) {
+    static const char *const names[] = {"ms_low", "ms_high"};
+    const cJSON *low = cJSON_GetObjectItemCaseSensitive(object, "ms_low");
+    const cJSON *high = cJSON_GetObjectItemCaseSensitive(object, "ms_high");
+    const bool known =
+        cJSON_IsNumber(low) && cJSON_IsNumber(high) && low->valuedouble < high->valuedouble;
+    for (int i = 0; i < 2 && !known; i++) {
+        cJSON_DeleteItemFromObjectCaseSensitive(object, names[i]);
+        add_missing(object, names[i], cJSON_CreateNull());
+    }
+}
+
+static void upgrade_rows(cJSON *root) {
+    static const char *const times[] = {"counters", "stages_ms", "pairs"};
+    static const char *const tail[] = {"flip_tail"};
+    cJSON *row, *viewpoint;
+    cJSON_ArrayForEach(row, cJSON_GetObjectItemCaseSensitive(root, "rows")) {
+        add_nulls(row, times, 3);
+        cJSON_ArrayForEach(viewpoint, cJSON_GetObjectItemCaseSensitive(row, "places")) {
+            add_nulls(viewpoint, tail, 1);
+            add_missing(viewpoint, "pictures", cJSON_CreateString(""));
+        }
+    }
+}
+
+static void upgrade_lists(cJSON *root) {
+    cJSON *item;
+    const cJSON *smaller = cJSON_GetObjectItemCaseSensitive(root, "smaller");
+    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(smaller, "combinations")) {
+        forget_no_interval(item);
+    }
+}
+
+// Gives a report of format 2 the members of format 3: what was left out is null or empty.
+static void upgrade(cJSON *root) {
+    static const char *const parts[] = {"machine", "predicted", "smaller"};
+    static const char *const lists[] = {"left_out", "floors", "same_pictures",
+                                        "sweeps",   "advice", "visits"};
+    add_nulls(root, parts, 3);
+    for (int i = 0; i < 6; i++) {
+        add_missing(root, lists[i], cJSON_CreateArray());
+    }
+    add_missing(root, "date", cJSON_CreateString(""));
+    upgrade_rows(root);
+    add_missing(cJSON_GetObjectItemCaseSensitive(root, "machine"), "starts",
+                cJSON_CreateNumber(0.0));
+    upgrade_lists(root);
+}
+
+// --- reading -------------------------------------------------------------------------------------
+
+static double number_of(const cJSON *root, const char *name) {
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(root, name);
+    return cJSON_IsNumber(item) ? item->valuedouble : 0.0;
+}
+
+// True if a file of this size can hold the times of all rows, of which each number has at least two
+// characters. If it cannot, memory for the times would be out of proportion to the file.
+static bool times_fit(const cJSON *root, size_t size_bytes) {
+    const int rows = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(root, "rows"));
+    return rows * number_of(root, "rounds") * number_of(root, "timed_frames") * PAIR_NUMBERS *
+               2.0 <=
+           (double)size_bytes;
+}
+
+static bool read_report(cJSON *root, size_t size_bytes, DipCostReport *report, const char *file,
+                        DipError *err) {
+    const double format = number_of(root, "format");
+    if (format == DIP_COST_JSON_FORMAT - 1) {
+        upgrade(root);
+    } else if (format != DIP_COST_JSON_FORMAT &&
+               cJSON_GetObjectItemCaseSensitive(root, "version")) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, "format",
+                             "is that of another version of Diptych, accepted %d and %d; measure "
+                             "the report again",
+                             DIP_COST_JSON_FORMAT - 1, DIP_COST_JSON_FORMAT);
+    }
+    if (!times_fit(root, size_bytes)) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, "rows",
+                             "are fewer than their number of rounds and frames says");
+    }
+    const DipFieldAt at = {report, report, 0, NULL};
+    if (!dip_fields_read_json(&dip_cost_report_record, &at, root, file, err)) {
+        return false;
+    }
+    return report->rounds == 0 || dip_cost_estimate_times(report, err);
+}
+
+bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) {
+    *report = (DipCostReport){0};
+    unsigned char *text;
+    size_t size_bytes;
+    if (!dip_file_read(file, "report", MAX_FILE_BYTES, &text, &size_bytes, err)) {
+        return false;
+    }
+    dip_json_memory_begin();
+    cJSON *root = cJSON_ParseWithLength((const char *)text, size_bytes);
+    const bool parsed =
+        root || (dip_json_memory_ran_out()
+                     ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
+                     : dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file"));
+    bool read = parsed && read_report(root, size_bytes, report, file, err);
+    if (dip_json_memory_ran_out() && parsed) { // Then a member that was added may be missing.
+        read = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    cJSON_Delete(root);
+    dip_json_memory_end();
+    free(text);
+    if (!read) {
+        dip_cost_report_free(report);
+    }
+    return read;
+}
+
+bool dip_cost_read_report(const char *name, DipCostReport *report, DipError *err) {
+    struct stat status;
+    char file[PATH_MAX];
+    const bool is_folder = stat(name, &status) == 0 && S_ISDIR(status.st_mode);
+    const int length = snprintf(file, sizeof file, is_folder ? "%s/cost.json" : "%s", name);
+    if (length < 0 || (size_t)length >= sizeof file) {
+        *report = (DipCostReport){0};
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, name, 0, NULL, "the name is too long");
+    }
+    return dip_cost_read_json(report, file, err);
+}

@@ -1,0 +1,345 @@
+// Fields as JSON: written to a stream, and read from cJSON's tree.
+#include "app/files/put.h"
+#include "app/report/format/fields.h"
+#include "renderer/scene/quality.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PATH_ROOM = 96, NAME_ROOM = 64 };
+
+// --- writing -------------------------------------------------------------------------------------
+
+static void print_number(double value, FILE *out) {
+    char text[32] = "null";
+    if (isfinite(value)) {
+        dip_field_format_exact(value, text);
+    }
+    fputs(text, out);
+}
+
+static void print_name(const char *name, FILE *out) {
+    dip_put_script_string(out, name);
+    fputc(':', out);
+}
+
+static void print_estimate(const DipField *field, const DipEstimate *estimate, FILE *out) {
+    const DipEstimate unknown = dip_estimate_unknown(NAN);
+    const DipEstimate *shown = estimate ? estimate : &unknown;
+    const bool has = dip_field_has_interval(shown);
+    const char *const ends[] = {"_low", "_high"};
+    const double values[] = {has ? shown->low : NAN, has ? shown->high : NAN};
+    print_number(shown->value, out);
+    for (int i = 0; i < 2; i++) {
+        char name[NAME_ROOM];
+        snprintf(name, sizeof name, "%s%s", field->name, ends[i]);
+        fputc(',', out);
+        print_name(name, out);
+        print_number(values[i], out);
+    }
+}
+
+static void print_numbers(const DipField *field, const double *values, FILE *out) {
+    const int count = (int)(field->size / sizeof *values);
+    fputs(field->names ? "{" : "[", out);
+    for (int i = 0; i < count; i++) {
+        fputs(i ? "," : "", out);
+        if (field->names) {
+            print_name(field->names[i], out);
+        }
+        print_number(values[i], out);
+    }
+    fputs(field->names ? "}" : "]", out);
+}
+
+static void print_value(const DipField *field, const DipFieldAt *at, const void *value, FILE *out);
+
+static void print_list(const DipFieldList *list, const DipFieldAt *at, FILE *out) {
+    const int count = dip_field_list_count(list, at);
+    DipFieldScratch scratch;
+    fputc('[', out);
+    for (int i = 0; i < count; i++) {
+        const DipFieldAt within = {at->context, dip_field_list_item(list, at, i, &scratch), i, at};
+        fputs(i ? "," : "", out);
+        if (list->record) {
+            fputc('\n', out);
+            dip_fields_print_json(list->record, &within, out);
+        } else {
+            print_value(list->element, &within, within.item, out);
+        }
+    }
+    fputc(']', out);
+}
+
+// Prints a value, which may be NULL: not known.
+static void print_value(const DipField *field, const DipFieldAt *at, const void *value, FILE *out) {
+    char settings[256];
+    if (field->kind == DIP_FIELD_ESTIMATE) {
+        print_estimate(field, value, out);
+        return;
+    }
+    if (!value) {
+        fputs("null", out);
+        return;
+    }
+    switch (field->kind) {
+    case DIP_FIELD_TEXT:
+        dip_put_script_string(out, value);
+        break;
+    case DIP_FIELD_WHOLE:
+        fprintf(out, "%d", *(const int *)value);
+        break;
+    case DIP_FIELD_FLAG:
+        fputs(*(const bool *)value ? "true" : "false", out);
+        break;
+    case DIP_FIELD_NUMBER:
+        print_number(*(const double *)value, out);
+        break;
+    case DIP_FIELD_SETTINGS:
+        dip_quality_format(value, settings, sizeof settings);
+        dip_put_script_string(out, settings);
+        break;
+    case DIP_FIELD_NAMED:
+        dip_put_script_string(out, field->names[*(const int *)value]);
+        break;
+    case DIP_FIELD_NUMBERS:
+        print_numbers(field, value, out);
+        break;
+    case DIP_FIELD_RECORD:
+        dip_fields_print_json(field->record, &(DipFieldAt){at->context, value, at->index, at}, out);
+        break;
+    default:
+        print_list(field->list, at, out);
+    }
+}
+
+void dip_fields_print_json(const DipRecord *record, const DipFieldAt *at, FILE *out) {
+    bool first = true;
+    fputc('{', out);
+    for (int f = 0; f < record->count; f++) {
+        const DipField *field = &record->fields[f];
+        DipFieldScratch scratch;
+        if (field->where & DIP_FIELD_JSON) {
+            fputs(first ? "" : ",", out);
+            print_name(field->name, out);
+            print_value(field, at, dip_field_value(field, at, &scratch), out);
+            first = false;
+        }
+    }
+    fputc('}', out);
+}
+
+// --- reading -------------------------------------------------------------------------------------
+
+// The path of the field at fault is made from its end, while functions return.
+typedef struct Reader {
+    char fault[PATH_ROOM];
+    DipErrorCode code;
+} Reader;
+
+static bool fail(Reader *reader, DipErrorCode code, const char *name) {
+    char rest[PATH_ROOM];
+    reader->code = code;
+    snprintf(rest, sizeof rest, "%s", reader->fault);
+    snprintf(reader->fault, PATH_ROOM, "%.40s%s%.50s", name, *rest && *rest != '[' ? "." : "",
+             rest);
+    return false;
+}
+
+static bool is_in_range(const DipField *field, double value) {
+    return value >= field->least && value <= field->most;
+}
+
+// Reads a number, or NAN where null is accepted.
+static bool read_number(const cJSON *item, const DipField *field, bool null, double *value) {
+    *value = cJSON_IsNumber(item) ? item->valuedouble : NAN;
+    return (null && cJSON_IsNull(item)) || is_in_range(field, *value);
+}
+
+// Reads an end of an interval, which may lie beyond the range of values, or NAN.
+static bool read_end(const cJSON *item, double *value) {
+    *value = cJSON_IsNumber(item) ? item->valuedouble : NAN;
+    return cJSON_IsNull(item) || isfinite(*value);
+}
+
+static bool read_estimate(const cJSON *object, const DipField *field, DipEstimate *to) {
+    const char *const ends[] = {"", "_low", "_high"};
+    *to = dip_estimate_unknown(NAN);
+    double *const values[] = {&to->value, &to->low, &to->high};
+    for (int i = 0; i < 3; i++) {
+        char name[NAME_ROOM];
+        snprintf(name, sizeof name, "%s%s", field->name, ends[i]);
+        const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
+        if (i == 0 ? !read_number(item, field, field->known, values[i])
+                   : !read_end(item, values[i])) {
+            return false;
+        }
+    }
+    return (isnan(to->low) && isnan(to->high)) || dip_field_has_interval(to);
+}
+
+static bool read_numbers(const cJSON *item, const DipField *field, double *to) {
+    const int count = (int)(field->size / sizeof *to);
+    if (field->names ? !cJSON_IsObject(item) : cJSON_GetArraySize(item) != count) {
+        return false;
+    }
+    const cJSON *next = field->names ? NULL : item->child;
+    for (int i = 0; i < count; i++) {
+        const cJSON *number =
+            field->names ? cJSON_GetObjectItemCaseSensitive(item, field->names[i]) : next;
+        if (!cJSON_IsNumber(number) || !is_in_range(field, number->valuedouble)) {
+            return false;
+        }
+        to[i] = number->valuedouble;
+        next = next ? next->next : NULL;
+    }
+    return true;
+}
+
+static bool read_named(const cJSON *item, const DipField *field, int *to) {
+    for (int i = 0; cJSON_IsString(item) && i < field->name_count; i++) {
+        if (strcmp(item->valuestring, field->names[i]) == 0) {
+            *to = i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool read_text(const cJSON *item, const DipField *field, char *to) {
+    const bool fits = cJSON_IsString(item) && strlen(item->valuestring) < field->size;
+    if (fits) {
+        strcpy(to, item->valuestring);
+    }
+    return fits;
+}
+
+// Reads what is a single item of JSON. Returns false if it is wrong.
+static bool read_plain(const cJSON *item, const DipField *field, void *to) {
+    switch (field->kind) {
+    case DIP_FIELD_TEXT:
+        return read_text(item, field, to);
+    case DIP_FIELD_WHOLE:
+        if (!cJSON_IsNumber(item) || !is_in_range(field, item->valuedouble) ||
+            floor(item->valuedouble) != item->valuedouble) {
+            return false;
+        }
+        *(int *)to = (int)item->valuedouble;
+        return true;
+    case DIP_FIELD_FLAG:
+        *(bool *)to = cJSON_IsTrue(item);
+        return cJSON_IsBool(item);
+    case DIP_FIELD_NUMBER:
+        return read_number(item, field, field->known, to);
+    case DIP_FIELD_SETTINGS:
+        return cJSON_IsString(item) && dip_quality_parse(item->valuestring, to, NULL);
+    case DIP_FIELD_NAMED:
+        return read_named(item, field, to);
+    default:
+        return read_numbers(item, field, to);
+    }
+}
+
+static bool read_record(Reader *reader, const DipRecord *record, const DipFieldAt *at,
+                        const cJSON *object);
+
+static bool read_item(Reader *reader, const DipFieldList *list, const DipFieldAt *at, int index,
+                      const cJSON *from) {
+    DipFieldScratch scratch;
+    memset(&scratch, 0, sizeof scratch);
+    const void *item = list->put ? &scratch : dip_field_list_item(list, at, index, &scratch);
+    const DipFieldAt within = {at->context, item, index, at};
+    char name[24];
+    snprintf(name, sizeof name, "[%d]", index);
+    if (list->record ? !read_record(reader, list->record, &within, from)
+                     : !read_plain(from, list->element, (void *)item)) {
+        return fail(reader, list->record ? reader->code : DIP_ERROR_FORMAT, name);
+    }
+    return !list->put || list->put(at, index, item) || fail(reader, DIP_ERROR_FORMAT, name);
+}
+
+static DipErrorCode open_list(const DipFieldList *list, const DipFieldAt *at, int count) {
+    if (list->open) {
+        return list->open(at, count);
+    }
+    if (count > list->most) {
+        return DIP_ERROR_FORMAT;
+    }
+    if (list->points) {
+        void *items = calloc((size_t)count + 1, list->record->size);
+        memcpy((char *)at->item + list->items, &items, sizeof items);
+        if (!items) {
+            return DIP_ERROR_MEMORY;
+        }
+    }
+    *(int *)((char *)at->item + list->counted) = count;
+    return DIP_ERROR_NONE;
+}
+
+static bool read_list(Reader *reader, const DipField *field, const DipFieldAt *at,
+                      const cJSON *array) {
+    const DipFieldList *list = field->list;
+    const DipErrorCode opened =
+        cJSON_IsArray(array) ? open_list(list, at, cJSON_GetArraySize(array)) : DIP_ERROR_FORMAT;
+    if (opened != DIP_ERROR_NONE) {
+        return fail(reader, opened, field->name);
+    }
+    const cJSON *item;
+    int index = 0;
+    cJSON_ArrayForEach(item, array) {
+        if (!read_item(reader, list, at, index++, item)) {
+            return fail(reader, reader->code, field->name);
+        }
+    }
+    return true;
+}
+
+static bool read_field(Reader *reader, const DipField *field, const DipFieldAt *at,
+                       const cJSON *object) {
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, field->name);
+    void *to = (char *)at->item + field->offset;
+    if (field->kind == DIP_FIELD_LIST) {
+        return read_list(reader, field, at, item);
+    }
+    if (field->known && cJSON_IsNull(item) && field->kind != DIP_FIELD_ESTIMATE) {
+        return true;
+    }
+    if (field->kind == DIP_FIELD_RECORD) {
+        const DipFieldAt within = {at->context, to, at->index, at};
+        return read_record(reader, field->record, &within, item) ||
+               fail(reader, reader->code, field->name);
+    }
+    const bool read = field->kind == DIP_FIELD_ESTIMATE ? read_estimate(object, field, to)
+                                                        : read_plain(item, field, to);
+    return read || fail(reader, DIP_ERROR_FORMAT, field->name);
+}
+
+static bool read_record(Reader *reader, const DipRecord *record, const DipFieldAt *at,
+                        const cJSON *object) {
+    if (!cJSON_IsObject(object)) {
+        return fail(reader, DIP_ERROR_FORMAT, "");
+    }
+    for (int f = 0; f < record->count; f++) {
+        const DipField *field = &record->fields[f];
+        if (field->where & DIP_FIELD_JSON && !(field->where & DIP_FIELD_DERIVED) &&
+            !field->derive && !read_field(reader, field, at, object)) {
+            return false;
+        }
+    }
+    return !record->check || record->check(at) || fail(reader, DIP_ERROR_FORMAT, "");
+}
+
+bool dip_fields_read_json(const DipRecord *record, const DipFieldAt *at, const cJSON *object,
+                          const char *file, DipError *err) {
+    Reader reader = {.code = DIP_ERROR_NONE};
+    if (read_record(&reader, record, at, object)) {
+        return true;
+    }
+    return reader.code == DIP_ERROR_MEMORY
+               ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
+               : dip_error_set(err, DIP_ERROR_FORMAT, file, 0,
+                               *reader.fault ? reader.fault : record->name,
+                               "is missing, or is not what `diptych` writes");
+}
