@@ -82,15 +82,12 @@ def main():
     run(make_page, "page.html", "made.json")
     run(diptych, "cost", "diff", "made.json", "made.json", "--json", "diff.json")
     run(diptych, "cost", "advise", "made.json", "--budget-ms", "1000", "--json", "advise.json")
-    run(diptych, "cost", "axes", *model, *small, "--timed", "2", "--axes", "size,threads", "--places",
-        "2", "--sizes", "24x18,48x36", "--thread-counts", "1,2", "--json", "axes.json", "--csv",
-        "axes.csv")
     run(diptych, "cost", "predict", "a", *model, "--size", "64x48", "--time", "2", "--json",
         "predict.json", "--csv", "predict.csv")
-    for name in ("a/cost", "b/cost", "c/cost", "made", "diff", "advise", "axes", "predict"):
+    for name in ("a/cost", "b/cost", "c/cost", "made", "diff", "advise", "predict"):
         with open(name + ".json", encoding="utf-8") as file:
             walk(name, json.load(file))
-    for name in ("a/cost", "c/cost", "axes", "predict"):
+    for name in ("a/cost", "c/cost", "predict"):
         walk_csv(name + ".csv")
     check("too few estimates were seen", estimates > 300, estimates)
     print(f"{estimates} estimates, {failures} failures")

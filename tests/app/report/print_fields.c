@@ -1,5 +1,4 @@
 // Prints the fields of all files of a report as Markdown: docs/cost-fields.md.
-#include "app/cost/axes/axes.h"
 #include "app/cost/diff/diff.h"
 #include "app/cost/predict/predict_elsewhere.h"
 #include "app/report/format/cost_fields.h"
@@ -72,7 +71,6 @@ int main(void) {
         const char *title;
         const DipRecord *record;
     } files[] = {{"cost.json", &dip_cost_report_record},
-                 {"The file of `cost axes --json`", &dip_cost_axes_record},
                  {"The file of `cost diff --json`", &dip_cost_diff_record},
                  {"The file of `cost predict --json`", &dip_cost_prediction_record}};
     printf(
@@ -88,7 +86,7 @@ int main(void) {
         "cell is not known.\n",
         DIP_COST_JSON_FORMAT, DIP_COST_JSON_FORMAT - 1);
     int printed = 0;
-    for (int i = 0; i < 4; i++) {
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         printf("\n## %s\n", files[i].title);
         add(files[i].record);
         for (; printed < record_count; printed++) {
