@@ -106,7 +106,7 @@ void dip_made_report(DipCostReport *report, int rounds) {
     if (rounds > 0) {
         report->smaller[0] = (DipCostElsewhere){.quality = report->options.baseline,
                                                 .counters = {2.0, 3.0, 5.0},
-                                                .ms = {0.5, 0.4, 0.6},
+                                                .ms = {.value = 0.5, .low = 0.4, .high = 0.6},
                                                 .stage_ms = {0.1, 0.1, 0.25, 0.0, 0.05}};
         report->smaller_count = 1;
         report->smaller_width = 32;
