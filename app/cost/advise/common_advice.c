@@ -48,6 +48,9 @@ static Entry *list_entries(const DipCostReport *report, int *count, DipError *er
 
 static bool begin_match(DipCostCommon *common, const Entry *entries, int count, DipError *err) {
     const size_t room = (size_t)count + 1;
+    free(common->qualities); // The lists of an earlier match go.
+    free(common->rows);
+    free(common->candidates.list);
     common->qualities = malloc(room * sizeof *common->qualities);
     common->rows = malloc(room * (size_t)common->report_count * sizeof *common->rows);
     common->candidates.list = malloc(room * sizeof *common->candidates.list);
