@@ -23,7 +23,7 @@ enum {
 typedef struct Timed {
     DipQuality quality;
     DipEstimate ratio; // Of its time to that of the base.
-    int rounds;             // In which it was timed.
+    int rounds;        // In which it was timed.
 } Timed;
 
 struct DipPriceJob {
