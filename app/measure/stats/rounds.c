@@ -132,9 +132,12 @@ static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
     }
     const Variance level = {jackknife_excess * fit->units * base->level_error * base->level_error,
                             base->level_degrees};
-    const Variance variance = variance_of(fit, subject, v);
-    return estimate_of(fit, log(base->level_ms) + s->logs[v],
-                       variance.value > 0.0 ? add_variance(variance, level) : level);
+    // The slowest frames lie side by side, so that smoothing misses them all alike.
+    const double doubt = v == DIP_TIMES_RATIO ? 0.0 : s->doubt;
+    const Variance smoothed = {jackknife_excess * fit->units * doubt, INFINITY};
+    Variance variance = variance_of(fit, subject, v);
+    variance = variance.value > 0.0 ? add_variance(variance, level) : level;
+    return estimate_of(fit, log(base->level_ms) + s->logs[v], add_variance(variance, smoothed));
 }
 
 DipAlong dip_times_along(const DipTimesFit *fit, int subject) {

@@ -14,10 +14,6 @@ enum { MOST_VISITS = 512 };
 // freedom beside a subject's own: subjects differ in how much luck they have.
 static const double most_pooled_degrees = 12.0;
 
-// Noise makes frames differ more than they do; so much more is taken off than expected, since what
-// is expected is uncertain itself.
-static const double noise_margin = 2.0;
-
 // --- order of the log ----------------------------------------------------------------------------
 
 typedef struct Key {
@@ -263,7 +259,7 @@ static void take_off_noise(double *ms, int frames, double noise_variance) {
     for (int f = 0; f < frames; f++) {
         squares += (log(ms[f]) - mean) * (log(ms[f]) - mean) / frames;
     }
-    const double share = sqrt(fmax(1.0 - noise_margin * noise_variance / (squares + 1e-12), 0.0));
+    const double share = sqrt(fmax(1.0 - noise_variance / (squares + 1e-12), 0.0));
     for (int f = 0; f < frames; f++) {
         ms[f] = exp(mean + share * (log(ms[f]) - mean));
         after += ms[f];
@@ -318,14 +314,16 @@ static bool find_values(DipTimesWork *w, int left_out, double logs[DIP_TIMES_VAL
         w->repeats = count >= 3 * frames;
         w->window = w->repeats ? 0 : choose_window(w, w->logs, count);
     }
-    const double noise = w->noise[left_out + 1] + (count > 0 ? fit_ratios(w, count) : 0.0);
+    const double noise = count > 0 ? fit_ratios(w, count) : 0.0;
     double base_total = 0.0, total = 0.0, worst = 0.0;
     for (int f = 0; f < frames; f++) {
         w->time[f] = exp(level[f] + w->ratio[f]);
         base_total += exp(level[f]);
         total += w->time[f];
     }
-    take_off_noise(w->time, frames, noise);
+    const double missing = w->missing[left_out + 1];
+    w->doubt = noise + missing;
+    take_off_noise(w->time, frames, noise - missing);
     for (int f = 0; f < frames; f++) {
         worst = fmax(worst, w->time[f]);
         w->ratio[f] = w->time[f]; // To be sorted.
@@ -355,6 +353,7 @@ static void fit_subject(DipTimesWork *w, int s) {
     w->spread = NAN;
     const bool known = find_values(w, -1, subject->logs);
     subject->spread = w->spread;
+    subject->doubt = known ? w->doubt : 0.0;
     for (int f = 0; f < fit->frames; f++) {
         fit->frame_ms[(size_t)s * (size_t)fit->frames + (size_t)f] = known ? w->time[f] : NAN;
     }
@@ -468,8 +467,8 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, DipTimesFit *fit) 
         !w->level || !w->logs || !sort_times(w)) {
         return false;
     }
-    w->noise = w->level + sets * frames;
-    w->speed = w->noise + sets;
+    w->missing = w->level + sets * frames;
+    w->speed = w->missing + sets;
     w->weights = w->speed + count;
     w->ratio = w->weights + all;
     w->time = w->ratio + frames;

@@ -54,6 +54,7 @@ typedef struct DipTimesSubject {
     int base;
     int timed, kept;
     double spread;                          // See dip_times_spread.
+    double doubt;                           // Variance of single frames about their neighbours.
     double logs[DIP_TIMES_VALUE_COUNT];     // Logarithms of the values.
     double variance[DIP_TIMES_VALUE_COUNT]; // Variance of a unit, of the subject's own luck.
 } DipTimesSubject;
@@ -79,12 +80,13 @@ typedef struct DipTimesWork {
     int cell_count;
     DipTimesPair *pairs;
     int pair_count, visit_count;
-    int window;    // Frames of the running median of the subject's log ratios.
-    bool repeats;  // Most frames were timed several times.
-    bool is_base;  // The subject is the base itself: it has no pairs.
-    double *level; // [(1 + units) * frames]: log ms, with all units and with each left out.
-    double *noise; // [1 + units]: mean variance of the levels' noise.
-    double spread; // Of the subject's visits.
+    int window;      // Frames of the running median of the subject's log ratios.
+    bool repeats;    // Most frames were timed several times.
+    bool is_base;    // The subject is the base itself: it has no pairs.
+    double *level;   // [(1 + units) * frames]: log ms, with all units and with each left out.
+    double *missing; // [1 + units]: by how much more the variance of true levels is.
+    double spread;   // Of the subject's visits.
+    double doubt;    // Of the subject's frames.
     DipTimesMoment *moments; // [count]
     int moment_count, base_visits;
     double *speed;                           // [count]: of moments.
