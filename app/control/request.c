@@ -2,7 +2,7 @@
 #include "app/control/request.h"
 
 #include "app/control/request_values_private.h"
-#include "app/control/utf8_private.h"
+#include "renderer/base/utf8.h"
 #include "renderer/base/assert.h"
 
 #include <cjson/cJSON.h>

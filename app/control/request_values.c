@@ -1,7 +1,7 @@
 // Reads the values of a request's fields.
 #include "app/control/request_values_private.h"
 
-#include "app/control/utf8_private.h"
+#include "renderer/base/utf8.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>

@@ -2,6 +2,7 @@
 #include "app/files/put.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/utf8.h"
 
 #include <stdarg.h>
 #include <stdbool.h>
@@ -18,19 +19,11 @@ typedef struct Arguments {
 } Arguments;
 
 // Returns the length of the character at the beginning of a text in UTF-8, or 0 if it is a control
-// character or malformed. The controls of the upper half (C1) are two bytes.
+// character or malformed.
 static size_t character_bytes(const char *text) {
-    const unsigned char *bytes = (const unsigned char *)text;
-    const size_t length = bytes[0] < 0x80 ? 1 : bytes[0] < 0xe0 ? 2 : bytes[0] < 0xf0 ? 3 : 4;
-    if (length == 1) {
-        return bytes[0] >= ' ' && bytes[0] != 0x7f;
-    }
-    for (size_t i = 1; i < length; i++) {
-        if ((bytes[i] & 0xc0) != 0x80) {
-            return 0;
-        }
-    }
-    return bytes[0] < 0xc2 || bytes[0] > 0xf4 || (bytes[0] == 0xc2 && bytes[1] < 0xa0) ? 0 : length;
+    uint32_t code = 0;
+    const size_t length = dip_utf8_read(text, DIP_UTF8_MOST_BYTES, &code);
+    return code < ' ' || (code >= 0x7f && code < 0xa0) ? 0 : length;
 }
 
 // Writes a text, in which `replace` stands for characters that it knows. `replace` returns NULL for
