@@ -147,7 +147,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_blend = {
     .info = {.name = "blend",
              .title = "Blend modes",
-             .seed = "seed 001, Blending",
              .text =
                  "Alpha, additive, multiplicative and double multiplicative blending, from left "
                  "to right. The upper row draws blue before yellow, the lower row yellow "

@@ -317,7 +317,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_cubes = {
     .info = {.name = "cubes",
              .title = "Cubes on two targets",
-             .seed = "seed 004",
              .text =
                  "Objects with their own vertex types and shaders, culled by their bounds. When "
                  "the long cube has left the view, the left one changes its mesh.",

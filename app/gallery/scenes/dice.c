@@ -149,7 +149,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_dice = {
     .info = {.name = "dice",
              .title = "Dice",
-             .seed = "seed 001, Texturing the dice",
              .text =
                  "Dice whose six faces are parts of one texture, over a felt table with blended "
                  "shadows.",

@@ -355,7 +355,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_model = {
     .info = {.name = "model",
              .title = "Animated model",
-             .seed = "seed 000, MD2 Model File Loader and Demo Application",
              .text =
                  "An MD2 model with key-frame animation under a directional, a point and a spot "
                  "light. The looks change the shading.",

@@ -199,7 +199,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_phone = {
     .info = {.name = "phone",
              .title = "Mobile phone",
-             .seed = "seed 001, Rendering the phone",
              .text =
                  "A phone made of one box and one quad. Its display shows a target that another "
                  "pass has drawn.",

@@ -182,7 +182,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_prism = {
     .info = {.name = "prism",
              .title = "Tessellated prism",
-             .seed = "seed 001, Primitives",
              .text = "A prism whose sides are tessellated and twisted, with a lit wireframe over "
                      "it. The looks change slices and factors.",
              .looks = looks,

@@ -243,7 +243,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_quads = {
     .info = {.name = "quads",
              .title = "Procedural quads",
-             .seed = "seed 001, Shading",
              .text =
                  "Rings, a flame and a ray-marched sphere over a fluid, each computed per pixel "
                  "in a fragment shader.",

@@ -220,7 +220,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_shadow = {
     .info = {.name = "shadow",
              .title = "Shadow mapping",
-             .seed = "seed 000, Render Targets and Depth Buffers",
              .text = "Shadows of a moving lamp from a depth-only pass. The looks change the map's "
                      "resolution and filter.",
              .looks = looks,

@@ -242,7 +242,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_stencil = {
     .info = {.name = "stencil",
              .title = "Stencil: mirror and outline",
-             .seed = "seed 001, Stenciling",
              .text = "A mirror in the floor and an outline, each masked by the stencil buffer. The "
                      "inset shows the masks.",
              .looks = looks,

@@ -241,7 +241,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_toon = {
     .info = {.name = "toon",
              .title = "Toon shading",
-             .seed = "seed 001, Lighting",
              .text = "Light in steps: the seed's four, or a number of equal bands, for the diffuse "
                      "part and for the highlight. Outlines are grown back faces.",
              .looks = looks,

@@ -129,7 +129,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_tunnel = {
     .info = {.name = "tunnel",
              .title = "Anisotropy tunnel",
-             .seed = "seed 002, anisotropic filtering and its dependence on angle",
              .text = "A tube whose colours show the mip level of each pixel. Compare af=16 with "
                      "af=none, and af=16,aaf=on with af=16.",
              .looks = looks,

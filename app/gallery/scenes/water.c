@@ -580,7 +580,6 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_water = {
     .info = {.name = "water",
              .title = "Water seen through",
-             .seed = "seed 002, the fountain; seed 001, Blending",
              .text =
                  "The fountain's pool over a mosaic, with waves that refract it, or blended over "
                  "it.",
