@@ -1,6 +1,8 @@
 // Finds the font with fontconfig, draws glyphs with FreeType, and keeps drawn glyphs in a cache.
 #include "app/canvas/font.h"
 
+#include "renderer/base/utf8.h"
+
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -210,26 +212,10 @@ static const Glyph *find_glyph(DipFont *font, int size, uint32_t code_point) {
 
 // Reads one character and moves *line behind it. Invalid bytes are read one at a time.
 static uint32_t next_code_point(const char **line) {
-    const unsigned char *bytes = (const unsigned char *)*line;
-    const int more = bytes[0] < 0x80                        ? 0
-                     : bytes[0] >= 0xc2 && bytes[0] <= 0xdf ? 1
-                     : (bytes[0] & 0xf0) == 0xe0            ? 2
-                     : bytes[0] >= 0xf0 && bytes[0] <= 0xf4 ? 3
-                                                            : -1;
-    static const unsigned char first_bits[4] = {0x7f, 0x1f, 0x0f, 0x07};
-    *line += 1;
-    if (more < 0) {
-        return replacement_character;
-    }
-    uint32_t code_point = bytes[0] & first_bits[more];
-    for (int i = 1; i <= more; ++i) {
-        if ((bytes[i] & 0xc0) != 0x80) {
-            return replacement_character;
-        }
-        code_point = code_point << 6 | (bytes[i] & 0x3fu);
-    }
-    *line += more;
-    return code_point <= 0x10ffff ? code_point : replacement_character;
+    uint32_t code_point = replacement_character;
+    const size_t length = dip_utf8_read(*line, DIP_UTF8_MOST_BYTES, &code_point);
+    *line += length > 0 ? length : 1;
+    return code_point;
 }
 
 int dip_font_width(DipFont *font, int size, const char *line) {

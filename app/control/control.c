@@ -2,7 +2,7 @@
 #include "app/control/control.h"
 
 #include "app/control/client_private.h"
-#include "app/control/utf8_private.h"
+#include "renderer/base/utf8.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>

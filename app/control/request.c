@@ -2,7 +2,7 @@
 #include "app/control/request.h"
 
 #include "app/control/request_values_private.h"
-#include "app/control/utf8_private.h"
+#include "renderer/base/utf8.h"
 #include "renderer/base/assert.h"
 
 #include <cjson/cJSON.h>
@@ -18,6 +18,7 @@ static const double largest_id = 9007199254740992.0; // 2^53: doubles hold all w
 #define NAME_OF(name, NAME) #name,
 static const char *const pane_names[] = {"current", "requested"};
 static const char *const switch_names[] = {"on", "off"};
+static const char *const verb_names[] = {DIP_CONTROL_VERB_LIST(NAME_OF)};
 static const char *const topic_names[] = {DIP_CONTROL_TOPIC_LIST(NAME_OF)};
 static const char *const part_names[] = {DIP_CONTROL_PART_LIST(NAME_OF)};
 
@@ -29,67 +30,50 @@ static const char *const part_names[] = {DIP_CONTROL_PART_LIST(NAME_OF)};
 #define NAMES_FIELD(name, field, names)                                                            \
     { name, DIP_FIELD_NAMES, AT(field), DIP_ARRAY_COUNT(names), 0, 0, names }
 
-enum {
-    PANE,
-    SETTINGS,
-    CHANGE,
-    NOTICES,
-    CATEGORY,
-    SCENE,
-    FILE_NAME,
-    TIME,
-    WIDTH,
-    HEIGHT,
-    SHOW,
-    X,
-    Y,
-    TO,
-    WHAT
-};
+// X(FIELD, its description)
+#define FIELD_LIST(X)                                                                              \
+    X(PANE, NAMES_FIELD("pane", panes, pane_names))                                                \
+    X(SETTINGS, TEXT_FIELD(settings))                                                              \
+    X(CHANGE, TEXT_FIELD(change))                                                                  \
+    X(NOTICES, NAMES_FIELD("notices", notices, switch_names))                                      \
+    X(CATEGORY, TEXT_FIELD(category))                                                              \
+    X(SCENE, TEXT_FIELD(name))                                                                     \
+    X(FILE_NAME, TEXT_FIELD(file))                                                                 \
+    X(TIME, NUMBER_FIELD(time_s, DIP_FIELD_NUMBER, 0, 86400))                                      \
+    X(WIDTH, NUMBER_FIELD(width, DIP_FIELD_INTEGER, 1, DIP_CONTROL_MAX_SIZE_PX))                   \
+    X(HEIGHT, NUMBER_FIELD(height, DIP_FIELD_INTEGER, 1, DIP_CONTROL_MAX_SIZE_PX))                 \
+    X(SHOW, NAMES_FIELD("show", show, switch_names))                                               \
+    X(X_PIXEL, NUMBER_FIELD(x, DIP_FIELD_INTEGER, 0, DIP_CONTROL_MAX_SIZE_PX - 1))                 \
+    X(Y_PIXEL, NUMBER_FIELD(y, DIP_FIELD_INTEGER, 0, DIP_CONTROL_MAX_SIZE_PX - 1))                 \
+    X(TO, NAMES_FIELD("to", topics, topic_names))                                                  \
+    X(WHAT, NAMES_FIELD("what", parts, part_names))
 
-static const DipField fields[] = {
-    [PANE] = NAMES_FIELD("pane", panes, pane_names),
-    [SETTINGS] = TEXT_FIELD(settings),
-    [CHANGE] = TEXT_FIELD(change),
-    [NOTICES] = NAMES_FIELD("notices", notices, switch_names),
-    [SHOW] = NAMES_FIELD("show", show, switch_names),
-    [CATEGORY] = TEXT_FIELD(category),
-    [SCENE] = TEXT_FIELD(name),
-    [FILE_NAME] = TEXT_FIELD(file),
-    [TIME] = NUMBER_FIELD(time_s, DIP_FIELD_NUMBER, 0, 86400),
-    [WIDTH] = NUMBER_FIELD(width, DIP_FIELD_INTEGER, 1, DIP_CONTROL_MAX_SIZE_PX),
-    [HEIGHT] = NUMBER_FIELD(height, DIP_FIELD_INTEGER, 1, DIP_CONTROL_MAX_SIZE_PX),
-    [X] = NUMBER_FIELD(x, DIP_FIELD_INTEGER, 0, DIP_CONTROL_MAX_SIZE_PX - 1),
-    [Y] = NUMBER_FIELD(y, DIP_FIELD_INTEGER, 0, DIP_CONTROL_MAX_SIZE_PX - 1),
-    [TO] = NAMES_FIELD("to", topics, topic_names),
-    [WHAT] = NAMES_FIELD("what", parts, part_names),
-};
+#define ENUMERATOR(field, ...)  field,
+#define DESCRIPTION(field, ...) __VA_ARGS__,
+enum { FIELD_LIST(ENUMERATOR) FIELD_COUNT };
+static const DipField fields[FIELD_COUNT] = {FIELD_LIST(DESCRIPTION)};
 
 #define BIT(field) (1u << (field))
 
-// The fields of each request besides "request" and "id", as bits.
+// The fields of each request besides "request" and "id", as bits. Requests without fields have no
+// row.
 typedef struct Row {
-    const char *name;
     unsigned needs;
-    unsigned takes; // Also includes all that it needs.
+    unsigned may_have; // Besides those that it needs.
 } Row;
 
 static const Row rows[DIP_CONTROL_VERB_COUNT] = {
-    [DIP_CONTROL_SET] = {"set", BIT(PANE), BIT(PANE) | BIT(SETTINGS) | BIT(CHANGE) | BIT(NOTICES)},
-    [DIP_CONTROL_APPLY] = {"apply", 0, 0},
-    [DIP_CONTROL_PATH] = {"path", BIT(CATEGORY), BIT(CATEGORY)},
-    [DIP_CONTROL_PAUSE] = {"pause", 0, 0},
-    [DIP_CONTROL_PLAY] = {"play", 0, 0},
-    [DIP_CONTROL_SEEK] = {"seek", BIT(TIME), BIT(TIME)},
-    [DIP_CONTROL_SCENE] = {"scene", BIT(SCENE), BIT(SCENE)},
-    [DIP_CONTROL_SIZE] = {"size", BIT(WIDTH) | BIT(HEIGHT), BIT(WIDTH) | BIT(HEIGHT)},
-    [DIP_CONTROL_PANEL] = {"panel", BIT(SHOW), BIT(SHOW)},
-    [DIP_CONTROL_SUBSCRIBE] = {"subscribe", BIT(TO), BIT(TO)},
-    [DIP_CONTROL_UNSUBSCRIBE] = {"unsubscribe", BIT(TO), BIT(TO)},
-    [DIP_CONTROL_PICK] = {"pick", BIT(X) | BIT(Y), BIT(X) | BIT(Y)},
-    [DIP_CONTROL_GET] = {"get", 0, BIT(WHAT)},
-    [DIP_CONTROL_SCREENSHOT] = {"screenshot", BIT(FILE_NAME), BIT(FILE_NAME)},
-    [DIP_CONTROL_QUIT] = {"quit", 0, 0},
+    [DIP_CONTROL_SET] = {BIT(PANE), BIT(SETTINGS) | BIT(CHANGE) | BIT(NOTICES)},
+    [DIP_CONTROL_PATH] = {BIT(CATEGORY), 0},
+    [DIP_CONTROL_SEEK] = {BIT(TIME), 0},
+    [DIP_CONTROL_SCENE] = {BIT(SCENE), 0},
+    [DIP_CONTROL_SIZE] = {BIT(WIDTH) | BIT(HEIGHT), 0},
+    [DIP_CONTROL_PANEL] = {BIT(SHOW), 0},
+    [DIP_CONTROL_SUBSCRIBE] = {BIT(TO), 0},
+    [DIP_CONTROL_UNSUBSCRIBE] = {BIT(TO), 0},
+    [DIP_CONTROL_PICK] = {BIT(X_PIXEL) | BIT(Y_PIXEL), 0},
+    [DIP_CONTROL_GET] = {0, BIT(WHAT)},
+    [DIP_CONTROL_SCREENSHOT] = {BIT(FILE_NAME), 0},
 };
 
 // The parts that `get` answers with if the request does not say which.
@@ -100,7 +84,7 @@ static const unsigned usual_parts = BIT(DIP_CONTROL_PART_STATE) | BIT(DIP_CONTRO
 
 static DipWords list_fields(unsigned bits) {
     DipWords words = {""};
-    for (size_t f = 0; f < DIP_ARRAY_COUNT(fields); ++f) {
+    for (int f = 0; f < FIELD_COUNT; ++f) {
         if (bits & BIT(f)) {
             dip_words_add(&words, fields[f].name);
         }
@@ -108,12 +92,21 @@ static DipWords list_fields(unsigned bits) {
     return words;
 }
 
-static DipWords list_requests(void) {
-    DipWords words = {""};
-    for (int v = 0; v < DIP_CONTROL_VERB_COUNT; ++v) {
-        dip_words_add(&words, rows[v].name);
-    }
-    return words;
+// --- names -------------------------------------------------------------------------------------
+
+const char *dip_control_verb_name(int verb) {
+    DIP_ASSERT(verb >= 0 && verb < DIP_CONTROL_VERB_COUNT);
+    return verb_names[verb];
+}
+
+const char *dip_control_topic_name(int topic) {
+    DIP_ASSERT(topic >= 0 && topic < DIP_CONTROL_TOPIC_COUNT);
+    return topic_names[topic];
+}
+
+const char *dip_control_part_name(int part) {
+    DIP_ASSERT(part >= 0 && part < DIP_CONTROL_PART_COUNT);
+    return part_names[part];
 }
 
 // --- requests ------------------------------------------------------------------------------------
@@ -126,15 +119,15 @@ static bool is_envelope(const char *name) {
     return strcmp(name, "id") == 0 || strcmp(name, "request") == 0;
 }
 
-static bool unknown_field(const Row *row, const char *name, DipError *err) {
-    const DipWords accepted = list_fields(row->takes);
+static bool unknown_field(DipControlVerb verb, const char *name, DipError *err) {
+    const DipWords accepted = list_fields(rows[verb].needs | rows[verb].may_have);
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, name,
-                         "is no field of the request %s, accepted id request%s%s", row->name,
+                         "is no field of the request %s, accepted id request%s%s", verb_names[verb],
                          accepted.text[0] ? " " : "", accepted.text);
 }
 
 static int find_field(unsigned bits, const char *name) {
-    for (int f = 0; f < (int)DIP_ARRAY_COUNT(fields); ++f) {
+    for (int f = 0; f < FIELD_COUNT; ++f) {
         if ((bits & BIT(f)) && strcmp(name, fields[f].name) == 0) {
             return f;
         }
@@ -142,17 +135,17 @@ static int find_field(unsigned bits, const char *name) {
     return -1;
 }
 
-static bool read_fields(const cJSON *object, const Row *row, DipControlRequest *request,
-                        DipError *err) {
+static bool read_fields(const cJSON *object, DipControlRequest *request, DipError *err) {
+    const Row *row = &rows[request->verb];
     unsigned given = 0;
     const cJSON *item;
     cJSON_ArrayForEach(item, object) {
         if (is_envelope(item->string)) {
             continue;
         }
-        const int f = find_field(row->takes, item->string);
+        const int f = find_field(row->needs | row->may_have, item->string);
         if (f < 0) {
-            return unknown_field(row, item->string, err);
+            return unknown_field(request->verb, item->string, err);
         }
         if (given & BIT(f)) {
             return given_twice(item->string, err);
@@ -163,8 +156,9 @@ static bool read_fields(const cJSON *object, const Row *row, DipControlRequest *
         given |= BIT(f);
     }
     const DipWords missing = list_fields(row->needs & ~given);
-    return !missing.text[0] || dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, missing.text,
-                                             "is missing from the request %s", row->name);
+    return !missing.text[0] ||
+           dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, missing.text,
+                         "is missing from the request %s", verb_names[request->verb]);
 }
 
 static bool check_settings(const DipControlRequest *request, DipError *err) {
@@ -181,24 +175,22 @@ static bool check_settings(const DipControlRequest *request, DipError *err) {
 }
 
 static bool read_verb(const cJSON *object, DipControlVerb *verb, DipError *err) {
+    static const DipField field = {"request", DIP_FIELD_NAMES, 0, DIP_CONTROL_VERB_COUNT, 0,
+                                   0,         verb_names};
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, "request");
-    const DipWords accepted = list_requests();
     if (!item) {
+        const DipWords accepted = dip_words_list(verb_names, DIP_CONTROL_VERB_COUNT);
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "request", "is missing, accepted %s",
                              accepted.text);
     }
-    if (!cJSON_IsString(item)) {
-        return dip_field_refuse_type("request", item, accepted.text, err);
+    unsigned bits = 0;
+    if (!dip_field_read_name(&field, "request", item, &bits, err)) {
+        return false;
     }
-    for (int v = 0; v < DIP_CONTROL_VERB_COUNT; ++v) {
-        if (strcmp(item->valuestring, rows[v].name) == 0) {
-            *verb = (DipControlVerb)v;
-            return true;
-        }
+    for (*verb = (DipControlVerb)0; bits > 1; bits >>= 1) {
+        ++*verb;
     }
-    const DipWords found = dip_words_describe(item);
-    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "request",
-                         "%s is no request, accepted %s", found.text, accepted.text);
+    return true;
 }
 
 static bool read_id(const cJSON *object, DipControlId *id, DipError *err) {
@@ -248,8 +240,7 @@ static bool read_object(const cJSON *object, DipControlRequest *request, DipErro
                              found.text);
     }
     if (!check_envelope(object, err) || !read_id(object, &request->id, err) ||
-        !read_verb(object, &request->verb, err) ||
-        !read_fields(object, &rows[request->verb], request, err)) {
+        !read_verb(object, &request->verb, err) || !read_fields(object, request, err)) {
         return false;
     }
     if (request->verb == DIP_CONTROL_GET && request->parts == 0) {

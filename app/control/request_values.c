@@ -1,7 +1,7 @@
 // Reads the values of a request's fields.
 #include "app/control/request_values_private.h"
 
-#include "app/control/utf8_private.h"
+#include "renderer/base/utf8.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -15,7 +15,7 @@ void dip_words_add(DipWords *words, const char *word) {
     snprintf(words->text + length, sizeof words->text - length, "%s%s", length ? " " : "", word);
 }
 
-static DipWords list_names(const char *const *names, size_t count) {
+DipWords dip_words_list(const char *const *names, size_t count) {
     DipWords words = {""};
     for (size_t i = 0; i < count; ++i) {
         dip_words_add(&words, names[i]);
@@ -88,8 +88,9 @@ bool dip_field_read_number(const DipField *field, const cJSON *item, double *num
     return true;
 }
 
-static bool read_name(const DipField *field, const cJSON *item, unsigned *bits, DipError *err) {
-    const DipWords accepted = list_names(field->names, field->size);
+bool dip_field_read_name(const DipField *field, const char *what, const cJSON *item, unsigned *bits,
+                         DipError *err) {
+    const DipWords accepted = dip_words_list(field->names, field->size);
     if (!cJSON_IsString(item)) {
         return dip_field_refuse_type(field->name, item, accepted.text, err);
     }
@@ -100,23 +101,23 @@ static bool read_name(const DipField *field, const cJSON *item, unsigned *bits, 
         }
     }
     const DipWords found = dip_words_describe(item);
-    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, field->name, "%s is no name, accepted %s",
-                         found.text, accepted.text);
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, field->name, "%s is no %s, accepted %s",
+                         found.text, what, accepted.text);
 }
 
 // Reads a name, or an array of at least one name.
 static bool read_names(const DipField *field, const cJSON *item, unsigned *bits, DipError *err) {
     if (!cJSON_IsArray(item)) {
-        return read_name(field, item, bits, err);
+        return dip_field_read_name(field, "name", item, bits, err);
     }
     const cJSON *name;
     cJSON_ArrayForEach(name, item) {
-        if (!read_name(field, name, bits, err)) {
+        if (!dip_field_read_name(field, "name", name, bits, err)) {
             return false;
         }
     }
     if (*bits == 0) {
-        const DipWords accepted = list_names(field->names, field->size);
+        const DipWords accepted = dip_words_list(field->names, field->size);
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, field->name,
                              "an empty array found, accepted %s", accepted.text);
     }

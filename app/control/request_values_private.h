@@ -32,6 +32,7 @@ typedef struct DipWords {
 } DipWords;
 
 void dip_words_add(DipWords *words, const char *word);
+DipWords dip_words_list(const char *const *names, size_t count);
 
 // Describes a value for a message: 'text', a number, or its type. Long texts are cut.
 DipWords dip_words_describe(const struct cJSON *item);
@@ -48,6 +49,11 @@ bool dip_field_read_text(const DipField *field, const struct cJSON *item, char *
 // Reads a value of kind NUMBER or INTEGER. Fails with TYPE and RANGE.
 bool dip_field_read_number(const DipField *field, const struct cJSON *item, double *number,
                            DipError *err);
+
+// Reads a text that is one of the names, and adds its bit. what: what the names stand for, for the
+// message "'text' is no name, accepted ...". Fails with TYPE and UNKNOWN.
+bool dip_field_read_name(const DipField *field, const char *what, const struct cJSON *item,
+                         unsigned *bits, DipError *err);
 
 // Reads a value of any kind into its place in `values`. Fails as the functions above, and with
 // UNKNOWN (no such name) and MISSING (no name at all).

@@ -2,6 +2,7 @@
 #include "app/files/png.h"
 
 #include "app/files/whole_file.h"
+#include "renderer/base/utf8.h"
 
 #include <limits.h>
 #include <setjmp.h>
@@ -174,45 +175,6 @@ bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int 
 
 // --- texts ---------------------------------------------------------------------------------------
 
-// Returns the length of the UTF-8 sequence at `text`, or 0 if the sequence is not valid. The final
-// 0 of the text ends every sequence, because it is no continuation byte.
-static int sequence_length(const char *text) {
-    const unsigned char *bytes = (const unsigned char *)text;
-    const unsigned char lead = bytes[0];
-    const int length = lead < 0x80                   ? 1
-                       : lead >= 0xc2 && lead < 0xe0 ? 2
-                       : lead >= 0xe0 && lead < 0xf0 ? 3
-                       : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                     : 0;
-    for (int i = 1; i < length; i++) {
-        if ((bytes[i] & 0xc0) != 0x80) {
-            return 0;
-        }
-    }
-    const bool overlong = (lead == 0xe0 && bytes[1] < 0xa0) || (lead == 0xf0 && bytes[1] < 0x90);
-    const bool surrogate = lead == 0xed && bytes[1] > 0x9f;
-    const bool too_large = lead == 0xf4 && bytes[1] > 0x8f;
-    return overlong || surrogate || too_large ? 0 : length;
-}
-
-// Copies a text with '?' for bytes that are not valid UTF-8. Returns whether the copy is ASCII.
-static bool copy_text(unsigned char *to, const char *text) {
-    bool ascii = true;
-    while (*text) {
-        const int length = sequence_length(text);
-        if (length == 0) {
-            *to++ = '?';
-            text++;
-            continue;
-        }
-        ascii = ascii && length == 1;
-        for (int i = 0; i < length; i++) {
-            *to++ = (unsigned char)*text++;
-        }
-    }
-    return ascii;
-}
-
 // Returns the greatest size of a text's chunk.
 static size_t most_chunk_bytes(const DipPngText *text) {
     return PNG_CHUNK_FRAME + strlen(text->keyword) + PNG_TEXT_FIELDS + strlen(text->text);
@@ -225,8 +187,9 @@ static size_t write_text_chunk(unsigned char *chunk, const DipPngText *text) {
     const size_t keyword_bytes = strlen(text->keyword);
     const size_t text_bytes = strlen(text->text); // '?' takes the place of one byte.
     unsigned char *content = chunk + PNG_CHUNK_CONTENT;
-    unsigned char *copied = content + keyword_bytes + PNG_TEXT_FIELDS;
-    const bool ascii = copy_text(copied, text->text);
+    char *copied = (char *)content + keyword_bytes + PNG_TEXT_FIELDS;
+    memcpy(copied, text->text, text_bytes + 1); // The checksum overwrites the final 0.
+    const bool ascii = dip_utf8_mend(copied);
     const size_t fields = ascii ? 1 : PNG_TEXT_FIELDS;
     memcpy(chunk + 4, ascii ? "tEXt" : "iTXt", 4);
     memcpy(content, text->keyword, keyword_bytes);

@@ -2,6 +2,7 @@
 #include "app/files/put.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/utf8.h"
 
 #include <stdarg.h>
 #include <stdbool.h>
@@ -9,37 +10,43 @@
 
 enum { SPEC_ROOM = 32, PADDED_ROOM = 1024 };
 
-// Writes a text that is inserted, escaped for a form.
-typedef void PutText(FILE *out, const char *text);
-
 // Copies of a va_list can be passed by pointer; the list itself may be an array.
 typedef struct Arguments {
     va_list list;
 } Arguments;
 
 // Returns the length of the character at the beginning of a text in UTF-8, or 0 if it is a control
-// character or malformed. The controls of the upper half (C1) are two bytes.
+// character or malformed.
 static size_t character_bytes(const char *text) {
-    const unsigned char *bytes = (const unsigned char *)text;
-    const size_t length = bytes[0] < 0x80 ? 1 : bytes[0] < 0xe0 ? 2 : bytes[0] < 0xf0 ? 3 : 4;
-    if (length == 1) {
-        return bytes[0] >= ' ' && bytes[0] != 0x7f;
-    }
-    for (size_t i = 1; i < length; i++) {
-        if ((bytes[i] & 0xc0) != 0x80) {
-            return 0;
-        }
-    }
-    return bytes[0] < 0xc2 || bytes[0] > 0xf4 || (bytes[0] == 0xc2 && bytes[1] < 0xa0) ? 0 : length;
+    uint32_t code = 0;
+    const size_t length = dip_utf8_read(text, DIP_UTF8_MOST_BYTES, &code);
+    return code < ' ' || (code >= 0x7f && code < 0xa0) ? 0 : length;
 }
 
-// Writes a text, in which `replace` stands for characters that it knows. `replace` returns NULL for
-// all others.
-static void put_replaced(FILE *out, const char *text, const char *(*replace)(char c)) {
+// A character, and what a form shows instead. A list of them ends with the character 0.
+typedef struct Escape {
+    char character;
+    const char *instead;
+} Escape;
+
+static const Escape html_escapes[] = {{'&', "&amp;"},  {'<', "&lt;"},   {'>', "&gt;"},
+                                      {'"', "&quot;"}, {'\'', "&#39;"}, {0, NULL}};
+// A script element ends at "</script" wherever that stands, so '<' must not be written.
+static const Escape script_escapes[] = {{'&', "\\u0026"},  {'<', "\\u003c"}, {'>', "\\u003e"},
+                                        {'\'', "\\u0027"}, {'"', "\\\""},    {'\\', "\\\\"},
+                                        {0, NULL}};
+static const Escape csv_escapes[] = {{'"', "\"\""}, {0, NULL}};
+static const Escape no_escapes[] = {{0, NULL}};
+
+static void put_escaped(FILE *out, const char *text, const Escape *escapes) {
     const char *begin = text; // Of the characters that have not been written yet.
     while (*text) {
         const size_t length = character_bytes(text);
-        const char *instead = length ? replace(*text) : "?";
+        const Escape *escape = escapes;
+        while (escape->character && escape->character != *text) {
+            ++escape;
+        }
+        const char *instead = length ? escape->instead : "?";
         const char *next = text + (length ? length : 1);
         if (instead) {
             fwrite(begin, 1, (size_t)(text - begin), out);
@@ -49,60 +56,6 @@ static void put_replaced(FILE *out, const char *text, const char *(*replace)(cha
         text = next;
     }
     fwrite(begin, 1, (size_t)(text - begin), out);
-}
-
-static const char *html_of(char c) {
-    switch (c) {
-    case '&':
-        return "&amp;";
-    case '<':
-        return "&lt;";
-    case '>':
-        return "&gt;";
-    case '"':
-        return "&quot;";
-    case '\'':
-        return "&#39;";
-    default:
-        return NULL;
-    }
-}
-
-// A script element ends at "</script" wherever that stands, so '<' must not be written.
-static const char *script_of(char c) {
-    switch (c) {
-    case '&':
-        return "\\u0026";
-    case '<':
-        return "\\u003c";
-    case '>':
-        return "\\u003e";
-    case '\'':
-        return "\\u0027";
-    case '"':
-        return "\\\"";
-    case '\\':
-        return "\\\\";
-    default:
-        return NULL;
-    }
-}
-
-static const char *csv_of(char c) {
-    return c == '"' ? "\"\"" : NULL;
-}
-
-static const char *same_of(char c) {
-    (void)c;
-    return NULL;
-}
-
-static void put_html(FILE *out, const char *text) {
-    put_replaced(out, text, html_of);
-}
-
-static void put_plain(FILE *out, const char *text) {
-    put_replaced(out, text, same_of);
 }
 
 // --- formats -------------------------------------------------------------------------------------
@@ -125,7 +78,8 @@ static const char *read_spec(const char *format, Arguments *arguments, char spec
     return format;
 }
 
-static void put_value(FILE *out, PutText *put, const char *spec, char kind, Arguments *arguments) {
+static void put_value(FILE *out, const Escape *escapes, const char *spec, char kind,
+                      Arguments *arguments) {
     char padded[PADDED_ROOM];
     switch (kind) {
     case '%':
@@ -150,10 +104,10 @@ static void put_value(FILE *out, PutText *put, const char *spec, char kind, Argu
         break;
     case 's':
         if (strcmp(spec, "%s") == 0) {
-            put(out, va_arg(arguments->list, const char *));
+            put_escaped(out, va_arg(arguments->list, const char *), escapes);
         } else {
             snprintf(padded, sizeof padded, spec, va_arg(arguments->list, const char *));
-            put(out, padded);
+            put_escaped(out, padded, escapes);
         }
         break;
     default:
@@ -162,7 +116,7 @@ static void put_value(FILE *out, PutText *put, const char *spec, char kind, Argu
     }
 }
 
-static void put_format(FILE *out, PutText *put, const char *format, Arguments *arguments) {
+static void put_format(FILE *out, const Escape *escapes, const char *format, Arguments *arguments) {
     char spec[SPEC_ROOM];
     while (*format) {
         const size_t plain = strcspn(format, "%");
@@ -170,7 +124,7 @@ static void put_format(FILE *out, PutText *put, const char *format, Arguments *a
         format += plain;
         if (*format) {
             format = read_spec(format, arguments, spec);
-            put_value(out, put, spec, *format++, arguments);
+            put_value(out, escapes, spec, *format++, arguments);
         }
     }
 }
@@ -178,14 +132,14 @@ static void put_format(FILE *out, PutText *put, const char *format, Arguments *a
 void dip_put_html(FILE *out, const char *format, ...) {
     Arguments arguments;
     va_start(arguments.list, format);
-    put_format(out, put_html, format, &arguments);
+    put_format(out, html_escapes, format, &arguments);
     va_end(arguments.list);
 }
 
 void dip_put_text(FILE *out, const char *format, ...) {
     Arguments arguments;
     va_start(arguments.list, format);
-    put_format(out, put_plain, format, &arguments);
+    put_format(out, no_escapes, format, &arguments);
     va_end(arguments.list);
 }
 
@@ -203,12 +157,12 @@ void dip_put_markup(FILE *out, const char *markup) {
 
 void dip_put_script_string(FILE *out, const char *text) {
     fputc('"', out);
-    put_replaced(out, text, script_of);
+    put_escaped(out, text, script_escapes);
     fputc('"', out);
 }
 
 void dip_put_csv_text(FILE *out, const char *text) {
     fputs(*text && strchr("=+-@\t\r", *text) ? "\"'" : "\"", out);
-    put_replaced(out, text, csv_of);
+    put_escaped(out, text, csv_escapes);
     fputc('"', out);
 }

@@ -1,9 +1,11 @@
 // The list of scenes, the tour through them, and opening and closing them.
 #include "app/gallery/gallery.h"
 
+#include "app/gallery/kit/kit.h"
 #include "app/gallery/scenes/scene.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/nearest.h"
+#include "renderer/base/trig.h"
 #include "renderer/shapes/camera.h"
 
 #include <math.h>
@@ -108,13 +110,13 @@ void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose) {
     static const double up[3] = {0.0, 1.0, 0.0};
     const DipGalleryScene *playing = scenes[dip_gallery_scene_at(scene, time_ns)];
     const double phase = (double)(wrap_time(scene, time_ns) % scene_ns) / (double)scene_ns;
-    double target[3];
+    const DipGalleryCamera camera = playing->camera(2.0 * DIP_PI * phase);
     DipMatrix view;
     DipError err;
-    playing->camera(phase, pose->position_world, target);
-    const bool made = dip_camera_look_at(&view, pose->position_world, target, up, &err);
+    const bool made = dip_camera_look_at(&view, camera.eye, camera.target, up, &err);
     DIP_ASSERT(made);
     (void)made;
+    memcpy(pose->position_world, camera.eye, sizeof camera.eye);
     find_orientation(view.m, pose->orientation);
     pose->fov_y_deg = DIP_GALLERY_FOV_Y_DEG;
 }
@@ -141,11 +143,15 @@ static DipTexture *make_mip_colours(DipError *err) {
 }
 
 static void close_scene(DipGallery *gallery) {
-    if (gallery->open >= 0) {
-        scenes[gallery->open]->destroy(gallery->content);
-        gallery->open = -1;
-        gallery->content = NULL;
+    if (gallery->content) {
+        if (scenes[gallery->open]->destroy) {
+            scenes[gallery->open]->destroy(gallery->content);
+        }
+        dip_kit_stock_free(gallery->content);
+        free(gallery->content);
     }
+    gallery->open = -1;
+    gallery->content = NULL;
 }
 
 static bool open_scene(DipGallery *gallery, int index, DipError *err) {
@@ -154,9 +160,15 @@ static bool open_scene(DipGallery *gallery, int index, DipError *err) {
         return true;
     }
     close_scene(gallery);
-    gallery->content = scenes[index]->create(&room, err);
-    gallery->open = gallery->content ? index : -1;
-    return gallery->content != NULL;
+    gallery->open = index;
+    gallery->content = calloc(1, scenes[index]->content_bytes);
+    const bool made = gallery->content ? scenes[index]->create(gallery->content, &room, err)
+                                       : dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0,
+                                                       scenes[index]->info.name, "out of memory");
+    if (!made) {
+        close_scene(gallery);
+    }
+    return made;
 }
 
 DipGallery *dip_gallery_create(const DipGalleryDef *def, DipError *err) {

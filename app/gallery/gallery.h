@@ -31,7 +31,6 @@ enum { DIP_GALLERY_SECONDS = 15 };
 typedef struct DipGalleryInfo {
     const char *name;  // "blend"; the name that --scene takes
     const char *title; // "Blend modes"
-    const char *seed;  // the document that describes the scene or its technique
     const char *text;  // what the scene shows, in one or two sentences
     // The scene's variants, which a key chooses: "flat", "Gouraud", "Phong". At least one.
     const char *const *looks;

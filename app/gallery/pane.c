@@ -4,6 +4,7 @@
 #include "app/gallery/scenes/scene.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/base/pages.h"
+#include "renderer/base/trig.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -170,6 +171,7 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
     const DipGalleryView view = {
         .pose = pose,
         .time_s = playing.time_s,
+        .turn = 2.0 * DIP_PI * playing.time_s / DIP_GALLERY_SECONDS,
         .look = playing.look,
         .quality = &pane->quality,
         .pattern = dip_pattern_kind(pane->quality.step[DIP_SETTING_TAA] != 0, pane->frame_index),

@@ -1,7 +1,6 @@
 // Reads the pictures of mip levels.
-#include "app/session/mip_pictures.h"
-
 #include "app/session/session_private.h"
+
 #include "assets/importer.h"
 
 typedef struct MipPictures {
@@ -34,7 +33,7 @@ static bool read_pictures(const DipSession *session, MipPictures *all, DipErrorL
     return read;
 }
 
-bool dip_mip_pictures_load(DipSession *session, DipErrorList *faults) {
+bool dip_session_load_mip_pictures(DipSession *session, DipErrorList *faults) {
     MipPictures all = {.any = false};
     bool loaded = read_pictures(session, &all, faults);
     for (int p = 0; loaded && all.any && p < DIP_PANE_COUNT; p++) {

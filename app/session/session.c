@@ -2,10 +2,10 @@
 #include "app/session/session_private.h"
 
 #include "app/cli/log.h"
-#include "app/session/mip_pictures.h"
 #include "renderer/base/clock.h"
 
 #include <limits.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +16,18 @@ const char *const dip_pane_names[DIP_PANE_COUNT] = {"current", "requested"};
 bool dip_session_add_fault(DipErrorList *faults, const DipError *err) {
     dip_error_list_add(faults, err);
     return false;
+}
+
+bool dip_session_refuse(DipErrorList *faults, DipErrorCode code, const char *file, int line,
+                        const char *key, const char *format, ...) {
+    char message[sizeof((DipError *)NULL)->message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    DipError err;
+    dip_error_set(&err, code, file, line, key, "%s", message);
+    return dip_session_add_fault(faults, &err);
 }
 
 bool dip_session_place_fault(const DipSession *session, const DipConfigFile *file,
@@ -30,11 +42,8 @@ bool dip_session_place_fault(const DipSession *session, const DipConfigFile *fil
 
 // --- the ini -----------------------------------------------------------------------------------
 
-// Finds the ini that comes with Diptych. For a program in a build folder, the ini is in the source
-// tree. For an installed program, the ini is in the installation's share folder.
-static bool find_shipped_config(char *file, size_t size_bytes) {
-    static const char *const places[] = {"../../config/courtyard.ini",
-                                         "../share/diptych/config/courtyard.ini"};
+bool dip_session_find_shipped(const char *name, char *file, size_t size_bytes) {
+    static const char *const places[] = {"../..", "../share/diptych"};
     char program[PATH_MAX];
     const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     if (length < 0) {
@@ -43,7 +52,7 @@ static bool find_shipped_config(char *file, size_t size_bytes) {
     program[length] = '\0';
     *strrchr(program, '/') = '\0';
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        const int needed = snprintf(file, size_bytes, "%s/%s", program, places[i]);
+        const int needed = snprintf(file, size_bytes, "%s/%s/%s", program, places[i], name);
         if (needed > 0 && (size_t)needed < size_bytes && access(file, R_OK) == 0) {
             return true;
         }
@@ -66,39 +75,25 @@ static bool check_isa(const DipSession *session, DipErrorList *faults) {
     if (config->isa == DIP_CONFIG_ISA_AUTO || dip_isa_available((DipIsa)config->isa)) {
         return true;
     }
-    DipError err;
-    dip_error_set(&err, DIP_ERROR_UNSUPPORTED, config->file, config->line[DIP_KEY_ISA], "ISA",
-                  "this machine cannot run '%s'; give auto, or at most %s",
-                  dip_isa_name((DipIsa)config->isa), dip_isa_name(dip_isa_best()));
-    return dip_session_add_fault(faults, &err);
+    return dip_session_refuse(faults, DIP_ERROR_UNSUPPORTED, config->file,
+                              config->line[DIP_KEY_ISA], "ISA",
+                              "this machine cannot run '%s'; give auto, or at most %s",
+                              dip_isa_name((DipIsa)config->isa), dip_isa_name(dip_isa_best()));
 }
 
 static bool load_config(DipSession *session, const char *log, DipErrorList *faults) {
     char shipped[PATH_MAX];
-    const char *file = session->options->config;
-    if (!file) {
-        if (!find_shipped_config(shipped, sizeof shipped)) {
-            DipError err;
-            dip_error_set(&err, DIP_ERROR_MISSING, NULL, 0, "--config",
-                          "config/courtyard.ini is not where Diptych was installed; give an "
-                          "ini with --config FILE");
-            return dip_session_add_fault(faults, &err);
-        }
-        file = shipped;
+    const char *given = session->options->config;
+    if (!given && !dip_session_find_shipped("config/courtyard.ini", shipped, sizeof shipped)) {
+        return dip_session_refuse(faults, DIP_ERROR_MISSING, NULL, 0, "--config",
+                                  "config/courtyard.ini is not where Diptych was installed; give "
+                                  "an ini with --config FILE");
     }
-    if (!dip_config_load(file, &session->config, faults)) {
-        return false;
-    }
-    return use_log(session, log, faults) && check_isa(session, faults);
+    return dip_config_load(given ? given : shipped, &session->config, faults) &&
+           use_log(session, log, faults) && check_isa(session, faults);
 }
 
 // --- panes --------------------------------------------------------------------------------------
-
-static DipConfigSize pane_size_of(const DipSession *session) {
-    return session->options->has_size
-               ? (DipConfigSize){session->options->size.width, session->options->size.height}
-               : session->config.res;
-}
 
 static DipQuality pane_quality(const DipSession *session, int pane) {
     const DipSessionOptions *options = session->options;
@@ -144,30 +139,39 @@ static void set_reflection(DipSession *session) {
     }
 }
 
-static bool make_renderers(DipSession *session, DipErrorList *faults) {
-    DipError err;
-    if (session->shows_gallery) {
-        session->gallery = dip_session_open_gallery(session, session->pool, session->isa, &err);
-        if (!session->gallery) {
-            return dip_session_add_fault(faults, &err);
-        }
-    }
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
+                               const DipQuality qualities[DIP_PANE_COUNT],
+                               DipPainter *painters[DIP_PANE_COUNT], DipError *err) {
+    bool made = true;
+    for (int p = 0; made && p < DIP_PANE_COUNT; p++) {
         const DipRendererDef def = {
             .pool = session->pool,
             .isa = session->isa,
             .width = session->pane_size.width,
             .height = session->pane_size.height,
-            .quality = pane_quality(session, p),
+            .quality = qualities[p],
             .reflection = session->reflection,
             .force_all_effects = session->force_all_effects,
         };
-        session->renderers[p] = dip_painter_create(&def, session->gallery, &err);
-        if (!session->renderers[p]) {
-            return dip_session_add_fault(faults, &err);
-        }
+        painters[p] = dip_painter_create(&def, gallery, err);
+        made = painters[p] != NULL;
     }
-    return dip_mip_pictures_load(session, faults);
+    return made;
+}
+
+static bool make_renderers(DipSession *session, DipErrorList *faults) {
+    const DipQuality qualities[DIP_PANE_COUNT] = {pane_quality(session, 0),
+                                                  pane_quality(session, 1)};
+    DipError err;
+    if (session->shows_gallery) {
+        session->gallery = dip_session_open_gallery(session, session->pool, session->isa, &err);
+    }
+    if ((session->shows_gallery && !session->gallery) ||
+        !dip_session_make_painters(session, session->gallery, qualities, session->renderers,
+                                   &err)) {
+        return dip_session_add_fault(faults, &err);
+    }
+    return dip_session_load_mip_pictures(session, faults);
 }
 
 static bool make_pool(DipSession *session, DipErrorList *faults) {
@@ -214,7 +218,9 @@ bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorLis
     bool opened = load_config(session, def->log, faults) &&
                   dip_session_choose_gallery(session, faults) && make_pool(session, faults);
     session->times.ini_ms = dip_start_times_since_ms(def->begin_ns);
-    session->pane_size = pane_size_of(session);
+    const DipOptionSize *size = &def->options->size;
+    session->pane_size =
+        def->options->has_size ? (DipConfigSize){size->width, size->height} : session->config.res;
     opened = opened && (!def->scene || load_what_is_drawn(session, def->keep_model, faults));
     if (opened) {
         set_reflection(session);
@@ -248,24 +254,16 @@ void dip_session_close(DipSession *session) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
-// Returns a frame that shares the pixels of *frame. Its counters and times are 0.
-static DipFrame copy_of(const DipFrame *frame) {
-    DipFrame copy = *frame;
-    copy.counters = (DipCounters){0};
-    copy.stages = (DipStageTimes){0};
-    return copy;
-}
-
-// Draws the current pane. The requested pane becomes a copy of the current pane.
+// Draws the current pane. The requested pane shares its pixels, without any work or time.
 static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_ns,
                         DipSessionFrame *frame, DipError *err) {
-    DipFrame *pane = &frame->panes[DIP_PANE_CURRENT];
-    if (!dip_painter_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose, play_ns, pane,
-                          err)) {
-        return false;
-    }
-    frame->panes[DIP_PANE_REQUESTED] = copy_of(pane);
-    return true;
+    DipFrame *copy = &frame->panes[DIP_PANE_REQUESTED];
+    const bool drawn = dip_painter_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose,
+                                        play_ns, &frame->panes[DIP_PANE_CURRENT], err);
+    *copy = frame->panes[DIP_PANE_CURRENT];
+    copy->counters = (DipCounters){0};
+    copy->stages = (DipStageTimes){0};
+    return drawn;
 }
 
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,

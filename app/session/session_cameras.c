@@ -8,9 +8,7 @@
 #include <string.h>
 
 static bool out_of_memory(DipErrorList *faults) {
-    DipError err;
-    dip_error_set(&err, DIP_ERROR_MEMORY, NULL, 0, "cameras", "out of memory");
-    return dip_session_add_fault(faults, &err);
+    return dip_session_refuse(faults, DIP_ERROR_MEMORY, NULL, 0, "cameras", "out of memory");
 }
 
 // Makes the path of a camera. A key of both has the same numbers in the same order.
@@ -78,14 +76,11 @@ static bool load_file(DipSession *session, const char *file, DipErrorList *fault
 }
 
 bool dip_session_load_cameras(DipSession *session, DipErrorList *faults) {
-    const DipSessionOptions *options = session->options;
-    const DipConfigFiles *named = &session->config.xfile;
+    const char *files[DIP_MAX_MODELS];
+    const int count = dip_session_model_files(session, files);
     bool loaded = true;
-    for (int i = 0; loaded && i < options->model_count; i++) {
-        loaded = load_file(session, options->models[i], faults);
-    }
-    for (size_t i = 0; loaded && !options->model_count && i < named->count; i++) {
-        loaded = load_file(session, named->items[i].path, faults);
+    for (int i = 0; loaded && i < count; i++) {
+        loaded = load_file(session, files[i], faults);
     }
     return loaded;
 }
@@ -134,9 +129,8 @@ bool dip_session_refuse_path(const DipSession *session, DipErrorList *faults) {
     if (left_out > 0) {
         snprintf(more, sizeof more, " and %d more", left_out);
     }
-    DipError err;
-    dip_error_set(&err, DIP_ERROR_MISSING, NULL, 0, "--path",
-                  "'%.60s' is neither a file nor a camera of the models, accepted a file%s%s",
-                  session->options->path, list, more);
-    return dip_session_add_fault(faults, &err);
+    return dip_session_refuse(
+        faults, DIP_ERROR_MISSING, NULL, 0, "--path",
+        "'%.60s' is neither a file nor a camera of the models, accepted a file%s%s",
+        session->options->path, list, more);
 }

@@ -5,49 +5,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-// Sets the folder of the shipped assets. A program in a build folder finds them in the source tree,
-// an installed one in the installation's share folder; another program finds them beside the folder
-// of the ini.
+// Sets the folder of the shipped assets. A program that finds none where it stands finds them
+// beside the folder of the ini.
 static bool find_assets(DipSession *session, DipErrorList *faults) {
-    char program[PATH_MAX];
-    char ini[PATH_MAX];
-    char folder[PATH_MAX + 32];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    program[length > 0 ? length : 0] = '\0';
-    snprintf(ini, sizeof ini, "%s", session->config.file);
-    char *const slash = strrchr(program, '/');
-    char *const ini_slash = strrchr(ini, '/');
-    *(slash ? slash : program) = '\0';
-    strcpy(ini_slash ? ini_slash : ini, ini_slash ? "" : ".");
-    const char *const places[][2] = {
-        {program, "../../assets"}, {program, "../share/diptych/assets"}, {ini, "../assets"}};
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        char known[PATH_MAX + 64];
-        snprintf(folder, sizeof folder, "%s/%s", places[i][0], places[i][1]);
-        snprintf(known, sizeof known, "%s/gallery", folder);
-        if (access(known, R_OK) == 0) {
-            break;
-        }
+    char folder[PATH_MAX + 16];
+    if (dip_session_find_shipped("assets/gallery", folder, sizeof folder)) {
+        *strrchr(folder, '/') = '\0';
+    } else {
+        const char *ini = session->config.file;
+        const char *slash = strrchr(ini, '/');
+        snprintf(folder, sizeof folder, "%.*s/../assets", slash ? (int)(slash - ini) : 1,
+                 slash ? ini : ".");
     }
-    DipError err;
     session->assets = strdup(folder);
-    if (!session->assets) {
-        dip_error_set(&err, DIP_ERROR_MEMORY, NULL, 0, "assets", "out of memory");
-        return dip_session_add_fault(faults, &err);
-    }
-    return true;
-}
-
-// Adds a fault. If the name of the scene comes from the ini, the fault names the line of the ini.
-static bool refuse(const DipSession *session, DipError *err, DipErrorList *faults) {
-    DipError placed = *err;
-    if (!session->options->scene) {
-        dip_error_set(&placed, err->code, session->config.file, session->config.line[DIP_KEY_SCENE],
-                      "SCENE", "%s", err->message);
-    }
-    return dip_session_add_fault(faults, &placed);
+    return session->assets ||
+           dip_session_refuse(faults, DIP_ERROR_MEMORY, NULL, 0, "assets", "out of memory");
 }
 
 bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults) {
@@ -57,7 +30,10 @@ bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults) {
     const bool models = options->model_count || !name[0] || strcmp(name, "models") == 0;
     session->shows_gallery = !models;
     if (!models && !dip_gallery_find(name, &session->gallery_scene, &err)) {
-        return refuse(session, &err, faults);
+        return options->scene ? dip_session_add_fault(faults, &err)
+                              : dip_session_refuse(faults, err.code, session->config.file,
+                                                   session->config.line[DIP_KEY_SCENE], "SCENE",
+                                                   "%s", err.message);
     }
     return find_assets(session, faults);
 }
@@ -120,33 +96,12 @@ bool dip_session_load_gallery_path(DipSession *session, DipErrorList *faults) {
 
 // --- going to another scene ----------------------------------------------------------------------
 
-// Creates painters like those of the session for another gallery, or for models if it is NULL.
-static bool make_painters(const DipSession *session, DipGallery *gallery,
-                          DipPainter *painters[DIP_PANE_COUNT], DipError *err) {
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const DipRendererDef def = {
-            .pool = session->pool,
-            .isa = session->isa,
-            .width = session->pane_size.width,
-            .height = session->pane_size.height,
-            .quality = dip_painter_quality(session->renderers[p]),
-            .reflection = session->reflection,
-            .force_all_effects = session->force_all_effects,
-        };
-        DipPainter *painter = dip_painter_create(&def, gallery, err);
-        if (!painter) {
-            dip_painter_destroy(&painters[0]);
-            return false;
-        }
-        painters[p] = painter;
-    }
-    return true;
-}
-
 // Shows a scene of the gallery, or the models if scene is the number of scenes.
 static bool show_scene(DipSession *session, int scene, DipError *err) {
     const bool models = scene == dip_gallery_scene_count();
     DipSession next = *session;
+    const DipQuality qualities[DIP_PANE_COUNT] = {dip_painter_quality(session->renderers[0]),
+                                                  dip_painter_quality(session->renderers[1])};
     DipPainter *painters[DIP_PANE_COUNT] = {NULL, NULL};
     DipGallery *gallery = NULL;
     DipCamPath *path = NULL;
@@ -158,7 +113,9 @@ static bool show_scene(DipSession *session, int scene, DipError *err) {
     if (gallery) {
         dip_gallery_set_look(gallery, 0); // --look is for the first scene only
     }
-    if ((!models && !path) || !make_painters(session, gallery, painters, err)) {
+    if ((!models && !path) ||
+        !dip_session_make_painters(session, gallery, qualities, painters, err)) {
+        dip_painter_destroy(&painters[0]);
         dip_campath_destroy(&path);
         dip_gallery_destroy(&gallery);
         return false;

@@ -52,38 +52,48 @@ static bool read_look(void *fields, const DipOptionRow *row, const char *value, 
     return true;
 }
 
-#define UP_AXIS(name, text) " `" #name "` " text "."
-#define UP_AXES             DIP_UP_AXIS_LIST(UP_AXIS)
-
-static bool read_up(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipSessionOptions *options = fields;
-    char names[64] = "";
-    for (int i = 0; i < DIP_UP_COUNT; i++) {
-        if (strcmp(value, dip_up_axis_names[i]) == 0) {
-            options->up = (DipUpAxis)i;
+// Reads one of `count` names as its index. what: what a name stands for, for the message.
+static bool read_name(const DipOptionRow *row, const char *value, const char *what,
+                      const char *const *names, int count, int *index, DipError *err) {
+    char known[64] = "";
+    for (int i = 0; i < count; i++) {
+        if (strcmp(value, names[i]) == 0) {
+            *index = i;
             return true;
         }
-        strcat(strcat(names, i ? "|" : ""), dip_up_axis_names[i]);
+        strcat(strcat(known, i ? "|" : ""), names[i]);
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
-                         "'%.40s' is not an axis; give one of %s", value, names);
+                         "'%.40s' is not %s; give one of %s", value, what, known);
 }
 
-#define SHADING(name, text) " `" #name "` " text "."
-#define SHADINGS            DIP_MODEL_SHADING_LIST(SHADING)
+// Names and their meanings, for the help.
+#define NAME_AND_TEXT(name, text) " `" #name "` " text "."
+#define UP_AXES                   DIP_UP_AXIS_LIST(NAME_AND_TEXT)
+#define SHADINGS                  DIP_MODEL_SHADING_LIST(NAME_AND_TEXT)
+#define PATH_ENDS                 DIP_CAMPATH_END_LIST(NAME_AND_TEXT)
+
+static bool read_up(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    int up = 0;
+    const bool read = read_name(row, value, "an axis", dip_up_axis_names, DIP_UP_COUNT, &up, err);
+    ((DipSessionOptions *)fields)->up = (DipUpAxis)up;
+    return read;
+}
 
 static bool read_shading(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipSessionOptions *options = fields;
-    char names[64] = "";
-    for (int i = 0; i < DIP_MODEL_SHADING_COUNT; i++) {
-        if (strcmp(value, dip_model_shading_names[i]) == 0) {
-            options->shading = (DipModelShading)i;
-            return true;
-        }
-        strcat(strcat(names, i ? "|" : ""), dip_model_shading_names[i]);
-    }
-    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
-                         "'%.40s' is not a shading; give one of %s", value, names);
+    int shading = 0;
+    const bool read = read_name(row, value, "a shading", dip_model_shading_names,
+                                DIP_MODEL_SHADING_COUNT, &shading, err);
+    ((DipSessionOptions *)fields)->shading = (DipModelShading)shading;
+    return read;
+}
+
+static bool read_path_end(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    int end = 0;
+    const bool read = read_name(row, value, "the end of a path", dip_campath_end_names,
+                                DIP_CAMPATH_END_COUNT, &end, err);
+    ((DipSessionOptions *)fields)->path_end = (DipCamPathEnd)end;
+    return read;
 }
 
 // Reads numbers that are separated by spaces, tabs or commas. Returns how many there are; a number
@@ -127,21 +137,6 @@ static bool read_pose(void *fields, const DipOptionRow *row, const char *value, 
     dip_campath_destroy(&path);
     options->has_pose = true;
     return true;
-}
-
-#define PATH_END(name, text) " `" #name "` " text "."
-#define PATH_ENDS            DIP_CAMPATH_END_LIST(PATH_END)
-
-static bool read_path_end(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipSessionOptions *options = fields;
-    for (int i = 0; i < DIP_CAMPATH_END_COUNT; i++) {
-        if (strcmp(value, dip_campath_end_names[i]) == 0) {
-            options->path_end = (DipCamPathEnd)i;
-            return true;
-        }
-    }
-    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
-                         "'%.40s' is not the end of a path; give one of loop|once|back", value);
 }
 
 static const DipOptionRow scene_rows[] = {

@@ -14,26 +14,23 @@ double dip_session_fov(const DipSession *session, double fov_y_deg) {
     return session->options->fov_y_deg > 0.0 ? session->options->fov_y_deg : fov_y_deg;
 }
 
-// Takes ownership of a path and makes it the path of a category.
+// Plays a path in a category. name: of a camera of the models, or NULL.
+static void play(DipSession *session, int category, const DipCamPath *path, double fov_y_deg,
+                 const char *name) {
+    dip_camtrack_set_named(&session->track, category, path, dip_session_fov(session, fov_y_deg),
+                           name);
+}
+
+// Takes ownership of a path and plays it in a category.
 static void keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
     session->paths[session->path_count++] = path;
-    dip_camtrack_set(&session->track, category, path, dip_session_fov(session, fov_y_deg));
+    play(session, category, path, fov_y_deg, NULL);
 }
 
 // Returns the camera that a name of a path means, or NULL. A file of this name comes first.
 static const DipSessionCamera *camera_of(const DipSession *session, const char *file,
                                          const char *name) {
     return access(file, F_OK) == 0 ? NULL : dip_session_find_camera(session, name);
-}
-
-// Plays a camera of the models in a category of the ini, with the camera's field of view unless the
-// ini gives one.
-static void follow_camera(DipSession *session, int category, const DipSessionCamera *camera) {
-    const DipConfig *config = &session->config;
-    const bool given = config->line[DIP_KEY_CAMPATH_DEFAULT + 2 * category + 1] > 0;
-    const double fov_y_deg = given ? config->camera[category].fov_y_deg : camera->fov_y_deg;
-    dip_camtrack_set_named(&session->track, category, camera->path,
-                           dip_session_fov(session, fov_y_deg), camera->name);
 }
 
 // Loads the path of one of the ini's categories. A file that an earlier category names is not
@@ -47,14 +44,14 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
         const DipConfigFile *file = &session->config.camera[other].file;
         if (file->path && dip_config_same_file(file, &camera->file) &&
             session->track.categories[other].path) {
-            dip_camtrack_set(&session->track, category, session->track.categories[other].path,
-                             dip_session_fov(session, camera->fov_y_deg));
+            play(session, category, session->track.categories[other].path, camera->fov_y_deg, NULL);
             return true;
         }
     }
     const DipSessionCamera *own = camera_of(session, camera->file.path, camera->file.text);
     if (own) {
-        follow_camera(session, category, own);
+        const bool given = session->config.line[DIP_KEY_CAMPATH_DEFAULT + 2 * category + 1] > 0;
+        play(session, category, own->path, given ? camera->fov_y_deg : own->fov_y_deg, own->name);
         return true;
     }
     DipCamPath *path;
@@ -76,8 +73,7 @@ static bool load_own_path(DipSession *session, DipErrorList *faults) {
     const char *name = session->options->path;
     const DipSessionCamera *camera = camera_of(session, name, name);
     if (camera) {
-        dip_camtrack_set_named(&session->track, 0, camera->path,
-                               dip_session_fov(session, camera->fov_y_deg), camera->name);
+        play(session, 0, camera->path, camera->fov_y_deg, camera->name);
         return true;
     }
     if (session->camera_count > 0 && access(name, F_OK) != 0) {
@@ -116,11 +112,10 @@ static bool check_extent(const float low[3], const float high[3], const char *fi
     if (extent == 0.0 || extent >= least) {
         return true;
     }
-    DipError err;
-    dip_error_set(&err, DIP_ERROR_RANGE, file, 0, "box",
-                  "the model's size is %.3g, but Diptych needs at least %g; scale the model up",
-                  extent, least);
-    return dip_session_add_fault(faults, &err);
+    return dip_session_refuse(
+        faults, DIP_ERROR_RANGE, file, 0, "box",
+        "the model's size is %.3g, but Diptych needs at least %g; scale the model up", extent,
+        least);
 }
 
 static bool make_orbit(DipSession *session, DipErrorList *faults) {
@@ -147,9 +142,7 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
         return false;
     }
     if (!dip_campath_orbit(&def, &path, &err)) {
-        DipError named;
-        dip_error_set(&named, err.code, file, 0, err.key, "%s", err.message);
-        return dip_session_add_fault(faults, &named);
+        return dip_session_refuse(faults, err.code, file, 0, err.key, "%s", err.message);
     }
     keep_path(session, path, 0, def.fov_y_deg);
     session->orbiting = true;
@@ -180,11 +173,9 @@ static bool choose_category(DipSession *session, DipErrorList *faults) {
         }
         strcat(strcat(known, c ? "|" : ""), name);
     }
-    DipError err;
-    dip_error_set(&err, DIP_ERROR_UNKNOWN, NULL, 0, "--category",
-                  "'%.40s' is not a camera path of the ini; give one of %s",
-                  session->options->category, known);
-    return dip_session_add_fault(faults, &err);
+    return dip_session_refuse(faults, DIP_ERROR_UNKNOWN, NULL, 0, "--category",
+                              "'%.40s' is not a camera path of the ini; give one of %s",
+                              session->options->category, known);
 }
 
 static bool load_all(DipSession *session, DipErrorList *faults) {
@@ -212,9 +203,7 @@ bool dip_session_load_paths(DipSession *session, DipErrorList *faults) {
     dip_camtrack_set_end(&session->track, session->options->path_end);
     session->paths = calloc(DIP_CATEGORY_COUNT, sizeof(DipCamPath *));
     if (!session->paths) {
-        DipError err;
-        dip_error_set(&err, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
-        return dip_session_add_fault(faults, &err);
+        return dip_session_refuse(faults, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
     }
     if (session->scene && !dip_session_load_cameras(session, faults)) {
         return false;

@@ -131,21 +131,23 @@ static void set_light(const DipSession *session, float ambient_lin[3], DipModelO
     }
 }
 
+int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX_MODELS]) {
+    const DipSessionOptions *options = session->options;
+    const DipConfigFiles *named = &session->config.xfile;
+    const int count = options->model_count ? options->model_count : (int)named->count;
+    for (int i = 0; i < count; i++) {
+        files[i] = options->model_count ? options->models[i] : named->items[i].path;
+    }
+    return count;
+}
+
 static DipModel *load_model(const DipSession *session, DipErrorList *faults, DipSceneDef *def,
                             DipError *err) {
     const char *files[DIP_MAX_MODELS];
-    int count = session->options->model_count;
-    for (int i = 0; i < count; i++) {
-        files[i] = session->options->models[i];
-    }
-    const DipConfigFiles *named = &session->config.xfile;
-    for (size_t i = 0; !session->options->model_count && i < named->count; i++) {
-        files[count++] = named->items[i].path;
-    }
+    const int count = dip_session_model_files(session, files);
     const DipImporter importer = importer_of(session);
     DipMaterialRule rules[DIP_MAX_MATERIAL_RULES];
-    const int rule_count =
-        count > session->options->model_count ? rules_of(&session->config, rules) : 0;
+    const int rule_count = session->options->model_count ? 0 : rules_of(&session->config, rules);
     DipModelOptions options = {.normal_maps = true,
                                .up = session->options->up,
                                .rules = rules,
@@ -167,9 +169,8 @@ const char *dip_session_scene_file(const DipSession *session) {
                    ? "tour"
                    : dip_gallery_info(session->gallery_scene)->name;
     }
-    return session->options->model_count ? session->options->models[0]
-           : session->config.xfile.count ? session->config.xfile.items[0].path
-                                         : "";
+    const char *files[DIP_MAX_MODELS];
+    return dip_session_model_files(session, files) > 0 ? files[0] : "";
 }
 
 bool dip_session_keep_model(DipSession *session, DipError *err) {

@@ -217,13 +217,13 @@ static void queue_signals(Terminal *terminal) {
     unsigned signals = dip_terminal_mode_take_signals();
     if (signals & DIP_TERMINAL_STOP) {
         dip_terminal_mode_suspend();
-        signals |= dip_terminal_mode_take_signals() | DIP_TERMINAL_RESIZE;
-        dip_terminal_writer_forget(&terminal->writer);
-        queue_event(terminal, &(DipEvent){.kind = DIP_EVENT_EXPOSE});
+        signals |= dip_terminal_mode_take_signals() | DIP_TERMINAL_RESUME;
     } else if (signals & DIP_TERMINAL_RESUME) {
         dip_terminal_mode_renew();
-        dip_terminal_writer_forget(&terminal->writer);
+    }
+    if (signals & DIP_TERMINAL_RESUME) {
         signals |= DIP_TERMINAL_RESIZE;
+        dip_terminal_writer_forget(&terminal->writer);
         queue_event(terminal, &(DipEvent){.kind = DIP_EVENT_EXPOSE});
     }
     // If there is no memory for the new size, the picture keeps the old one.

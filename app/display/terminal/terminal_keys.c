@@ -85,31 +85,25 @@ static unsigned modifiers_of(int parameter) {
            (bits & 4 ? DIP_MODIFIER_CTRL : 0u) | (bits & 8 ? DIP_MODIFIER_SUPER : 0u);
 }
 
+static int find_key(const KeyOfNumber *keys, size_t count, int number) {
+    for (size_t i = 0; i < count; ++i) {
+        if (keys[i].number == number) {
+            return keys[i].key;
+        }
+    }
+    return DIP_KEYCODE_NONE;
+}
+
 // Returns the key whose sequence ends in a letter: ESC [ A or ESC O A.
 static int key_of_letter(uint8_t letter) {
-    switch (letter) {
-    case 'A':
-        return DIP_KEYCODE_UP;
-    case 'B':
-        return DIP_KEYCODE_DOWN;
-    case 'C':
-        return DIP_KEYCODE_RIGHT;
-    case 'D':
-        return DIP_KEYCODE_LEFT;
-    case 'F':
-        return DIP_KEYCODE_END;
-    case 'H':
-        return DIP_KEYCODE_HOME;
-    case 'M': // The keypad's Enter. ESC [ M is a mouse report and is read elsewhere.
-        return DIP_KEYCODE_ENTER;
-    case 'P':
-    case 'Q':
-    case 'R':
-    case 'S':
-        return DIP_KEYCODE_F1 + (letter - 'P');
-    default:
-        return DIP_KEYCODE_NONE;
-    }
+    static const KeyOfNumber keys[] = {
+        {'A', DIP_KEYCODE_UP},   {'B', DIP_KEYCODE_DOWN},  {'C', DIP_KEYCODE_RIGHT},
+        {'D', DIP_KEYCODE_LEFT}, {'F', DIP_KEYCODE_END},   {'H', DIP_KEYCODE_HOME},
+        {'P', DIP_KEYCODE_F1},   {'Q', DIP_KEYCODE_F2},    {'R', DIP_KEYCODE_F3},
+        {'S', DIP_KEYCODE_F4},   {'M', DIP_KEYCODE_ENTER}, // The keypad's. ESC [ M is a mouse
+                                                           // report and is read elsewhere.
+    };
+    return find_key(keys, DIP_ARRAY_COUNT(keys), letter);
 }
 
 // Returns the key whose sequence is ESC [ number ~.
@@ -123,12 +117,7 @@ static int key_of_number(int number) {
         {19, DIP_KEYCODE_F8},  {20, DIP_KEYCODE_F9},     {21, DIP_KEYCODE_F10},
         {23, DIP_KEYCODE_F11}, {24, DIP_KEYCODE_F12},
     };
-    for (size_t i = 0; i < DIP_ARRAY_COUNT(keys); ++i) {
-        if (keys[i].number == number) {
-            return keys[i].key;
-        }
-    }
-    return DIP_KEYCODE_NONE;
+    return find_key(keys, DIP_ARRAY_COUNT(keys), number);
 }
 
 // --- the mouse ---------------------------------------------------------------------------------

@@ -22,12 +22,25 @@ static const char enter_sequence[] = "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[0m\x1b[2J
 static const char leave_sequence[] = "\x1b[?2026l\x1b[?1006l\x1b[?1002l\x1b[?1000l"
                                      "\x1b[0m\x1b[2J\x1b[H\x1b[?7h\x1b[?25h\x1b[?1049l";
 
-static const int polite_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
-static const int crash_signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
-enum {
-    POLITE_COUNT = (int)DIP_ARRAY_COUNT(polite_signals),
-    CRASH_COUNT = (int)DIP_ARRAY_COUNT(crash_signals)
+// A signal asks for something (terminal_mode.h), or it ends the process as a crash does.
+static const struct {
+    int number;
+    unsigned asks; // 0: a crash.
+} signals[] = {
+    {SIGINT, DIP_TERMINAL_QUIT},
+    {SIGTERM, DIP_TERMINAL_QUIT},
+    {SIGHUP, DIP_TERMINAL_QUIT},
+    {SIGWINCH, DIP_TERMINAL_RESIZE},
+    {SIGTSTP, DIP_TERMINAL_STOP},
+    {SIGCONT, DIP_TERMINAL_RESUME},
+    {SIGSEGV, 0},
+    {SIGBUS, 0},
+    {SIGFPE, 0},
+    {SIGILL, 0},
+    {SIGABRT, 0},
+    {SIGQUIT, 0},
 };
+enum { SIGNAL_COUNT = (int)DIP_ARRAY_COUNT(signals) };
 
 static struct {
     int input;
@@ -35,18 +48,15 @@ static struct {
     pid_t owner; // The process that entered the mode. Its children must not leave it.
     struct termios before;
     struct termios during;
-    struct sigaction polite_before[POLITE_COUNT];
-    struct sigaction crash_before[CRASH_COUNT];
+    struct sigaction before_ours[SIGNAL_COUNT];
     int wake[2]; // A pipe that handlers write to.
     bool exit_registered;
 } mode;
 
 static volatile sig_atomic_t active; // The terminal must be restored.
 static volatile sig_atomic_t quits;  // Number of signals that asked the program to quit.
-static volatile sig_atomic_t resized;
-static volatile sig_atomic_t stopped;
-static volatile sig_atomic_t resumed;
-static char signal_stack[SIGNAL_STACK_BYTES]; // For handlers after the stack has overflowed.
+static volatile sig_atomic_t came[SIGNAL_COUNT]; // Signals that nobody has taken yet.
+static char signal_stack[SIGNAL_STACK_BYTES];    // For handlers after the stack has overflowed.
 
 // --- restoring ---------------------------------------------------------------------------------
 // Signal handlers call the functions of this part, so they use async-signal-safe functions only.
@@ -97,23 +107,20 @@ static void end_at_once(int signal_number) {
     raise(signal_number);
 }
 
+static int index_of(int signal_number) {
+    int i = 0;
+    while (signals[i].number != signal_number) {
+        ++i;
+    }
+    return i;
+}
+
 static void take_polite_signal(int signal_number) {
-    switch (signal_number) {
-    case SIGWINCH:
-        resized = 1;
-        break;
-    case SIGTSTP:
-        stopped = 1;
-        break;
-    case SIGCONT:
-        resumed = 1;
-        break;
-    default:
-        quits = quits + 1;
-        if (quits > 1) {
-            end_at_once(signal_number);
-        }
-        break;
+    const int i = index_of(signal_number);
+    came[i] = 1;
+    quits = quits + (signals[i].asks == DIP_TERMINAL_QUIT);
+    if (signals[i].asks == DIP_TERMINAL_QUIT && quits > 1) {
+        end_at_once(signal_number);
     }
     wake_reader();
 }
@@ -124,11 +131,7 @@ static void take_polite_signal(int signal_number) {
 static void take_crash_signal(int signal_number, siginfo_t *info, void *machine) {
     (void)machine;
     restore(TCSANOW);
-    for (int i = 0; i < CRASH_COUNT; ++i) {
-        if (crash_signals[i] == signal_number) {
-            sigaction(signal_number, &mode.crash_before[i], NULL);
-        }
-    }
+    sigaction(signal_number, &mode.before_ours[index_of(signal_number)], NULL);
     if (info->si_code <= 0 || signal_number == SIGQUIT) {
         raise(signal_number);
     }
@@ -150,23 +153,18 @@ static void take_signals(void) {
     sigemptyset(&polite.sa_mask);
     sigemptyset(&crash.sa_mask);
     use_signal_stack();
-    for (int i = 0; i < POLITE_COUNT; ++i) {
-        sigaction(polite_signals[i], &polite, &mode.polite_before[i]);
-        if (mode.polite_before[i].sa_handler == SIG_IGN) {
-            sigaction(polite_signals[i], &mode.polite_before[i], NULL);
+    for (int i = 0; i < SIGNAL_COUNT; ++i) {
+        struct sigaction *before = &mode.before_ours[i];
+        sigaction(signals[i].number, signals[i].asks ? &polite : &crash, before);
+        if (signals[i].asks && before->sa_handler == SIG_IGN) {
+            sigaction(signals[i].number, before, NULL);
         }
-    }
-    for (int i = 0; i < CRASH_COUNT; ++i) {
-        sigaction(crash_signals[i], &crash, &mode.crash_before[i]);
     }
 }
 
 static void give_signals_back(void) {
-    for (int i = 0; i < POLITE_COUNT; ++i) {
-        sigaction(polite_signals[i], &mode.polite_before[i], NULL);
-    }
-    for (int i = 0; i < CRASH_COUNT; ++i) {
-        sigaction(crash_signals[i], &mode.crash_before[i], NULL);
+    for (int i = 0; i < SIGNAL_COUNT; ++i) {
+        sigaction(signals[i].number, &mode.before_ours[i], NULL);
     }
 }
 
@@ -174,15 +172,15 @@ unsigned dip_terminal_mode_take_signals(void) {
     char bytes[64];
     while (read(mode.wake[0], bytes, sizeof bytes) > 0) {
     }
-    const unsigned signals =
-        (quits ? DIP_TERMINAL_QUIT : 0u) | (resized ? DIP_TERMINAL_RESIZE : 0u) |
-        (stopped ? DIP_TERMINAL_STOP : 0u) | (resumed ? DIP_TERMINAL_RESUME : 0u);
-    // A signal that comes between the lines above and below is a second one of its kind, or comes
-    // with another byte in the pipe; in both cases the caller looks again at most a moment later.
-    resized = signals & DIP_TERMINAL_RESIZE ? 0 : resized;
-    stopped = signals & DIP_TERMINAL_STOP ? 0 : stopped;
-    resumed = signals & DIP_TERMINAL_RESUME ? 0 : resumed;
-    return signals;
+    unsigned asked = quits ? DIP_TERMINAL_QUIT : 0;
+    for (int i = 0; i < SIGNAL_COUNT; ++i) {
+        if (came[i]) {
+            // A signal that comes right now is a second one of its kind: the caller acts on both.
+            came[i] = 0;
+            asked |= signals[i].asks;
+        }
+    }
+    return asked;
 }
 
 int dip_terminal_mode_signal_fd(void) {
@@ -232,7 +230,8 @@ bool dip_terminal_mode_enter(int input, int output, DipError *err) {
     mode.input = input;
     mode.output = output;
     mode.owner = getpid();
-    quits = resized = stopped = resumed = 0;
+    quits = 0;
+    memset((void *)came, 0, sizeof came);
     if (tcgetattr(input, &mode.before) != 0) {
         return failed(err, "the terminal's settings cannot be read");
     }

@@ -1,6 +1,9 @@
 // Encodes frames for a terminal.
 #include "app/display/terminal/terminal_writer.h"
 
+#include "renderer/base/assert.h"
+#include "renderer/base/utf8.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -134,38 +137,23 @@ static DipTerminalCell picture_cell(const DipTerminalWriter *writer, const uint8
 
 // Returns the ASCII character that comes nearest to a character of the preview's texts.
 static uint32_t ascii_of(uint32_t code) {
-    switch (code) {
-    case 0x2212: // minus
-    case 0x2500: // horizontal line
-    case 0x2013: // dash
-        return '-';
-    case 0x2192: // arrow to the right
-    case 0x25b6: // triangle to the right
-        return '>';
-    case 0x2190: // arrow to the left
-        return '<';
-    case 0x2191: // arrow up
-        return '^';
-    case 0x2193: // arrow down
-        return 'v';
-    case 0x2026: // ellipsis
-        return '.';
-    case 0x2248: // almost equal
-        return '~';
-    case 0x2502: // vertical line
-        return '|';
-    case 0x25cf: // filled circle
-        return 'o';
-    case 0x2588: // full block
-    case 0x2592: // medium shade
-        return '#';
-    case 0xd7: // times
-        return 'x';
-    case 0xb7: // middle dot
-        return '.';
-    default:
-        return code < 0x80 ? code : '?';
+    static const struct {
+        uint32_t code;
+        char ascii;
+    } pairs[] = {
+        {0x2212, '-'}, {0x2500, '-'}, {0x2013, '-'},                // minus, horizontal line, dash
+        {0x2190, '<'}, {0x2191, '^'}, {0x2192, '>'}, {0x2193, 'v'}, // arrows
+        {0x25b6, '>'}, {0x25cf, 'o'},                // triangle to the right, filled circle
+        {0x2588, '#'}, {0x2592, '#'}, {0x2502, '|'}, // full block, medium shade, vertical line
+        {0x2026, '.'}, {0xb7, '.'},                  // ellipsis, middle dot
+        {0x2248, '~'}, {0xd7, 'x'},                  // almost equal, times
+    };
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(pairs); ++i) {
+        if (pairs[i].code == code) {
+            return (uint32_t)pairs[i].ascii;
+        }
     }
+    return code < 0x80 ? code : '?';
 }
 
 static DipTerminalCell text_cell(const DipTerminalWriter *writer, const DipTextCell *text) {
@@ -189,43 +177,21 @@ static inline void put_text(DipTerminalWriter *writer, const char *text) {
     writer->count += length;
 }
 
-// Appends a number below 10000 in decimal digits.
+// Appends a number in decimal digits.
 static inline void put_number(DipTerminalWriter *writer, uint32_t number) {
-    char *bytes = writer->bytes + writer->count;
-    if (number >= 1000) {
-        *bytes++ = (char)('0' + number / 1000);
+    char digits[10];
+    int count = 0;
+    do {
+        digits[count++] = (char)('0' + number % 10);
+        number /= 10;
+    } while (number > 0);
+    while (count > 0) {
+        writer->bytes[writer->count++] = digits[--count];
     }
-    if (number >= 100) {
-        *bytes++ = (char)('0' + number / 100 % 10);
-    }
-    if (number >= 10) {
-        *bytes++ = (char)('0' + number / 10 % 10);
-    }
-    *bytes++ = (char)('0' + number % 10);
-    writer->count = (size_t)(bytes - writer->bytes);
 }
 
 static void put_code(DipTerminalWriter *writer, uint32_t code) {
-    char *bytes = writer->bytes + writer->count;
-    if (code < 0x80) {
-        bytes[0] = (char)code;
-        writer->count += 1;
-    } else if (code < 0x800) {
-        bytes[0] = (char)(0xc0 | code >> 6);
-        bytes[1] = (char)(0x80 | (code & 0x3f));
-        writer->count += 2;
-    } else if (code < 0x10000) {
-        bytes[0] = (char)(0xe0 | code >> 12);
-        bytes[1] = (char)(0x80 | (code >> 6 & 0x3f));
-        bytes[2] = (char)(0x80 | (code & 0x3f));
-        writer->count += 3;
-    } else {
-        bytes[0] = (char)(0xf0 | code >> 18);
-        bytes[1] = (char)(0x80 | (code >> 12 & 0x3f));
-        bytes[2] = (char)(0x80 | (code >> 6 & 0x3f));
-        bytes[3] = (char)(0x80 | (code & 0x3f));
-        writer->count += 4;
-    }
+    writer->count += dip_utf8_write(code, writer->bytes + writer->count);
 }
 
 // Moves the terminal's cursor.

@@ -3,20 +3,20 @@
 
 enum { FACES = 6, FACE_TEXELS = 128 };
 
-DipMesh *dip_kit_die_mesh(DipError *err) {
+bool dip_kit_die(DipMesh **mesh, DipError *err) {
     // The texture's square for each face of a box: +x, -x, +y, -y, +z, -z.
     static const int squares[FACES] = {0, 5, 1, 4, 2, 3};
     static const float size[3] = {1.0f, 1.0f, 1.0f};
     const float width = 1.0f / FACES;
     DipShape box;
     if (!dip_shape_box(&box, size, err)) {
-        return NULL;
+        return false;
     }
     for (uint32_t v = 0; v < box.vertex_count; v++) {
         float *u = box.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES + DIP_SHAPE_TEXTURE;
         *u = width * ((float)squares[v / 4] + *u);
     }
-    return dip_kit_mesh("die", &box, true, err);
+    return dip_kit_mesh(mesh, "die", &box, err);
 }
 
 // Returns how deep the nearest pip of a face is at a point of the face: 1 within it, 0 outside.
@@ -35,8 +35,7 @@ static float pip_at(int pips, float u, float v) {
     return deepest;
 }
 
-static void paint(const void *context, float u, float v, float rgba[4]) {
-    (void)context;
+static void paint(float u, float v, float rgba[4]) {
     const int face = (int)(u * FACES);
     const float along = u * FACES - (float)face;
     const float to_u = along < 0.5f ? along : 1.0f - along;
@@ -50,6 +49,5 @@ static void paint(const void *context, float u, float v, float rgba[4]) {
 }
 
 bool dip_kit_die_texture(DipKitTexture *texture, DipError *err) {
-    return dip_kit_texture(texture, "die", FACES * FACE_TEXELS, FACE_TEXELS, true, paint, NULL,
-                           err);
+    return dip_kit_texture(texture, "die", FACES * FACE_TEXELS, FACE_TEXELS, true, paint, err);
 }

@@ -6,7 +6,7 @@
 
 // Makes a cube with edges of length 1. Face i shows the sixth number i of the texture's width, as
 // the seed computes it. Opposite faces add up to seven.
-DipMesh *dip_kit_die_mesh(DipError *err);
+bool dip_kit_die(DipMesh **mesh, DipError *err);
 
 // Makes the texture: six squares side by side, with one to six pips.
 bool dip_kit_die_texture(DipKitTexture *texture, DipError *err);

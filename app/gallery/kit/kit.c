@@ -29,20 +29,13 @@ static void rotate_to_view(const double q[4], DipMatrix *view) {
     }
 }
 
-bool dip_kit_camera(DipKitCamera *camera, const DipPose *pose, int width, int height,
-                    double near_distance, DipError *err) {
-    const DipPerspective lens = {.fov_deg = pose->fov_y_deg,
-                                 .aspect = (double)width / height,
-                                 .near_distance = near_distance};
-    const double *eye = pose->position_world;
+// Completes a camera whose view is known.
+static bool set_lens(DipKitCamera *camera, const double eye[3], const DipPerspective *lens,
+                     DipError *err) {
     DipMatrix projection;
-    DipMatrix rotation;
-    if (!dip_camera_perspective(&projection, &lens, err)) {
+    if (!dip_camera_perspective(&projection, lens, err)) {
         return false;
     }
-    rotate_to_view(pose->orientation, &rotation);
-    const DipMatrix move = dip_matrix_translation(-eye[0], -eye[1], -eye[2]);
-    camera->view = dip_matrix_multiply(&rotation, &move);
     camera->to_clip = dip_matrix_multiply(&projection, &camera->view);
     for (int i = 0; i < 3; i++) {
         camera->eye[i] = (float)eye[i];
@@ -50,19 +43,24 @@ bool dip_kit_camera(DipKitCamera *camera, const DipPose *pose, int width, int he
     return true;
 }
 
+bool dip_kit_camera(DipKitCamera *camera, const DipGalleryView *view, double near_distance,
+                    DipError *err) {
+    const DipPerspective lens = {.fov_deg = view->pose->fov_y_deg,
+                                 .aspect = (double)view->target.width / view->target.height,
+                                 .near_distance = near_distance};
+    const double *eye = view->pose->position_world;
+    DipMatrix rotation;
+    rotate_to_view(view->pose->orientation, &rotation);
+    const DipMatrix move = dip_matrix_translation(-eye[0], -eye[1], -eye[2]);
+    camera->view = dip_matrix_multiply(&rotation, &move);
+    return set_lens(camera, eye, &lens, err);
+}
+
 bool dip_kit_look_at(DipKitCamera *camera, const double eye[3], const double target[3],
                      const DipPerspective *lens, DipError *err) {
     static const double up[3] = {0.0, 1.0, 0.0};
-    DipMatrix projection;
-    if (!dip_camera_perspective(&projection, lens, err) ||
-        !dip_camera_look_at(&camera->view, eye, target, up, err)) {
-        return false;
-    }
-    camera->to_clip = dip_matrix_multiply(&projection, &camera->view);
-    for (int i = 0; i < 3; i++) {
-        camera->eye[i] = (float)eye[i];
-    }
-    return true;
+    return dip_camera_look_at(&camera->view, eye, target, up, err) &&
+           set_lens(camera, eye, lens, err);
 }
 
 DipPass dip_kit_pass(const DipGalleryView *view, const DipDraw *draws, int draw_count,
@@ -87,15 +85,6 @@ bool dip_kit_draw(const DipGalleryView *view, DipPipeline *pipeline, const DipPa
 
 // --- objects -------------------------------------------------------------------------------------
 
-bool dip_kit_object(DipKitObject *object, const DipKitCamera *camera, const DipMatrix *model,
-                    DipError *err) {
-    const DipMatrix to_clip = dip_matrix_multiply(&camera->to_clip, model);
-    dip_matrix_floats(&to_clip, object->to_clip);
-    dip_matrix_floats(model, object->to_world);
-    memcpy(object->eye, camera->eye, sizeof object->eye);
-    return dip_matrix_normals(object->normals, model, err);
-}
-
 // Writes row . (x, y, z, w) of each vertex.
 static void transform_row(const DipVertexBatch *batch, int first, const float row[3], float last,
                           float *out) {
@@ -107,54 +96,113 @@ static void transform_row(const DipVertexBatch *batch, int first, const float ro
     }
 }
 
-void dip_kit_vertex(const DipVertexBatch *batch) {
-    const DipKitObject *object = batch->uniforms;
+void dip_kit_transform(const DipVertexBatch *batch, const float to_clip[16]) {
     for (int r = 0; r < 4; r++) {
-        const float *row = object->to_clip + 4 * r;
+        const float *row = to_clip + 4 * r;
         transform_row(batch, DIP_SHAPE_POSITION, row, row[3], batch->clip[r]);
     }
+}
+
+void dip_kit_copy(const DipVertexBatch *batch, int attribute, int varying, int count) {
+    for (int i = 0; i < count; i++) {
+        memcpy(batch->varying[varying + i], batch->in[attribute + i],
+               (size_t)batch->count * sizeof(float));
+    }
+}
+
+void dip_kit_screen_vertex(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->clip[0][i] = batch->in[0][i];
+        batch->clip[1][i] = batch->in[1][i];
+        batch->clip[2][i] = 0.5f;
+        batch->clip[3][i] = 1.0f;
+    }
+}
+
+void dip_kit_vertex(const DipVertexBatch *batch) {
+    const DipKitObject *object = batch->uniforms;
+    dip_kit_transform(batch, object->to_clip);
     for (int r = 0; r < 3; r++) {
         const float *row = object->to_world + 4 * r;
         transform_row(batch, DIP_SHAPE_POSITION, row, row[3], batch->varying[DIP_KIT_WORLD + r]);
         transform_row(batch, DIP_SHAPE_NORMAL, object->normals + 3 * r, 0.0f,
                       batch->varying[DIP_KIT_NORMAL + r]);
     }
-    for (int c = 0; c < 2; c++) {
-        memcpy(batch->varying[DIP_KIT_UV + c], batch->in[DIP_SHAPE_TEXTURE + c],
-               (size_t)batch->count * sizeof(float));
-    }
+    dip_kit_copy(batch, DIP_SHAPE_TEXTURE, DIP_KIT_UV, 2);
 }
 
-DipDraw dip_kit_object_draw(const DipMesh *mesh, const void *uniforms,
-                            DipFragmentShader *fragment_shader) {
-    return (DipDraw){
+DipKitList dip_kit_list(const DipGalleryView *view, double near_distance, DipError *err) {
+    DipKitList list = {.view = view, .err = err};
+    list.failed = !dip_kit_camera(&list.seen, view, near_distance, err);
+    return list;
+}
+
+DipDraw *dip_kit_add(DipKitList *list, const DipMesh *mesh, void *uniforms, const DipMatrix *model,
+                     DipFragmentShader *fragment_shader) {
+    DIP_ASSERT(list->count < DIP_KIT_MAX_DRAWS);
+    DipKitObject *object = uniforms;
+    const DipMatrix to_clip = dip_matrix_multiply(&list->seen.to_clip, model);
+    dip_matrix_floats(&to_clip, object->to_clip);
+    dip_matrix_floats(model, object->to_world);
+    memcpy(object->eye, list->seen.eye, sizeof object->eye);
+    list->failed = list->failed || !dip_matrix_normals(object->normals, model, list->err);
+    DipDraw *draw = &list->draws[list->count++];
+    *draw = (DipDraw){
         .mesh = mesh,
         .vertex_shader = dip_kit_vertex,
         .fragment_shader = fragment_shader,
         .varying_count = DIP_KIT_VARYINGS,
         .value_only_varying_count = DIP_KIT_VALUES_ONLY,
         .uniforms = uniforms,
-        .bounds_to_clip = ((const DipKitObject *)uniforms)->to_clip,
+        .bounds_to_clip = object->to_clip,
         .cull = DIP_CULL_BACK,
     };
+    return draw;
 }
 
-DipMesh *dip_kit_mesh(const char *name, DipShape *shape, bool made, DipError *err) {
-    if (!made) {
-        return NULL;
-    }
+bool dip_kit_show(const DipKitList *list, const float clear_lin[3]) {
+    const DipPass pass = dip_kit_pass(list->view, list->draws, list->count, clear_lin);
+    return !list->failed && dip_kit_draw(list->view, list->view->pipeline, &pass, list->err);
+}
+
+// --- meshes --------------------------------------------------------------------------------------
+
+bool dip_kit_mesh(DipMesh **mesh, const char *name, DipShape *shape, DipError *err) {
     const DipMeshData data = dip_shape_data(shape, name);
-    DipMesh *mesh = dip_mesh_create(&data, err);
+    *mesh = dip_mesh_create(&data, err);
     dip_shape_free(shape);
-    return mesh;
+    return *mesh != NULL;
 }
 
-void *dip_kit_content(size_t size_bytes, const char *scene, DipError *err) {
-    void *content = calloc(1, size_bytes);
-    if (!content) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, scene, "out of memory");
-    }
-    return content;
+bool dip_kit_sphere(DipMesh **mesh, float radius, int slices, int stacks, DipError *err) {
+    DipShape shape;
+    return dip_shape_sphere(&shape, radius, slices, stacks, err) &&
+           dip_kit_mesh(mesh, "sphere", &shape, err);
+}
+
+bool dip_kit_box(DipMesh **mesh, float x, float y, float z, DipError *err) {
+    DipShape shape;
+    return dip_shape_box(&shape, (const float[3]){x, y, z}, err) &&
+           dip_kit_mesh(mesh, "box", &shape, err);
+}
+
+bool dip_kit_prism(DipMesh **mesh, float radius, float height, int sides, bool smooth,
+                   DipError *err) {
+    DipShape shape;
+    return dip_shape_prism(&shape, radius, height, sides, smooth, err) &&
+           dip_kit_mesh(mesh, "prism", &shape, err);
+}
+
+bool dip_kit_plane(DipMesh **mesh, float size_x, float size_z, int columns, int rows,
+                   DipError *err) {
+    DipShape shape;
+    return dip_shape_plane(&shape, size_x, size_z, columns, rows, err) &&
+           dip_kit_mesh(mesh, "plane", &shape, err);
+}
+
+bool dip_kit_quad(DipMesh **mesh, float width, float height, DipError *err) {
+    DipShape shape;
+    return dip_shape_quad(&shape, width, height, err) && dip_kit_mesh(mesh, "quad", &shape, err);
 }
 
 // --- textures ------------------------------------------------------------------------------------
@@ -164,7 +212,7 @@ static uint8_t code_of(float value) {
 }
 
 bool dip_kit_texture(DipKitTexture *texture, const char *name, int width, int height, bool clamps,
-                     DipKitPaint *paint, const void *context, DipError *err) {
+                     DipKitPaint *paint, DipError *err) {
     uint8_t *rgba8 = malloc((size_t)width * (size_t)height * 4);
     if (!rgba8) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, name, "out of memory");
@@ -173,8 +221,7 @@ bool dip_kit_texture(DipKitTexture *texture, const char *name, int width, int he
         for (int x = 0; x < width; x++) {
             uint8_t *texel = rgba8 + ((size_t)y * (size_t)width + (size_t)x) * 4;
             float rgba[4] = {0.0f, 0.0f, 0.0f, 1.0f};
-            paint(context, ((float)x + 0.5f) / (float)width, ((float)y + 0.5f) / (float)height,
-                  rgba);
+            paint(((float)x + 0.5f) / (float)width, ((float)y + 0.5f) / (float)height, rgba);
             for (int c = 0; c < 4; c++) {
                 texel[c] = code_of(rgba[c]);
             }
@@ -198,9 +245,14 @@ bool dip_kit_texture(DipKitTexture *texture, const char *name, int width, int he
     return texture->plain != NULL;
 }
 
-void dip_kit_texture_free(DipKitTexture *texture) {
-    dip_texture_destroy(&texture->compressed);
-    dip_texture_destroy(&texture->plain);
+void dip_kit_stock_free(DipKitStock *stock) {
+    for (int m = 0; m < DIP_KIT_MESHES; m++) {
+        dip_mesh_destroy(&stock->meshes[m]);
+    }
+    for (int t = 0; t < DIP_KIT_TEXTURES; t++) {
+        dip_texture_destroy(&stock->textures[t].compressed);
+        dip_texture_destroy(&stock->textures[t].plain);
+    }
 }
 
 // Finds the level of the mip colours for each level of a texture, by the longer side in texels.
@@ -239,6 +291,16 @@ DipSampler dip_kit_sampler(const DipGalleryView *view, const DipKitTexture *text
         dip_kit_show_mip_colours(&sampler, view);
     }
     return sampler;
+}
+
+void dip_kit_light_texture(DipFragmentBatch *batch, const float colour[3],
+                           float (*light)[DIP_FRAGMENT_BATCH]) {
+    batch->sample_colour(batch, &batch->samplers[0], DIP_KIT_UV, batch->colour);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->colour[c][i] *= colour[c] * light[c][i];
+        }
+    }
 }
 
 // --- numbers -------------------------------------------------------------------------------------

@@ -17,9 +17,9 @@ typedef struct DipKitCamera {
     float eye[3];      // in world space
 } DipKitCamera;
 
-// Makes the matrices of the view's pose, for a picture of width x height pixels.
-bool dip_kit_camera(DipKitCamera *camera, const DipPose *pose, int width, int height,
-                    double near_distance, DipError *err);
+// Makes the matrices of the view's pose.
+bool dip_kit_camera(DipKitCamera *camera, const DipGalleryView *view, double near_distance,
+                    DipError *err);
 
 // Makes the matrices of a camera, or of a light, at `eye`.
 bool dip_kit_look_at(DipKitCamera *camera, const double eye[3], const double target[3],
@@ -44,10 +44,6 @@ typedef struct DipKitObject {
     float eye[3];     // the camera's position in world space
 } DipKitObject;
 
-// Fills in the uniforms of an object that `model` takes to world space.
-bool dip_kit_object(DipKitObject *object, const DipKitCamera *camera, const DipMatrix *model,
-                    DipError *err);
-
 // Varyings that dip_kit_vertex writes.
 enum {
     DIP_KIT_UV = 0,     // u, v
@@ -60,17 +56,53 @@ enum {
 // Vertex shader for meshes with the attributes of a shape (shapes.h).
 void dip_kit_vertex(const DipVertexBatch *batch);
 
-// Returns a draw of an object with dip_kit_vertex. The uniforms begin with a DipKitObject, must
-// outlive the pass and give the matrix by which the pipeline culls.
-DipDraw dip_kit_object_draw(const DipMesh *mesh, const void *uniforms,
-                            DipFragmentShader *fragment_shader);
+// Vertex shader for a quad that fills the picture, whose corners are positions in clip space.
+void dip_kit_screen_vertex(const DipVertexBatch *batch);
 
-// Makes a mesh of a shape's vertices and frees the shape. made: what the function that made the
-// shape returned; if it is false, the function returns NULL.
-DipMesh *dip_kit_mesh(const char *name, DipShape *shape, bool made, DipError *err);
+// For vertex shaders whose first three attributes are a position: takes the position to clip space.
+void dip_kit_transform(const DipVertexBatch *batch, const float to_clip[16]);
 
-// Returns zeroed memory for the content of a scene. It is freed with free().
-void *dip_kit_content(size_t size_bytes, const char *scene, DipError *err);
+// For vertex shaders: copies `count` attributes to varyings.
+void dip_kit_copy(const DipVertexBatch *batch, int attribute, int varying, int count);
+
+// The draws of a pass while they are put together, and the camera that sees them. After a failure,
+// a list takes further draws, but dip_kit_show fails.
+enum { DIP_KIT_MAX_DRAWS = 32 };
+
+typedef struct DipKitList {
+    const DipGalleryView *view;
+    DipKitCamera seen;
+    DipDraw draws[DIP_KIT_MAX_DRAWS];
+    int count;
+    bool failed;
+    DipError *err; // Filled in by the first failure.
+} DipKitList;
+
+// Returns an empty list with the camera of the view's pose.
+DipKitList dip_kit_list(const DipGalleryView *view, double near_distance, DipError *err);
+
+// Adds an object that `model` takes to world space, drawn with dip_kit_vertex, and returns the
+// draw. The uniforms begin with a DipKitObject, which this function fills in, and must outlive the
+// pass.
+DipDraw *dip_kit_add(DipKitList *list, const DipMesh *mesh, void *uniforms, const DipMatrix *model,
+                     DipFragmentShader *fragment_shader);
+
+// Draws the list into the view's picture.
+bool dip_kit_show(const DipKitList *list, const float clear_lin[3]);
+
+// --- meshes --------------------------------------------------------------------------------------
+
+// Make a mesh of a shape (shapes.h).
+bool dip_kit_sphere(DipMesh **mesh, float radius, int slices, int stacks, DipError *err);
+bool dip_kit_box(DipMesh **mesh, float x, float y, float z, DipError *err);
+bool dip_kit_prism(DipMesh **mesh, float radius, float height, int sides, bool smooth,
+                   DipError *err);
+bool dip_kit_plane(DipMesh **mesh, float size_x, float size_z, int columns, int rows,
+                   DipError *err);
+bool dip_kit_quad(DipMesh **mesh, float width, float height, DipError *err);
+
+// Makes a mesh of a shape's vertices and frees the shape.
+bool dip_kit_mesh(DipMesh **mesh, const char *name, DipShape *shape, DipError *err);
 
 // --- textures ------------------------------------------------------------------------------------
 
@@ -82,19 +114,35 @@ typedef struct DipKitTexture {
 
 // Computes the sRGB colour and the alpha of the texel at u, v, its centre in 0..1. It may use only
 // + - * /, sqrt and functions of the kit, so that all machines have the same texels.
-typedef void DipKitPaint(const void *context, float u, float v, float rgba[4]);
+typedef void DipKitPaint(float u, float v, float rgba[4]);
 
-// Makes a texture of painted texels that repeats or, if `clamps` is true, clamps. The caller frees
-// it with dip_kit_texture_free.
+// Makes a texture of painted texels that repeats or, if `clamps` is true, clamps.
 bool dip_kit_texture(DipKitTexture *texture, const char *name, int width, int height, bool clamps,
-                     DipKitPaint *paint, const void *context, DipError *err);
-void dip_kit_texture_free(DipKitTexture *texture);
+                     DipKitPaint *paint, DipError *err);
 
 // Returns a sampler that reads the texture as the settings of the pane say.
 DipSampler dip_kit_sampler(const DipGalleryView *view, const DipKitTexture *texture);
 
+// For fragment shaders: reads the first sampler's colours and multiplies them by a colour and by
+// the light at each fragment.
+void dip_kit_light_texture(DipFragmentBatch *batch, const float colour[3],
+                           float (*light)[DIP_FRAGMENT_BATCH]);
+
 // Sets the sampler to show the flat colour of each mip level instead of the texture.
 void dip_kit_show_mip_colours(DipSampler *sampler, const DipGalleryView *view);
+
+// --- content -------------------------------------------------------------------------------------
+
+enum { DIP_KIT_MESHES = 6, DIP_KIT_TEXTURES = 3 };
+
+// Meshes and textures of a scene, which the gallery frees. The content of each scene begins with
+// this struct.
+typedef struct DipKitStock {
+    DipMesh *meshes[DIP_KIT_MESHES];
+    DipKitTexture textures[DIP_KIT_TEXTURES];
+} DipKitStock;
+
+void dip_kit_stock_free(DipKitStock *stock);
 
 // --- numbers -------------------------------------------------------------------------------------
 

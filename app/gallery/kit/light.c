@@ -17,7 +17,7 @@ void dip_kit_normalise(const float *const in[3], int count, float (*out)[DIP_FRA
     }
 }
 
-DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch, const float eye[3],
+DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch,
                                      float (*normals)[DIP_FRAGMENT_BATCH]) {
     const float *const in[3] = {batch->varying[DIP_KIT_NORMAL], batch->varying[DIP_KIT_NORMAL + 1],
                                 batch->varying[DIP_KIT_NORMAL + 2]};
@@ -27,7 +27,7 @@ DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch, const float 
         .position = {batch->varying[DIP_KIT_WORLD], batch->varying[DIP_KIT_WORLD + 1],
                      batch->varying[DIP_KIT_WORLD + 2]},
         .normal = {normals[0], normals[1], normals[2]},
-        .eye = eye,
+        .eye = ((const DipKitObject *)batch->uniforms)->eye,
     };
 }
 
@@ -117,4 +117,25 @@ void dip_kit_light_add(const DipKitLight *light, const DipKitMaterial *material,
             out[c][i] += diffuse * rays.strength[i] + mirrored * specular[i];
         }
     }
+}
+
+void dip_kit_light_all(const float ambient[3], const DipKitLight *lights, int light_count,
+                       const DipKitMaterial *material, const DipKitPoints *points,
+                       float (*out)[DIP_FRAGMENT_BATCH]) {
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < points->count; i++) {
+            out[c][i] = ambient[c];
+        }
+    }
+    for (int l = 0; l < light_count; l++) {
+        dip_kit_light_add(&lights[l], material, points, NULL, out);
+    }
+}
+
+void dip_kit_light_fragments(const DipFragmentBatch *batch, const float ambient[3],
+                             const DipKitLight *lights, int light_count,
+                             const DipKitMaterial *material, float (*out)[DIP_FRAGMENT_BATCH]) {
+    float normals[3][DIP_FRAGMENT_BATCH];
+    const DipKitPoints points = dip_kit_fragment_points(batch, normals);
+    dip_kit_light_all(ambient, lights, light_count, material, &points, out);
 }

@@ -43,9 +43,19 @@ void dip_kit_light_add(const DipKitLight *light, const DipKitMaterial *material,
                        const DipKitPoints *points, const float *lit,
                        float (*out)[DIP_FRAGMENT_BATCH]);
 
-// The fragments of a batch with the varyings of dip_kit_vertex, as points. `normals` receives their
-// unit normals and must outlive the points.
-DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch, const float eye[3],
+// Writes the ambient light, which is the same at all points, and adds the parts of several lights.
+void dip_kit_light_all(const float ambient[3], const DipKitLight *lights, int light_count,
+                       const DipKitMaterial *material, const DipKitPoints *points,
+                       float (*out)[DIP_FRAGMENT_BATCH]);
+
+// The fragments of a batch with the uniforms and the varyings of dip_kit_vertex, as points.
+// `normals` receives their unit normals and must outlive the points.
+DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch,
                                      float (*normals)[DIP_FRAGMENT_BATCH]);
+
+// Does the same as dip_kit_light_all for these points.
+void dip_kit_light_fragments(const DipFragmentBatch *batch, const float ambient[3],
+                             const DipKitLight *lights, int light_count,
+                             const DipKitMaterial *material, float (*out)[DIP_FRAGMENT_BATCH]);
 
 #endif

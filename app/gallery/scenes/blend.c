@@ -9,7 +9,7 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/trig.h"
 
-#include <stdlib.h>
+#include <string.h>
 
 enum { MODES = 4, ROWS = 2, FIELDS = MODES * ROWS, SHEETS = 2, DRAWS = 1 + FIELDS * (1 + SHEETS) };
 
@@ -20,8 +20,7 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipMesh *quad; // 2 by 2 units, facing +z
-    DipKitTexture chequers;
+    DipKitStock stock; // A quad of 2 by 2 units, facing +z, and the chequers' texture.
     Uniforms uniforms[DRAWS];
 } Content;
 
@@ -65,8 +64,7 @@ static void shade_board(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-static void paint_chequers(const void *context, float u, float v, float rgba[4]) {
-    (void)context;
+static void paint_chequers(float u, float v, float rgba[4]) {
     const int field = (int)(u * 8.0f) + (int)(v * 8.0f);
     const float grey = field % 2 ? 0.56f : 0.44f; // about the seed's background of 0.5
     for (int c = 0; c < 3; c++) {
@@ -74,44 +72,23 @@ static void paint_chequers(const void *context, float u, float v, float rgba[4])
     }
 }
 
-static void destroy(void *pointer) {
-    Content *content = pointer;
-    dip_mesh_destroy(&content->quad);
-    dip_kit_texture_free(&content->chequers);
-    free(content);
-}
-
-static void *create(const DipGalleryRoom *room, DipError *err) {
+static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
+    DipKitStock *stock = content;
     (void)room;
-    DipShape shape;
-    Content *content = dip_kit_content(sizeof *content, "blend", err);
-    if (!content) {
-        return NULL;
-    }
-    content->quad = dip_kit_mesh("quad", &shape, dip_shape_quad(&shape, 2.0f, 2.0f, err), err);
-    if (!content->quad || !dip_kit_texture(&content->chequers, "chequers", 256, 256, true,
-                                           paint_chequers, NULL, err)) {
-        destroy(content);
-        return NULL;
-    }
-    return content;
+    return dip_kit_quad(&stock->meshes[0], 2.0f, 2.0f, err) &&
+           dip_kit_texture(&stock->textures[0], "chequers", 256, 256, true, paint_chequers, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 1.7 * dip_sin(turn);
-    eye[1] = 0.6 * dip_sin(2.0 * turn);
-    eye[2] = 6.7 - 0.3 * dip_cos(turn);
-    target[0] = 0.35 * dip_sin(turn);
-    target[1] = 0.0;
-    target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    return (DipGalleryCamera){
+        .eye = {1.7 * dip_sin(turn), 0.6 * dip_sin(2.0 * turn), 6.7 - 0.3 * dip_cos(turn)},
+        .target = {0.35 * dip_sin(turn), 0.0, 0.0}};
 }
 
 // Returns where a sheet lies in its field: both circle about the field's middle, half a turn apart.
-static DipMatrix sheet_matrix(double x, double y, int sheet, double time_s) {
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+static DipMatrix sheet_matrix(double x, double y, int sheet, double turn) {
     const double angle = 2.0 * turn + DIP_PI * sheet;
     const DipMatrix move =
         dip_matrix_translation(x + 0.27 * dip_cos(angle), y + 0.36 * dip_sin(angle), 0.0);
@@ -122,27 +99,22 @@ static DipMatrix sheet_matrix(double x, double y, int sheet, double time_s) {
 
 static void set_sheet(Uniforms *uniforms, int sheet, const DipGalleryView *view) {
     static const float colours[SHEETS][3] = {{0.0f, 0.0f, 1.0f}, {1.0f, 1.0f, 0.0f}};
-    const double turn = 2.0 * DIP_PI * view->time_s / DIP_GALLERY_SECONDS;
-    const float breath = (float)(0.5 - 0.4 * dip_cos(3.0 * turn));
+    const float breath = (float)(0.5 - 0.4 * dip_cos(3.0 * view->turn));
     const float alphas[SHEETS] = {view->look == 0   ? 1.0f
                                   : view->look == 1 ? 0.5f
                                                     : breath,
                                   view->look == 2 ? 1.0f - breath : 0.5f};
-    for (int c = 0; c < 3; c++) {
-        uniforms->colour[c] = colours[sheet][c];
-    }
+    memcpy(uniforms->colour, colours[sheet], sizeof uniforms->colour);
     uniforms->alpha = alphas[sheet];
 }
 
 static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.012f, 0.014f, 0.02f};
     Content *content = pointer;
-    DipDraw draws[DRAWS];
+    const DipMesh *quad = content->stock.meshes[0];
+    const DipSampler sampler = dip_kit_sampler(view, &content->stock.textures[0]);
+    DipKitList list = dip_kit_list(view, 0.1, err);
     DipDrawState states[MODES];
-    DipKitCamera camera_now;
-    const DipSampler sampler = dip_kit_sampler(view, &content->chequers);
-    bool made =
-        dip_kit_camera(&camera_now, view->pose, view->target.width, view->target.height, 0.1, err);
     for (int m = 0; m < MODES; m++) {
         states[m] =
             (DipDrawState){.blend = modes[m], .depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true};
@@ -150,48 +122,39 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     const DipMatrix back = dip_matrix_translation(0.0, 0.0, -0.02);
     const DipMatrix wide = dip_matrix_scaling(3.5, 2.5, 1.0);
     const DipMatrix board = dip_matrix_multiply(&back, &wide);
-    made = made && dip_kit_object(&content->uniforms[0].object, &camera_now, &board, err);
-    draws[0] = dip_kit_object_draw(content->quad, &content->uniforms[0], shade_board);
-    int count = 1;
-    for (int f = 0; made && f < FIELDS; f++) {
+    Uniforms *uniforms = content->uniforms;
+    dip_kit_add(&list, quad, uniforms++, &board, shade_board);
+    for (int f = 0; f < FIELDS; f++) {
         const int row = f / MODES;
         const double x = 1.7 * (f % MODES) - 2.55;
         const double y = row ? -1.2 : 1.2;
         const DipMatrix move = dip_matrix_translation(x, y, 0.0);
         const DipMatrix size = dip_matrix_scaling(0.79, 1.12, 1.0);
-        for (int d = 0; made && d < 1 + SHEETS; d++, count++) {
-            // d is 0 for the chequers. The lower row draws sheet 1 first.
-            const int sheet = row ? SHEETS - d : d - 1;
-            const DipMatrix model =
-                d ? sheet_matrix(x, y, sheet, view->time_s) : dip_matrix_multiply(&move, &size);
-            Uniforms *uniforms = &content->uniforms[count];
-            made = dip_kit_object(&uniforms->object, &camera_now, &model, err);
-            draws[count] =
-                dip_kit_object_draw(content->quad, uniforms, d ? shade_sheet : shade_chequers);
-            draws[count].samplers = &sampler;
-            if (d) {
-                set_sheet(uniforms, sheet, view);
-                draws[count].state = &states[f % MODES];
-                draws[count].cull = DIP_CULL_NONE;
-            }
+        const DipMatrix field = dip_matrix_multiply(&move, &size);
+        dip_kit_add(&list, quad, uniforms++, &field, shade_chequers)->samplers = &sampler;
+        for (int s = 0; s < SHEETS; s++, uniforms++) {
+            const int sheet = row ? SHEETS - 1 - s : s; // The lower row draws sheet 1 first.
+            const DipMatrix model = sheet_matrix(x, y, sheet, view->turn);
+            DipDraw *sheet_draw = dip_kit_add(&list, quad, uniforms, &model, shade_sheet);
+            set_sheet(uniforms, sheet, view);
+            sheet_draw->state = &states[f % MODES];
+            sheet_draw->cull = DIP_CULL_NONE;
         }
     }
-    const DipPass pass = dip_kit_pass(view, draws, count, clear_lin);
-    return made && dip_kit_draw(view, view->pipeline, &pass, err);
+    return dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_blend = {
     .info = {.name = "blend",
              .title = "Blend modes",
-             .seed = "seed 001, Blending",
              .text =
                  "Alpha, additive, multiplicative and double multiplicative blending, from left "
                  "to right. The upper row draws blue before yellow, the lower row yellow "
                  "before blue.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
-    .destroy = destroy,
     .draw = draw,
 };

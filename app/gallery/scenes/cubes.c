@@ -29,9 +29,8 @@ typedef struct CharTarget {
 } CharTarget;
 
 typedef struct Content {
+    DipKitStock stock; // The texture is the crate's wood.
     DipGalleryRoom room;
-    DipMesh *meshes[MESHES];
-    DipKitTexture wood;
     DipPipeline *char_pipeline;
     CharTarget target;
     Uniforms uniforms[OBJECTS];
@@ -56,37 +55,16 @@ static const uint8_t glyphs[GLYPHS][CELL] = {
 
 // --- shaders -------------------------------------------------------------------------------------
 
-static void transform(const DipVertexBatch *batch, int varyings) {
-    const float *m = ((const Uniforms *)batch->uniforms)->to_clip;
-    for (int r = 0; r < 4; r++) {
-        for (int i = 0; i < batch->count; i++) {
-            batch->clip[r][i] = m[4 * r] * batch->in[0][i] + m[4 * r + 1] * batch->in[1][i] +
-                                m[4 * r + 2] * batch->in[2][i] + m[4 * r + 3];
-        }
-    }
-    for (int v = 0; v < varyings; v++) {
-        memcpy(batch->varying[v], batch->in[3 + v], (size_t)batch->count * sizeof(float));
-    }
-}
-
 // SimpleVertex of the seed: a position and a colour.
 static void simple_vertex(const DipVertexBatch *batch) {
-    transform(batch, 3);
+    dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
+    dip_kit_copy(batch, 3, 0, 3);
 }
 
 // TextureVertex of the seed: a position, and u and v.
 static void texture_vertex(const DipVertexBatch *batch) {
-    transform(batch, 2);
-}
-
-// For a quad that fills the picture: its corners are positions in clip space.
-static void screen_vertex(const DipVertexBatch *batch) {
-    for (int i = 0; i < batch->count; i++) {
-        batch->clip[0][i] = batch->in[0][i];
-        batch->clip[1][i] = batch->in[1][i];
-        batch->clip[2][i] = 0.5f;
-        batch->clip[3][i] = 1.0f;
-    }
+    dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
+    dip_kit_copy(batch, 3, 0, 2);
 }
 
 static void shade_colour(DipFragmentBatch *batch) {
@@ -134,14 +112,14 @@ static void store_chars(void *context, int x, int y, int count, const float *con
 // --- content -------------------------------------------------------------------------------------
 
 // Makes a mesh of SimpleVertex: a cube, or the same cube with its faces drawn out to points.
-static DipMesh *make_simple(bool gem, DipError *err) {
+static bool make_simple(DipMesh **mesh, bool gem, DipError *err) {
     static const float size[3] = {2.0f, 2.0f, 2.0f};
     float vertices[SIDES * 5][SIMPLE_ATTRIBUTES];
     uint32_t indices[SIDES * 12];
     uint32_t count = 0;
     DipShape box;
     if (!dip_shape_box(&box, size, err)) {
-        return NULL;
+        return false;
     }
     for (uint32_t f = 0; f < SIDES; f++) {
         float *middle = vertices[5 * f + 4];
@@ -164,16 +142,17 @@ static DipMesh *make_simple(bool gem, DipError *err) {
     dip_shape_free(&box);
     const DipMeshData data = {
         gem ? "gem" : "cube", &vertices[0][0], SIMPLE_ATTRIBUTES, SIDES * 5, indices, count};
-    return dip_mesh_create(&data, err);
+    *mesh = dip_mesh_create(&data, err);
+    return *mesh != NULL;
 }
 
 // Makes a mesh of TextureVertex: a cube whose faces show the whole texture.
-static DipMesh *make_textured(DipError *err) {
+static bool make_textured(DipMesh **mesh, DipError *err) {
     static const float size[3] = {2.0f, 2.0f, 2.0f};
     float vertices[SIDES * 4][TEXTURE_ATTRIBUTES];
     DipShape box;
     if (!dip_shape_box(&box, size, err)) {
-        return NULL;
+        return false;
     }
     for (uint32_t v = 0; v < box.vertex_count; v++) {
         const float *corner = box.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
@@ -182,14 +161,13 @@ static DipMesh *make_textured(DipError *err) {
     }
     const DipMeshData data = {"textured",       &vertices[0][0], TEXTURE_ATTRIBUTES,
                               box.vertex_count, box.indices,     box.index_count};
-    DipMesh *mesh = dip_mesh_create(&data, err);
+    *mesh = dip_mesh_create(&data, err);
     dip_shape_free(&box);
-    return mesh;
+    return *mesh != NULL;
 }
 
 // A wooden crate: boards, a frame around them and a diagonal.
-static void paint_crate(const void *context, float u, float v, float rgba[4]) {
-    (void)context;
+static void paint_crate(float u, float v, float rgba[4]) {
     const float to_u = u < 0.5f ? u : 1.0f - u;
     const float to_v = v < 0.5f ? v : 1.0f - v;
     const bool frame = to_u < 0.12f || to_v < 0.12f || fabsf(u - v) < 0.085f;
@@ -207,33 +185,17 @@ static void paint_crate(const void *context, float u, float v, float rgba[4]) {
 
 static void destroy(void *pointer) {
     Content *content = pointer;
-    for (int m = 0; m < MESHES; m++) {
-        dip_mesh_destroy(&content->meshes[m]);
-    }
-    dip_kit_texture_free(&content->wood);
     dip_pipeline_destroy(&content->char_pipeline);
     free(content->target.chars);
-    free(content);
 }
 
-static void *create(const DipGalleryRoom *room, DipError *err) {
-    DipShape quad;
-    Content *content = dip_kit_content(sizeof *content, "cubes", err);
-    if (!content) {
-        return NULL;
-    }
+static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
+    Content *content = pointer;
+    DipMesh **meshes = content->stock.meshes;
     content->room = *room;
-    DipMesh **meshes = content->meshes;
-    meshes[CUBE] = make_simple(false, err);
-    meshes[GEM] = make_simple(true, err);
-    meshes[TEXTURED] = make_textured(err);
-    meshes[QUAD] = dip_kit_mesh("quad", &quad, dip_shape_quad(&quad, 2.0f, 2.0f, err), err);
-    if (!meshes[CUBE] || !meshes[GEM] || !meshes[TEXTURED] || !meshes[QUAD] ||
-        !dip_kit_texture(&content->wood, "crate", 256, 256, true, paint_crate, NULL, err)) {
-        destroy(content);
-        return NULL;
-    }
-    return content;
+    return make_simple(&meshes[CUBE], false, err) && make_simple(&meshes[GEM], true, err) &&
+           make_textured(&meshes[TEXTURED], err) && dip_kit_quad(&meshes[QUAD], 2.0f, 2.0f, err) &&
+           dip_kit_texture(&content->stock.textures[0], "crate", 256, 256, true, paint_crate, err);
 }
 
 // Makes the characters for a picture of this size, unless the last frame had the same size.
@@ -258,17 +220,12 @@ static bool prepare_chars(Content *content, int width, int height, DipError *err
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 0.6 * dip_sin(turn);
-    eye[1] = 1.5 + 0.4 * dip_cos(turn);
-    eye[2] = 9.6;
-    target[0] = target[1] = target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    return (DipGalleryCamera){.eye = {0.6 * dip_sin(turn), 1.5 + 0.4 * dip_cos(turn), 9.6}};
 }
 
 // Two objects turn in place; the long one, index 1, moves to the right and comes back at the end.
-static DipMatrix place(int index, double time_s) {
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+static DipMatrix place(int index, double turn) {
     if (index == 1) {
         const double way = 0.5 - 0.5 * dip_cos(turn);
         const DipMatrix move = dip_matrix_translation(11.0 * way, -0.2, -1.0);
@@ -290,23 +247,23 @@ static bool in_view(const DipMesh *mesh, const DipMatrix *to_clip) {
 }
 
 // Fills in the draws of the objects in view and returns their number.
-static int list_objects(Content *content, const DipKitCamera *seen, double time_s,
-                        const DipSampler *wood, DipPipelineCounters *counters,
-                        DipDraw draws[OBJECTS]) {
+static int list_objects(Content *content, const DipKitCamera *seen, const DipGalleryView *view,
+                        const DipSampler *wood, DipDraw draws[OBJECTS]) {
+    DipMesh *const *meshes = content->stock.meshes;
     int count = 0;
     bool long_cube_seen = true;
     for (int i = OBJECTS - 1; i >= 0; i--) { // the first cube comes last: it depends on the others
-        const DipMatrix model = place(i, time_s);
+        const DipMatrix model = place(i, view->turn);
         const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &model);
         const int mesh = i == 2 ? TEXTURED : i == 1 || long_cube_seen ? CUBE : GEM;
-        if (!in_view(content->meshes[mesh], &to_clip)) {
+        if (!in_view(meshes[mesh], &to_clip)) {
             long_cube_seen = long_cube_seen && i != 1;
-            counters->draws_culled++;
+            view->counters->draws_culled++;
             continue;
         }
         dip_matrix_floats(&to_clip, content->uniforms[i].to_clip);
         draws[count++] = (DipDraw){
-            .mesh = content->meshes[mesh],
+            .mesh = meshes[mesh],
             .vertex_shader = mesh == TEXTURED ? texture_vertex : simple_vertex,
             .fragment_shader = mesh == TEXTURED ? shade_texture : shade_colour,
             .varying_count = mesh == TEXTURED ? 2 : 3,
@@ -334,8 +291,8 @@ static bool draw_chars(Content *content, const DipGalleryView *view, DipPass *pa
     if (!dip_kit_draw(view, content->char_pipeline, pass, err)) {
         return false;
     }
-    const DipDraw screen = {.mesh = content->meshes[QUAD],
-                            .vertex_shader = screen_vertex,
+    const DipDraw screen = {.mesh = content->stock.meshes[QUAD],
+                            .vertex_shader = dip_kit_screen_vertex,
                             .fragment_shader = shade_chars,
                             .uniforms = chars};
     const DipPass show = dip_kit_pass(view, &screen, 1, black);
@@ -347,11 +304,11 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     Content *content = pointer;
     DipKitCamera seen;
     DipDraw draws[OBJECTS];
-    const DipSampler wood = dip_kit_sampler(view, &content->wood);
-    if (!dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err)) {
+    const DipSampler wood = dip_kit_sampler(view, &content->stock.textures[0]);
+    if (!dip_kit_camera(&seen, view, 0.1, err)) {
         return false;
     }
-    const int count = list_objects(content, &seen, view->time_s, &wood, view->counters, draws);
+    const int count = list_objects(content, &seen, view, &wood, draws);
     DipPass pass = dip_kit_pass(view, draws, count, clear_lin);
     return view->look == 1 ? draw_chars(content, view, &pass, err)
                            : dip_kit_draw(view, view->pipeline, &pass, err);
@@ -360,12 +317,12 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_cubes = {
     .info = {.name = "cubes",
              .title = "Cubes on two targets",
-             .seed = "seed 004",
              .text =
                  "Objects with their own vertex types and shaders, culled by their bounds. When "
                  "the long cube has left the view, the left one changes its mesh.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
     .destroy = destroy,

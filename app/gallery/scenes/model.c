@@ -30,13 +30,12 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
+    DipKitStock stock; // The floor's mesh and the model's skin.
     DipAnimatedModel *model;
     DipAnimatedPose *pose;
     int frames;
     DipMesh *smooth[MAX_FRAMES]; // by the first key frame of each pair
     DipMesh *flat[MAX_FRAMES];   // the same triangles, without shared vertices
-    DipKitTexture skin;
-    DipMesh *floor;
     Uniforms uniforms[COPIES + 1];
 } Content;
 
@@ -88,15 +87,10 @@ static void phong_vertex(const DipVertexBatch *batch) {
 
 static void add_lights(const Uniforms *uniforms, const DipKitPoints *points,
                        float (*out)[DIP_FRAGMENT_BATCH]) {
-    static const float ambient[3] = {0.10f, 0.12f, 0.16f};
-    for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < points->count; i++) {
-            out[c][i] = ambient[c] * uniforms->material.diffuse[c];
-        }
-    }
-    for (int l = 0; l < LIGHTS; l++) {
-        dip_kit_light_add(&uniforms->lights[l], &uniforms->material, points, NULL, out);
-    }
+    const DipKitMaterial *material = &uniforms->material;
+    const float ambient[3] = {0.10f * material->diffuse[0], 0.12f * material->diffuse[1],
+                              0.16f * material->diffuse[2]};
+    dip_kit_light_all(ambient, uniforms->lights, LIGHTS, material, points, out);
 }
 
 // Gouraud: the light is computed at the vertices and becomes a varying. Flat shading is the same
@@ -140,11 +134,10 @@ static void multiply_by_skin(DipFragmentBatch *batch, float (*light)[DIP_FRAGMEN
 }
 
 static void shade_phong(DipFragmentBatch *batch) {
-    const Uniforms *uniforms = batch->uniforms;
     float normals[3][DIP_FRAGMENT_BATCH];
     float light[3][DIP_FRAGMENT_BATCH];
-    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
-    add_lights(uniforms, &points, light);
+    const DipKitPoints points = dip_kit_fragment_points(batch, normals);
+    add_lights(batch->uniforms, &points, light);
     multiply_by_skin(batch, light);
 }
 
@@ -234,11 +227,8 @@ static void destroy(void *pointer) {
         dip_mesh_destroy(&content->smooth[f]);
         dip_mesh_destroy(&content->flat[f]);
     }
-    dip_mesh_destroy(&content->floor);
-    dip_kit_texture_free(&content->skin);
     dip_animated_pose_destroy(&content->pose);
     dip_animated_model_destroy(&content->model);
-    free(content);
 }
 
 static bool load(Content *content, const char *assets, DipError *err) {
@@ -261,44 +251,31 @@ static bool load(Content *content, const char *assets, DipError *err) {
     content->frames = def->key_frame_count;
     DipTextureDef skin = def->textures[0];
     skin.wrap_u = skin.wrap_v = DIP_WRAP_CLAMP;
-    content->skin.plain = dip_texture_create(&skin, err);
-    bool made = content->skin.plain != NULL;
+    content->stock.textures[0].plain = dip_texture_create(&skin, err);
+    bool made = content->stock.textures[0].plain != NULL;
     for (int f = 0; made && f < content->frames; f++) {
         made = make_pair(content, &def->meshes[0], f, err);
     }
     return made;
 }
 
-static void *create(const DipGalleryRoom *room, DipError *err) {
-    DipShape shape;
-    Content *content = dip_kit_content(sizeof *content, "model", err);
-    if (!content) {
-        return NULL;
-    }
-    content->floor =
-        dip_kit_mesh("floor", &shape, dip_shape_plane(&shape, 24.0f, 24.0f, 48, 48, err), err);
-    if (!content->floor || !load(content, room->assets, err)) {
-        destroy(content);
-        return NULL;
-    }
-    return content;
+static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
+    Content *content = pointer;
+    return dip_kit_plane(&content->stock.meshes[0], 24.0f, 24.0f, 48, 48, err) &&
+           load(content, room->assets, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 3.9 * dip_sin(0.5 * dip_sin(turn));
-    eye[1] = 1.6 + 0.3 * dip_cos(turn);
-    eye[2] = 3.9 * dip_cos(0.5 * dip_sin(turn));
-    target[0] = 0.0;
-    target[1] = 0.78;
-    target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    const double angle = 0.5 * dip_sin(turn);
+    return (DipGalleryCamera){
+        .eye = {3.9 * dip_sin(angle), 1.6 + 0.3 * dip_cos(turn), 3.9 * dip_cos(angle)},
+        .target = {0.0, 0.78, 0.0}};
 }
 
 // A white light from above, an orange point that circles, and a blue spot that sweeps.
-static void set_lights(DipKitLight lights[LIGHTS], double time_s) {
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+static void set_lights(DipKitLight lights[LIGHTS], double turn) {
     lights[0] = (DipKitLight){.kind = DIP_KIT_DIRECTIONAL,
                               .direction = {-0.36f, -0.80f, -0.48f},
                               .colour = {0.75f, 0.74f, 0.70f}};
@@ -325,18 +302,17 @@ static void fill_uniforms(Uniforms *uniforms, const DipGalleryView *view, bool i
     uniforms->textured = !is_floor && model_looks[view->look].textured;
     uniforms->material = is_floor ? (DipKitMaterial){{0.36f, 0.44f, 0.54f}, {0.25f, 0.25f, 0.3f}, 5}
                                   : (DipKitMaterial){{1.0f, 1.0f, 1.0f}, {0.55f, 0.55f, 0.55f}, 5};
-    set_lights(uniforms->lights, view->time_s);
+    set_lights(uniforms->lights, view->turn);
 }
 
 // Draws one copy of the model. The copies are at different times of the animation.
-static bool add_copy(Content *content, int copy, const DipGalleryView *view,
-                     const DipKitCamera *seen, DipDraw *draw, DipError *err) {
+static DipDraw *add_copy(Content *content, int copy, DipKitList *list) {
+    const DipGalleryView *view = list->view;
     const Look *look = &model_looks[view->look];
     dip_animated_pose_set(content->pose, 0, view->time_s + 0.37 * copy);
     const DipObjectPose *posed = dip_animated_pose_object(content->pose, 0);
-    const double turn = 2.0 * DIP_PI * view->time_s / DIP_GALLERY_SECONDS;
     const DipMatrix move = dip_matrix_translation(1.45 * (copy - 1), 0.0, copy == 1 ? 0.4 : -0.5);
-    const DipMatrix spin = dip_matrix_rotation(1, -0.5 * DIP_PI + 0.6 * dip_sin(turn + copy) -
+    const DipMatrix spin = dip_matrix_rotation(1, -0.5 * DIP_PI + 0.6 * dip_sin(view->turn + copy) -
                                                       0.3 * (copy - 1)); // it looks along +x
     DipMatrix own = dip_matrix_identity();
     for (int i = 0; i < 12; i++) {
@@ -346,17 +322,14 @@ static bool add_copy(Content *content, int copy, const DipGalleryView *view,
     Uniforms *uniforms = &content->uniforms[copy];
     fill_uniforms(uniforms, view, false);
     uniforms->blend = posed->blend;
-    if (!dip_kit_object(&uniforms->object, seen, &model, err)) {
-        return false;
-    }
     DipMesh *const *meshes = look->flat ? content->flat : content->smooth;
-    *draw = dip_kit_object_draw(meshes[posed->key_frame], uniforms,
+    DipDraw *draw = dip_kit_add(list, meshes[posed->key_frame], uniforms, &model,
                                 look->gouraud ? shade_gouraud : shade_phong);
     draw->vertex_shader = look->gouraud ? gouraud_vertex : phong_vertex;
     draw->varying_count = look->gouraud ? LIT_VARYINGS : DIP_KIT_VARYINGS;
     draw->value_only_varying_count = look->gouraud ? 3 : DIP_KIT_VALUES_ONLY;
     draw->bounds_to_clip = NULL; // the mesh's box holds the first key frame of the pair only
-    return true;
+    return draw;
 }
 
 static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
@@ -365,34 +338,29 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     const DipDrawState wireframe = {
         .fill = DIP_FILL_WIREFRAME,
         .line_width = dip_kit_clamp((float)view->target.height / 320.0f, 1.0f, 8.0f)};
-    const DipSampler skin = dip_kit_sampler(view, &content->skin);
+    const DipSampler skin = dip_kit_sampler(view, &content->stock.textures[0]);
     const DipMatrix identity = dip_matrix_identity();
-    DipKitCamera seen;
-    DipDraw draws[COPIES + 1];
+    DipKitList list = dip_kit_list(view, 0.1, err);
     Uniforms *ground = &content->uniforms[COPIES];
-    fill_uniforms(ground, view, true);
-    bool made =
-        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err) &&
-        dip_kit_object(&ground->object, &seen, &identity, err);
-    draws[COPIES] = dip_kit_object_draw(content->floor, ground, shade_phong);
-    for (int copy = 0; made && copy < COPIES; copy++) {
-        made = add_copy(content, copy, view, &seen, &draws[copy], err);
-        draws[copy].samplers = &skin;
-        draws[copy].state = model_looks[view->look].wireframe ? &wireframe : NULL;
+    for (int copy = 0; copy < COPIES; copy++) {
+        DipDraw *copied = add_copy(content, copy, &list);
+        copied->samplers = &skin;
+        copied->state = model_looks[view->look].wireframe ? &wireframe : NULL;
     }
-    const DipPass pass = dip_kit_pass(view, draws, COPIES + 1, clear_lin);
-    return made && dip_kit_draw(view, view->pipeline, &pass, err);
+    fill_uniforms(ground, view, true);
+    dip_kit_add(&list, content->stock.meshes[0], ground, &identity, shade_phong);
+    return dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_model = {
     .info = {.name = "model",
              .title = "Animated model",
-             .seed = "seed 000, MD2 Model File Loader and Demo Application",
              .text =
                  "An MD2 model with key-frame animation under a directional, a point and a spot "
                  "light. The looks change the shading.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
     .destroy = destroy,

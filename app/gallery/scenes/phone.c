@@ -11,8 +11,6 @@
 #include "renderer/base/pages.h"
 #include "renderer/base/trig.h"
 
-#include <stdlib.h>
-
 enum { PHOTO_WIDTH = 288, PHOTO_HEIGHT = 512 };
 enum { DIE, TABLE, BODY, DISPLAY, OBJECTS, PHOTO_OBJECTS = BODY };
 
@@ -24,8 +22,7 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipMesh *meshes[OBJECTS];
-    DipKitTexture textures[BODY + 1];
+    DipKitStock stock;
     DipPipeline *pipeline; // of the photo's size
     DipTarget photo;
     Uniforms seen[OBJECTS];
@@ -45,24 +42,11 @@ static void shade(DipFragmentBatch *batch) {
                                            .colour = {0.35f, 0.5f, 0.8f},
                                            .reach = 3.0f}};
     static const DipKitMaterial white = {{1.0f, 1.0f, 1.0f}, {0.22f, 0.22f, 0.22f}, 5};
-    const Uniforms *uniforms = batch->uniforms;
-    float normals[3][DIP_FRAGMENT_BATCH];
+    static const float ambient[3] = {0.16f, 0.16f, 0.16f};
+    static const float own_colour[3] = {1.0f, 1.0f, 1.0f};
     float light[3][DIP_FRAGMENT_BATCH];
-    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
-    for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < batch->count; i++) {
-            light[c][i] = 0.16f;
-        }
-    }
-    for (int l = 0; l < 2; l++) {
-        dip_kit_light_add(&lights[l], &white, &points, NULL, light);
-    }
-    batch->sample_colour(batch, &batch->samplers[0], DIP_KIT_UV, batch->colour);
-    for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < batch->count; i++) {
-            batch->colour[c][i] *= light[c][i];
-        }
-    }
+    dip_kit_light_fragments(batch, ambient, lights, 2, &white, light);
+    dip_kit_light_texture(batch, own_colour, light);
 }
 
 // Shows the photo, with a black frame around it and a shutter button over it.
@@ -88,8 +72,7 @@ static void shade_display(DipFragmentBatch *batch) {
 // --- content -------------------------------------------------------------------------------------
 
 // Dark brushed metal with a lens and a lamp, as on a phone's back.
-static void paint_body(const void *context, float u, float v, float rgba[4]) {
-    (void)context;
+static void paint_body(float u, float v, float rgba[4]) {
     const float brushed = dip_kit_turbulence(u * 4.0f, v * 96.0f, 96, 3, 2);
     const float x = (u - 0.5f) * 0.55f;
     const float lens = sqrtf(x * x + (v - 0.14f) * (v - 0.14f));
@@ -106,8 +89,7 @@ static void paint_body(const void *context, float u, float v, float rgba[4]) {
 }
 
 // Planks of a table.
-static void paint_table(const void *context, float u, float v, float rgba[4]) {
-    (void)context;
+static void paint_table(float u, float v, float rgba[4]) {
     const float plank = u * 8.0f;
     const float gap = plank - dip_kit_floor(plank);
     const float edge = dip_kit_smooth(0.0f, 0.02f, gap < 0.5f ? gap : 1.0f - gap);
@@ -121,70 +103,40 @@ static void paint_table(const void *context, float u, float v, float rgba[4]) {
 
 static void destroy(void *pointer) {
     Content *content = pointer;
-    for (int i = 0; i < OBJECTS; i++) {
-        dip_mesh_destroy(&content->meshes[i]);
-    }
-    for (int i = 0; i <= BODY; i++) {
-        dip_kit_texture_free(&content->textures[i]);
-    }
     dip_pipeline_destroy(&content->pipeline);
     dip_lines_free(content->photo.rgba8);
-    free(content);
 }
 
-static bool make_meshes(Content *content, DipError *err) {
-    DipShape shape;
-    DipMesh **meshes = content->meshes;
-    meshes[DIE] = dip_kit_die_mesh(err);
-    meshes[TABLE] =
-        dip_kit_mesh("table", &shape, dip_shape_plane(&shape, 12.0f, 12.0f, 8, 8, err), err);
-    meshes[BODY] = dip_kit_mesh("body", &shape, dip_shape_box(&shape, body_size, err), err);
-    meshes[DISPLAY] =
-        dip_kit_mesh("display", &shape, dip_shape_quad(&shape, 0.84f, 1.50f, err), err);
-    return meshes[DIE] && meshes[TABLE] && meshes[BODY] && meshes[DISPLAY];
-}
-
-static void *create(const DipGalleryRoom *room, DipError *err) {
-    Content *content = dip_kit_content(sizeof *content, "phone", err);
-    if (!content) {
-        return NULL;
-    }
+static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
+    Content *content = pointer;
+    DipMesh **meshes = content->stock.meshes;
+    DipKitTexture *textures = content->stock.textures;
     DipTarget *photo = &content->photo;
     *photo = (DipTarget){
         .stride_bytes = (size_t)PHOTO_WIDTH * 4, .width = PHOTO_WIDTH, .height = PHOTO_HEIGHT};
     photo->rgba8 = dip_lines_alloc(photo->stride_bytes * PHOTO_HEIGHT);
     if (!photo->rgba8) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "phone", "out of memory");
-        destroy(content);
-        return NULL;
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "phone", "out of memory");
     }
     content->pipeline = dip_pipeline_create(room->pool, room->isa, PHOTO_WIDTH, PHOTO_HEIGHT, err);
-    DipKitTexture *textures = content->textures;
-    if (!content->pipeline || !make_meshes(content, err) ||
-        !dip_kit_die_texture(&textures[DIE], err) ||
-        !dip_kit_texture(&textures[TABLE], "table", 512, 512, true, paint_table, NULL, err) ||
-        !dip_kit_texture(&textures[BODY], "body", 256, 512, true, paint_body, NULL, err)) {
-        destroy(content);
-        return NULL;
-    }
-    return content;
+    return content->pipeline && dip_kit_die(&meshes[DIE], err) &&
+           dip_kit_plane(&meshes[TABLE], 12.0f, 12.0f, 8, 8, err) &&
+           dip_kit_box(&meshes[BODY], body_size[0], body_size[1], body_size[2], err) &&
+           dip_kit_quad(&meshes[DISPLAY], 0.84f, 1.50f, err) &&
+           dip_kit_die_texture(&textures[DIE], err) &&
+           dip_kit_texture(&textures[TABLE], "table", 512, 512, true, paint_table, err) &&
+           dip_kit_texture(&textures[BODY], "body", 256, 512, true, paint_body, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 1.1 * dip_sin(turn);
-    eye[1] = 1.75 + 0.25 * dip_cos(turn);
-    eye[2] = 3.6;
-    target[0] = 0.15;
-    target[1] = 0.72;
-    target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    return (DipGalleryCamera){.eye = {1.1 * dip_sin(turn), 1.75 + 0.25 * dip_cos(turn), 3.6},
+                              .target = {0.15, 0.72, 0.0}};
 }
 
 // Returns where an object stands. The phone leans a little and sways; the display lies on it.
-static DipMatrix place(int object, double time_s) {
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+static DipMatrix place(int object, double turn) {
     if (object == TABLE) {
         return dip_matrix_identity();
     }
@@ -202,6 +154,20 @@ static DipMatrix place(int object, double time_s) {
     return dip_matrix_multiply3(&move, &sway, &out);
 }
 
+// Adds the first `count` objects. The display has no texture of its own.
+static void add_objects(Content *content, Uniforms *uniforms, int count, DipSampler *samplers,
+                        DipKitList *list) {
+    for (int i = 0; i < count; i++) {
+        const DipMatrix model = place(i, list->view->turn);
+        DipDraw *draw = dip_kit_add(list, content->stock.meshes[i], &uniforms[i], &model,
+                                    i == DISPLAY ? shade_display : shade);
+        if (i != DISPLAY) {
+            samplers[i] = dip_kit_sampler(list->view, &content->stock.textures[i]);
+            draw->samplers = &samplers[i];
+        }
+    }
+}
+
 // Draws the die and the table as the phone's camera sees them, always with four samples.
 static bool take_photo(Content *content, const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.30f, 0.38f, 0.50f};
@@ -209,57 +175,36 @@ static bool take_photo(Content *content, const DipGalleryView *view, DipError *e
     static const double target[3] = {1.30, 0.80, -1.35};
     const DipPerspective lens = {
         .fov_deg = 50.0, .aspect = (double)PHOTO_WIDTH / PHOTO_HEIGHT, .near_distance = 0.1};
-    DipKitCamera seen;
-    DipDraw draws[PHOTO_OBJECTS];
+    DipKitList list = {.view = view, .err = err};
     DipSampler samplers[PHOTO_OBJECTS];
-    bool made = dip_kit_look_at(&seen, eye, target, &lens, err);
-    for (int i = 0; made && i < PHOTO_OBJECTS; i++) {
-        const DipMatrix model = place(i, view->time_s);
-        made = dip_kit_object(&content->taken[i].object, &seen, &model, err);
-        samplers[i] = dip_kit_sampler(view, &content->textures[i]);
-        draws[i] = dip_kit_object_draw(content->meshes[i], &content->taken[i], shade);
-        draws[i].samplers = &samplers[i];
-    }
-    DipPass pass = dip_kit_pass(view, draws, PHOTO_OBJECTS, clear_lin);
+    list.failed = !dip_kit_look_at(&list.seen, eye, target, &lens, err);
+    add_objects(content, content->taken, PHOTO_OBJECTS, samplers, &list);
+    DipPass pass = dip_kit_pass(view, list.draws, list.count, clear_lin);
     pass.target = content->photo;
     pass.sample_count = 4;
     pass.samples_per_group = 0;
-    return made && dip_kit_draw(view, content->pipeline, &pass, err);
+    return !list.failed && dip_kit_draw(view, content->pipeline, &pass, err);
 }
 
 static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.10f, 0.12f, 0.16f};
     Content *content = pointer;
-    DipKitCamera seen;
-    DipDraw draws[OBJECTS];
-    DipSampler samplers[BODY + 1];
-    bool made =
-        take_photo(content, view, err) &&
-        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err);
-    for (int i = 0; made && i < OBJECTS; i++) {
-        const DipMatrix model = place(i, view->time_s);
-        content->seen[i].photo = content->photo;
-        made = dip_kit_object(&content->seen[i].object, &seen, &model, err);
-        draws[i] = dip_kit_object_draw(content->meshes[i], &content->seen[i],
-                                       i == DISPLAY ? shade_display : shade);
-        if (i != DISPLAY) {
-            samplers[i] = dip_kit_sampler(view, &content->textures[i]);
-            draws[i].samplers = &samplers[i];
-        }
-    }
-    const DipPass pass = dip_kit_pass(view, draws, OBJECTS, clear_lin);
-    return made && dip_kit_draw(view, view->pipeline, &pass, err);
+    DipSampler samplers[OBJECTS];
+    DipKitList list = dip_kit_list(view, 0.1, err);
+    content->seen[DISPLAY].photo = content->photo;
+    add_objects(content, content->seen, OBJECTS, samplers, &list);
+    return take_photo(content, view, err) && dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_phone = {
     .info = {.name = "phone",
              .title = "Mobile phone",
-             .seed = "seed 001, Rendering the phone",
              .text =
                  "A phone made of one box and one quad. Its display shows a target that another "
                  "pass has drawn.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
     .destroy = destroy,

@@ -10,8 +10,6 @@
 #include "renderer/base/trig.h"
 #include "renderer/shapes/tessellate.h"
 
-#include <stdlib.h>
-
 typedef struct Look {
     int sides;
     float factor; // 0: it breathes
@@ -30,6 +28,8 @@ static const char *const looks[] = {"6 slices, fractional factor", "6 slices, fa
                                     "3 slices, fractional factor", "24 slices, factor 9",
                                     "6 slices, whole factor"};
 
+enum { PRISM, FLOOR }; // Meshes.
+
 static const float height = 3.0f;
 
 typedef struct Uniforms {
@@ -40,10 +40,9 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipMesh *mesh; // of the frame made last
-    double mesh_time_s;
-    int mesh_look; // -1: there is no mesh yet
-    DipMesh *floor;
+    DipKitStock stock;
+    double mesh_time_s; // Of the prism's mesh, if there is one.
+    int mesh_look;
     Uniforms solid;
     Uniforms wire;
     Uniforms ground;
@@ -74,20 +73,18 @@ static void twist(const DipDomainBatch *batch) {
     }
 }
 
-static float factor_at(const Look *look, double time_s) {
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
-    return look->factor > 0.0f ? look->factor : (float)(7.0 - 6.0 * dip_cos(2.0 * turn));
-}
-
 // Makes the mesh of a time and look, unless the other pane has made it already.
 static bool prepare_mesh(Content *content, double time_s, int look_index, DipError *err) {
-    if (content->mesh && content->mesh_time_s == time_s && content->mesh_look == look_index) {
+    DipMesh **mesh = &content->stock.meshes[PRISM];
+    if (*mesh && content->mesh_time_s == time_s && content->mesh_look == look_index) {
         return true;
     }
     const Look *look = &prism_looks[look_index];
-    const float factor = factor_at(look, time_s);
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    const float factor =
+        look->factor > 0.0f ? look->factor : (float)(7.0 - 6.0 * dip_cos(2.0 * turn));
     const DipTessellationFactors factors = {{factor, factor, factor, factor}, {factor, factor}};
-    const double rate = 0.9 * dip_sin(2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS);
+    const double rate = 0.9 * dip_sin(turn);
     DipShape prism;
     DipShape pieces = {0};
     if (!dip_shape_prism(&prism, 1.0f, height, look->sides, false, err)) {
@@ -105,16 +102,13 @@ static bool prepare_mesh(Content *content, double time_s, int look_index, DipErr
                                     .function = twist,
                                     .out_attribute_count = DIP_SHAPE_ATTRIBUTES,
                                     .uniforms = &rate};
-    DipMesh *mesh = dip_kit_mesh("prism", &pieces, dip_tessellate(&pieces, &def, err), err);
+    dip_mesh_destroy(mesh);
+    const bool made =
+        dip_tessellate(&pieces, &def, err) && dip_kit_mesh(mesh, "prism", &pieces, err);
     dip_shape_free(&prism);
-    if (!mesh) {
-        return false;
-    }
-    dip_mesh_destroy(&content->mesh);
-    content->mesh = mesh;
     content->mesh_time_s = time_s;
     content->mesh_look = look_index;
-    return true;
+    return made;
 }
 
 // --- shaders -------------------------------------------------------------------------------------
@@ -130,17 +124,9 @@ static void shade(DipFragmentBatch *batch) {
                                            .reach = 4.0f}};
     static const DipKitMaterial white = {{1.0f, 1.0f, 1.0f}, {0.35f, 0.35f, 0.35f}, 5};
     const Uniforms *uniforms = batch->uniforms;
-    float normals[3][DIP_FRAGMENT_BATCH];
+    const float ambient[3] = {uniforms->base, uniforms->base, uniforms->base};
     float light[3][DIP_FRAGMENT_BATCH];
-    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
-    for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < batch->count; i++) {
-            light[c][i] = uniforms->base;
-        }
-    }
-    for (int l = 0; l < 2; l++) {
-        dip_kit_light_add(&lights[l], &white, &points, NULL, light);
-    }
+    dip_kit_light_fragments(batch, ambient, lights, 2, &white, light);
     for (int i = 0; i < batch->count; i++) {
         const float around = batch->varying[DIP_KIT_UV][i];
         const float own[3] = {0.10f + 0.80f * around, 0.42f - 0.20f * around,
@@ -154,39 +140,19 @@ static void shade(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-static void destroy(void *pointer) {
+static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
     Content *content = pointer;
-    dip_mesh_destroy(&content->mesh);
-    dip_mesh_destroy(&content->floor);
-    free(content);
-}
-
-static void *create(const DipGalleryRoom *room, DipError *err) {
     (void)room;
-    DipShape shape;
-    Content *content = dip_kit_content(sizeof *content, "prism", err);
-    if (!content) {
-        return NULL;
-    }
-    content->floor =
-        dip_kit_mesh("floor", &shape, dip_shape_prism(&shape, 2.6f, 0.3f, 96, true, err), err);
-    if (!content->floor || !prepare_mesh(content, 0.0, 0, err)) {
-        destroy(content);
-        return NULL;
-    }
-    return content;
+    return dip_kit_prism(&content->stock.meshes[FLOOR], 2.6f, 0.3f, 96, true, err) &&
+           prepare_mesh(content, 0.0, 0, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 5.4 * dip_sin(turn);
-    eye[1] = 1.6 + 0.7 * dip_sin(turn);
-    eye[2] = 5.4 * dip_cos(turn);
-    target[0] = 0.0;
-    target[1] = -0.1;
-    target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    return (DipGalleryCamera){
+        .eye = {5.4 * dip_sin(turn), 1.6 + 0.7 * dip_sin(turn), 5.4 * dip_cos(turn)},
+        .target = {0.0, -0.1, 0.0}};
 }
 
 static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
@@ -197,37 +163,31 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
         .line_width = dip_kit_clamp(
             prism_looks[view->look].line_px * (float)view->target.height / 480.0f, 0.25f, 8.0f)};
     Content *content = pointer;
-    DipKitCamera seen;
+    DipMesh *const *meshes = content->stock.meshes;
     const DipMatrix identity = dip_matrix_identity();
     const DipMatrix below = dip_matrix_translation(0.0, -0.5 * height - 0.16, 0.0);
-    content->solid.base = content->ground.base = 0.12f;
+    content->solid.base = 0.12f;
     content->wire = (Uniforms){.tint = {1.0f, 0.95f, 0.8f}, .base = 0.55f, .line_mix = 0.85f};
     content->ground = (Uniforms){.tint = {0.16f, 0.17f, 0.20f}, .base = 0.12f, .line_mix = 1.0f};
-    if (!prepare_mesh(content, view->time_s, view->look, err) ||
-        !dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err) ||
-        !dip_kit_object(&content->solid.object, &seen, &identity, err) ||
-        !dip_kit_object(&content->wire.object, &seen, &identity, err) ||
-        !dip_kit_object(&content->ground.object, &seen, &below, err)) {
+    if (!prepare_mesh(content, view->time_s, view->look, err)) {
         return false;
     }
-    DipDraw draws[3] = {dip_kit_object_draw(content->mesh, &content->solid, shade),
-                        dip_kit_object_draw(content->floor, &content->ground, shade),
-                        dip_kit_object_draw(content->mesh, &content->wire, shade)};
-    draws[2].state = &wireframe;
-    const DipPass pass = dip_kit_pass(view, draws, 3, clear_lin);
-    return dip_kit_draw(view, view->pipeline, &pass, err);
+    DipKitList list = dip_kit_list(view, 0.1, err);
+    dip_kit_add(&list, meshes[PRISM], &content->solid, &identity, shade);
+    dip_kit_add(&list, meshes[FLOOR], &content->ground, &below, shade);
+    dip_kit_add(&list, meshes[PRISM], &content->wire, &identity, shade)->state = &wireframe;
+    return dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_prism = {
     .info = {.name = "prism",
              .title = "Tessellated prism",
-             .seed = "seed 001, Primitives",
              .text = "A prism whose sides are tessellated and twisted, with a lit wireframe over "
                      "it. The looks change slices and factors.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
-    .destroy = destroy,
     .draw = draw,
 };

@@ -8,9 +8,6 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/trig.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 enum { RINGS, FLAME, BOWL, QUADS, FLAME_STEPS = 20, BOWL_STEPS = 36, SHADOW_STEPS = 8 };
 
 typedef struct Uniforms {
@@ -19,7 +16,7 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipMesh *quad;
+    DipKitStock stock;
     Uniforms uniforms[QUADS];
 } Content;
 
@@ -214,69 +211,45 @@ static void shade_bowl(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-static void destroy(void *pointer) {
-    Content *content = pointer;
-    dip_mesh_destroy(&content->quad);
-    free(content);
-}
-
-static void *create(const DipGalleryRoom *room, DipError *err) {
+static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
     (void)room;
-    DipShape shape;
-    Content *content = dip_kit_content(sizeof *content, "quads", err);
-    if (content) {
-        content->quad = dip_kit_mesh("quad", &shape, dip_shape_quad(&shape, 2.0f, 2.0f, err), err);
-        if (!content->quad) {
-            free(content);
-            content = NULL;
-        }
-    }
-    return content;
+    return dip_kit_quad(&((DipKitStock *)content)->meshes[0], 2.0f, 2.0f, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 2.2 * dip_sin(turn);
-    eye[1] = 0.2 * dip_sin(2.0 * turn);
-    eye[2] = 5.1 + 1.6 * dip_cos(2.0 * turn);
-    target[0] = 1.9 * dip_sin(turn);
-    target[1] = target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    return (DipGalleryCamera){
+        .eye = {2.2 * dip_sin(turn), 0.2 * dip_sin(2.0 * turn), 5.1 + 1.6 * dip_cos(2.0 * turn)},
+        .target = {1.9 * dip_sin(turn), 0.0, 0.0}};
 }
 
 static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.020f, 0.022f, 0.028f};
     static DipFragmentShader *const shaders[QUADS] = {shade_rings, shade_flame, shade_bowl};
     Content *content = pointer;
-    DipKitCamera seen;
-    DipDraw draws[QUADS];
-    bool made =
-        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err);
-    for (int q = 0; made && q < QUADS; q++) {
+    DipKitList list = dip_kit_list(view, 0.1, err);
+    for (int q = 0; q < QUADS; q++) {
         // The outer quads turn towards the middle, like the wings of a triptych.
         const DipMatrix move = dip_matrix_translation(2.12 * (q - 1), 0.0, q == 1 ? 0.0 : 0.35);
         const DipMatrix turn = dip_matrix_rotation(1, -0.35 * (q - 1));
         const DipMatrix model = dip_matrix_multiply(&move, &turn);
         content->uniforms[q].turns = (float)(view->time_s / DIP_GALLERY_SECONDS);
-        made = dip_kit_object(&content->uniforms[q].object, &seen, &model, err);
-        draws[q] = dip_kit_object_draw(content->quad, &content->uniforms[q], shaders[q]);
+        dip_kit_add(&list, content->stock.meshes[0], &content->uniforms[q], &model, shaders[q]);
     }
-    const DipPass pass = dip_kit_pass(view, draws, QUADS, clear_lin);
-    return made && dip_kit_draw(view, view->pipeline, &pass, err);
+    return dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_quads = {
     .info = {.name = "quads",
              .title = "Procedural quads",
-             .seed = "seed 001, Shading",
              .text =
                  "Rings, a flame and a ray-marched sphere over a fluid, each computed per pixel "
                  "in a fragment shader.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
-    .destroy = destroy,
     .draw = draw,
 };

@@ -16,6 +16,7 @@ typedef struct DipGalleryRoom {
 typedef struct DipGalleryView {
     const DipPose *pose;
     double time_s; // 0..DIP_GALLERY_SECONDS
+    double turn;   // The time as an angle that a loop turns by: 0..2 pi.
     int look;      // 0..look_count - 1
     const DipQuality *quality;
     DipPatternKind pattern;
@@ -27,13 +28,21 @@ typedef struct DipGalleryView {
     DipStageTimes *times;
 } DipGalleryView;
 
+// Where a scene's camera stands, and the point that it looks at.
+typedef struct DipGalleryCamera {
+    double eye[3];
+    double target[3];
+} DipGalleryCamera;
+
 typedef struct DipGalleryScene {
     DipGalleryInfo info;
-    // Writes the camera's position and the point that it looks at. phase: time as a fraction of
-    // DIP_GALLERY_SECONDS, 0..1. Phases 0 and 1 have the same camera.
-    void (*camera)(double phase, double eye[3], double target[3]);
-    // Makes meshes and textures. Returns NULL and fills *err on failure.
-    void *(*create)(const DipGalleryRoom *room, DipError *err);
+    size_t content_bytes; // Size of the scene's content, which begins with a DipKitStock.
+    // turn: the time as an angle, 0..2 pi. Both ends have the same camera.
+    DipGalleryCamera (*camera)(double turn);
+    // Makes meshes and textures in the content, which is zeroed.
+    bool (*create)(void *content, const DipGalleryRoom *room, DipError *err);
+    // Frees what `create` has made besides the stock, even if it has failed. NULL: there is
+    // nothing.
     void (*destroy)(void *content);
     bool (*draw)(void *content, const DipGalleryView *view, DipError *err);
 } DipGalleryScene;
@@ -60,7 +69,7 @@ DIP_GALLERY_SCENE_LIST(DIP_GALLERY_DECLARE)
 // What a gallery plays at a time.
 typedef struct DipGalleryPlaying {
     const DipGalleryScene *scene;
-    void *content; // what the scene's `create` returned
+    void *content;
     double time_s; // since the scene began, 0..DIP_GALLERY_SECONDS
     int look;
     DipPool *pool;

@@ -9,9 +9,9 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/trig.h"
 
-#include <stdlib.h>
+#include <string.h>
 
-enum { SPHERE, BOX, COLUMN, FLOOR, MESHES, OBJECTS = 12 };
+enum { SPHERE, BOX, COLUMN, FLOOR, OBJECTS = 12 };
 
 typedef struct Look {
     int texels;
@@ -41,8 +41,8 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
+    DipKitStock stock;
     DipGalleryRoom room;
-    DipMesh *meshes[MESHES];
     DipPipeline *pipeline; // of the shadow map's size
     DipDepth *depth;
     Lamp lamp;
@@ -76,7 +76,7 @@ static void shade(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     float normals[3][DIP_FRAGMENT_BATCH];
     float lit[DIP_FRAGMENT_BATCH];
-    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
+    const DipKitPoints points = dip_kit_fragment_points(batch, normals);
     find_lit(batch, uniforms->lamp, lit);
     for (int c = 0; c < 3; c++) {
         for (int i = 0; i < batch->count; i++) {
@@ -91,35 +91,18 @@ static void shade(DipFragmentBatch *batch) {
 
 static void destroy(void *pointer) {
     Content *content = pointer;
-    for (int m = 0; m < MESHES; m++) {
-        dip_mesh_destroy(&content->meshes[m]);
-    }
     dip_pipeline_destroy(&content->pipeline);
     dip_depth_destroy(&content->depth);
-    free(content);
 }
 
-static void *create(const DipGalleryRoom *room, DipError *err) {
-    static const float box[3] = {1.0f, 1.0f, 1.0f};
-    DipShape shape;
-    Content *content = dip_kit_content(sizeof *content, "shadow", err);
-    if (!content) {
-        return NULL;
-    }
+static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
+    Content *content = pointer;
+    DipMesh **meshes = content->stock.meshes;
     content->room = *room;
-    DipMesh **meshes = content->meshes;
-    meshes[SPHERE] =
-        dip_kit_mesh("sphere", &shape, dip_shape_sphere(&shape, 1.0f, 64, 32, err), err);
-    meshes[BOX] = dip_kit_mesh("box", &shape, dip_shape_box(&shape, box, err), err);
-    meshes[COLUMN] =
-        dip_kit_mesh("column", &shape, dip_shape_prism(&shape, 1.0f, 1.0f, 32, true, err), err);
-    meshes[FLOOR] =
-        dip_kit_mesh("floor", &shape, dip_shape_plane(&shape, 40.0f, 40.0f, 20, 20, err), err);
-    if (!meshes[SPHERE] || !meshes[BOX] || !meshes[COLUMN] || !meshes[FLOOR]) {
-        destroy(content);
-        return NULL;
-    }
-    return content;
+    return dip_kit_sphere(&meshes[SPHERE], 1.0f, 64, 32, err) &&
+           dip_kit_box(&meshes[BOX], 1.0f, 1.0f, 1.0f, err) &&
+           dip_kit_prism(&meshes[COLUMN], 1.0f, 1.0f, 32, true, err) &&
+           dip_kit_plane(&meshes[FLOOR], 40.0f, 40.0f, 20, 20, err);
 }
 
 // Makes the shadow map of the chosen resolution, unless the last frame had the same.
@@ -137,21 +120,17 @@ static bool prepare_map(Content *content, int texels, DipError *err) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 8.5 * dip_sin(0.6 * dip_sin(turn));
-    eye[1] = 4.6 + 0.8 * dip_cos(turn);
-    eye[2] = 8.5 * dip_cos(0.6 * dip_sin(turn));
-    target[0] = 0.0;
-    target[1] = 0.7;
-    target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    const double angle = 0.6 * dip_sin(turn);
+    return (DipGalleryCamera){
+        .eye = {8.5 * dip_sin(angle), 4.6 + 0.8 * dip_cos(turn), 8.5 * dip_cos(angle)},
+        .target = {0.0, 0.7, 0.0}};
 }
 
 // Returns where object `index` stands, and sets its mesh and colour.
-static DipMatrix place(int index, double time_s, int *mesh, DipKitMaterial *material) {
+static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *material) {
     static const float colours[][3] = {
         {0.80f, 0.30f, 0.16f}, {0.18f, 0.42f, 0.72f}, {0.85f, 0.62f, 0.20f}, {0.30f, 0.55f, 0.28f}};
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
     *material = (DipKitMaterial){{0.62f, 0.60f, 0.56f}, {0.1f, 0.1f, 0.1f}, 5};
     if (index == 0) {
         *mesh = FLOOR;
@@ -165,10 +144,8 @@ static DipMatrix place(int index, double time_s, int *mesh, DipKitMaterial *mate
         *mesh = COLUMN;
         return dip_matrix_multiply(&move, &size);
     }
-    for (int c = 0; c < 3; c++) {
-        material->diffuse[c] = colours[index - 9][c];
-        material->specular[c] = 0.5f;
-    }
+    *material = (DipKitMaterial){.specular = {0.5f, 0.5f, 0.5f}, .exponent_doubled = 5};
+    memcpy(material->diffuse, colours[index - 9], sizeof material->diffuse);
     const double angle = turn + 2.0 * DIP_PI * (index - 9) / 3.0;
     const double height = 0.95 + 0.35 * dip_sin(3.0 * turn + 2.0 * index);
     const DipMatrix move =
@@ -183,10 +160,9 @@ static DipMatrix place(int index, double time_s, int *mesh, DipKitMaterial *mate
 }
 
 // Moves the lamp on a circle above the ring, shining at its middle.
-static bool set_lamp(Lamp *lamp, double time_s, DipKitCamera *from_lamp, DipError *err) {
+static bool set_lamp(Lamp *lamp, double turn, DipKitCamera *from_lamp, DipError *err) {
     static const double middle[3] = {0.0, 0.4, 0.0};
     const DipPerspective lens = {.fov_deg = 84.0, .aspect = 1.0, .near_distance = 0.5};
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
     const double eye[3] = {4.4 * dip_cos(-turn), 6.2, 4.4 * dip_sin(-turn)};
     lamp->light = (DipKitLight){.kind = DIP_KIT_SPOT,
                                 .colour = {3.4f, 3.0f, 2.4f},
@@ -214,46 +190,41 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     static const DipDrawState caster = {.depth_bias = {.slope = -2.0f, .relative = -8.0f}};
     const Look *look = &shadow_looks[view->look];
     Content *content = pointer;
-    DipKitCamera seen;
-    DipKitCamera from_lamp;
-    DipDraw draws[OBJECTS];
-    DipDraw shadows[OBJECTS];
-    bool made =
-        prepare_map(content, look->texels, err) &&
-        set_lamp(&content->lamp, view->time_s, &from_lamp, err) &&
-        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err);
+    DipKitList list = dip_kit_list(view, 0.1, err);
+    DipKitList shadows = {.view = view, .err = err};
+    if (!prepare_map(content, look->texels, err) ||
+        !set_lamp(&content->lamp, view->turn, &shadows.seen, err)) {
+        return false;
+    }
     content->lamp.map = (DipShadowMap){content->depth, look->filter};
-    for (int i = 0; made && i < OBJECTS; i++) {
+    for (int i = 0; i < OBJECTS; i++) {
         Uniforms *uniforms = &content->seen[i];
-        int mesh;
-        const DipMatrix model = place(i, view->time_s, &mesh, &uniforms->material);
+        int index;
+        const DipMatrix model = place(i, view->turn, &index, &uniforms->material);
+        const DipMesh *mesh = content->stock.meshes[index];
         uniforms->lamp = &content->lamp;
-        made = dip_kit_object(&uniforms->object, &seen, &model, err) &&
-               dip_kit_object(&content->casting[i], &from_lamp, &model, err);
-        draws[i] = dip_kit_object_draw(content->meshes[mesh], uniforms, shade);
-        shadows[i] = dip_kit_object_draw(content->meshes[mesh], &content->casting[i], NULL);
-        shadows[i].state = &caster;
+        dip_kit_add(&list, mesh, uniforms, &model, shade);
+        dip_kit_add(&shadows, mesh, &content->casting[i], &model, NULL)->state = &caster;
     }
     const DipPass shadow_pass = {
-        .draws = shadows,
+        .draws = shadows.draws,
         .draw_count = OBJECTS,
         .sample_count = 1,
         .target = {.width = look->texels, .height = look->texels},
         .attachments = {.depth = content->depth},
     };
-    const DipPass pass = dip_kit_pass(view, draws, OBJECTS, clear_lin);
-    return made && dip_kit_draw(view, content->pipeline, &shadow_pass, err) &&
-           dip_kit_draw(view, view->pipeline, &pass, err);
+    return !shadows.failed && dip_kit_draw(view, content->pipeline, &shadow_pass, err) &&
+           dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_shadow = {
     .info = {.name = "shadow",
              .title = "Shadow mapping",
-             .seed = "seed 000, Render Targets and Depth Buffers",
              .text = "Shadows of a moving lamp from a depth-only pass. The looks change the map's "
                      "resolution and filter.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
     .destroy = destroy,

@@ -10,9 +10,9 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/trig.h"
 
-#include <stdlib.h>
+#include <string.h>
 
-enum { SPHERE, BOX, PRISM, PLANE, QUAD, MESHES };
+enum { SPHERE, BOX, PRISM, PLANE, QUAD };
 enum { OBJECTS = 5, OUTLINED = 0, DRAWS = 2 * OBJECTS + 6, MIRROR_VALUE = 1, OUTLINE_VALUE = 2 };
 
 typedef struct Uniforms {
@@ -22,7 +22,7 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipMesh *meshes[MESHES];
+    DipKitStock stock;
     Uniforms uniforms[DRAWS];
 } Content;
 
@@ -74,7 +74,7 @@ static void shade(DipFragmentBatch *batch) {
     static const float sky[3] = {0.20f, 0.24f, 0.30f};
     const Uniforms *uniforms = batch->uniforms;
     float normals[3][DIP_FRAGMENT_BATCH];
-    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
+    const DipKitPoints points = dip_kit_fragment_points(batch, normals);
     for (int c = 0; c < 3; c++) {
         for (int i = 0; i < batch->count; i++) {
             batch->colour[c][i] =
@@ -96,60 +96,31 @@ static void shade_flat(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-static void destroy(void *pointer) {
-    Content *content = pointer;
-    for (int m = 0; m < MESHES; m++) {
-        dip_mesh_destroy(&content->meshes[m]);
-    }
-    free(content);
-}
-
-static void *create(const DipGalleryRoom *room, DipError *err) {
-    static const float box[3] = {1.2f, 1.2f, 1.2f};
+static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
+    DipMesh **meshes = ((DipKitStock *)content)->meshes;
     (void)room;
-    DipShape shape;
-    Content *content = dip_kit_content(sizeof *content, "stencil", err);
-    if (!content) {
-        return NULL;
-    }
-    DipMesh **meshes = content->meshes;
-    meshes[SPHERE] =
-        dip_kit_mesh("sphere", &shape, dip_shape_sphere(&shape, 0.8f, 64, 32, err), err);
-    meshes[BOX] = dip_kit_mesh("box", &shape, dip_shape_box(&shape, box, err), err);
-    meshes[PRISM] =
-        dip_kit_mesh("prism", &shape, dip_shape_prism(&shape, 0.7f, 1.4f, 6, false, err), err);
-    meshes[PLANE] =
-        dip_kit_mesh("plane", &shape, dip_shape_plane(&shape, 1.0f, 1.0f, 16, 16, err), err);
-    meshes[QUAD] = dip_kit_mesh("quad", &shape, dip_shape_quad(&shape, 2.0f, 2.0f, err), err);
-    for (int m = 0; m < MESHES; m++) {
-        if (!meshes[m]) {
-            destroy(content);
-            return NULL;
-        }
-    }
-    return content;
+    return dip_kit_sphere(&meshes[SPHERE], 0.8f, 64, 32, err) &&
+           dip_kit_box(&meshes[BOX], 1.2f, 1.2f, 1.2f, err) &&
+           dip_kit_prism(&meshes[PRISM], 0.7f, 1.4f, 6, false, err) &&
+           dip_kit_plane(&meshes[PLANE], 1.0f, 1.0f, 16, 16, err) &&
+           dip_kit_quad(&meshes[QUAD], 2.0f, 2.0f, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 7.0 * dip_sin(turn);
-    eye[1] = 4.3 + 0.5 * dip_sin(2.0 * turn);
-    eye[2] = 7.0 * dip_cos(turn);
-    target[0] = 0.0;
-    target[1] = 0.6;
-    target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    return (DipGalleryCamera){
+        .eye = {7.0 * dip_sin(turn), 4.3 + 0.5 * dip_sin(2.0 * turn), 7.0 * dip_cos(turn)},
+        .target = {0.0, 0.6, 0.0}};
 }
 
 // Returns where object `index` stands, and sets its mesh and material.
-static DipMatrix place(int index, double time_s, int *mesh, DipKitMaterial *material) {
+static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *material) {
     static const float colours[OBJECTS][3] = {{0.80f, 0.16f, 0.13f},
                                               {0.16f, 0.42f, 0.75f},
                                               {0.86f, 0.60f, 0.14f},
                                               {0.22f, 0.58f, 0.34f},
                                               {0.60f, 0.30f, 0.68f}};
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
     const double angle = 2.0 * DIP_PI * (index - 1) / (OBJECTS - 1) + 2.0 * turn + 0.4;
     const double radius = index == OUTLINED ? 0.0 : 2.35;
     const double height = index == OUTLINED ? 1.9 : 1.3;
@@ -160,56 +131,40 @@ static DipMatrix place(int index, double time_s, int *mesh, DipKitMaterial *mate
     const DipMatrix spin_y = dip_matrix_rotation(1, 3.0 * turn + index);
     *mesh = index == OUTLINED ? PRISM : index % 2 ? SPHERE : BOX;
     *material = (DipKitMaterial){.specular = {0.5f, 0.5f, 0.5f}, .exponent_doubled = 6};
-    for (int c = 0; c < 3; c++) {
-        material->diffuse[c] = colours[index][c];
-    }
+    memcpy(material->diffuse, colours[index], sizeof material->diffuse);
     return dip_matrix_multiply3(&move, &spin_y, &spin_x);
 }
 
-// The draws of a pass while they are put together.
-typedef struct List {
-    Content *content;
-    const DipKitCamera *camera;
-    DipDraw draws[DRAWS];
-    int count;
-    DipError *err;
-} List;
-
-// Appends a draw and returns its uniforms.
-static bool add(List *list, int mesh, const DipMatrix *model, const Uniforms *look,
-                DipFragmentShader *shader, const DipDrawState *state) {
-    Uniforms *uniforms = &list->content->uniforms[list->count];
+// Appends a draw whose uniforms begin as a copy of `look`, and returns it.
+static DipDraw *add(Content *content, DipKitList *list, int mesh, const DipMatrix *model,
+                    const Uniforms *look, DipFragmentShader *shader, const DipDrawState *state) {
+    Uniforms *uniforms = &content->uniforms[list->count];
     *uniforms = *look;
-    if (!dip_kit_object(&uniforms->object, list->camera, model, list->err)) {
-        return false;
-    }
-    DipDraw *draw = &list->draws[list->count++];
-    *draw = dip_kit_object_draw(list->content->meshes[mesh], uniforms, shader);
+    DipDraw *draw = dip_kit_add(list, content->stock.meshes[mesh], uniforms, model, shader);
     draw->state = state;
-    return true;
+    return draw;
 }
 
 // Adds the objects; `outside` is applied to them last. In the mirror they wind the other way round.
-static bool add_objects(List *list, double time_s, const DipMatrix *outside, bool mirrored) {
-    bool added = true;
-    for (int i = OBJECTS - 1; added && i >= 0; i--) {
+static void add_objects(Content *content, DipKitList *list, const DipMatrix *outside,
+                        bool mirrored) {
+    for (int i = OBJECTS - 1; i >= 0; i--) {
         int mesh;
         Uniforms look = {.alpha = 1.0f};
-        const DipMatrix place_now = place(i, time_s, &mesh, &look.material);
+        const DipMatrix place_now = place(i, list->view->turn, &mesh, &look.material);
         const DipMatrix model = dip_matrix_multiply(outside, &place_now);
-        added = add(list, mesh, &model, &look, shade,
-                    mirrored        ? &inside_mirror
-                    : i == OUTLINED ? &mark_object
-                                    : &plain_ordered);
-        list->draws[list->count - 1].cull = mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
+        const DipDrawState *state = mirrored        ? &inside_mirror
+                                    : i == OUTLINED ? &mark_object
+                                                    : &plain_ordered;
+        add(content, list, mesh, &model, &look, shade, state)->cull =
+            mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
     }
-    return added;
 }
 
 static const Uniforms mirror_look = {.material = {.diffuse = {0.10f, 0.13f, 0.17f}},
                                      .alpha = 0.30f};
 
-static bool draw_picture(List *list, const DipGalleryView *view) {
+static bool draw_picture(Content *content, const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.36f, 0.43f, 0.52f};
     static const double up[3] = {0.0, 1.0, 0.0};
     static const Uniforms floor_look = {.material = {{0.52f, 0.47f, 0.40f}, {0, 0, 0}, 1}};
@@ -227,25 +182,26 @@ static bool draw_picture(List *list, const DipGalleryView *view) {
     const DipMatrix ground = dip_matrix_multiply(&lower, &wider);
     int mesh;
     DipKitMaterial material;
-    const DipMatrix outlined = place(OUTLINED, view->time_s, &mesh, &material);
+    const DipMatrix outlined = place(OUTLINED, view->turn, &mesh, &material);
     const DipMatrix grow = dip_matrix_scaling(1.09, 1.09, 1.09);
     const DipMatrix grown = dip_matrix_multiply(&outlined, &grow);
+    DipKitList list = dip_kit_list(view, 0.1, err);
     // The mirrored objects lie below the floor. They must be drawn before it, and the glass then
     // covers their depths, so that the floor around the mirror hides nothing of them.
-    const bool made = add(list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror) &&
-                      add_objects(list, view->time_s, &upside_down, true) &&
-                      add(list, PLANE, &mirror, &mirror_look, shade_flat, &glass) &&
-                      add(list, PLANE, &rim, &rim_look, shade, &plain_ordered) &&
-                      add(list, PLANE, &ground, &floor_look, shade, &plain_ordered) &&
-                      add_objects(list, view->time_s, &identity, false) &&
-                      add(list, mesh, &grown, &outline_look, shade_flat, &outside_object);
-    const DipPass pass = dip_kit_pass(view, list->draws, list->count, clear_lin);
-    return made && dip_kit_draw(view, view->pipeline, &pass, list->err);
+    add(content, &list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror);
+    add_objects(content, &list, &upside_down, true);
+    add(content, &list, PLANE, &mirror, &mirror_look, shade_flat, &glass);
+    add(content, &list, PLANE, &rim, &rim_look, shade, &plain_ordered);
+    add(content, &list, PLANE, &ground, &floor_look, shade, &plain_ordered);
+    add_objects(content, &list, &identity, false);
+    add(content, &list, mesh, &grown, &outline_look, shade_flat, &outside_object);
+    return dip_kit_show(&list, clear_lin);
 }
 
 // Draws the masks into a rectangle of the picture: first the stencil values without any colour,
 // then a quad over everything for each value.
-static bool draw_mask(List *list, const DipGalleryView *view, const DipTargetRegion *inset) {
+static bool draw_mask(Content *content, const DipGalleryView *view, const DipTargetRegion *inset,
+                      DipError *err) {
     static const DipDrawState mark_object_only = {
         .kept_channels = NO_COLOUR,
         .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_ALWAYS, DIP_STENCIL_REPLACE)};
@@ -254,24 +210,22 @@ static bool draw_mask(List *list, const DipGalleryView *view, const DipTargetReg
                                       {.material = {.diffuse = {1.0f, 0.85f, 0.25f}}}};
     static const DipDrawState *const states[3] = {&fill_none, &fill_mirror, &fill_object};
     static const float black[3] = {0.0f, 0.0f, 0.0f};
-    const DipKitCamera flat = {.to_clip = dip_matrix_identity()};
-    const DipKitCamera *const seen = list->camera;
     const DipMatrix mirror = dip_matrix_scaling(6.2, 1.0, 6.2);
     const DipMatrix front = dip_matrix_translation(0.0, 0.0, 0.5);
     int mesh;
     Uniforms look = {.alpha = 1.0f};
-    const DipMatrix outlined = place(OUTLINED, view->time_s, &mesh, &look.material);
-    bool made = add(list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror) &&
-                add(list, mesh, &outlined, &look, shade_flat, &mark_object_only);
-    list->camera = &flat;
-    for (int value = 0; made && value < 3; value++) {
-        made = add(list, QUAD, &front, &fills[value], shade_flat, states[value]);
+    const DipMatrix outlined = place(OUTLINED, view->turn, &mesh, &look.material);
+    DipKitList list = dip_kit_list(view, 0.1, err);
+    add(content, &list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror);
+    add(content, &list, mesh, &outlined, &look, shade_flat, &mark_object_only);
+    list.seen = (DipKitCamera){.to_clip = dip_matrix_identity()};
+    for (int value = 0; value < 3; value++) {
+        add(content, &list, QUAD, &front, &fills[value], shade_flat, states[value]);
     }
-    list->camera = seen;
-    DipPass pass = dip_kit_pass(view, list->draws, list->count, black);
+    DipPass pass = dip_kit_pass(view, list.draws, list.count, black);
     pass.attachments.colour_load = DIP_LOAD_KEEP;
     pass.viewport = pass.scissor = pass.region = *inset;
-    return made && dip_kit_draw(view, view->pipeline, &pass, list->err);
+    return !list.failed && dip_kit_draw(view, view->pipeline, &pass, err);
 }
 
 static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
@@ -281,28 +235,19 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     const DipTargetRegion corner = {width - width / 4 - width / 40, height / 30, width - width / 40,
                                     height / 30 + height / 4};
     const bool alone = view->look == 1 || corner.x1 <= corner.x0 || corner.y1 <= corner.y0;
-    DipKitCamera seen;
-    if (!dip_kit_camera(&seen, view->pose, width, height, 0.1, err)) {
-        return false;
-    }
-    List list = {.content = pointer, .camera = &seen, .err = err};
-    if (!draw_picture(&list, view)) {
-        return false;
-    }
-    list.count = 0;
-    return draw_mask(&list, view, alone ? &whole : &corner);
+    return draw_picture(pointer, view, err) &&
+           draw_mask(pointer, view, alone ? &whole : &corner, err);
 }
 
 const DipGalleryScene dip_gallery_stencil = {
     .info = {.name = "stencil",
              .title = "Stencil: mirror and outline",
-             .seed = "seed 001, Stenciling",
              .text = "A mirror in the floor and an outline, each masked by the stencil buffer. The "
                      "inset shows the masks.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
-    .destroy = destroy,
     .draw = draw,
 };

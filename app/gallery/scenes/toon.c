@@ -7,9 +7,9 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/trig.h"
 
-#include <stdlib.h>
+#include <string.h>
 
-enum { KNOT, SPHERE, COLUMN, FLOOR, MESHES, OBJECTS = 6, ALONG = 320, AROUND = 24 };
+enum { KNOT, SPHERE, COLUMN, FLOOR, OBJECTS = 6, ALONG = 320, AROUND = 24 };
 
 typedef struct Uniforms {
     DipKitObject object;
@@ -20,7 +20,7 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipMesh *meshes[MESHES];
+    DipKitStock stock;
     Uniforms uniforms[2 * OBJECTS];
 } Content;
 
@@ -149,7 +149,7 @@ static void knot_ring(double t, float (*vertices)[DIP_SHAPE_ATTRIBUTES]) {
     }
 }
 
-static DipMesh *make_knot(DipError *err) {
+static bool make_knot(DipMesh **mesh, DipError *err) {
     enum { COLUMNS = AROUND + 1 };
     static float vertices[(ALONG + 1) * COLUMNS][DIP_SHAPE_ATTRIBUTES];
     static uint32_t indices[ALONG * AROUND * 6];
@@ -162,68 +162,36 @@ static DipMesh *make_knot(DipError *err) {
             const uint32_t corner = l * COLUMNS + a;
             const uint32_t quad[6] = {corner,     corner + 1,           corner + COLUMNS,
                                       corner + 1, corner + COLUMNS + 1, corner + COLUMNS};
-            for (int k = 0; k < 6; k++) {
-                indices[count++] = quad[k];
-            }
+            memcpy(indices + count, quad, sizeof quad);
+            count += 6;
         }
     }
     const DipMeshData data = {
         "knot", &vertices[0][0], DIP_SHAPE_ATTRIBUTES, (ALONG + 1) * COLUMNS, indices, count};
-    return dip_mesh_create(&data, err);
+    *mesh = dip_mesh_create(&data, err);
+    return *mesh != NULL;
 }
 
-static void destroy(void *pointer) {
-    Content *content = pointer;
-    for (int m = 0; m < MESHES; m++) {
-        dip_mesh_destroy(&content->meshes[m]);
-    }
-    free(content);
-}
-
-static void *create(const DipGalleryRoom *room, DipError *err) {
+static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
+    DipMesh **meshes = ((DipKitStock *)content)->meshes;
     (void)room;
-    DipShape shape;
-    Content *content = dip_kit_content(sizeof *content, "toon", err);
-    if (!content) {
-        return NULL;
-    }
-    DipMesh **meshes = content->meshes;
-    meshes[KNOT] = make_knot(err);
-    meshes[SPHERE] =
-        dip_kit_mesh("sphere", &shape, dip_shape_sphere(&shape, 0.55f, 64, 32, err), err);
-    meshes[COLUMN] =
-        dip_kit_mesh("column", &shape, dip_shape_prism(&shape, 1.3f, 0.5f, 48, true, err), err);
-    meshes[FLOOR] =
-        dip_kit_mesh("floor", &shape, dip_shape_plane(&shape, 40.0f, 40.0f, 8, 8, err), err);
-    for (int m = 0; m < MESHES; m++) {
-        if (!meshes[m]) {
-            destroy(content);
-            return NULL;
-        }
-    }
-    return content;
+    return make_knot(&meshes[KNOT], err) && dip_kit_sphere(&meshes[SPHERE], 0.55f, 64, 32, err) &&
+           dip_kit_prism(&meshes[COLUMN], 1.3f, 0.5f, 48, true, err) &&
+           dip_kit_plane(&meshes[FLOOR], 40.0f, 40.0f, 8, 8, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 1.8 * dip_sin(turn);
-    eye[1] = 1.7 + 0.4 * dip_cos(turn);
-    eye[2] = 6.4;
-    target[0] = 0.0;
-    target[1] = 0.55;
-    target[2] = 0.0;
+static DipGalleryCamera camera(double turn) {
+    return (DipGalleryCamera){.eye = {1.8 * dip_sin(turn), 1.7 + 0.4 * dip_cos(turn), 6.4},
+                              .target = {0.0, 0.55, 0.0}};
 }
 
-static DipMatrix place(int index, double time_s, int *mesh, float colour[3]) {
+static DipMatrix place(int index, double turn, int *mesh, float colour[3]) {
     static const float colours[OBJECTS][3] = {{0.78f, 0.07f, 0.05f}, {0.05f, 0.28f, 0.75f},
                                               {0.90f, 0.48f, 0.03f}, {0.08f, 0.45f, 0.13f},
                                               {0.28f, 0.18f, 0.48f}, {0.60f, 0.68f, 0.70f}};
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
-    for (int c = 0; c < 3; c++) {
-        colour[c] = colours[index][c];
-    }
+    memcpy(colour, colours[index], sizeof colours[index]);
     if (index == 0) {
         const DipMatrix spin = dip_matrix_rotation(1, turn);
         const DipMatrix tilt = dip_matrix_rotation(0, 0.5 * dip_sin(turn));
@@ -245,48 +213,40 @@ static DipMatrix place(int index, double time_s, int *mesh, float colour[3]) {
 static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.62f, 0.74f, 0.80f};
     Content *content = pointer;
-    DipDraw draws[2 * OBJECTS];
-    DipKitCamera seen;
-    const double turn = 2.0 * DIP_PI * view->time_s / DIP_GALLERY_SECONDS;
-    int count = 0;
-    bool made =
-        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err);
-    for (int i = 0; made && i < OBJECTS; i++) {
+    DipKitList list = dip_kit_list(view, 0.1, err);
+    const double side = 0.55 * dip_sin(view->turn);
+    const double size = sqrt(side * side + 0.64 + 0.49);
+    for (int i = 0; i < OBJECTS; i++) {
         Uniforms *uniforms = &content->uniforms[i];
         int mesh;
-        const DipMatrix model = place(i, view->time_s, &mesh, uniforms->colour);
-        const double side = 0.55 * dip_sin(turn);
-        const double size = sqrt(side * side + 0.64 + 0.49);
+        const DipMatrix model = place(i, view->turn, &mesh, uniforms->colour);
         uniforms->light[0] = (float)(side / size);
         uniforms->light[1] = (float)(0.8 / size);
         uniforms->light[2] = (float)(0.7 / size);
         uniforms->step_size = step_sizes[view->look];
         uniforms->grow = 0.0042f;
-        made = dip_kit_object(&uniforms->object, &seen, &model, err);
-        draws[count++] = dip_kit_object_draw(content->meshes[mesh], uniforms, shade);
+        dip_kit_add(&list, content->stock.meshes[mesh], uniforms, &model, shade);
         if (mesh != FLOOR) {
-            DipDraw *outline = &draws[count++];
-            *outline = dip_kit_object_draw(content->meshes[mesh], uniforms, shade_outline);
+            DipDraw *outline =
+                dip_kit_add(&list, content->stock.meshes[mesh], uniforms, &model, shade_outline);
             outline->vertex_shader = outline_vertex;
             outline->varying_count = outline->value_only_varying_count = 0;
             outline->bounds_to_clip = NULL; // the vertices leave the mesh's box
             outline->cull = DIP_CULL_FRONT;
         }
     }
-    const DipPass pass = dip_kit_pass(view, draws, count, clear_lin);
-    return made && dip_kit_draw(view, view->pipeline, &pass, err);
+    return dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_toon = {
     .info = {.name = "toon",
              .title = "Toon shading",
-             .seed = "seed 001, Lighting",
              .text = "Light in steps: the seed's four, or a number of equal bands, for the diffuse "
                      "part and for the highlight. Outlines are grown back faces.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
-    .destroy = destroy,
     .draw = draw,
 };

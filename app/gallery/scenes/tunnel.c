@@ -9,9 +9,6 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/trig.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 enum { SIDES = 96, TEXELS = 512, ROUND = 6 };
 
 // The tube lies along z. Its texture repeats ROUND times around it and once every REPEAT units.
@@ -24,8 +21,7 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipMesh *tube;
-    DipKitTexture stone;
+    DipKitStock stock; // The tube and its stone.
     Uniforms uniforms;
 } Content;
 
@@ -57,8 +53,7 @@ static void shade(DipFragmentBatch *batch) {
 // --- content -------------------------------------------------------------------------------------
 
 // Blocks of stone in courses, with dark joints and a different shade for each block.
-static void paint_stone(const void *context, float u, float v, float rgba[4]) {
-    (void)context;
+static void paint_stone(float u, float v, float rgba[4]) {
     const int course = (int)(v * 4.0f);
     const float along = u * 4.0f + (course % 2 ? 0.5f : 0.0f);
     const float du = along - dip_kit_floor(along);
@@ -77,10 +72,10 @@ static void paint_stone(const void *context, float u, float v, float rgba[4]) {
 }
 
 // Makes the tube from the sides of a prism: turned to lie along z, seen from inside.
-static DipMesh *make_tube(DipError *err) {
+static bool make_tube(DipMesh **mesh, DipError *err) {
     DipShape shape;
     if (!dip_shape_prism(&shape, 1.0f, length, SIDES, true, err)) {
-        return NULL;
+        return false;
     }
     shape.vertex_count = 4 * SIDES; // the two bases come after the sides
     shape.index_count = 6 * SIDES;
@@ -92,43 +87,23 @@ static DipMesh *make_tube(DipError *err) {
         vertex[DIP_SHAPE_TEXTURE] *= ROUND;
         vertex[DIP_SHAPE_TEXTURE + 1] *= length / repeat;
     }
-    return dip_kit_mesh("tube", &shape, true, err);
+    return dip_kit_mesh(mesh, "tube", &shape, err);
 }
 
-static void destroy(void *pointer) {
-    Content *content = pointer;
-    dip_mesh_destroy(&content->tube);
-    dip_kit_texture_free(&content->stone);
-    free(content);
-}
-
-static void *create(const DipGalleryRoom *room, DipError *err) {
+static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
+    DipKitStock *stock = content;
     (void)room;
-    Content *content = dip_kit_content(sizeof *content, "tunnel", err);
-    if (!content) {
-        return NULL;
-    }
-    content->tube = make_tube(err);
-    if (!content->tube ||
-        !dip_kit_texture(&content->stone, "stone", TEXELS, TEXELS, false, paint_stone, NULL, err)) {
-        destroy(content);
-        return NULL;
-    }
-    return content;
+    return make_tube(&stock->meshes[0], err) &&
+           dip_kit_texture(&stock->textures[0], "stone", TEXELS, TEXELS, false, paint_stone, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
 // The camera stands near the middle and looks along the tube, a little to the side. The tube moves
 // instead of the camera, by whole repeats of the texture in a loop.
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
-    eye[0] = 0.25 * dip_cos(turn);
-    eye[1] = 0.25 * dip_sin(turn);
-    eye[2] = 0.0;
-    target[0] = 0.6 * dip_sin(turn);
-    target[1] = 0.4 * dip_sin(2.0 * turn);
-    target[2] = -10.0;
+static DipGalleryCamera camera(double turn) {
+    return (DipGalleryCamera){.eye = {0.25 * dip_cos(turn), 0.25 * dip_sin(turn), 0.0},
+                              .target = {0.6 * dip_sin(turn), 0.4 * dip_sin(2.0 * turn), -10.0}};
 }
 
 static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
@@ -137,37 +112,29 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     Content *content = pointer;
     const double travelled = 12.0 * view->time_s / DIP_GALLERY_SECONDS;
     const DipMatrix forwards = dip_matrix_translation(0.0, 0.0, travelled - (int)travelled);
-    const DipMatrix turned =
-        dip_matrix_rotation(2, 2.0 * DIP_PI * view->time_s / DIP_GALLERY_SECONDS);
+    const DipMatrix turned = dip_matrix_rotation(2, view->turn);
     const DipMatrix model = dip_matrix_multiply(&forwards, &turned);
-    DipKitCamera camera_now;
+    DipKitList list = dip_kit_list(view, 0.02, err);
     DipSampler samplers[2];
-    samplers[0] = samplers[1] = dip_kit_sampler(view, &content->stone);
+    samplers[0] = samplers[1] = dip_kit_sampler(view, &content->stock.textures[0]);
     dip_kit_show_mip_colours(&samplers[1], view);
     content->uniforms.tint = tints[view->look];
-    if (!dip_kit_camera(&camera_now, view->pose, view->target.width, view->target.height, 0.02,
-                        err) ||
-        !dip_kit_object(&content->uniforms.object, &camera_now, &model, err)) {
-        return false;
-    }
-    DipDraw tube = dip_kit_object_draw(content->tube, &content->uniforms, shade);
-    tube.cull = DIP_CULL_FRONT; // seen from inside
-    tube.repeating_varyings = 1u << DIP_KIT_UV | 1u << (DIP_KIT_UV + 1);
-    tube.samplers = samplers;
-    const DipPass pass = dip_kit_pass(view, &tube, 1, clear_lin);
-    return dip_kit_draw(view, view->pipeline, &pass, err);
+    DipDraw *tube = dip_kit_add(&list, content->stock.meshes[0], &content->uniforms, &model, shade);
+    tube->cull = DIP_CULL_FRONT; // seen from inside
+    tube->repeating_varyings = 1u << DIP_KIT_UV | 1u << (DIP_KIT_UV + 1);
+    tube->samplers = samplers;
+    return dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_tunnel = {
     .info = {.name = "tunnel",
              .title = "Anisotropy tunnel",
-             .seed = "seed 002, anisotropic filtering and its dependence on angle",
              .text = "A tube whose colours show the mip level of each pixel. Compare af=16 with "
                      "af=none, and af=16,aaf=on with af=16.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
-    .destroy = destroy,
     .draw = draw,
 };

@@ -23,19 +23,22 @@ enum { WAVE0 = 0, WAVE1 = 2, POSITION = 4, WATER_VARYINGS = 7 };
 
 typedef struct Uniforms {
     float to_clip[16];
-    float to_world[12];
     float colour[3];
     float light_scale; // 0: there is no light map
     float cutoff;
 } Uniforms;
 
-// An object of the courtyard, as far as it does not change from frame to frame.
+// An object of the courtyard. Only its uniforms and samplers change from frame to frame.
 typedef struct Object {
     DipMatrix model;
     int mesh;
     int material;
     DipCull cull;
+    Uniforms uniforms;
+    DipSampler samplers[2];
 } Object;
+
+enum { POOL_FLOOR, SCREEN }; // Meshes of the stock.
 
 // What the water's shader needs of a frame.
 typedef struct Water {
@@ -47,21 +50,17 @@ typedef struct Water {
 } Water;
 
 typedef struct Content {
+    DipKitStock stock; // The texture is the mosaic.
     DipModel *model;
     const DipSceneDef *def; // belongs to the model
     DipTexture **textures;
     DipTexture **compressed;
     DipMesh **meshes;
     Object *objects;
-    Uniforms *uniforms; // one for each object and one for the floor of the pool
-    DipSampler (*samplers)[2];
     DipDraw *draws;
-    DipMesh *pool_floor;
-    DipMesh *screen;
-    DipKitTexture mosaic;
+    Uniforms pool_floor;
     DipTarget picture;                     // of the first pass
     DipDepth *depths[DIP_MAX_SAMPLES + 1]; // by the number of samples
-    float caustics;                        // time of the light on the pool's floor, in turns
     Water water;
 } Content;
 
@@ -70,16 +69,8 @@ static const char *const looks[] = {"refracted", "blended"};
 // --- shaders of the courtyard --------------------------------------------------------------------
 
 static void court_vertex(const DipVertexBatch *batch) {
-    const float *m = ((const Uniforms *)batch->uniforms)->to_clip;
-    for (int r = 0; r < 4; r++) {
-        for (int i = 0; i < batch->count; i++) {
-            batch->clip[r][i] = m[4 * r] * batch->in[0][i] + m[4 * r + 1] * batch->in[1][i] +
-                                m[4 * r + 2] * batch->in[2][i] + m[4 * r + 3];
-        }
-    }
-    for (int v = 0; v < VARYINGS; v++) {
-        memcpy(batch->varying[v], batch->in[UV0 + v], (size_t)batch->count * sizeof(float));
-    }
+    dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
+    dip_kit_copy(batch, UV0, 0, VARYINGS);
 }
 
 static void shade_court(DipFragmentBatch *batch) {
@@ -144,13 +135,8 @@ static void shade_pool_floor(DipFragmentBatch *batch) {
 
 static void water_vertex(const DipVertexBatch *batch) {
     const Water *water = batch->uniforms;
-    const float *m = water->to_clip;
-    for (int r = 0; r < 4; r++) {
-        for (int i = 0; i < batch->count; i++) {
-            batch->clip[r][i] = m[4 * r] * batch->in[0][i] + m[4 * r + 1] * batch->in[1][i] +
-                                m[4 * r + 2] * batch->in[2][i] + m[4 * r + 3];
-        }
-    }
+    dip_kit_transform(batch, water->to_clip);
+    dip_kit_copy(batch, 0, POSITION, 3);
     for (int i = 0; i < batch->count; i++) {
         const float x = batch->in[0][i];
         const float z = batch->in[2][i];
@@ -158,9 +144,6 @@ static void water_vertex(const DipVertexBatch *batch) {
         batch->varying[WAVE0 + 1][i] = 0.45f * z;
         batch->varying[WAVE1][i] = 0.35f * z + 0.31f * x;
         batch->varying[WAVE1 + 1][i] = 0.35f * x - 0.31f * z + water->scroll[1];
-    }
-    for (int a = 0; a < 3; a++) {
-        memcpy(batch->varying[POSITION + a], batch->in[a], (size_t)batch->count * sizeof(float));
     }
 }
 
@@ -232,15 +215,6 @@ static void shade_water(DipFragmentBatch *batch) {
 }
 
 // Copies the first pass's picture, pixel by pixel.
-static void screen_vertex(const DipVertexBatch *batch) {
-    for (int i = 0; i < batch->count; i++) {
-        batch->clip[0][i] = batch->in[0][i];
-        batch->clip[1][i] = batch->in[1][i];
-        batch->clip[2][i] = 0.0f;
-        batch->clip[3][i] = 1.0f;
-    }
-}
-
 static void shade_screen(DipFragmentBatch *batch) {
     const Water *water = batch->uniforms;
     float u[DIP_FRAGMENT_BATCH];
@@ -255,8 +229,7 @@ static void shade_screen(DipFragmentBatch *batch) {
 // --- content -------------------------------------------------------------------------------------
 
 // Rings of tiles around the pedestal: white and blue, with a wave in gold.
-static void paint_mosaic(const void *context, float u, float v, float rgba[4]) {
-    (void)context;
+static void paint_mosaic(float u, float v, float rgba[4]) {
     const float tiles = 44.0f;
     const float x = u * tiles;
     const float z = v * tiles;
@@ -299,25 +272,18 @@ static void destroy(void *pointer) {
         dip_mesh_destroy(&content->meshes[m]);
     }
     forget_size(content);
-    dip_mesh_destroy(&content->pool_floor);
-    dip_mesh_destroy(&content->screen);
-    dip_kit_texture_free(&content->mosaic);
     free(content->textures);
     free(content->compressed);
     free(content->meshes);
     free(content->objects);
-    free(content->uniforms);
-    free(content->samplers);
     free(content->draws);
     dip_model_destroy(&content->model);
-    free(content);
 }
 
-static DipMesh *make_mesh(const DipMeshDef *def, DipError *err) {
+static bool make_mesh(DipMesh **mesh, const DipMeshDef *def, DipError *err) {
     float *rows = calloc((size_t)def->vertex_count, ATTRIBUTES * sizeof(float));
     if (!rows) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water", "out of memory");
-        return NULL;
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water", "out of memory");
     }
     for (size_t v = 0; v < def->vertex_count; v++) {
         float *row = rows + v * ATTRIBUTES;
@@ -331,17 +297,17 @@ static DipMesh *make_mesh(const DipMeshDef *def, DipError *err) {
     }
     const DipMeshData data = {def->name,         rows,         ATTRIBUTES,
                               def->vertex_count, def->indices, def->index_count};
-    DipMesh *mesh = dip_mesh_create(&data, err);
+    *mesh = dip_mesh_create(&data, err);
     free(rows);
-    return mesh;
+    return *mesh != NULL;
 }
 
 // The floor of the pool: the upper base of an eight-sided prism, with the courtyard's attributes.
-static DipMesh *make_pool_floor(DipError *err) {
+static bool make_pool_floor(DipMesh **mesh, DipError *err) {
     float rows[64][ATTRIBUTES];
     DipShape prism;
     if (!dip_shape_prism(&prism, 2.74f, 0.02f, 8, false, err)) {
-        return NULL;
+        return false;
     }
     const DipMatrix turn = dip_matrix_rotation(1, DIP_PI / 8.0);
     for (uint32_t v = 0; v < prism.vertex_count; v++) {
@@ -358,9 +324,9 @@ static DipMesh *make_pool_floor(DipError *err) {
     }
     const DipMeshData data = {"pool floor",       &rows[0][0],   ATTRIBUTES,
                               prism.vertex_count, prism.indices, prism.index_count};
-    DipMesh *mesh = dip_mesh_create(&data, err);
+    *mesh = dip_mesh_create(&data, err);
     dip_shape_free(&prism);
-    return mesh;
+    return *mesh != NULL;
 }
 
 static void place_objects(Content *content) {
@@ -414,42 +380,30 @@ static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
         return false;
     }
     const DipSceneDef *def = content->def = dip_model_scene_def(content->model);
-    const size_t objects = (size_t)def->object_count + 1;
     content->textures = calloc((size_t)def->texture_count, sizeof *content->textures);
     content->compressed = calloc((size_t)def->texture_count, sizeof *content->compressed);
     content->meshes = calloc((size_t)def->mesh_count, sizeof *content->meshes);
-    content->objects = calloc(objects, sizeof *content->objects);
-    content->uniforms = calloc(objects, sizeof *content->uniforms);
-    content->samplers = calloc(objects, sizeof *content->samplers);
-    content->draws = calloc(objects, sizeof *content->draws);
+    content->objects = calloc((size_t)def->object_count, sizeof *content->objects);
+    content->draws = calloc((size_t)def->object_count + 1, sizeof *content->draws);
     if (!content->textures || !content->compressed || !content->meshes || !content->objects ||
-        !content->uniforms || !content->samplers || !content->draws) {
+        !content->draws) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water", "out of memory");
     }
     bool made = make_textures(content, room->pool, err);
     for (int m = 0; made && m < def->mesh_count; m++) {
-        content->meshes[m] = make_mesh(&def->meshes[m], err);
-        made = content->meshes[m] != NULL;
+        made = make_mesh(&content->meshes[m], &def->meshes[m], err);
     }
     place_objects(content);
     return made;
 }
 
-static void *create(const DipGalleryRoom *room, DipError *err) {
-    DipShape quad;
-    Content *content = dip_kit_content(sizeof *content, "water", err);
-    if (!content) {
-        return NULL;
-    }
-    content->pool_floor = make_pool_floor(err);
-    content->screen = dip_kit_mesh("screen", &quad, dip_shape_quad(&quad, 2.0f, 2.0f, err), err);
-    if (!content->pool_floor || !content->screen ||
-        !dip_kit_texture(&content->mosaic, "mosaic", 512, 512, true, paint_mosaic, NULL, err) ||
-        !load(content, room, err)) {
-        destroy(content);
-        return NULL;
-    }
-    return content;
+static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
+    Content *content = pointer;
+    DipKitStock *stock = &content->stock;
+    return make_pool_floor(&stock->meshes[POOL_FLOOR], err) &&
+           dip_kit_quad(&stock->meshes[SCREEN], 2.0f, 2.0f, err) &&
+           dip_kit_texture(&stock->textures[0], "mosaic", 512, 512, true, paint_mosaic, err) &&
+           load(content, room, err);
 }
 
 // Makes the first pass's picture and depths, unless a frame of this size and number of samples had
@@ -475,16 +429,12 @@ static bool prepare_target(Content *content, const DipTarget *size, int samples,
 
 // --- drawing -------------------------------------------------------------------------------------
 
-static void camera(double phase, double eye[3], double target[3]) {
-    const double turn = 2.0 * DIP_PI * phase;
+static DipGalleryCamera camera(double turn) {
     const double angle = 0.785 + 0.3 * dip_sin(turn);
     const double radius = 4.7 + 0.3 * dip_cos(turn);
-    eye[0] = radius * dip_sin(angle);
-    eye[1] = 2.9 + 0.4 * dip_cos(2.0 * turn);
-    eye[2] = radius * dip_cos(angle);
-    target[0] = 0.45 * dip_cos(angle);
-    target[1] = 0.62;
-    target[2] = -0.45 * dip_sin(angle);
+    return (DipGalleryCamera){
+        .eye = {radius * dip_sin(angle), 2.9 + 0.4 * dip_cos(2.0 * turn), radius * dip_cos(angle)},
+        .target = {0.45 * dip_cos(angle), 0.62, -0.45 * dip_sin(angle)}};
 }
 
 // Sets a sampler to a texture of the courtyard, compressed if the settings say so.
@@ -493,11 +443,10 @@ static DipSampler court_sampler(const Content *content, const DipGalleryView *vi
     return dip_kit_sampler(view, &both);
 }
 
-static void fill_draw(Content *content, const DipGalleryView *view, int index, DipDraw *draw) {
-    const Object *object = &content->objects[index];
+static void fill_draw(Content *content, const DipGalleryView *view, Object *object, DipDraw *draw) {
     const DipMaterialDef *material = &content->def->materials[object->material];
-    Uniforms *uniforms = &content->uniforms[index];
-    DipSampler *samplers = content->samplers[index];
+    Uniforms *uniforms = &object->uniforms;
+    DipSampler *samplers = object->samplers;
     memcpy(uniforms->colour, material->base_colour_lin, sizeof uniforms->colour);
     uniforms->light_scale =
         material->light_map != DIP_NO_TEXTURE ? material->light_map_scale : 0.0f;
@@ -532,21 +481,20 @@ static int list_court(Content *content, const DipGalleryView *view, const DipKit
     const DipSceneDef *def = content->def;
     int count = 0;
     for (int o = 0; o < def->object_count; o++) {
-        const Object *object = &content->objects[o];
+        Object *object = &content->objects[o];
         if (def->materials[object->material].surface != DIP_SURFACE_WATER) {
             const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);
-            dip_matrix_floats(&to_clip, content->uniforms[o].to_clip);
-            fill_draw(content, view, o, &content->draws[count++]);
+            dip_matrix_floats(&to_clip, object->uniforms.to_clip);
+            fill_draw(content, view, object, &content->draws[count++]);
         }
     }
-    Uniforms *floor_uniforms = &content->uniforms[def->object_count];
-    dip_matrix_floats(&seen->to_clip, floor_uniforms->to_clip);
-    floor_uniforms->light_scale = (float)(view->time_s / DIP_GALLERY_SECONDS);
-    content->draws[count++] = (DipDraw){.mesh = content->pool_floor,
+    dip_matrix_floats(&seen->to_clip, content->pool_floor.to_clip);
+    content->pool_floor.light_scale = (float)(view->time_s / DIP_GALLERY_SECONDS);
+    content->draws[count++] = (DipDraw){.mesh = content->stock.meshes[POOL_FLOOR],
                                         .vertex_shader = court_vertex,
                                         .fragment_shader = shade_pool_floor,
                                         .varying_count = 2,
-                                        .uniforms = floor_uniforms,
+                                        .uniforms = &content->pool_floor,
                                         .samplers = mosaic,
                                         .cull = DIP_CULL_BACK};
     return count;
@@ -595,10 +543,10 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     Content *content = pointer;
     const bool refracts = view->look == 0;
     const int samples = dip_quality_sample_count(view->quality);
-    const DipSampler mosaic = dip_kit_sampler(view, &content->mosaic);
+    const DipSampler mosaic = dip_kit_sampler(view, &content->stock.textures[0]);
     DipKitCamera seen;
     if (!prepare_target(content, &view->target, samples, err) ||
-        !dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err)) {
+        !dip_kit_camera(&seen, view, 0.1, err)) {
         return false;
     }
     const int court_count = list_court(content, view, &seen, &mosaic);
@@ -611,8 +559,8 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
         return false;
     }
     DipSampler waves;
-    content->draws[0] = (DipDraw){.mesh = content->screen,
-                                  .vertex_shader = screen_vertex,
+    content->draws[0] = (DipDraw){.mesh = content->stock.meshes[SCREEN],
+                                  .vertex_shader = dip_kit_screen_vertex,
                                   .fragment_shader = shade_screen,
                                   .uniforms = &content->water,
                                   .state = &copies};
@@ -632,12 +580,12 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
 const DipGalleryScene dip_gallery_water = {
     .info = {.name = "water",
              .title = "Water seen through",
-             .seed = "seed 002, the fountain; seed 001, Blending",
              .text =
                  "The fountain's pool over a mosaic, with waves that refract it, or blended over "
                  "it.",
              .looks = looks,
              .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
     .destroy = destroy,
