@@ -95,8 +95,12 @@ static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
     DipBenchSource sources[2];
     bool done = true;
     for (int p = 0; done && p < 2; p++) {
-        const DipChildDef def = {programs[p], plan->options.argv, plan->options.argc,
-                                 "bench",     plan->count,        plan->options.frames,
+        const DipChildDef def = {programs[p],
+                                 plan->options.serve.argv,
+                                 plan->options.serve.argc,
+                                 "bench",
+                                 plan->count,
+                                 plan->options.frames,
                                  "--vs"};
         children[p] = dip_child_start(&def, err);
         sources[p] = (DipBenchSource){draw_there, children[p]};
@@ -123,17 +127,17 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     if (!plan) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
     }
-    if (bench->svg && !bench->serve && !dip_folder_make(bench->svg, "--svg", err)) {
+    if (bench->svg && !bench->serve.serve && !dip_folder_make(bench->svg, "--svg", err)) {
         free(plan);
         return false;
     }
     dip_bench_plan_make(plan, session, bench);
-    if (!bench->serve) {
+    if (!bench->serve.serve) {
         dip_interrupt_watch();
     }
-    const bool done = bench->serve ? serve(plan, session, err)
-                      : bench->vs  ? measure_both(plan, session, arguments, err)
-                                   : measure_here(plan, session, arguments, err);
+    const bool done = bench->serve.serve ? serve(plan, session, err)
+                      : bench->vs        ? measure_both(plan, session, arguments, err)
+                                         : measure_here(plan, session, arguments, err);
     free(plan);
     return done;
 }
@@ -145,7 +149,7 @@ static void describe_session(const void *all_arguments, DipSessionDef *def) {
     const DipBenchArguments *arguments = all_arguments;
     const DipBenchOptions *bench = &arguments->bench;
     def->options = &arguments->session;
-    def->scene = !bench->grid_count && (!bench->vs || bench->serve);
+    def->scene = !bench->grid_count && (!bench->vs || bench->serve.serve);
 }
 
 static const DipExample examples[] = {

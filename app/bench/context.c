@@ -86,7 +86,7 @@ static bool choose_view(DipBenchContext *bench, int index, const DipSession *ses
         bench->view_count = 1;
         return true;
     }
-    const DipBenchSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
+    const DipOptionSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
     const int triangles = options->grids[at[DIP_BENCH_AXIS_GRID]];
     const double aspect = (double)size.width / size.height;
     bench->view_of[index] = find_view(bench, triangles, aspect);
@@ -113,7 +113,7 @@ static bool make_renderer(DipBenchContext *bench, int index, const DipSession *s
                           DipError *err) {
     const DipBenchOptions *options = &bench->plan->options;
     const int *at = bench->plan->combinations[index].at;
-    const DipBenchSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
+    const DipOptionSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
     int width, height;
     dip_bench_drawn_size(bench->plan, &bench->plan->combinations[index], &width, &height);
     const DipRendererDef def = {
@@ -200,7 +200,7 @@ void dip_bench_context_destroy(DipBenchContext **context_pointer) {
 }
 
 // The enlarging is part of the frame's total time, and of none of its stages.
-static void enlarge(DipEnlarger *enlarger, DipBenchSize size, DipFrame *picture) {
+static void enlarge(DipEnlarger *enlarger, DipOptionSize size, DipFrame *picture) {
     const int64_t begin_ns = dip_clock_ns();
     picture->rgba8 = dip_enlarger_run(enlarger, picture->rgba8, picture->stride_bytes);
     picture->width = size.width;

@@ -22,7 +22,7 @@ static void fill_in(DipBenchOptions *options, const DipSession *session) {
     }
     if (!options->size_count) {
         options->sizes[options->size_count++] =
-            (DipBenchSize){config->res.width, config->res.height};
+            (DipOptionSize){config->res.width, config->res.height};
     }
     if (!options->scale_count) {
         options->scales[options->scale_count++] = 1.0;
@@ -81,7 +81,7 @@ int dip_bench_same_pictures(const DipBenchPlan *plan, int combination) {
 
 void dip_bench_drawn_size(const DipBenchPlan *plan, const DipBenchCombination *combination,
                           int *width, int *height) {
-    const DipBenchSize size = plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
+    const DipOptionSize size = plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
     dip_enlarger_source_size(size.width, size.height,
                              plan->options.scales[combination->at[DIP_BENCH_AXIS_SCALE]], width,
                              height);

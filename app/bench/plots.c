@@ -13,7 +13,7 @@
 typedef double AxisValue(const DipBenchPlan *plan, const DipBenchCombination *combination);
 
 static double pixels(const DipBenchPlan *plan, const DipBenchCombination *combination) {
-    const DipBenchSize *size = &plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
+    const DipOptionSize *size = &plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
     return (double)size->width * size->height;
 }
 

@@ -293,7 +293,7 @@ static void print_csv_line(const DipBenchResult *result, int combination, int va
     const DipBenchPlan *plan = result->plan;
     const DipBenchOptions *o = &plan->options;
     const int *at = plan->combinations[combination].at;
-    const DipBenchSize size = o->sizes[at[DIP_BENCH_AXIS_SIZE]];
+    const DipOptionSize size = o->sizes[at[DIP_BENCH_AXIS_SIZE]];
     fprintf(out, "\"%s\",%d,%d,%.10g,%d,%s,", o->sets[at[DIP_BENCH_AXIS_SET]].text, size.width,
             size.height, o->scales[at[DIP_BENCH_AXIS_SCALE]],
             o->threads[at[DIP_BENCH_AXIS_THREADS]], dip_isa_name(o->isas[at[DIP_BENCH_AXIS_ISA]]));

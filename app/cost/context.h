@@ -25,8 +25,7 @@ typedef struct DipCostContext {
     DipPainter *renderers[2];
     // The command line that a start of the measurement gets (starts.h); NULL: frames are timed
     // here.
-    char *const *argv;
-    int argc;
+    const DipServeOptions *start;
 } DipCostContext;
 
 // Opens the context of a report. Without `judges`, it has no truths: it draws and times only.

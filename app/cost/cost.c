@@ -107,8 +107,7 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
         dip_cost_journal_close(&journal, false);
         return false;
     }
-    cost.argv = arguments->argv;
-    cost.argc = arguments->argc;
+    cost.start = &arguments->serve;
     bool done = measure(&cost, err);
     if (done) {
         set_date(report);
@@ -145,12 +144,12 @@ bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipErr
     DipCostReport report;
     DipCostOptions options = arguments->cost;
     dip_cost_set_measure(&options, &arguments->measure);
-    if (!arguments->serve) {
+    if (!arguments->serve.serve) {
         dip_interrupt_watch(); // A start ends with the process that started it.
     }
-    const bool done =
-        dip_cost_plan(&report, session, &options, err) &&
-        (arguments->serve ? serve(session, &report, err) : run(session, arguments, &report, err));
+    const bool done = dip_cost_plan(&report, session, &options, err) &&
+                      (arguments->serve.serve ? serve(session, &report, err)
+                                              : run(session, arguments, &report, err));
     dip_cost_report_free(&report);
     return done;
 }

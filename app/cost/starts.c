@@ -11,8 +11,8 @@ enum { REQUEST_SIZE = 256 };
 DipChild *dip_cost_start(const DipCostContext *cost, DipError *err) {
     const DipChildDef def = {
         .program = "/proc/self/exe",
-        .argv = cost->argv,
-        .argc = cost->argc,
+        .argv = cost->start->argv,
+        .argc = cost->start->argc,
         .what = "cost",
         .count = cost->report->path_count,
         .frames = dip_cost_frame_count(cost->report),

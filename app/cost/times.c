@@ -126,7 +126,7 @@ static bool resume(const RowTiming *t, DipDriver *driver, DipError *err) {
 // everything.
 static bool drive(RowTiming *t, DipDriverDef *def, bool keep, const char *progress, DipError *err) {
     DipCostReport *report = t->cost->report;
-    const bool starts = report->options.starts > 1 && t->cost->argv;
+    const bool starts = report->options.starts > 1 && t->cost->start;
     const DipDriverCalls calls = {
         .draw = draw,
         .start = starts ? start : NULL,

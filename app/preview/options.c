@@ -77,12 +77,6 @@ static const DipOptionRow rows[] = {
              "what each setting costs and advises the best settings for a time budget.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(cost_report)},
-    {.name = "--cache",
-     .argument = "DIR",
-     .text = "Keep the converged pictures in this folder, as `diptych cost` does. The default is "
-             "$XDG_CACHE_HOME/diptych. If XDG_CACHE_HOME is not set, it is ~/.cache/diptych.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(cache)},
     {.name = "--control",
      .argument = "PATH|-",
      .text = "Let other programs control the preview: it reads requests as lines of JSON and "
@@ -145,6 +139,7 @@ static const DipOptionPart parts[] = {
     {&dip_threads_option_table, FIELD(session)},
     {&table, 0},
     {&dip_viewing_option_table, FIELD(pixels_per_degree)},
+    {&dip_cache_option_table, FIELD(cache)},
     {&dip_program_option_table, FIELD(program)},
 };
 const DipOptionParts dip_preview_option_parts = {parts, DIP_ARRAY_COUNT(parts)};

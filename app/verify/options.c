@@ -7,26 +7,17 @@
 #define FIELD(name) offsetof(DipVerifyOptions, name)
 
 static const DipOptionRow rows[] = {
-    {.name = "--threads",
-     .argument = "N",
+    {"--threads", "N", DIP_OPTION_INTEGER, FIELD(threads), .least = 0, .most = DIP_MAX_THREADS,
      .text =
          "Compare one thread with this many threads. 0, the default, stands for all processors, "
-         "but at least 2 threads.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(threads),
-     .least = 0,
-     .most = DIP_MAX_THREADS},
-    {.name = "--all",
-     .text = "Run as many cases of every hard case as the tests do. This takes a few minutes.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(all)},
-    {.name = "--list",
-     .text = "Also print every promise, its bound and the greatest error found.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(verbose)},
+         "but at least 2 threads."},
+    {"--all", NULL, DIP_OPTION_FLAG, FIELD(all),
+     .text = "Run as many cases of every hard case as the tests do. This takes a few minutes."},
+    {"--list", NULL, DIP_OPTION_FLAG, FIELD(verbose),
+     .text = "Also print every promise, its bound and the greatest error found."},
 };
 
-static const DipOptionTable table = {"What to verify", rows, DIP_ARRAY_COUNT(rows)};
+static const DipOptionTable table = DIP_OPTION_TABLE("What to verify", rows);
 
 static const DipOptionPart parts[] = {
     {&table, 0},

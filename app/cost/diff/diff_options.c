@@ -43,11 +43,6 @@ static const DipOptionRow judge_rows[] = {
              "error grew by more than P %. Without the option, differences are only reported.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_share},
-    {.name = "--json",
-     .argument = "FILE",
-     .text = "Also write the comparison to this file.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(json)},
 };
 
 static const DipOptionRow run_rows[] = {
@@ -57,7 +52,7 @@ static const DipOptionRow run_rows[] = {
              "part of the renderer.",
      .kind = DIP_OPTION_LIST,
      .count = FIELD(set_count),
-     .most = DIP_COST_DIFF_MAX_SETS,
+     .room = DIP_COST_DIFF_MAX_SETS,
      .separator = ';',
      .read = read_set},
     {.name = "--frames",
@@ -76,6 +71,7 @@ static const DipOptionTable run_table = {"Timing programs", run_rows, DIP_ARRAY_
 
 static const DipOptionPart parts[] = {
     {&judge_table, 0},
+    {&dip_json_option_table, FIELD(json)},
     {&run_table, 0},
     {&dip_measure_option_table, offsetof(DipCostDiffArguments, measure)},
     {&dip_starts_option_table, offsetof(DipCostDiffArguments, measure)},
@@ -88,17 +84,12 @@ static const DipOptionPart parts[] = {
 };
 const DipOptionParts dip_cost_diff_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
-static bool add_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipCostDiffArguments *diff = fields;
-    return read_set(fields, row, value, err) && ++diff->set_count;
-}
-
 void dip_cost_diff_options_default(void *arguments, int argc, char *const *argv) {
     (void)argc;
     (void)argv;
     DipCostDiffArguments *diff = arguments;
     diff->measure.starts = DIP_COST_DIFF_STARTS;
-    dip_option_each(diff, &run_rows[0], default_sets, ';', add_set, NULL);
+    dip_option_store(&run_rows[0], default_sets, diff, NULL);
 }
 
 bool dip_cost_diff_options_check(const void *arguments, DipError *err) {

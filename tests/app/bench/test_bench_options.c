@@ -106,8 +106,8 @@ static void the_whole_command_line_is_kept_for_other_programs(void **state) {
     (void)state;
     DipCommandLine line;
     const DipBenchOptions *bench = options_of(&line, WORDS("--frames", "3"));
-    assert_int_equal(bench->argc, 4);
-    assert_ptr_equal(bench->argv, argv);
+    assert_int_equal(bench->serve.argc, 4);
+    assert_ptr_equal(bench->serve.argv, argv);
     dip_command_line_free(&line);
 }
 
