@@ -2,7 +2,6 @@
 // report.
 #include "app/cost/cost.h"
 
-#include "app/cost/drawn_frames.h"
 #include "app/report/format/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
@@ -10,7 +9,6 @@
 #include "app/report/same_pictures.h"
 #include "app/cost/starts.h"
 #include "app/cost/steps.h"
-#include "app/cost/truth_files.h"
 #include "app/files/folder.h"
 #include "app/cli/interrupt.h"
 
@@ -85,12 +83,6 @@ static void set_date(DipCostReport *report) {
     }
 }
 
-// Writes the truths if --save-truths asks for them.
-static bool save_truths(DipCostContext *cost, DipError *err) {
-    const char *folder = cost->report->options.truths;
-    return !folder || dip_cost_save_truths(cost, folder, err);
-}
-
 static bool run(DipSession *session, const DipCostArguments *arguments, DipCostReport *report,
                 DipError *err) {
     char plan[33];
@@ -112,7 +104,7 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     if (done) {
         set_date(report);
         const DipCostFrameSource source = dip_cost_drawn_frames(&cost);
-        done = save_truths(&cost, err) && dip_cost_analyse(report, err) &&
+        done = dip_cost_analyse(report, err) &&
                dip_cost_write_report(report, &source, arguments->out, err);
     }
     dip_cost_context_close(&cost);

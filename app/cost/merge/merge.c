@@ -2,7 +2,6 @@
 #include "app/cost/cost.h"
 
 #include "app/cost/context.h"
-#include "app/cost/drawn_frames.h"
 #include "app/report/format/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
