@@ -1,7 +1,7 @@
 // The list of commands. To add a command, add its include and its entry here.
 #include "app/command_list.h"
 
-#include "app/bench/bench.h"
+#include "app/bench/options.h"
 #include "app/cost/command.h"
 #include "app/dump/dump.h"
 #include "app/import/import.h"

@@ -56,6 +56,7 @@ typedef struct DipBenchArguments {
     DipBenchOptions bench;
 } DipBenchArguments;
 
+extern const DipCommand dip_bench_command; // in bench.c
 extern const DipOptionParts dip_bench_option_parts;
 
 void dip_bench_options_default(void *arguments, int argc, char *const *argv);

@@ -57,14 +57,14 @@ const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int c
     return &result->first[combination * result->plan->options.frames + frame];
 }
 
-DipBenchWork dip_bench_result_work(const DipBenchResult *result, int combination) {
-    DipBenchWork work = {0};
+void dip_bench_result_work(const DipBenchResult *result, int combination,
+                           double means[DIP_COUNTER_COUNT]) {
     const int frames = result->plan->options.frames;
+    memset(means, 0, DIP_COUNTER_COUNT * sizeof *means);
     for (int i = 0; i < frames; i++) {
-        const DipCounters *counters = &dip_bench_result_first(result, combination, i)->counters;
-#define ADD_COUNTER(name, text) work.name += (double)counters->name / frames;
-        DIP_COUNTER_LIST(ADD_COUNTER)
-#undef ADD_COUNTER
+        dip_counters_add(&dip_bench_result_first(result, combination, i)->counters, means);
     }
-    return work;
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
+        means[c] /= frames;
+    }
 }

@@ -35,13 +35,8 @@ const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
 const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
                                              int frame);
 
-// Means of the counters over the frames, in the order of DIP_COUNTER_LIST.
-typedef struct DipBenchWork {
-#define DIP_BENCH_WORK_FIELD(name, text) double name;
-    DIP_COUNTER_LIST(DIP_BENCH_WORK_FIELD)
-#undef DIP_BENCH_WORK_FIELD
-} DipBenchWork;
-
-DipBenchWork dip_bench_result_work(const DipBenchResult *result, int combination);
+// Writes the means of the counters over the frames.
+void dip_bench_result_work(const DipBenchResult *result, int combination,
+                           double means[DIP_COUNTER_COUNT]);
 
 #endif

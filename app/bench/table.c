@@ -143,30 +143,25 @@ bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *er
 
 enum { WORK_COLUMNS = 6 };
 
-static void print_work_line(const char *name, const double *means, int count, FILE *out) {
-    fprintf(out, "%-22s", name);
-    for (int i = 0; i < count; i++) {
-        fprintf(out, " %12.0f", means[i]);
-    }
-    fprintf(out, "\n");
-}
-
 static void print_work_block(const DipBenchResult *result, const int *shown, int count, FILE *out) {
-    DipBenchWork work[WORK_COLUMNS];
-    double means[WORK_COLUMNS];
+    static const char *const names[DIP_COUNTER_COUNT] = {
+#define COUNTER_NAME(name, text) #name,
+        DIP_COUNTER_LIST(COUNTER_NAME)
+#undef COUNTER_NAME
+    };
+    double means[WORK_COLUMNS][DIP_COUNTER_COUNT];
     fprintf(out, "\n%-22s", "row (means per frame)");
     for (int i = 0; i < count; i++) {
         fprintf(out, " %12d", shown[i] + 1);
-        work[i] = dip_bench_result_work(result, shown[i]);
+        dip_bench_result_work(result, shown[i], means[i]);
+    }
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
+        fprintf(out, "\n%-22s", names[c]);
+        for (int i = 0; i < count; i++) {
+            fprintf(out, " %12.0f", means[i][c]);
+        }
     }
     fprintf(out, "\n");
-#define PRINT_COUNTER(name, text)                                                                  \
-    for (int i = 0; i < count; i++) {                                                              \
-        means[i] = work[i].name;                                                                   \
-    }                                                                                              \
-    print_work_line(#name, means, count, out);
-    DIP_COUNTER_LIST(PRINT_COUNTER)
-#undef PRINT_COUNTER
 }
 
 void dip_bench_print_work(const DipBenchResult *result, FILE *out) {

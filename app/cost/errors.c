@@ -235,7 +235,7 @@ static bool judge_rows(Judge *j, DipError *err) {
     DipCostReport *report = j->cost->report;
     bool judged = true;
     for (int row = 0; judged && row < report->row_count; row++) {
-        if (report->rows[row].path != j->path) {
+        if (report->rows[row].path != j->path || report->rows[row].judged[j->viewpoint]) {
             continue;
         }
         Burst *drawn = &j->bursts[j->burst_count];

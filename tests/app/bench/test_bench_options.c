@@ -1,7 +1,6 @@
 // Tests of the options of `diptych bench`: options that take a list, the limits of the lists, and
 // options that exclude each other.
 #include "app/session/session.h"
-#include "app/bench/bench.h"
 #include "app/bench/options.h"
 #include "app/cli/command_line.h"
 #include "renderer/base/assert.h"
