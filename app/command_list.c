@@ -3,7 +3,7 @@
 
 #include "app/bench/options.h"
 #include "app/cost/command.h"
-#include "app/dump/dump.h"
+#include "app/dump/options.h"
 #include "app/import/import.h"
 #include "app/path/path.h"
 #include "app/preview/command.h"

@@ -92,11 +92,10 @@ static bool print_and_write(const Programs *programs, const DipBenchPlan *plan,
     const DipBenchOptions *options = &plan->options;
     const DipBenchResult *results = programs->results;
     dip_bench_print_heading(plan, session, stdout);
-    if (!(options->vs ? dip_bench_print_ratios(&results[0], &results[1], stdout, err)
-                      : dip_bench_print_times(&results[0], stdout, err))) {
-        return false;
-    }
-    if (!options->vs) {
+    if (options->vs) {
+        dip_bench_print_ratios(&results[0], &results[1], stdout);
+    } else {
+        dip_bench_print_times(&results[0], stdout);
         dip_bench_print_work(&results[0], stdout);
     }
     return (!options->csv || dip_bench_write_csv(options->csv, results, programs->count, err)) &&

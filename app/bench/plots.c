@@ -2,7 +2,6 @@
 #include "app/bench/plots.h"
 
 #include "app/cli/machine.h"
-#include "app/measure/stats/statistics.h"
 #include "app/report/page/plot.h"
 
 #include <limits.h>
@@ -91,9 +90,11 @@ static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Serie
     }
 }
 
-// Adds a point and keeps x ascending. Ignores the point if its x is already there, for example for
-// two sizes of equal area.
-static void add_point(Series *series, double x, const double *ms, int count, double *scratch) {
+// Adds a combination's point and keeps x ascending. Ignores the point if its x is already there,
+// for example for two sizes of equal area.
+static void add_point(Series *series, double x, const DipBenchResult *result, int combination) {
+    static const double shares[] = {0.5, 0.05, 0.95};
+    double *const columns[] = {series->x, series->y, series->low, series->high};
     int at = 0;
     while (at < series->count && series->x[at] < x) {
         at++;
@@ -101,22 +102,18 @@ static void add_point(Series *series, double x, const double *ms, int count, dou
     if (series->count == DIP_BENCH_MAX_VALUES || (at < series->count && series->x[at] == x)) {
         return;
     }
-    double *const columns[] = {series->x, series->y, series->low, series->high};
-    const double values[] = {x, dip_stats_quantile(ms, count, 0.5, scratch),
-                             dip_stats_quantile(ms, count, 0.05, scratch),
-                             dip_stats_quantile(ms, count, 0.95, scratch)};
     for (int c = 0; c < 4; c++) {
         memmove(columns[c] + at + 1, columns[c] + at,
                 sizeof(double) * (size_t)(series->count - at));
-        columns[c][at] = values[c];
+        columns[c][at] = c == 0 ? x
+                                : dip_bench_result_quantile(result, combination,
+                                                            DIP_BENCH_STAGE_total, shares[c - 1]);
     }
     series->count++;
 }
 
-static int collect(const DipBenchResult *result, const struct Kind *kind, Series *series,
-                   double *scratch) {
+static int collect(const DipBenchResult *result, const struct Kind *kind, Series *series) {
     const DipBenchPlan *plan = result->plan;
-    const int values = plan->options.measure.rounds * plan->options.frames;
     int count = 0;
     for (int c = 0; c < plan->count; c++) {
         const DipBenchCombination *combination = &plan->combinations[c];
@@ -128,8 +125,7 @@ static int collect(const DipBenchResult *result, const struct Kind *kind, Series
             series[count++] = (Series){.like = combination};
             name_series(plan, kind, &series[s]);
         }
-        add_point(&series[s], value_of(plan, combination, kind->axis),
-                  dip_bench_result_ms(result, c, DIP_BENCH_STAGE_total), values, scratch);
+        add_point(&series[s], value_of(plan, combination, kind->axis), result, c);
     }
     return count;
 }
@@ -184,15 +180,11 @@ static bool write_kind(const char *folder, const struct Kind *kind, const DipBen
 bool dip_bench_write_plots(const char *folder, const DipBenchResult *result, DipError *err) {
     const DipBenchPlan *plan = result->plan;
     Series *series = calloc((size_t)plan->count, sizeof *series);
-    double *scratch =
-        malloc(sizeof *scratch * (size_t)(plan->options.measure.rounds * plan->options.frames));
-    bool done = (series && scratch) ||
-                dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--svg", "out of memory");
+    bool done = series || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--svg", "out of memory");
     for (size_t k = 0; done && k < sizeof kinds / sizeof *kinds; k++) {
-        const int count = collect(result, &kinds[k], series, scratch);
+        const int count = collect(result, &kinds[k], series);
         done = write_kind(folder, &kinds[k], plan, series, count, err);
     }
     free(series);
-    free(scratch);
     return done;
 }

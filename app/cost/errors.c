@@ -46,35 +46,27 @@ static bool save_truth(const DipCostReport *report, const DipTruth *truth, int p
     return dip_pfm_write(file, truth->rgb_lin, truth->width, truth->height, err);
 }
 
-static bool make_path_truths(DipCostContext *cost, int path, TruthProgress *at, DipError *err) {
+static bool make_truth(DipCostContext *cost, int path, int viewpoint, int frame, TruthProgress *at,
+                       DipError *err) {
     DipCostReport *report = cost->report;
-    const DipCostOptions *options = &report->options;
-    for (int viewpoint = options->first_place; viewpoint < options->end_place; viewpoint++) {
-        for (int frame = 0; frame < options->burst; frame++) {
-            DipTruth truth;
-            if (!dip_cost_context_truth(cost, path, viewpoint, frame, show_truth, at, &truth,
-                                        err)) {
-                return false;
-            }
-            const bool saved =
-                !options->truths || save_truth(report, &truth, path, viewpoint, frame, err);
-            const int index = path * options->places + viewpoint;
-            dip_metric_sums_add(&report->floors[index], &truth.floor);
-            report->has_floor[index] = true;
-            dip_truth_free(&truth);
-            at->before += STEPS_PER_TRUTH;
-            if (!saved) {
-                return false;
-            }
-        }
+    const int index = path * report->options.places + viewpoint;
+    DipTruth truth;
+    if (!dip_cost_context_truth(cost, path, viewpoint, frame, show_truth, at, &truth, err)) {
+        return false;
     }
-    return true;
+    dip_metric_sums_add(&report->floors[index], &truth.floor);
+    report->has_floor[index] = true;
+    at->before += STEPS_PER_TRUTH;
+    const bool saved =
+        !report->options.truths || save_truth(report, &truth, path, viewpoint, frame, err);
+    dip_truth_free(&truth);
+    return saved;
 }
 
 bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
     const DipCostOptions *options = &cost->report->options;
-    const int truths =
-        cost->report->path_count * (options->end_place - options->first_place) * options->burst;
+    const int per_path = (options->end_place - options->first_place) * options->burst;
+    const int truths = cost->report->path_count * per_path;
     if (options->truths && !dip_folder_make(options->truths, "--save-truths", err)) {
         return false;
     }
@@ -82,8 +74,10 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
         dip_progress_begin("steps (1000 per converged picture)", (int64_t)truths * STEPS_PER_TRUTH),
         0};
     bool made = true;
-    for (int path = 0; made && path < cost->report->path_count; path++) {
-        made = make_path_truths(cost, path, &at, err);
+    for (int i = 0; made && i < truths; i++) {
+        const int in_path = i % per_path;
+        made = make_truth(cost, i / per_path, options->first_place + in_path / options->burst,
+                          in_path % options->burst, &at, err);
     }
     dip_progress_end(&at.progress, at.before);
     return made;

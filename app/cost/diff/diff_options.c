@@ -37,37 +37,23 @@ static bool read_share(void *fields, const DipOptionRow *row, const char *value,
 }
 
 static const DipOptionRow judge_rows[] = {
-    {.name = "--fail-over",
-     .argument = "P%",
+    {"--fail-over", "P%", DIP_OPTION_CUSTOM, .read = read_share,
      .text = "Exit with code 1 if B takes surely more than P % longer with any settings, or if an "
-             "error grew by more than P %. Without the option, differences are only reported.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_share},
+             "error grew by more than P %. Without the option, differences are only reported."},
 };
 
 static const DipOptionRow run_rows[] = {
-    {.name = "--sets",
-     .argument = "LIST",
+    {"--sets", "LIST", DIP_OPTION_LIST, .count = FIELD(set_count), .room = DIP_COST_DIFF_MAX_SETS,
+     .separator = ';', .read = read_set,
      .text = "Settings to time, as SET;SET;... in quotes. The default is eight sets that use every "
-             "part of the renderer.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(set_count),
-     .room = DIP_COST_DIFF_MAX_SETS,
-     .separator = ';',
-     .read = read_set},
-    {.name = "--frames",
-     .argument = "N",
+             "part of the renderer."},
+    {"--frames", "N", DIP_OPTION_INTEGER, FIELD(frames), .least = 1, .most = 1000,
      .text = "Draw this many frames, which divide the camera path evenly. The default is 6. If a "
-             "program is compared with a report, the frames are those of the report.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(frames),
-     .least = 1,
-     .most = 1000},
+             "program is compared with a report, the frames are those of the report."},
 };
 
-static const DipOptionTable judge_table = {"Judging and output", judge_rows,
-                                           DIP_ARRAY_COUNT(judge_rows)};
-static const DipOptionTable run_table = {"Timing programs", run_rows, DIP_ARRAY_COUNT(run_rows)};
+static const DipOptionTable judge_table = DIP_OPTION_TABLE("Judging and output", judge_rows);
+static const DipOptionTable run_table = DIP_OPTION_TABLE("Timing programs", run_rows);
 
 static const DipOptionPart parts[] = {
     {&judge_table, 0},

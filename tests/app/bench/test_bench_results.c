@@ -17,7 +17,8 @@
 static DipBenchPlan plan;
 
 static bool print_times(void *context, FILE *out) {
-    return dip_bench_print_times(context, out, NULL);
+    dip_bench_print_times(context, out);
+    return true;
 }
 
 static bool print_work(void *context, FILE *out) {
@@ -27,7 +28,8 @@ static bool print_work(void *context, FILE *out) {
 
 static bool print_ratios(void *context, FILE *out) {
     const DipBenchResult *results = context;
-    return dip_bench_print_ratios(&results[0], &results[1], out, NULL);
+    dip_bench_print_ratios(&results[0], &results[1], out);
+    return true;
 }
 
 // Finds `name` in `text` and reads the numbers behind it on the same line. Returns how many there
