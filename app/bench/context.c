@@ -63,7 +63,8 @@ static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSessio
         return false;
     }
     view->own = dip_scene_create(&relief->def, session->pool, err);
-    view->own_path = dip_synthetic_take_path(relief);
+    view->own_path = relief->path;
+    relief->path = NULL;
     dip_synthetic_destroy(&relief);
     view->scene = view->own;
     view->path = view->own_path;

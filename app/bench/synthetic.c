@@ -92,12 +92,6 @@ void dip_synthetic_destroy(DipSynthetic **synthetic) {
     }
 }
 
-DipCamPath *dip_synthetic_take_path(DipSynthetic *synthetic) {
-    DipCamPath *path = synthetic->path;
-    synthetic->path = NULL;
-    return path;
-}
-
 enum { RELIEF_DISTANCE_M = 10 };
 
 // Sets position, normal and texture coordinates of one corner. The waves rise and fall by

@@ -17,7 +17,7 @@ typedef struct DipSynthetic {
     DipMaterialDef material;
     DipMeshDef mesh;
     DipObjectDef object;
-    DipCamPath *path;
+    DipCamPath *path; // NULL once a caller has taken it.
     uint8_t *rgba8;
     float *positions;
     float *normals; // The mesh has them only once they are set.
@@ -37,8 +37,5 @@ DipSynthetic *dip_synthetic_relief(int triangle_count, double fov_y_deg, double 
                                    double turn_deg, DipError *err);
 
 void dip_synthetic_destroy(DipSynthetic **synthetic);
-
-// Passes ownership of the path to the caller.
-DipCamPath *dip_synthetic_take_path(DipSynthetic *synthetic);
 
 #endif

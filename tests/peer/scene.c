@@ -116,7 +116,8 @@ static bool open_synthetic(DipPeerScene *scene, const DipPeerOptions *options, D
     scene->all_in_view = options->scene != DIP_PEER_SCENE_LARGE && options->turn_deg == 0.0;
     scene->def = scene->synthetic->def;
     if (!options->path) {
-        scene->path = dip_synthetic_take_path(scene->synthetic);
+        scene->path = scene->synthetic->path;
+        scene->synthetic->path = NULL;
     }
     return true;
 }
