@@ -1,9 +1,9 @@
 // The list of commands. To add a command, add its include and its entry here.
 #include "app/command_list.h"
 
-#include "app/bench/bench.h"
+#include "app/bench/options.h"
 #include "app/cost/command.h"
-#include "app/dump/dump.h"
+#include "app/dump/options.h"
 #include "app/import/import.h"
 #include "app/path/path.h"
 #include "app/preview/command.h"

@@ -1,6 +1,4 @@
 // `diptych bench`: measuring this program, or two programs in turn.
-#include "app/bench/bench.h"
-
 #include "app/bench/context.h"
 #include "app/bench/measure.h"
 #include "app/bench/options.h"
@@ -23,37 +21,9 @@ static bool draw_here(void *context, int combination, int frame, bool hash, DipB
     return true;
 }
 
-static bool open_here(DipBenchContext **bench, const DipBenchPlan *plan, const DipSession *session,
-                      DipBenchSource *source, DipError *err) {
-    *bench = dip_bench_context_create(plan, session, err);
-    *source = (DipBenchSource){draw_here, *bench};
-    return *bench != NULL;
-}
-
-static bool measure_here(const DipBenchPlan *plan, const DipSession *session,
-                         const DipBenchArguments *arguments, DipError *err) {
-    DipBenchContext *bench;
-    DipBenchResult result = {0};
-    DipBenchSource source;
-    bool done = open_here(&bench, plan, session, &source, err) &&
-                dip_bench_result_init(&result, plan, err) &&
-                dip_bench_measure(plan, &source, 1, &result, err);
-    if (done) {
-        dip_bench_print_heading(plan, session, stdout);
-        done = dip_bench_print_times(&result, stdout, err);
-        dip_bench_print_work(&result, stdout);
-    }
-    done = done &&
-           (!arguments->bench.csv || dip_bench_write_csv(arguments->bench.csv, &result, 1, err)) &&
-           (!arguments->bench.svg || dip_bench_write_plots(arguments->bench.svg, &result, err));
-    dip_bench_result_free(&result);
-    dip_bench_context_destroy(&bench);
-    return done;
-}
-
 typedef struct Server {
     const DipBenchPlan *plan;
-    DipBenchSource source;
+    DipBenchContext *bench;
 } Server;
 
 static bool answer(void *context, const char *request, DipBenchSample *sample, DipError *err) {
@@ -65,16 +35,14 @@ static bool answer(void *context, const char *request, DipBenchSample *sample, D
                                      "'%.60s' is not a request; give draw COMBINATION FRAME 0|1",
                                      request);
     }
-    return server->source.draw(server->source.context, combination, frame, hash != 0, sample, err);
+    return draw_here(server->bench, combination, frame, hash != 0, sample, err);
 }
 
 static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
-    DipBenchContext *bench;
-    Server server = {.plan = plan};
-    const bool done =
-        open_here(&bench, plan, session, &server.source, err) &&
-        dip_child_serve("bench", plan->count, plan->options.frames, answer, &server, err);
-    dip_bench_context_destroy(&bench);
+    Server server = {plan, dip_bench_context_create(plan, session, err)};
+    const bool done = server.bench && dip_child_serve("bench", plan->count, plan->options.frames,
+                                                      answer, &server, err);
+    dip_bench_context_destroy(&server.bench);
     return done;
 }
 
@@ -86,33 +54,65 @@ static bool draw_there(void *context, int combination, int frame, bool hash, Dip
     return dip_child_draw(context, request, sample, &timed, err);
 }
 
-// Runs both programs as processes of their own, so that neither has an advantage.
-static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
-                         const DipBenchArguments *arguments, DipError *err) {
-    const char *const programs[2] = {"/proc/self/exe", arguments->bench.vs};
-    DipChild *children[2] = {NULL, NULL};
-    DipBenchResult results[2] = {{0}, {0}};
+// The programs that are measured: this process, or with --vs two child processes, so that neither
+// program has an advantage.
+typedef struct Programs {
+    DipBenchContext *here;
+    DipChild *children[2];
     DipBenchSource sources[2];
-    bool done = true;
-    for (int p = 0; done && p < 2; p++) {
-        const DipChildDef def = {programs[p], plan->options.argv, plan->options.argc,
-                                 "bench",     plan->count,        plan->options.frames,
-                                 "--vs"};
-        children[p] = dip_child_start(&def, err);
-        sources[p] = (DipBenchSource){draw_there, children[p]};
-        done = children[p] && dip_bench_result_init(&results[p], plan, err);
+    DipBenchResult results[2];
+    int count;
+} Programs;
+
+static bool open_programs(Programs *programs, const DipBenchPlan *plan, const DipSession *session,
+                          DipError *err) {
+    const DipBenchOptions *options = &plan->options;
+    const char *const files[2] = {"/proc/self/exe", options->vs};
+    *programs = (Programs){.count = options->vs ? 2 : 1};
+    if (!options->vs) {
+        programs->here = dip_bench_context_create(plan, session, err);
+        programs->sources[0] = (DipBenchSource){draw_here, programs->here};
+        return programs->here && dip_bench_result_init(&programs->results[0], plan, err);
     }
-    done = done && dip_bench_measure(plan, sources, 2, results, err);
-    if (done) {
-        dip_bench_print_heading(plan, session, stdout);
-        done = dip_bench_print_ratios(&results[0], &results[1], stdout, err);
-    }
-    done = done &&
-           (!arguments->bench.csv || dip_bench_write_csv(arguments->bench.csv, results, 2, err));
     for (int p = 0; p < 2; p++) {
-        dip_child_stop(&children[p], dip_interrupted());
-        dip_bench_result_free(&results[p]);
+        const DipChildDef def = {files[p], options->serve.argv, options->serve.argc,
+                                 "bench",  plan->count,         options->frames,
+                                 "--vs"};
+        programs->children[p] = dip_child_start(&def, err);
+        programs->sources[p] = (DipBenchSource){draw_there, programs->children[p]};
+        if (!programs->children[p] || !dip_bench_result_init(&programs->results[p], plan, err)) {
+            return false;
+        }
     }
+    return true;
+}
+
+static bool print_and_write(const Programs *programs, const DipBenchPlan *plan,
+                            const DipSession *session, DipError *err) {
+    const DipBenchOptions *options = &plan->options;
+    const DipBenchResult *results = programs->results;
+    dip_bench_print_heading(plan, session, stdout);
+    if (options->vs) {
+        dip_bench_print_ratios(&results[0], &results[1], stdout);
+    } else {
+        dip_bench_print_times(&results[0], stdout);
+        dip_bench_print_work(&results[0], stdout);
+    }
+    return (!options->csv || dip_bench_write_csv(options->csv, results, programs->count, err)) &&
+           (!options->svg || dip_bench_write_plots(options->svg, &results[0], err));
+}
+
+static bool measure(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
+    Programs programs;
+    const bool done =
+        open_programs(&programs, plan, session, err) &&
+        dip_bench_measure(plan, programs.sources, programs.count, programs.results, err) &&
+        print_and_write(&programs, plan, session, err);
+    for (int p = 0; p < 2; p++) {
+        dip_child_stop(&programs.children[p], dip_interrupted());
+        dip_bench_result_free(&programs.results[p]);
+    }
+    dip_bench_context_destroy(&programs.here);
     return done;
 }
 
@@ -123,17 +123,15 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     if (!plan) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
     }
-    if (bench->svg && !bench->serve && !dip_folder_make(bench->svg, "--svg", err)) {
+    if (bench->svg && !bench->serve.serve && !dip_folder_make(bench->svg, "--svg", err)) {
         free(plan);
         return false;
     }
     dip_bench_plan_make(plan, session, bench);
-    if (!bench->serve) {
+    if (!bench->serve.serve) {
         dip_interrupt_watch();
     }
-    const bool done = bench->serve ? serve(plan, session, err)
-                      : bench->vs  ? measure_both(plan, session, arguments, err)
-                                   : measure_here(plan, session, arguments, err);
+    const bool done = bench->serve.serve ? serve(plan, session, err) : measure(plan, session, err);
     free(plan);
     return done;
 }
@@ -145,7 +143,7 @@ static void describe_session(const void *all_arguments, DipSessionDef *def) {
     const DipBenchArguments *arguments = all_arguments;
     const DipBenchOptions *bench = &arguments->bench;
     def->options = &arguments->session;
-    def->scene = !bench->grid_count && (!bench->vs || bench->serve);
+    def->scene = !bench->grid_count && (!bench->vs || bench->serve.serve);
 }
 
 static const DipExample examples[] = {

@@ -17,7 +17,4 @@ void dip_bench_context_destroy(DipBenchContext **bench);
 bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, DipFrame *picture,
                             DipError *err);
 
-// The number of triangles in the scene that a combination draws.
-uint64_t dip_bench_context_triangles(const DipBenchContext *bench, int combination);
-
 #endif

@@ -1,8 +1,49 @@
-// Measuring every combination of a plan in interleaved rounds (app/measure/timing/driver.h).
+// Measuring every combination of a plan in interleaved rounds (app/measure/timing/driver.h). The
+// results are the times of every frame in every round, and the work of every frame. Each round
+// draws every frame of every combination of the plan (plan.h) once.
 #ifndef DIP_APP_BENCH_MEASURE_H
 #define DIP_APP_BENCH_MEASURE_H
 
-#include "app/bench/result.h"
+#include "app/bench/plan.h"
+#include "app/measure/timing/sample.h"
+
+// The results of one program. The bench measures one program, or two with --vs. Owns its arrays,
+// borrows the plan.
+typedef struct DipBenchResult {
+    const DipBenchPlan *plan;
+    double *ms;            // times, [combination][stage][round][frame]
+    double *scratch;       // room for the times of a combination's stage
+    DipBenchSample *first; // samples of the warm-up, [combination][frame]
+    // [combination]: the ratio of the mean time to that of the plan's base; for the second of two
+    // programs, to that of the first.
+    DipEstimate *ratios;
+    // [combination]: how many times as fast as with the fewest threads. Of one program only.
+    DipEstimate *speed_ups;
+} DipBenchResult;
+
+bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
+void dip_bench_result_free(DipBenchResult *result);
+
+// Stores the sample of a frame's first drawing, which is the one with the hash and the counters.
+void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
+                                const DipBenchSample *sample);
+
+// Stores the times of a frame of a round.
+void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed);
+
+// Returns the times of a stage: rounds * frames values, [round * frames + frame].
+const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
+                                  DipBenchStage stage);
+
+// The quantile of these times with this share, 0..1.
+double dip_bench_result_quantile(const DipBenchResult *result, int combination, DipBenchStage stage,
+                                 double share);
+const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
+                                             int frame);
+
+// Writes the means of the counters over the frames.
+void dip_bench_result_work(const DipBenchResult *result, int combination,
+                           double means[DIP_COUNTER_COUNT]);
 
 // A program that is measured: this process or a child process. draw() draws a frame of a
 // combination and stores its times and counters in *sample. If `hash` is true, draw() also stores

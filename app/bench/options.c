@@ -3,7 +3,6 @@
 
 #include "app/bench/synthetic.h"
 #include "renderer/base/assert.h"
-#include "renderer/base/number.h"
 #include "renderer/base/pool.h"
 
 #include <errno.h>
@@ -25,155 +24,70 @@ static bool read_set(void *fields, const DipOptionRow *row, const char *value, D
     return dip_quality_parse(value, &set->quality, err);
 }
 
-// Reads a whole number in the range least..most. (The field `most` of the option's row is the
-// greatest length of the list.)
-static bool read_count(const DipOptionRow *row, const char *value, int least, int most, int *number,
-                       DipError *err) {
-    const DipOptionRow range = {.name = row->name, .least = least, .most = most};
-    return dip_option_integer(&range, value, number, err);
-}
-
-static bool read_threads(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipBenchOptions *bench = fields;
-    return read_count(row, value, 0, DIP_MAX_THREADS, &bench->threads[bench->threads_count], err);
-}
-
 static bool read_isa(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipBenchOptions *bench = fields;
     return dip_option_isa(row, value, &bench->isas[bench->isa_count], err);
 }
 
-static bool read_size(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipBenchOptions *bench = fields;
-    DipOptionSize size;
-    if (!dip_option_size(row, value, &size, err)) {
-        return false;
-    }
-    bench->sizes[bench->size_count] = (DipBenchSize){size.width, size.height};
-    return true;
-}
-
-static bool read_scale(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipBenchOptions *bench = fields;
-    double *scale = &bench->scales[bench->scale_count];
-    return (dip_number_parse(value, strlen(value), scale) && *scale >= 0.1 && *scale <= 1.0) ||
-           dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
-                             "a share of the width and height from 0.1 to 1");
-}
-
-static bool read_grid(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipBenchOptions *bench = fields;
-    return read_count(row, value, 2, DIP_SYNTHETIC_MAX_TRIANGLES, &bench->grids[bench->grid_count],
-                      err);
-}
-
 // --- the tables ----------------------------------------------------------------------------------
 
 static const DipOptionRow axis_rows[] = {
-    {.name = "--sets",
-     .argument = "LIST",
+    {"--sets", "LIST", DIP_OPTION_LIST, .count = FIELD(set_count), .room = DIP_BENCH_MAX_VALUES,
+     .separator = ';', .read = read_set,
      .text = "Settings to measure, as SET;SET;... in quotes. The default is aa=none, aa=4 and "
-             "aa=8, each without and with af=16.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(set_count),
-     .most = DIP_BENCH_MAX_VALUES,
-     .separator = ';',
-     .read = read_set},
-    {.name = "--size",
-     .argument = "LIST",
+             "aa=8, each without and with af=16."},
+    {"--size", "LIST", DIP_OPTION_LIST, FIELD(sizes), .count = FIELD(size_count),
+     .room = DIP_BENCH_MAX_VALUES, .separator = ',', .item = DIP_OPTION_SIZE,
      .text = "Sizes of the picture in pixels, as WxH,WxH,... Without the option, the ini's RES "
-             "decides.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(size_count),
-     .most = DIP_BENCH_MAX_VALUES,
-     .separator = ',',
-     .read = read_size},
-    {.name = "--scale",
-     .argument = "LIST",
+             "decides."},
+    {"--scale", "LIST", DIP_OPTION_LIST, FIELD(scales), .count = FIELD(scale_count),
+     .room = DIP_BENCH_MAX_VALUES, .separator = ',', .item = DIP_OPTION_NUMBER, .least = 0.1,
+     .most = 1.0, .accepted = "a share of the width and height from 0.1 to 1",
      .text = "Render scales, such as 0.5,1, from 0.1 to 1. The picture is drawn with this share of "
-             "its width and height, and enlarged to its size within the measured time.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(scale_count),
-     .most = DIP_BENCH_MAX_VALUES,
-     .separator = ',',
-     .read = read_scale},
-    {.name = "--threads",
-     .argument = "LIST",
+             "its width and height, and enlarged to its size within the measured time."},
+    {"--threads", "LIST", DIP_OPTION_LIST, FIELD(threads), .count = FIELD(threads_count),
+     .room = DIP_BENCH_MAX_VALUES, .separator = ',', .item = DIP_OPTION_INTEGER,
+     .most = DIP_MAX_THREADS,
      .text = "Numbers of threads, such as 1,2. 0 stands for all processors. Without the option, "
-             "the ini decides.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(threads_count),
-     .most = DIP_BENCH_MAX_VALUES,
-     .separator = ',',
-     .read = read_threads},
-    {.name = "--isa",
-     .argument = "LIST",
+             "the ini decides."},
+    {"--isa", "LIST", DIP_OPTION_LIST, .count = FIELD(isa_count), .room = DIP_BENCH_MAX_VALUES,
+     .separator = ',', .read = read_isa,
      .text =
          "Instruction sets, such as sse2,avx2: any of auto, scalar, sse2, avx2 and avx512. Without "
-         "the option, the ini's ISA decides; its default is the best one of this machine.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(isa_count),
-     .most = DIP_BENCH_MAX_VALUES,
-     .separator = ',',
-     .read = read_isa},
-    {.name = "--grid",
-     .argument = "LIST",
+         "the option, the ini's ISA decides; its default is the best one of this machine."},
+    {"--grid", "LIST", DIP_OPTION_LIST, FIELD(grids), .count = FIELD(grid_count),
+     .room = DIP_BENCH_MAX_VALUES, .separator = ',', .item = DIP_OPTION_INTEGER, .least = 2,
+     .most = DIP_SYNTHETIC_MAX_TRIANGLES,
      .text =
          "Instead of a scene, draw grids with these numbers of triangles. A grid is a wavy surface "
-         "that fills the picture.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(grid_count),
-     .most = DIP_BENCH_MAX_VALUES,
-     .separator = ',',
-     .read = read_grid},
-    {.name = "--grid-out-of-view",
+         "that fills the picture."},
+    {"--grid-out-of-view", NULL, DIP_OPTION_FLAG, FIELD(grid_out_of_view),
      .text = "Turn the camera away from the grid. This measures the cost of triangles that are out "
-             "of view.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(grid_out_of_view)},
+             "of view."},
 };
 
 static const DipOptionRow measure_rows[] = {
-    {.name = "--frames",
-     .argument = "N",
-     .text = "Draw this many frames, which divide the camera path evenly. The default is 12.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(frames),
-     .least = 1,
-     .most = DIP_BENCH_MAX_FRAMES},
-    {.name = "--vs",
-     .argument = "PROGRAM",
+    {"--frames", "N", DIP_OPTION_INTEGER, FIELD(frames), .least = 1, .most = DIP_BENCH_MAX_FRAMES,
+     .text = "Draw this many frames, which divide the camera path evenly. The default is 12."},
+    {"--vs", "PROGRAM", DIP_OPTION_TEXT, FIELD(vs),
      .text = "Compare this program with another build of diptych. The two draw in turn, and the "
-             "bench prints the other program's times divided by this program's times.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(vs)},
-    {.name = "--csv",
-     .argument = "FILE",
-     .text = "Write the times and counters of every frame of every round to this file.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(csv)},
-    {.name = "--svg",
-     .argument = "DIR",
+             "bench prints the other program's times divided by this program's times."},
+    {"--csv", "FILE", DIP_OPTION_TEXT, FIELD(csv),
+     .text = "Write the times and counters of every frame of every round to this file."},
+    {"--svg", "DIR", DIP_OPTION_TEXT, FIELD(svg),
      .text =
          "Write plots into this folder. They show the time against the number of pixels, samples, "
-         "triangles or threads, or the render scale. There is one plot for each that varies.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(svg)},
-    {.name = "--serve",
-     .text = "Draw the frames that standard input asks for. This option is only for --vs, which "
-             "starts both programs with it.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(serve)},
+         "triangles or threads, or the render scale. There is one plot for each that varies."},
 };
 
-static const DipOptionTable axis_table = {"Lists of values", axis_rows, DIP_ARRAY_COUNT(axis_rows)};
-static const DipOptionTable measure_table = {"Measuring and output", measure_rows,
-                                             DIP_ARRAY_COUNT(measure_rows)};
+static const DipOptionTable axis_table = DIP_OPTION_TABLE("Lists of values", axis_rows);
+static const DipOptionTable measure_table = DIP_OPTION_TABLE("Measuring and output", measure_rows);
 
 static const DipOptionPart parts[] = {
     {&axis_table, offsetof(DipBenchArguments, bench)},
     {&measure_table, offsetof(DipBenchArguments, bench)},
     {&dip_measure_option_table, offsetof(DipBenchArguments, bench.measure)},
+    {&dip_serve_option_table, offsetof(DipBenchArguments, bench.serve)},
     {&dip_scene_option_table, offsetof(DipBenchArguments, session)},
     {&dip_path_option_table, offsetof(DipBenchArguments, session)},
     {&dip_category_option_table, offsetof(DipBenchArguments, session)},
@@ -184,19 +98,12 @@ const DipOptionParts dip_bench_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
 // --- defaults and checks -------------------------------------------------------------------------
 
-// Stores and counts one of the default sets of settings.
-static bool add_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipBenchOptions *bench = fields;
-    return read_set(fields, row, value, err) && ++bench->set_count;
-}
-
 void dip_bench_options_default(void *arguments, int argc, char *const *argv) {
     DipBenchOptions *bench = &((DipBenchArguments *)arguments)->bench;
     bench->frames = 12;
     bench->measure.rounds = 10;
-    bench->argc = argc;
-    bench->argv = argv;
-    dip_option_each(bench, &axis_rows[0], default_sets, ';', add_set, NULL);
+    bench->serve = (DipServeOptions){.argc = argc, .argv = argv};
+    dip_option_store(&axis_rows[0], default_sets, bench, NULL);
 }
 
 static int at_least_one(int count) {
@@ -259,7 +166,7 @@ bool dip_bench_options_check(const void *arguments, DipError *err) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--grid-out-of-view",
                              "there is no grid; give one with --grid N,N,...");
     }
-    if (bench->vs && !bench->serve && access(bench->vs, X_OK) != 0) {
+    if (bench->vs && !bench->serve.serve && access(bench->vs, X_OK) != 0) {
         return dip_error_set(err, DIP_ERROR_IO, bench->vs, 0, "--vs", "cannot be run: %s",
                              strerror(errno));
     }

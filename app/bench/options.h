@@ -25,11 +25,6 @@ typedef struct DipBenchSet {
     DipQuality quality;
 } DipBenchSet;
 
-typedef struct DipBenchSize {
-    int width; // Pixels.
-    int height;
-} DipBenchSize;
-
 // What to measure. Texts are borrowed from argv. An empty list stands for one value, which comes
 // from the ini or the machine. Without grids, the bench draws the scene.
 typedef struct DipBenchOptions {
@@ -39,7 +34,7 @@ typedef struct DipBenchOptions {
     int threads_count;
     DipIsa isas[DIP_BENCH_MAX_VALUES];
     int isa_count;
-    DipBenchSize sizes[DIP_BENCH_MAX_VALUES];
+    DipOptionSize sizes[DIP_BENCH_MAX_VALUES];
     int size_count;
     double scales[DIP_BENCH_MAX_VALUES]; // 0.1..1.
     int scale_count;
@@ -51,9 +46,7 @@ typedef struct DipBenchOptions {
     const char *csv;
     const char *svg;
     const char *vs;
-    bool serve;
-    int argc; // The whole command line. With --vs, the started programs get it, too.
-    char *const *argv;
+    DipServeOptions serve;
 } DipBenchOptions;
 
 // The whole command line of `diptych bench`.
@@ -63,6 +56,7 @@ typedef struct DipBenchArguments {
     DipBenchOptions bench;
 } DipBenchArguments;
 
+extern const DipCommand dip_bench_command; // in bench.c
 extern const DipOptionParts dip_bench_option_parts;
 
 void dip_bench_options_default(void *arguments, int argc, char *const *argv);

@@ -22,7 +22,7 @@ static void fill_in(DipBenchOptions *options, const DipSession *session) {
     }
     if (!options->size_count) {
         options->sizes[options->size_count++] =
-            (DipBenchSize){config->res.width, config->res.height};
+            (DipOptionSize){config->res.width, config->res.height};
     }
     if (!options->scale_count) {
         options->scales[options->scale_count++] = 1.0;
@@ -81,7 +81,7 @@ int dip_bench_same_pictures(const DipBenchPlan *plan, int combination) {
 
 void dip_bench_drawn_size(const DipBenchPlan *plan, const DipBenchCombination *combination,
                           int *width, int *height) {
-    const DipBenchSize size = plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
+    const DipOptionSize size = plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
     dip_enlarger_source_size(size.width, size.height,
                              plan->options.scales[combination->at[DIP_BENCH_AXIS_SCALE]], width,
                              height);
@@ -120,31 +120,28 @@ void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *c
     }
 }
 
-void dip_bench_label(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                     DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
+// Writes the values on the axes that vary, except `without`, or on those that do not.
+static void write_label(const DipBenchPlan *plan, const DipBenchCombination *combination,
+                        bool varies, DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
     *label = '\0';
     for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
-        if (plan->counts[axis] == 1 || axis == (int)without) {
-            continue;
-        }
         const size_t used = strlen(label);
         char value[DIP_BENCH_LABEL_SIZE];
         dip_bench_value_name(plan, combination, (DipBenchAxis)axis, value, sizeof value);
-        snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? ", " : "", value);
+        if ((plan->counts[axis] > 1) == varies && axis != (int)without && *value) {
+            snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? ", " : "", value);
+        }
     }
+}
+
+void dip_bench_label(const DipBenchPlan *plan, const DipBenchCombination *combination,
+                     DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
+    write_label(plan, combination, true, without, label);
     if (!*label) {
         dip_bench_value_name(plan, combination, DIP_BENCH_AXIS_SET, label, DIP_BENCH_LABEL_SIZE);
     }
 }
 
 void dip_bench_fixed_label(const DipBenchPlan *plan, char label[DIP_BENCH_LABEL_SIZE]) {
-    *label = '\0';
-    for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
-        const size_t used = strlen(label);
-        char value[DIP_BENCH_LABEL_SIZE];
-        dip_bench_value_name(plan, plan->combinations, (DipBenchAxis)axis, value, sizeof value);
-        if (plan->counts[axis] == 1 && *value) {
-            snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? ", " : "", value);
-        }
-    }
+    write_label(plan, plan->combinations, false, DIP_BENCH_AXIS_COUNT, label);
 }

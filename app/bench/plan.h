@@ -6,20 +6,15 @@
 #include "app/bench/options.h"
 #include "app/session/session.h"
 
-// X(NAME, name): the axes. From row to row of the printed table, the last axis changes fastest.
-#define DIP_BENCH_AXIS_LIST(X)                                                                     \
-    X(GRID, grid)                                                                                  \
-    X(SIZE, size)                                                                                  \
-    X(SCALE, scale)                                                                                \
-    X(SET, set)                                                                                    \
-    X(ISA, isa)                                                                                    \
-    X(THREADS, threads)
-
+// From row to row of the printed table, the last axis changes fastest.
 typedef enum DipBenchAxis {
-#define DIP_BENCH_AXIS_ENUM(NAME, name) DIP_BENCH_AXIS_##NAME,
-    DIP_BENCH_AXIS_LIST(DIP_BENCH_AXIS_ENUM)
-#undef DIP_BENCH_AXIS_ENUM
-        DIP_BENCH_AXIS_COUNT
+    DIP_BENCH_AXIS_GRID,
+    DIP_BENCH_AXIS_SIZE,
+    DIP_BENCH_AXIS_SCALE,
+    DIP_BENCH_AXIS_SET,
+    DIP_BENCH_AXIS_ISA,
+    DIP_BENCH_AXIS_THREADS,
+    DIP_BENCH_AXIS_COUNT
 } DipBenchAxis;
 
 // A combination: the index of a value on each axis.

@@ -2,7 +2,6 @@
 #include "app/bench/plots.h"
 
 #include "app/cli/machine.h"
-#include "app/measure/stats/statistics.h"
 #include "app/report/page/plot.h"
 
 #include <limits.h>
@@ -10,49 +9,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef double AxisValue(const DipBenchPlan *plan, const DipBenchCombination *combination);
-
-static double pixels(const DipBenchPlan *plan, const DipBenchCombination *combination) {
-    const DipBenchSize *size = &plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
-    return (double)size->width * size->height;
-}
-
-static double scale(const DipBenchPlan *plan, const DipBenchCombination *combination) {
-    return plan->options.scales[combination->at[DIP_BENCH_AXIS_SCALE]];
-}
-
-static double triangles(const DipBenchPlan *plan, const DipBenchCombination *combination) {
-    return plan->options.grid_count ? plan->options.grids[combination->at[DIP_BENCH_AXIS_GRID]] : 0;
-}
-
-static double samples(const DipBenchPlan *plan, const DipBenchCombination *combination) {
-    return dip_quality_sample_count(
-        &plan->options.sets[combination->at[DIP_BENCH_AXIS_SET]].quality);
-}
-
-static double threads(const DipBenchPlan *plan, const DipBenchCombination *combination) {
-    return plan->options.threads[combination->at[DIP_BENCH_AXIS_THREADS]];
-}
-
 static const struct Kind {
-    const char *file;
-    const char *title;
+    const char *name; // Of the plot's file: time_pixels.svg.
     const char *x_title;
     DipBenchAxis axis;
-    AxisValue *value;
-    bool log_x;
-    bool log_y;
 } kinds[] = {
-    {"time_pixels.svg", "Time against pixels", "pixels", DIP_BENCH_AXIS_SIZE, pixels, true, true},
-    {"time_scale.svg", "Time against render scale", "render scale", DIP_BENCH_AXIS_SCALE, scale,
-     true, true},
-    {"time_triangles.svg", "Time against triangles", "triangles", DIP_BENCH_AXIS_GRID, triangles,
-     true, true},
-    {"time_samples.svg", "Time against samples", "samples per pixel", DIP_BENCH_AXIS_SET, samples,
-     false, false},
-    {"time_threads.svg", "Time against threads", "threads", DIP_BENCH_AXIS_THREADS, threads, true,
-     true},
+    {"pixels", "pixels", DIP_BENCH_AXIS_SIZE},
+    {"scale", "render scale", DIP_BENCH_AXIS_SCALE},
+    {"triangles", "triangles", DIP_BENCH_AXIS_GRID},
+    {"samples", "samples per pixel", DIP_BENCH_AXIS_SET},
+    {"threads", "threads", DIP_BENCH_AXIS_THREADS},
 };
+
+// Returns a combination's place on the x axis.
+static double value_of(const DipBenchPlan *plan, const DipBenchCombination *combination,
+                       DipBenchAxis axis) {
+    const DipBenchOptions *options = &plan->options;
+    const int at = combination->at[axis];
+    switch (axis) {
+    case DIP_BENCH_AXIS_SIZE:
+        return (double)options->sizes[at].width * options->sizes[at].height;
+    case DIP_BENCH_AXIS_SCALE:
+        return options->scales[at];
+    case DIP_BENCH_AXIS_GRID:
+        return options->grid_count ? options->grids[at] : 0;
+    case DIP_BENCH_AXIS_SET:
+        return dip_quality_sample_count(&options->sets[at].quality);
+    default:
+        return options->threads[at];
+    }
+}
 
 // The points of one series. All combinations of the series have the values of `like`, except on the
 // plot's axis.
@@ -87,43 +73,28 @@ static bool belongs(const DipBenchPlan *plan, const struct Kind *kind, const Dip
                             &sets[b->at[DIP_BENCH_AXIS_SET]].quality);
 }
 
-// Writes the settings other than aa that differ from the defaults: "af=16", or "default settings".
-static void name_without_samples(const DipQuality *quality, char *name, size_t size_bytes) {
-    const DipQuality standard = dip_quality_default();
-    *name = '\0';
-    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        if (s != DIP_SETTING_AA && quality->step[s] != standard.step[s]) {
-            const DipSettingInfo *info = dip_setting_info((DipSetting)s);
-            const size_t used = strlen(name);
-            snprintf(name + used, size_bytes - used, "%s%s=%s", used ? "," : "", info->key,
-                     info->steps[quality->step[s]]);
-        }
-    }
-    if (!*name) {
-        snprintf(name, size_bytes, "default settings");
-    }
-}
-
 static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Series *series) {
     dip_bench_label(plan, series->like, kind->axis, series->name);
     if (kind->axis == DIP_BENCH_AXIS_SET) {
-        char settings[64];
-        char rest[DIP_BENCH_LABEL_SIZE];
-        bool others = false;
-        for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
-            others = others || (axis != DIP_BENCH_AXIS_SET && plan->counts[axis] > 1);
+        const int set = series->like->at[DIP_BENCH_AXIS_SET];
+        DipQuality rest = plan->options.sets[set].quality; // Without its samples.
+        char settings[64], others[DIP_BENCH_LABEL_SIZE] = "";
+        const DipQuality standard = dip_quality_default();
+        rest.step[DIP_SETTING_AA] = standard.step[DIP_SETTING_AA];
+        dip_quality_format_changes(&rest, settings, sizeof settings);
+        if (plan->count > plan->counts[DIP_BENCH_AXIS_SET]) {
+            snprintf(others, sizeof others, ", %.120s", series->name);
         }
-        name_without_samples(&plan->options.sets[series->like->at[DIP_BENCH_AXIS_SET]].quality,
-                             settings, sizeof settings);
-        snprintf(rest, sizeof rest, "%s", series->name);
-        snprintf(series->name, sizeof series->name, "%s%s%.120s", settings, others ? ", " : "",
-                 others ? rest : "");
+        snprintf(series->name, sizeof series->name, "%s%s",
+                 dip_quality_equal(&rest, &standard) ? "default settings" : settings, others);
     }
 }
 
-// Adds a point and keeps x ascending. Ignores the point if its x is already there, for example for
-// two sizes of equal area.
-static void add_point(Series *series, double x, const double *ms, int count, double *scratch) {
+// Adds a combination's point and keeps x ascending. Ignores the point if its x is already there,
+// for example for two sizes of equal area.
+static void add_point(Series *series, double x, const DipBenchResult *result, int combination) {
+    static const double shares[] = {0.5, 0.05, 0.95};
+    double *const columns[] = {series->x, series->y, series->low, series->high};
     int at = 0;
     while (at < series->count && series->x[at] < x) {
         at++;
@@ -131,22 +102,18 @@ static void add_point(Series *series, double x, const double *ms, int count, dou
     if (series->count == DIP_BENCH_MAX_VALUES || (at < series->count && series->x[at] == x)) {
         return;
     }
-    double *const columns[] = {series->x, series->y, series->low, series->high};
-    const double values[] = {x, dip_stats_quantile(ms, count, 0.5, scratch),
-                             dip_stats_quantile(ms, count, 0.05, scratch),
-                             dip_stats_quantile(ms, count, 0.95, scratch)};
     for (int c = 0; c < 4; c++) {
         memmove(columns[c] + at + 1, columns[c] + at,
                 sizeof(double) * (size_t)(series->count - at));
-        columns[c][at] = values[c];
+        columns[c][at] = c == 0 ? x
+                                : dip_bench_result_quantile(result, combination,
+                                                            DIP_BENCH_STAGE_total, shares[c - 1]);
     }
     series->count++;
 }
 
-static int collect(const DipBenchResult *result, const struct Kind *kind, Series *series,
-                   double *scratch) {
+static int collect(const DipBenchResult *result, const struct Kind *kind, Series *series) {
     const DipBenchPlan *plan = result->plan;
-    const int values = plan->options.measure.rounds * plan->options.frames;
     int count = 0;
     for (int c = 0; c < plan->count; c++) {
         const DipBenchCombination *combination = &plan->combinations[c];
@@ -158,8 +125,7 @@ static int collect(const DipBenchResult *result, const struct Kind *kind, Series
             series[count++] = (Series){.like = combination};
             name_series(plan, kind, &series[s]);
         }
-        add_point(&series[s], kind->value(plan, combination),
-                  dip_bench_result_ms(result, c, DIP_BENCH_STAGE_total), values, scratch);
+        add_point(&series[s], value_of(plan, combination, kind->axis), result, c);
     }
     return count;
 }
@@ -170,7 +136,7 @@ static bool write_kind(const char *folder, const struct Kind *kind, const DipBen
     char processor[128];
     char fixed[DIP_BENCH_LABEL_SIZE];
     char subtitle[256];
-    char file[PATH_MAX];
+    char file[PATH_MAX], title[64];
     const int shown = count < DIP_PLOT_MAX_SERIES ? count : DIP_PLOT_MAX_SERIES;
     bool any = false;
     for (int s = 0; s < count; s++) {
@@ -191,15 +157,16 @@ static bool write_kind(const char *folder, const struct Kind *kind, const DipBen
     dip_bench_fixed_label(plan, fixed);
     snprintf(subtitle, sizeof subtitle, "%.50s, %.40s; %d drawings each", processor, fixed,
              plan->options.measure.rounds * plan->options.frames);
-    const DipPlot plot = {.title = kind->title,
+    snprintf(title, sizeof title, "Time against %s", kind->name);
+    const DipPlot plot = {.title = title,
                           .subtitle = subtitle,
                           .x_title = kind->x_title,
                           .y_title = "ms per frame: median, bars from 5th to 95th percentile",
-                          .log_x = kind->log_x,
-                          .log_y = kind->log_y,
+                          .log_x = kind->axis != DIP_BENCH_AXIS_SET,
+                          .log_y = kind->axis != DIP_BENCH_AXIS_SET,
                           .series = lines,
                           .series_count = count};
-    if (snprintf(file, sizeof file, "%s/%s", folder, kind->file) >= (int)sizeof file) {
+    if (snprintf(file, sizeof file, "%s/time_%s.svg", folder, kind->name) >= (int)sizeof file) {
         return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--svg",
                                      "the name is too long");
     }
@@ -213,15 +180,11 @@ static bool write_kind(const char *folder, const struct Kind *kind, const DipBen
 bool dip_bench_write_plots(const char *folder, const DipBenchResult *result, DipError *err) {
     const DipBenchPlan *plan = result->plan;
     Series *series = calloc((size_t)plan->count, sizeof *series);
-    double *scratch =
-        malloc(sizeof *scratch * (size_t)(plan->options.measure.rounds * plan->options.frames));
-    bool done = (series && scratch) ||
-                dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--svg", "out of memory");
+    bool done = series || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--svg", "out of memory");
     for (size_t k = 0; done && k < sizeof kinds / sizeof *kinds; k++) {
-        const int count = collect(result, &kinds[k], series, scratch);
+        const int count = collect(result, &kinds[k], series);
         done = write_kind(folder, &kinds[k], plan, series, count, err);
     }
     free(series);
-    free(scratch);
     return done;
 }

@@ -2,7 +2,7 @@
 #ifndef DIP_APP_BENCH_PLOTS_H
 #define DIP_APP_BENCH_PLOTS_H
 
-#include "app/bench/result.h"
+#include "app/bench/measure.h"
 
 // Writes the plots time_pixels.svg, time_samples.svg, time_triangles.svg and time_threads.svg to a
 // folder that exists. A plot is not written if its axis has only one value. Prints the name of

@@ -1,4 +1,4 @@
-// Making the synthetic scenes. Each has one mesh, one material and one texture.
+// Making the relief: one mesh, one material and one texture.
 #include "app/bench/synthetic.h"
 
 #include "renderer/base/trig.h"
@@ -8,21 +8,6 @@
 #include <string.h>
 
 enum { TEXTURE_SIZE = 1024 };
-
-struct DipSynthetic {
-    DipSceneDef def;
-    DipTextureDef texture;
-    DipMaterialDef material;
-    DipMeshDef mesh;
-    DipObjectDef object;
-    DipCamPath *path;
-    uint8_t *rgba8;
-    float *positions;
-    float *normals;
-    float *uv;
-    float *colours_lin;
-    uint32_t *indices;
-};
 
 // A hash of two numbers, the same on every machine.
 static uint32_t hash(uint32_t x, uint32_t y) {
@@ -49,21 +34,16 @@ static void paint(uint8_t *rgba8) {
     }
 }
 
-// Allocates the mesh and paints the texture, and fills in the rest of the description. Returns NULL
-// when memory runs out.
-static DipSynthetic *allocate(uint32_t vertex_count, uint32_t index_count, bool textured,
-                              DipError *err) {
+DipSynthetic *dip_synthetic_create(uint32_t vertex_count, uint32_t index_count, DipError *err) {
     DipSynthetic *s = calloc(1, sizeof *s);
     if (s) {
         s->rgba8 = malloc((size_t)TEXTURE_SIZE * TEXTURE_SIZE * 4);
         s->positions = malloc(sizeof(float) * 3 * vertex_count);
         s->normals = malloc(sizeof(float) * 3 * vertex_count);
         s->uv = malloc(sizeof(float) * 2 * vertex_count);
-        s->colours_lin = malloc(sizeof(float) * 3 * vertex_count);
         s->indices = malloc(sizeof(uint32_t) * index_count);
     }
-    if (!s || !s->rgba8 || !s->positions || !s->normals || !s->uv || !s->colours_lin ||
-        !s->indices) {
+    if (!s || !s->rgba8 || !s->positions || !s->normals || !s->uv || !s->indices) {
         dip_synthetic_destroy(&s);
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--scene", "out of memory");
         return NULL;
@@ -74,7 +54,7 @@ static DipSynthetic *allocate(uint32_t vertex_count, uint32_t index_count, bool 
     s->material = (DipMaterialDef){.name = "squares",
                                    .surface = DIP_SURFACE_OPAQUE,
                                    .base_colour_lin = {0.9f, 0.9f, 0.9f},
-                                   .colour_texture = textured ? 0 : DIP_NO_TEXTURE,
+                                   .colour_texture = 0,
                                    .light_map = DIP_NO_TEXTURE,
                                    .normal_map = DIP_NO_TEXTURE,
                                    .light_map_scale = 1.0f};
@@ -106,85 +86,15 @@ void dip_synthetic_destroy(DipSynthetic **synthetic) {
         free(s->positions);
         free(s->normals);
         free(s->uv);
-        free(s->colours_lin);
         free(s->indices);
         free(s);
         *synthetic = NULL;
     }
 }
 
-const DipSceneDef *dip_synthetic_scene_def(const DipSynthetic *synthetic) {
-    return &synthetic->def;
-}
-
-DipCamPath *dip_synthetic_take_path(DipSynthetic *synthetic) {
-    DipCamPath *path = synthetic->path;
-    synthetic->path = NULL;
-    return path;
-}
-
-// --- the room ----------------------------------------------------------------------------------
-
-// A parallelogram, given by a corner and two edges in metres. Its front is the side from which the
-// turn from edge 0 to edge 1 is counter-clockwise. The texture repeats every four metres.
-typedef struct Wall {
-    float corner[3];
-    float edge[2][3];
-} Wall;
-
-static void add_wall(DipSynthetic *s, const Wall *wall, uint32_t index) {
-    static const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
-    for (uint32_t i = 0; i < 4; i++) {
-        const uint32_t vertex = 4 * index + i;
-        const float along[2] = {i == 1 || i == 2 ? 1.0f : 0.0f, i >= 2 ? 1.0f : 0.0f};
-        for (int e = 0; e < 2; e++) {
-            const float *edge = wall->edge[e];
-            const float length = sqrtf(edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
-            s->uv[2 * vertex + (uint32_t)e] = along[e] * length / 4.0f;
-        }
-        for (uint32_t axis = 0; axis < 3; axis++) {
-            s->positions[3 * vertex + axis] = wall->corner[axis] + along[0] * wall->edge[0][axis] +
-                                              along[1] * wall->edge[1][axis];
-        }
-    }
-    for (uint32_t i = 0; i < 6; i++) {
-        s->indices[6 * index + i] = 4 * index + corners[i];
-    }
-}
-
-DipSynthetic *dip_synthetic_room(DipError *err) {
-    // A box of 12 x 4 x 8 metres around the origin, facing inwards, and two screens.
-    static const Wall walls[] = {
-        {{-6, -2, 4}, {{12, 0, 0}, {0, 0, -8}}},   {{-6, 2, -4}, {{12, 0, 0}, {0, 0, 8}}},
-        {{-6, -2, -4}, {{12, 0, 0}, {0, 4, 0}}},   {{6, -2, 4}, {{-12, 0, 0}, {0, 4, 0}}},
-        {{6, -2, -4}, {{0, 0, 8}, {0, 4, 0}}},     {{-6, -2, 4}, {{0, 0, -8}, {0, 4, 0}}},
-        {{-3, -1, -2.5f}, {{3, 0, 1}, {0, 2, 0}}}, {{4, -1.5f, 1}, {{-3, 0, 2}, {0.5f, 3, 0}}},
-    };
-    enum { WALLS = sizeof walls / sizeof *walls, KEYS = 16 };
-    DipSynthetic *s = allocate(4 * WALLS, 6 * WALLS, true, err);
-    if (!s) {
-        return NULL;
-    }
-    for (uint32_t i = 0; i < WALLS; i++) {
-        add_wall(s, &walls[i], i);
-    }
-    s->material.double_sided = true;
-    DipCamKey keys[KEYS];
-    for (int i = 0; i < KEYS; i++) {
-        const double half_turn = DIP_PI * i / KEYS;
-        keys[i] = (DipCamKey){{0.3, 0.1, 0.4}, {0, dip_sin(half_turn), 0, dip_cos(half_turn)}};
-    }
-    if (!dip_campath_create(keys, KEYS, 500000000, &s->path, err)) {
-        dip_synthetic_destroy(&s);
-    }
-    return s;
-}
-
-// --- the relief --------------------------------------------------------------------------------
-
 enum { RELIEF_DISTANCE_M = 10 };
 
-// Sets position, normal, texture coordinates and colour of one corner. The waves rise and fall by
+// Sets position, normal and texture coordinates of one corner. The waves rise and fall by
 // at most 0.2 m, which is 2 % of the camera's distance.
 static void set_corner(DipSynthetic *s, uint32_t vertex, double x, double y) {
     const double height = 0.1 * dip_sin(3.0 * x) + 0.1 * dip_cos(4.0 * y);
@@ -195,8 +105,6 @@ static void set_corner(DipSynthetic *s, uint32_t vertex, double x, double y) {
     for (uint32_t axis = 0; axis < 3; axis++) {
         s->positions[3 * vertex + axis] = (float)position[axis];
         s->normals[3 * vertex + axis] = (float)normal[axis];
-        const double phase = 1.5 * x - 2.0 * y + axis;
-        s->colours_lin[3 * vertex + axis] = (float)(0.5 + 0.4 * dip_sin(phase));
     }
     s->uv[2 * vertex] = (float)(x / 4.0);
     s->uv[2 * vertex + 1] = (float)(-y / 4.0);
@@ -220,13 +128,13 @@ static void set_relief(DipSynthetic *s, int columns, int rows, double half_width
     }
 }
 
-DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov_y_deg,
-                                   double aspect, double turn_deg, DipError *err) {
+DipSynthetic *dip_synthetic_relief(int triangle_count, double fov_y_deg, double aspect,
+                                   double turn_deg, DipError *err) {
     enum { KEYS = 8 };
     const int rows = (int)fmax(1.0, floor(sqrt(triangle_count / 2 / aspect) + 0.5));
     const int columns = (int)fmax(1.0, floor(triangle_count / 2.0 / rows + 0.5));
-    DipSynthetic *s = allocate((uint32_t)(rows + 1) * (uint32_t)(columns + 1),
-                               6 * (uint32_t)rows * (uint32_t)columns, textured, err);
+    DipSynthetic *s = dip_synthetic_create((uint32_t)(rows + 1) * (uint32_t)(columns + 1),
+                                           6 * (uint32_t)rows * (uint32_t)columns, err);
     if (!s) {
         return NULL;
     }
@@ -236,10 +144,6 @@ DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov
     set_relief(s, columns, rows, half_height * aspect, half_height);
     s->material.lit = true;
     s->mesh.normals = s->normals;
-    if (!textured) {
-        s->mesh.uv0 = NULL;
-        s->mesh.colours_lin = s->colours_lin;
-    }
     const double half_turn = turn_deg * (DIP_PI / 360.0);
     DipCamKey keys[KEYS];
     for (int i = 0; i < KEYS; i++) {

@@ -1,35 +1,41 @@
-// Two scenes that are computed by formulas. The renderer was not optimised for them. The room has a
-// few large triangles, the relief has very many small triangles.
+// A scene that is computed by formulas, with very many small triangles. The renderer was not
+// optimised for it.
 #ifndef DIP_APP_BENCH_SYNTHETIC_H
 #define DIP_APP_BENCH_SYNTHETIC_H
 
 #include "campaths/campath.h"
 #include "renderer/scene/scene.h"
 
-#include <stdbool.h>
+#include <stdint.h>
 
 enum { DIP_SYNTHETIC_MAX_TRIANGLES = 20000000 };
 
-// A scene description and its camera path. Owns both.
-typedef struct DipSynthetic DipSynthetic;
+// A scene description and its camera path. Owns both, and what the description points to.
+typedef struct DipSynthetic {
+    DipSceneDef def;
+    DipTextureDef texture;
+    DipMaterialDef material;
+    DipMeshDef mesh;
+    DipObjectDef object;
+    DipCamPath *path; // NULL once a caller has taken it.
+    uint8_t *rgba8;
+    float *positions;
+    float *normals; // The mesh has them only once they are set.
+    float *uv;
+    uint32_t *indices;
+} DipSynthetic;
 
-// Makes a room of 12 large triangles with two free-standing screens of 2 triangles each, all
-// textured. The camera stands inside and turns once about itself; the room covers every pixel.
-DipSynthetic *dip_synthetic_room(DipError *err);
+// Makes a mesh whose arrays are to be filled in, with a painted texture, and no path. Fails with
+// DIP_ERROR_MEMORY.
+DipSynthetic *dip_synthetic_create(uint32_t vertex_count, uint32_t index_count, DipError *err);
 
 // Makes a relief: a wavy surface under the fixed light. It has about triangle_count
 // (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles of equal size. It nearly fills the picture and stays
-// wholly in view while the camera sways a little. It has a colour texture if `textured`, and vertex
-// colours if not. turn_deg turns the camera to the left about the vertical, so that less of the
-// relief is in view.
-DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov_y_deg,
-                                   double aspect, double turn_deg, DipError *err);
+// wholly in view while the camera sways a little. turn_deg turns the camera to the left about the
+// vertical, so that less of the relief is in view.
+DipSynthetic *dip_synthetic_relief(int triangle_count, double fov_y_deg, double aspect,
+                                   double turn_deg, DipError *err);
 
 void dip_synthetic_destroy(DipSynthetic **synthetic);
-
-const DipSceneDef *dip_synthetic_scene_def(const DipSynthetic *synthetic);
-
-// Passes ownership of the path to the caller.
-DipCamPath *dip_synthetic_take_path(DipSynthetic *synthetic);
 
 #endif

@@ -3,16 +3,10 @@
 
 #include "app/files/whole_file.h"
 #include "app/cli/machine.h"
-#include "app/measure/stats/statistics.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
-}
 
 // --- heading -----------------------------------------------------------------------------------
 
@@ -69,18 +63,6 @@ static int label_width(const DipBenchPlan *plan) {
     return width;
 }
 
-static int value_count(const DipBenchPlan *plan) {
-    return plan->options.measure.rounds * plan->options.frames;
-}
-
-static void print_quantile(const DipBenchResult *result, int combination, double share,
-                           double *scratch, FILE *out) {
-    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
-        const double *ms = dip_bench_result_ms(result, combination, (DipBenchStage)stage);
-        fprintf(out, " %9.3f", dip_stats_quantile(ms, value_count(result->plan), share, scratch));
-    }
-}
-
 // Prints a value and its interval, or `unknown` where that is not known.
 static void print_estimate(const DipEstimate *estimate, const char *unknown, FILE *out) {
     char interval[48];
@@ -99,17 +81,13 @@ static void print_comparison(const DipBenchResult *result, int combination, FILE
     }
 }
 
-bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *err) {
+void dip_bench_print_times(const DipBenchResult *result, FILE *out) {
     static const struct {
         const char *name;
         double share;
     } lines[] = {{"median", 0.5}, {"p95", 0.95}, {"min", 0.0}};
     const DipBenchPlan *plan = result->plan;
     const int width = label_width(plan);
-    double *scratch = malloc(sizeof *scratch * (size_t)value_count(plan));
-    if (!scratch) {
-        return out_of_memory(err);
-    }
     fprintf(out, "  #  %-*s        ", width, "ms/frame");
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         fprintf(out, " %9s", dip_bench_stage_names[stage]);
@@ -123,50 +101,44 @@ bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *er
         char label[DIP_BENCH_LABEL_SIZE];
         dip_bench_label(plan, &plan->combinations[c], DIP_BENCH_AXIS_COUNT, label);
         for (int line = 0; line < 3; line++) {
-            if (line == 0) {
-                fprintf(out, "%3d  %-*s  %-6s", c + 1, width, label, lines[line].name);
-            } else {
-                fprintf(out, "     %-*s  %-6s", width, "", lines[line].name);
+            fprintf(out, line ? "   " : "%3d", c + 1);
+            fprintf(out, "  %-*s  %-6s", width, line ? "" : label, lines[line].name);
+            for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+                fprintf(
+                    out, " %9.3f",
+                    dip_bench_result_quantile(result, c, (DipBenchStage)stage, lines[line].share));
             }
-            print_quantile(result, c, lines[line].share, scratch, out);
             if (line == 0) {
                 print_comparison(result, c, out);
             }
             fprintf(out, "\n");
         }
     }
-    free(scratch);
-    return true;
 }
 
 // --- work --------------------------------------------------------------------------------------
 
 enum { WORK_COLUMNS = 6 };
 
-static void print_work_line(const char *name, const double *means, int count, FILE *out) {
-    fprintf(out, "%-22s", name);
-    for (int i = 0; i < count; i++) {
-        fprintf(out, " %12.0f", means[i]);
-    }
-    fprintf(out, "\n");
-}
-
 static void print_work_block(const DipBenchResult *result, const int *shown, int count, FILE *out) {
-    DipBenchWork work[WORK_COLUMNS];
-    double means[WORK_COLUMNS];
+    static const char *const names[DIP_COUNTER_COUNT] = {
+#define COUNTER_NAME(name, text) #name,
+        DIP_COUNTER_LIST(COUNTER_NAME)
+#undef COUNTER_NAME
+    };
+    double means[WORK_COLUMNS][DIP_COUNTER_COUNT];
     fprintf(out, "\n%-22s", "row (means per frame)");
     for (int i = 0; i < count; i++) {
         fprintf(out, " %12d", shown[i] + 1);
-        work[i] = dip_bench_result_work(result, shown[i]);
+        dip_bench_result_work(result, shown[i], means[i]);
+    }
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
+        fprintf(out, "\n%-22s", names[c]);
+        for (int i = 0; i < count; i++) {
+            fprintf(out, " %12.0f", means[i][c]);
+        }
     }
     fprintf(out, "\n");
-#define PRINT_COUNTER(name, text)                                                                  \
-    for (int i = 0; i < count; i++) {                                                              \
-        means[i] = work[i].name;                                                                   \
-    }                                                                                              \
-    print_work_line(#name, means, count, out);
-    DIP_COUNTER_LIST(PRINT_COUNTER)
-#undef PRINT_COUNTER
 }
 
 void dip_bench_print_work(const DipBenchResult *result, FILE *out) {
@@ -218,16 +190,12 @@ static double fastest_ms(const DipBenchResult *result, int combination) {
 }
 
 static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *other,
-                            int combination, double *scratch, FILE *out) {
-    const DipBenchPlan *plan = here->plan;
-    const int count = value_count(plan);
+                            int combination, FILE *out) {
     double medians[2][DIP_BENCH_STAGE_COUNT];
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         const DipBenchStage s = (DipBenchStage)stage;
-        medians[0][stage] =
-            dip_stats_quantile(dip_bench_result_ms(here, combination, s), count, 0.5, scratch);
-        medians[1][stage] =
-            dip_stats_quantile(dip_bench_result_ms(other, combination, s), count, 0.5, scratch);
+        medians[0][stage] = dip_bench_result_quantile(here, combination, s, 0.5);
+        medians[1][stage] = dip_bench_result_quantile(other, combination, s, 0.5);
     }
     fprintf(out, " %8.3f %8.3f", medians[1][DIP_BENCH_STAGE_total],
             medians[0][DIP_BENCH_STAGE_total]);
@@ -242,20 +210,15 @@ static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *ot
     }
     const int different = different_pictures(here, other, combination);
     if (different) {
-        fprintf(out, "  %d of %d differ\n", different, plan->options.frames);
+        fprintf(out, "  %d of %d differ\n", different, here->plan->options.frames);
     } else {
         fprintf(out, "  same\n");
     }
 }
 
-bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out,
-                            DipError *err) {
+void dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out) {
     const DipBenchPlan *plan = here->plan;
     const int width = label_width(plan);
-    double *scratch = malloc(sizeof *scratch * (size_t)value_count(plan));
-    if (!scratch) {
-        return out_of_memory(err);
-    }
     fprintf(out,
             "Medians in ms per frame. A ratio is the other program's mean time divided by this\n"
             "program's. If the ratio is above 1, this program is faster.\n");
@@ -269,13 +232,15 @@ bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *ot
         char label[DIP_BENCH_LABEL_SIZE];
         dip_bench_label(plan, &plan->combinations[c], DIP_BENCH_AXIS_COUNT, label);
         fprintf(out, "%-*s", width, label);
-        print_ratio_row(here, other, c, scratch, out);
+        print_ratio_row(here, other, c, out);
     }
-    free(scratch);
-    return true;
 }
 
 // --- CSV ---------------------------------------------------------------------------------------
+
+static int value_count(const DipBenchPlan *plan) {
+    return plan->options.measure.rounds * plan->options.frames;
+}
 
 static void print_csv_heading(bool programs, FILE *out) {
     fprintf(out, "%ssettings,width_px,height_px,scale,threads,isa,grid_triangles,round,frame",
@@ -293,7 +258,7 @@ static void print_csv_line(const DipBenchResult *result, int combination, int va
     const DipBenchPlan *plan = result->plan;
     const DipBenchOptions *o = &plan->options;
     const int *at = plan->combinations[combination].at;
-    const DipBenchSize size = o->sizes[at[DIP_BENCH_AXIS_SIZE]];
+    const DipOptionSize size = o->sizes[at[DIP_BENCH_AXIS_SIZE]];
     fprintf(out, "\"%s\",%d,%d,%.10g,%d,%s,", o->sets[at[DIP_BENCH_AXIS_SET]].text, size.width,
             size.height, o->scales[at[DIP_BENCH_AXIS_SCALE]],
             o->threads[at[DIP_BENCH_AXIS_THREADS]], dip_isa_name(o->isas[at[DIP_BENCH_AXIS_ISA]]));
@@ -313,29 +278,28 @@ static void print_csv_line(const DipBenchResult *result, int combination, int va
     fprintf(out, "\n");
 }
 
-bool dip_bench_write_csv(const char *file, const DipBenchResult *results, int count,
-                         DipError *err) {
-    static const char *const programs[] = {"this", "other"};
-    char *text = NULL;
-    size_t size_bytes = 0;
-    FILE *out = open_memstream(&text, &size_bytes);
-    if (!out) {
-        return out_of_memory(err);
-    }
-    print_csv_heading(count > 1, out);
-    for (int p = 0; p < count; p++) {
-        for (int c = 0; c < results[p].plan->count; c++) {
-            for (int v = 0; v < value_count(results[p].plan); v++) {
-                if (count > 1) {
-                    fprintf(out, "%s,", programs[p]);
-                }
-                print_csv_line(&results[p], c, v, out);
-            }
+typedef struct CsvPrograms {
+    const DipBenchResult *results;
+    int count;
+} CsvPrograms;
+
+static bool print_csv(const void *context, FILE *out) {
+    static const char *const names[] = {"this,", "other,"};
+    const CsvPrograms *programs = context;
+    print_csv_heading(programs->count > 1, out);
+    for (int p = 0; p < programs->count; p++) {
+        const DipBenchResult *result = &programs->results[p];
+        for (int i = 0; i < result->plan->count * value_count(result->plan); i++) {
+            fputs(programs->count > 1 ? names[p] : "", out);
+            print_csv_line(result, i / value_count(result->plan), i % value_count(result->plan),
+                           out);
         }
     }
-    bool made = !ferror(out);
-    made = fclose(out) == 0 && made && text; // glibc sets `text` to NULL if memory runs out.
-    bool written = made ? dip_whole_file_write(file, text, size_bytes, err) : out_of_memory(err);
-    free(text);
-    return written;
+    return true;
+}
+
+bool dip_bench_write_csv(const char *file, const DipBenchResult *results, int count,
+                         DipError *err) {
+    const CsvPrograms programs = {results, count};
+    return dip_whole_file_print(file, print_csv, &programs, err);
 }

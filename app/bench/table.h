@@ -2,7 +2,7 @@
 #ifndef DIP_APP_BENCH_TABLE_H
 #define DIP_APP_BENCH_TABLE_H
 
-#include "app/bench/result.h"
+#include "app/bench/measure.h"
 
 #include <stdio.h>
 
@@ -12,15 +12,14 @@ void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session
 
 // Prints milliseconds by stage, median, 95th percentile and minimum of each combination, with its
 // ratio to the plan's base, and its speed-up if the number of threads varies.
-bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *err);
+void dip_bench_print_times(const DipBenchResult *result, FILE *out);
 
 // Prints the work counters: means over the frames.
 void dip_bench_print_work(const DipBenchResult *result, FILE *out);
 
 // Prints for each combination the ratio of the other program's mean time to this program's, the
 // 95 % interval of this ratio, and whether the pictures are the same.
-bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out,
-                            DipError *err);
+void dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out);
 
 // Writes a CSV line for each program, combination, round and frame. `count` is the number of
 // programs, 1 or 2. With 2 programs, the first column names the program. The file is written whole

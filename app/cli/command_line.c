@@ -11,23 +11,15 @@
 enum { MAX_COMMANDS = 32 };
 
 static const DipOptionRow program_rows[] = {
-    {.name = "--log",
-     .argument = "FILE",
-     .text = "Append warnings and errors to this file, too.",
-     .kind = DIP_OPTION_TEXT,
-     .field = offsetof(DipProgramOptions, log)},
-    {.name = "--help",
-     .text = "Print this help. After the name of a command, print the help of that command.",
-     .kind = DIP_OPTION_FLAG,
-     .field = offsetof(DipProgramOptions, help)},
-    {.name = "--version",
-     .text = "Print the version of Diptych.",
-     .kind = DIP_OPTION_FLAG,
-     .field = offsetof(DipProgramOptions, version)},
+    {"--log", "FILE", DIP_OPTION_TEXT, offsetof(DipProgramOptions, log),
+     .text = "Append warnings and errors to this file, too."},
+    {"--help", NULL, DIP_OPTION_FLAG, offsetof(DipProgramOptions, help),
+     .text = "Print this help. After the name of a command, print the help of that command."},
+    {"--version", NULL, DIP_OPTION_FLAG, offsetof(DipProgramOptions, version),
+     .text = "Print the version of Diptych."},
 };
 
-const DipOptionTable dip_program_option_table = {"Program", program_rows,
-                                                 DIP_ARRAY_COUNT(program_rows)};
+const DipOptionTable dip_program_option_table = DIP_OPTION_TABLE("Program", program_rows);
 
 // Length of a command's first word.
 static size_t first_word(const DipCommand *command) {

@@ -11,6 +11,8 @@
 // Prints text and escapes the characters that have a meaning in roff. A blank line starts a new
 // paragraph.
 static void print_text(const char *text, FILE *out) {
+    static const char specials[] = "\\-~^`'";
+    static const char *const escapes[] = {"\\e", "\\-", "\\(ti", "\\(ha", "\\(ga", "\\(aq"};
     if (*text == '.' || *text == '\'') {
         fputs("\\&", out);
     }
@@ -18,18 +20,11 @@ static void print_text(const char *text, FILE *out) {
         if (strncmp(text, "\n\n", 2) == 0) {
             fputs("\n.PP\n", out);
             text++;
-        } else if (*text == '\\') {
-            fputs("\\e", out);
-        } else if (*text == '-') {
-            fputs("\\-", out);
-        } else if (*text == '~') {
-            fputs("\\(ti", out);
-        } else if (*text == '^') {
-            fputs("\\(ha", out);
-        } else if (*text == '`') {
-            fputs("\\(ga", out);
-        } else if (*text == '\'') {
-            fputs("\\(aq", out);
+            continue;
+        }
+        const char *special = strchr(specials, *text);
+        if (special) {
+            fputs(escapes[special - specials], out);
         } else {
             fputc(*text, out);
         }

@@ -13,8 +13,17 @@ typedef struct DipMeasureOptions {
     int seed;
 } DipMeasureOptions;
 
+// What a program that starts itself, to draw in another process, needs.
+typedef struct DipServeOptions {
+    bool serve; // This process was started so.
+    int argc;   // The whole command line.
+    char *const *argv;
+} DipServeOptions;
+
 extern const DipOptionTable dip_measure_option_table; // --rounds --seed
 extern const DipOptionTable dip_starts_option_table;  // --starts
+extern const DipOptionTable dip_serve_option_table;   // --serve, of DipServeOptions
+extern const DipOptionTable dip_json_option_table;    // --json, for the file's name
 
 // Returns the seed that was given, or one from the clock.
 int dip_measure_seed(const DipMeasureOptions *options);

@@ -28,7 +28,7 @@ static bool refuse_row(const DipOptionRow *row, const char *value, const char *w
                              row->accepted ? row->accepted : what);
 }
 
-bool dip_option_integer(const DipOptionRow *row, const char *value, int *number, DipError *err) {
+static bool read_integer(const DipOptionRow *row, const char *value, int *number, DipError *err) {
     int found;
     if (!dip_integer_parse(value, strlen(value), &found) || found < row->least ||
         found > row->most) {
@@ -68,8 +68,8 @@ int dip_option_integers(const char *text, char separator, int count, int *values
     }
 }
 
-bool dip_option_size(const DipOptionRow *row, const char *value, DipOptionSize *size,
-                     DipError *err) {
+static bool read_size(const DipOptionRow *row, const char *value, DipOptionSize *size,
+                      DipError *err) {
     int found[2];
     if (dip_option_integers(value, 'x', 2, found) != 2 || found[0] < 1 || found[1] < 1 ||
         found[0] > DIP_MAX_FRAME_SIZE || found[1] > DIP_MAX_FRAME_SIZE) {
@@ -82,16 +82,46 @@ bool dip_option_size(const DipOptionRow *row, const char *value, DipOptionSize *
     return true;
 }
 
-bool dip_option_each(void *fields, const DipOptionRow *row, const char *value, char separator,
-                     DipOptionReader *read, DipError *err) {
+static bool read_choice(const DipOptionRow *row, const char *value, int *choice, DipError *err) {
+    for (int i = 0; i < (int)row->most; i++) {
+        if (strcmp(value, row->names[i]) == 0) {
+            *choice = i;
+            return true;
+        }
+    }
+    return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, row->accepted);
+}
+
+// Stores a value of a LIST behind those before it.
+static bool read_item(const DipOptionRow *row, const char *value, void *fields, DipError *err) {
+    int *count = (int *)((char *)fields + row->count);
+    DipOptionRow item = *row;
+    if (*count >= row->room) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, row->name,
+                             "lists more than %d values", row->room);
+    }
+    item.kind = row->read ? DIP_OPTION_CUSTOM : row->item;
+    item.separator = '\0';
+    item.field += (size_t)*count * (row->item == DIP_OPTION_NUMBER ? sizeof(double)
+                                    : row->item == DIP_OPTION_SIZE ? sizeof(DipOptionSize)
+                                                                   : sizeof(int));
+    if (!dip_option_store(&item, value, fields, err)) {
+        return false;
+    }
+    ++*count;
+    return true;
+}
+
+// Splits `value` at the separators and stores each part.
+static bool read_each(const DipOptionRow *row, const char *value, void *fields, DipError *err) {
     for (const char *from = value; from;) {
-        const char *end = strchr(from, separator);
+        const char *end = strchr(from, row->separator);
         const size_t length = end ? (size_t)(end - from) : strlen(from);
         char item[MAX_VALUE];
         if (length == 0) {
             return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, row->name,
                                  "'%.200s' holds an empty value; write one '%c' between two values",
-                                 value, separator);
+                                 value, row->separator);
         }
         if (length >= sizeof item) {
             return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, row->name,
@@ -100,7 +130,8 @@ bool dip_option_each(void *fields, const DipOptionRow *row, const char *value, c
         }
         memcpy(item, from, length);
         item[length] = '\0';
-        if (!read(fields, row, item, err)) {
+        if (!(row->kind == DIP_OPTION_LIST ? read_item(row, item, fields, err)
+                                           : row->read(fields, row, item, err))) {
             return false;
         }
         from = end ? end + 1 : NULL;
@@ -108,32 +139,18 @@ bool dip_option_each(void *fields, const DipOptionRow *row, const char *value, c
     return true;
 }
 
-// Stores one value of a LIST with the row's reader, and counts the value.
-static bool read_item(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    int *count = (int *)((char *)fields + row->count);
-    if (*count >= (int)row->most) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, row->name,
-                             "lists more than %.0f values", row->most);
-    }
-    if (!row->read(fields, row, value, err)) {
-        return false;
-    }
-    ++*count;
-    return true;
-}
-
-static bool add_text(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+static bool add_text(const DipOptionRow *row, const char *value, void *fields, DipError *err) {
     const char **texts = (const char **)((char *)fields + row->field);
     int *count = (int *)((char *)fields + row->count);
-    if (*count >= (int)row->most) {
+    if (*count >= row->room) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, row->name,
-                             "is given more than %.0f times", row->most);
+                             "is given more than %d times", row->room);
     }
     texts[(*count)++] = value;
     return true;
 }
 
-static bool read_value(const DipOptionRow *row, const char *value, void *fields, DipError *err) {
+bool dip_option_store(const DipOptionRow *row, const char *value, void *fields, DipError *err) {
     void *field = (char *)fields + row->field;
     switch (row->kind) {
     case DIP_OPTION_FLAG:
@@ -143,20 +160,23 @@ static bool read_value(const DipOptionRow *row, const char *value, void *fields,
         *(const char **)field = value;
         return true;
     case DIP_OPTION_TEXTS:
-        return add_text(fields, row, value, err);
+        return add_text(row, value, fields, err);
     case DIP_OPTION_INTEGER:
-        return dip_option_integer(row, value, field, err);
+        return read_integer(row, value, field, err);
     case DIP_OPTION_NUMBER:
         return read_number(row, value, field, err);
     case DIP_OPTION_SIZE:
-        return dip_option_size(row, value, field, err);
+        return read_size(row, value, field, err);
     case DIP_OPTION_SETTINGS:
         return dip_quality_parse(value, field, err);
+    case DIP_OPTION_CHOICE:
+        return read_choice(row, value, field, err);
     case DIP_OPTION_LIST:
         *(int *)((char *)fields + row->count) = 0;
-        return dip_option_each(fields, row, value, row->separator, read_item, err);
+        return read_each(row, value, fields, err);
     case DIP_OPTION_CUSTOM:
-        return row->read(fields, row, value, err);
+        return row->separator ? read_each(row, value, fields, err)
+                              : row->read(fields, row, value, err);
     }
     return false;
 }
@@ -231,5 +251,5 @@ bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc
     if (row->given) {
         *(bool *)(fields + row->given) = true;
     }
-    return read_value(row, value, fields, err);
+    return dip_option_store(row, value, fields, err);
 }

@@ -12,12 +12,13 @@
 typedef enum DipOptionKind {
     DIP_OPTION_FLAG,     // bool; the option takes no value
     DIP_OPTION_TEXT,     // const char *, borrowed from argv
-    DIP_OPTION_TEXTS,    // const char *[most]; the option may be repeated
+    DIP_OPTION_TEXTS,    // const char *[room]; the option may be repeated
     DIP_OPTION_INTEGER,  // int in least..most
     DIP_OPTION_NUMBER,   // double in least..most
     DIP_OPTION_SIZE,     // DipOptionSize
     DIP_OPTION_SETTINGS, // DipQuality
-    DIP_OPTION_LIST,     // `read` stores each value; there are at most `most`
+    DIP_OPTION_CHOICE,   // int: the index of a name
+    DIP_OPTION_LIST,     // an array of `item`, or `read` stores each value; at most `room`
     DIP_OPTION_CUSTOM    // `read` stores the value
 } DipOptionKind;
 
@@ -37,18 +38,21 @@ typedef bool DipOptionReader(void *fields, const DipOptionRow *row, const char *
 struct DipOptionRow {
     const char *name;     // "--size"
     const char *argument; // "WxH", for the help; NULL for a FLAG
-    const char *text;     // Whole sentences for the help and the manual page.
     DipOptionKind kind;
-    size_t field; // Offset of the field that holds the value.
+    size_t field; // Offset of the field that holds the value; of a LIST, the array.
     size_t given; // Offset of a bool that becomes true when the option is given; 0: there is none.
     size_t count; // TEXTS and LIST: offset of an int that holds the number of values.
-    double least; // INTEGER and NUMBER: the least value.
-    double most;  // INTEGER and NUMBER: the greatest value. TEXTS and LIST: most values.
+    int room;     // TEXTS and LIST: most values.
+    DipOptionKind item;       // LIST: the kind of a value. INTEGER, NUMBER and SIZE have no `read`.
+    double least;             // INTEGER and NUMBER: the least value.
+    double most;              // INTEGER and NUMBER: the greatest value. CHOICE: number of names.
+    const char *const *names; // CHOICE: the names of the values.
     // What a value must be, for the message "'value' is not accepted". NULL: the kind of the
     // option decides the message.
     const char *accepted;
-    char separator;        // LIST: the character between two values.
+    char separator;        // LIST, and CUSTOM with several values: the character between two.
     DipOptionReader *read; // LIST and CUSTOM: the function that stores a value.
+    const char *text;      // Whole sentences for the help and the manual page.
 };
 
 // A group of options. Their fields are in one struct.
@@ -57,6 +61,10 @@ typedef struct DipOptionTable {
     const DipOptionRow *rows;
     size_t count;
 } DipOptionTable;
+
+// Initialises a table with an array of rows.
+#define DIP_OPTION_TABLE(title, rows)                                                              \
+    { title, rows, sizeof(rows) / sizeof *(rows) }
 
 // A table of options as a part of a command's options. Several commands can share a table.
 typedef struct DipOptionPart {
@@ -76,6 +84,9 @@ typedef struct DipOptionParts {
 bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc, char *const *argv,
                       int *index, void *options, DipError *err);
 
+// Stores a value in the row's struct, as if the option were given.
+bool dip_option_store(const DipOptionRow *row, const char *value, void *fields, DipError *err);
+
 // Finds a row by its name. Returns NULL if no part has it.
 const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *name);
 
@@ -85,19 +96,8 @@ const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *nam
 bool dip_option_refuse(DipError *err, DipErrorCode code, const char *key, const char *value,
                        const char *what);
 
-// Splits `value` at the separators and calls `read` for each part. Refuses empty parts.
-bool dip_option_each(void *fields, const DipOptionRow *row, const char *value, char separator,
-                     DipOptionReader *read, DipError *err);
-
 // Reads at most `count` whole numbers between separators. Returns how many there are. Returns 0 if
 // a part is not a whole number or there are more than `count` parts.
 int dip_option_integers(const char *text, char separator, int count, int *values);
-
-// Reads a whole number in the row's range.
-bool dip_option_integer(const DipOptionRow *row, const char *value, int *number, DipError *err);
-
-// Reads WIDTHxHEIGHT.
-bool dip_option_size(const DipOptionRow *row, const char *value, DipOptionSize *size,
-                     DipError *err);
 
 #endif

@@ -22,7 +22,7 @@ static bool is_undecided(const DipCandidate *candidate, double budget_ms) {
 static int list_undecided(const DipCostReport *report, int budget, int rows[MOST_AGAIN]) {
     const DipCandidates *candidates = &report->choice.candidates;
     const DipCandidate *chosen = dip_cost_chosen(report, budget);
-    double losses[MOST_AGAIN];
+    const DipCandidate *found[MOST_AGAIN + 1];
     int count = 0;
     for (int i = 0; i < candidates->count; i++) {
         const DipCandidate *c = &candidates->list[i];
@@ -30,17 +30,15 @@ static int list_undecided(const DipCostReport *report, int budget, int rows[MOST
             (chosen && c->loss > (1.0 - DIP_CLEARLY_BETTER) * chosen->loss)) {
             continue;
         }
-        int at = count < MOST_AGAIN ? count++ : MOST_AGAIN;
-        for (; at > 0 && losses[at - 1] > c->loss; at--) {
-            if (at < MOST_AGAIN) {
-                losses[at] = losses[at - 1];
-                rows[at] = rows[at - 1];
-            }
+        int at = count;
+        for (; at > 0 && found[at - 1]->loss > c->loss; at--) {
+            found[at] = found[at - 1];
         }
-        if (at < MOST_AGAIN) {
-            losses[at] = c->loss;
-            rows[at] = c->row;
-        }
+        found[at] = c;
+        count += count < MOST_AGAIN;
+    }
+    for (int i = 0; i < count; i++) {
+        rows[i] = found[i]->row;
     }
     return count;
 }

@@ -2,11 +2,11 @@
 // is one combination of settings on a camera path.
 #include "app/cost/context.h"
 
-#include "app/cost/gallery_truth.h"
 #include "app/cli/interrupt.h"
 
-// Rounds that draw a frame of the baseline, so that slow frames and slow moments can be told apart.
-enum { BASE_COPIES = 3 };
+#include <string.h>
+
+enum { SAMPLES = 8 }; // Of a pixel, with the best settings.
 
 // Compresses the textures if the settings of any row of the report need it. This is done before any
 // frame is drawn or timed.
@@ -72,6 +72,8 @@ void dip_cost_context_close(DipCostContext *cost) {
     dip_gallery_destroy(&cost->gallery);
 }
 
+// --- drawing -------------------------------------------------------------------------------------
+
 static bool draw(DipCostContext *cost, const DipQuality *quality, int path, int64_t time_ns,
                  int frame_index, DipFrame *frame, DipError *err) {
     const DipPose pose = dip_cost_pose(cost->report, cost->session, path, time_ns);
@@ -81,25 +83,115 @@ static bool draw(DipCostContext *cost, const DipQuality *quality, int path, int6
            dip_painter_draw(renderer, cost->session->scene, &pose, time_ns, frame, err);
 }
 
-bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
-                   DipError *err) {
+bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
+                         DipFrame *frame, DipError *err) {
+    const int64_t time_ns = dip_cost_path_duration_ns(cost->report, cost->session, path) /
+                            dip_cost_frame_count(cost->report) * index;
+    return draw(cost, quality, path, time_ns, index, frame, err);
+}
+
+bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int index,
+                             uint8_t *rgba8, char hash[33], DipError *err) {
     const DipCostRow *drawn = &cost->report->rows[row];
-    return draw(cost, &drawn->quality, drawn->path, time_ns, frame_index, frame, err);
+    const size_t row_bytes = (size_t)cost->report->width * 4;
+    const int64_t time_ns =
+        dip_cost_viewpoint_time_ns(cost->report, cost->session, drawn->path, viewpoint, index);
+    DipFrame frame;
+    if (!draw(cost, &drawn->quality, drawn->path, time_ns, index, &frame, err)) {
+        return false;
+    }
+    for (int y = 0; y < frame.height; y++) {
+        memcpy(rgba8 + (size_t)y * row_bytes, frame.rgba8 + (size_t)y * frame.stride_bytes,
+               row_bytes);
+    }
+    dip_frame_hash(&frame, hash);
+    return true;
 }
 
-static int64_t timed_ns(const DipCostContext *cost, int path, int index) {
-    return dip_cost_path_duration_ns(cost->report, cost->session, path) /
-           dip_cost_frame_count(cost->report) * index;
+static bool read_drawn(void *context, const DipCostPictureSet *set, int row, uint8_t *rgba8,
+                       DipError *err) {
+    DipCostContext *cost = context;
+    DipTruth truth;
+    char hash[33];
+    if (dip_cost_interrupted(err)) {
+        return false;
+    }
+    if (row >= 0) {
+        return dip_cost_draw_viewpoint(cost, row, set->viewpoint, 0, rgba8, hash, err);
+    }
+    if (!dip_cost_context_truth(cost, set->path, set->viewpoint, 0, NULL, NULL, &truth, err)) {
+        return false;
+    }
+    memcpy(rgba8, truth.rgba8, (size_t)truth.width * (size_t)truth.height * 4);
+    dip_truth_free(&truth);
+    return true;
 }
 
-bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int path, int index,
-                            DipFrame *frame, DipError *err) {
-    return draw(cost, quality, path, timed_ns(cost, path, index), index, frame, err);
+DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost) {
+    return (DipCostFrameSource){cost, read_drawn};
 }
 
-bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err) {
-    const int path = cost->report->rows[row].path;
-    return dip_cost_draw(cost, row, timed_ns(cost, path, index), index, frame, err);
+// --- truths --------------------------------------------------------------------------------------
+
+// Returns how many times wider and higher the picture is drawn.
+static int scale_of(const DipTruthDef *def) {
+    const int longer = def->width > def->height ? def->width : def->height;
+    int scale = 2;
+    while (scale * scale * SAMPLES < def->samples && (scale + 1) * longer <= DIP_MAX_FRAME_SIZE) {
+        scale++;
+    }
+    return scale * longer <= DIP_MAX_FRAME_SIZE ? scale : 1;
+}
+
+// Averages blocks of scale x scale pixels.
+static void average(const DipFrame *frame, int scale, int width, int height, double *rgb_lin) {
+    DipSrgbDecodeTable table;
+    dip_srgb_decode_table(&table);
+    const double share = 1.0 / (scale * scale);
+    for (int y = 0; y < height * scale; y++) {
+        const uint8_t *row = frame->rgba8 + (size_t)y * frame->stride_bytes;
+        double *out = rgb_lin + (size_t)(y / scale) * (size_t)width * 3;
+        for (int x = 0; x < width * scale; x++) {
+            for (int c = 0; c < 3; c++) {
+                out[3 * (x / scale) + c] += share * table.linear[row[4 * x + c]];
+            }
+        }
+    }
+}
+
+// The reference renderer cannot draw the gallery's scenes: the same pipeline draws the scene
+// several times as wide and high, with the best settings, and the pixels are averaged in linear
+// light. Such a truth shows what more samples would give, at least def->samples for each pixel, as
+// far as the greatest size of a frame allows. It cannot show a fault that the pipeline has at every
+// size. The two halves have different sample patterns.
+static bool draw_gallery_truth(const DipTruthDef *def, int half, double *rgb_lin, DipError *err) {
+    const DipCostContext *cost = def->context;
+    const int scale = scale_of(def);
+    DipGalleryPaneDef pane_def = {.gallery = cost->gallery,
+                                  .isa = cost->session->isa,
+                                  .width = def->width * scale,
+                                  .height = def->height * scale};
+    DipFrame frame;
+    if (!dip_quality_parse("aa=8,taa=on,af=16,aaf=on", &pane_def.quality, err)) {
+        return false;
+    }
+    DipGalleryPane *pane = dip_gallery_pane_create(&pane_def, err);
+    if (!pane) {
+        return false;
+    }
+    dip_gallery_pane_set_frame_index(pane, (uint64_t)half);
+    const bool drawn = dip_gallery_pane_draw(pane, &def->pose, def->time_ns, &frame, err);
+    if (drawn) {
+        average(&frame, scale, def->width, def->height, rgb_lin);
+    }
+    dip_gallery_pane_destroy(&pane);
+    return drawn;
+}
+
+static bool go_on(void *context, double done) {
+    (void)context;
+    (void)done;
+    return !dip_interrupted();
 }
 
 bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,
@@ -108,11 +200,10 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
     const DipCostReport *report = cost->report;
     const int64_t time_ns =
         dip_cost_viewpoint_time_ns(report, cost->session, path, viewpoint, frame);
-    DipGalleryTruth gallery = {.gallery = cost->gallery, .isa = cost->session->isa};
     const DipTruthDef def = {
         .reference = cost->reference,
-        .draw = cost->gallery ? dip_gallery_truth_draw : NULL,
-        .context = &gallery,
+        .draw = cost->gallery ? draw_gallery_truth : NULL,
+        .context = cost,
         .scene_hash = report->scene_hash,
         .pose = dip_cost_pose(report, cost->session, path, time_ns),
         .time_ns = time_ns,
@@ -121,33 +212,15 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
         .samples = report->options.samples,
         .pixels_per_degree = report->options.pixels_per_degree,
     };
-    return dip_truth_get(truth, &def, cost->cache, cost->session->pool, progress, context, err);
+    const bool got = dip_truth_get(truth, &def, cost->cache, cost->session->pool,
+                                   progress ? progress : go_on, context, err);
+    if (!got) {
+        dip_cost_interrupted(err); // Says how to go on.
+    }
+    return got;
 }
 
-DipDriverDef dip_cost_driver_def(const DipCostReport *report, int subjects, int block_subjects) {
-    const int rounds = report->options.rounds;
-    return (DipDriverDef){
-        .subjects = subjects,
-        .block_subjects = block_subjects,
-        .starts = 1,
-        .rounds = rounds,
-        .frames = dip_cost_frame_count(report),
-        .base_copies = rounds < BASE_COPIES ? rounds : BASE_COPIES,
-        .warm_frames = 1,
-        .seed = (uint64_t)report->options.seed,
-        .most_wait = DIP_TIMED_MOST_WAIT,
-    };
-}
-
-void dip_cost_stage_parts(const DipFrame *frame, double parts_ms[DIP_TIMED_PARTS]) {
-    _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is a part");
-#define WRITE_STAGE(name, text) *parts_ms++ = frame->stages.name##_ms;
-    DIP_STAGE_LIST(WRITE_STAGE)
-#undef WRITE_STAGE
-}
-
-bool dip_cost_interrupted(const DipCostContext *cost, DipError *err) {
-    (void)cost;
+bool dip_cost_interrupted(DipError *err) {
     return dip_interrupted() &&
            !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost", DIP_COST_INTERRUPTED);
 }

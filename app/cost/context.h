@@ -7,7 +7,9 @@
 
 #include "app/cost/journal.h"
 #include "app/cost/plan.h"
-#include "app/measure/timing/driver.h"
+#include "app/report/page/picture_set.h"
+#include "app/cli/measure_options.h"
+#include "app/gallery/gallery.h"
 #include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
 
@@ -25,8 +27,7 @@ typedef struct DipCostContext {
     DipPainter *renderers[2];
     // The command line that a start of the measurement gets (starts.h); NULL: frames are timed
     // here.
-    char *const *argv;
-    int argc;
+    const DipServeOptions *start;
 } DipCostContext;
 
 // Opens the context of a report. Without `judges`, it has no truths: it draws and times only.
@@ -34,36 +35,29 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
                            DipCostJournal *journal, const char *cache, bool judges, DipError *err);
 void dip_cost_context_close(DipCostContext *cost);
 
-// Draws a row's frame at a time on the row's camera path. frame_index selects the sample pattern of
-// temporal AA.
-bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
-                   DipError *err);
+// Draws the timed frame `index`, 0..dip_cost_frame_count - 1, of a path.
+bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
+                         DipFrame *frame, DipError *err);
 
-// Draws the timed frame `index` of a path with any settings.
-bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int path, int index,
-                            DipFrame *frame, DipError *err);
+// Draws the frame `index` of a row's burst at a viewpoint, the successive frames that are drawn
+// there. Writes the packed pixels and the hash of the picture.
+bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int index,
+                             uint8_t *rgba8, char hash[33], DipError *err);
 
-// Draws the row's timed frame `index`, 0..dip_cost_frame_count - 1.
-bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err);
+// Returns the source of the pictures in the page, which draws them in the context. Borrows it.
+DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost);
 
-// Gets the truth of one frame at a viewpoint of a path. A burst is the successive frames that are
-// drawn at a viewpoint. `frame` is the index of the frame in its burst.
+// Gets the truth of one frame of the burst at a viewpoint of a path. `progress` may be NULL; the
+// work ends with DIP_ERROR_RUNTIME once the user has pressed Ctrl-C.
 bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,
                             DipTruthProgress *progress, void *context, DipTruth *truth,
                             DipError *err);
-
-// Returns how the report's frames are timed, for the given number of subjects; the caller adds the
-// bases. The seed is that of the report.
-DipDriverDef dip_cost_driver_def(const DipCostReport *report, int subjects, int block_subjects);
-
-// Writes the times of a frame's stages.
-void dip_cost_stage_parts(const DipFrame *frame, double parts_ms[DIP_TIMED_PARTS]);
 
 // What an interrupted command says.
 #define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
 
 // Returns true and fills *err if the user has pressed Ctrl-C. All measurements made before remain
 // in the journal (journal.h).
-bool dip_cost_interrupted(const DipCostContext *cost, DipError *err);
+bool dip_cost_interrupted(DipError *err);
 
 #endif

@@ -2,55 +2,40 @@
 // report.
 #include "app/cost/cost.h"
 
-#include "app/cost/drawn_frames.h"
 #include "app/report/format/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/report/page/report_pictures.h"
 #include "app/report/same_pictures.h"
+#include "app/cost/command.h"
 #include "app/cost/starts.h"
 #include "app/cost/steps.h"
-#include "app/cost/truth_files.h"
 #include "app/files/folder.h"
 #include "app/cli/interrupt.h"
+#include "renderer/base/assert.h"
 
 #include <limits.h>
 #include <stdio.h>
 #include <time.h>
 
-static bool write_file(const DipCostReport *report, const char *folder, const char *name,
-                       bool (*write)(const DipCostReport *, const char *, DipError *),
-                       DipError *err) {
-    char file[PATH_MAX];
-    const int length = snprintf(file, sizeof file, "%s/%s", folder, name);
-    if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
-                                     "the name is too long");
-    }
-    return write(report, file, err);
-}
-
-static bool write_page(const DipCostReport *report, const DipCostFrameSource *source,
-                       const char *folder, DipError *err) {
-    char file[PATH_MAX];
+bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
+                           const char *folder, DipError *err) {
+    char html[PATH_MAX], csv[PATH_MAX], json[PATH_MAX];
     DipCostPictures pictures;
-    if (snprintf(file, sizeof file, "%s/cost.html", folder) >= (int)sizeof file) {
+    snprintf(html, sizeof html, "%s/cost.html", folder);
+    snprintf(csv, sizeof csv, "%s/cost.csv", folder);
+    if (snprintf(json, sizeof json, "%s/cost.json", folder) >= (int)sizeof json) {
         return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
                                      "the name is too long");
     }
     if (!dip_cost_pictures_make(&pictures, report, source, err)) {
         return false;
     }
-    const bool written = dip_cost_write_html(report, &pictures, file, err);
+    const bool written = dip_cost_write_html(report, &pictures, html, err) &&
+                         dip_cost_write_csv(report, csv, err) &&
+                         dip_cost_write_json(report, json, err);
     dip_cost_pictures_free(&pictures);
     return written;
-}
-
-bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
-                           const char *folder, DipError *err) {
-    return write_page(report, source, folder, err) &&
-           write_file(report, folder, "cost.csv", dip_cost_write_csv, err) &&
-           write_file(report, folder, "cost.json", dip_cost_write_json, err);
 }
 
 bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err) {
@@ -85,12 +70,6 @@ static void set_date(DipCostReport *report) {
     }
 }
 
-// Writes the truths if --save-truths asks for them.
-static bool save_truths(DipCostContext *cost, DipError *err) {
-    const char *folder = cost->report->options.truths;
-    return !folder || dip_cost_save_truths(cost, folder, err);
-}
-
 static bool run(DipSession *session, const DipCostArguments *arguments, DipCostReport *report,
                 DipError *err) {
     char plan[33];
@@ -107,13 +86,12 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
         dip_cost_journal_close(&journal, false);
         return false;
     }
-    cost.argv = arguments->argv;
-    cost.argc = arguments->argc;
+    cost.start = &arguments->serve;
     bool done = measure(&cost, err);
     if (done) {
         set_date(report);
         const DipCostFrameSource source = dip_cost_drawn_frames(&cost);
-        done = save_truths(&cost, err) && dip_cost_analyse(report, err) &&
+        done = dip_cost_analyse(report, err) &&
                dip_cost_write_report(report, &source, arguments->out, err);
     }
     dip_cost_context_close(&cost);
@@ -141,16 +119,57 @@ static bool serve(DipSession *session, DipCostReport *report, DipError *err) {
     return done;
 }
 
-bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipError *err) {
+static bool run_command(DipSession *session, const void *options_given, DipError *err) {
+    const DipCostArguments *arguments = options_given;
     DipCostReport report;
     DipCostOptions options = arguments->cost;
     dip_cost_set_measure(&options, &arguments->measure);
-    if (!arguments->serve) {
+    if (!arguments->serve.serve) {
         dip_interrupt_watch(); // A start ends with the process that started it.
     }
-    const bool done =
-        dip_cost_plan(&report, session, &options, err) &&
-        (arguments->serve ? serve(session, &report, err) : run(session, arguments, &report, err));
+    const bool done = dip_cost_plan(&report, session, &options, err) &&
+                      (arguments->serve.serve ? serve(session, &report, err)
+                                              : run(session, arguments, &report, err));
     dip_cost_report_free(&report);
     return done;
 }
+
+static void describe_cost(const void *arguments, DipSessionDef *def) {
+    def->options = &((const DipCostArguments *)arguments)->session;
+    def->scene = true;
+    def->keep_model = true; // The reference renderer draws the converged pictures from the model.
+}
+
+static const DipExample cost_examples[] = {
+    {"diptych cost --out report", "measures the courtyard in a few minutes"},
+    {"diptych cost --out report --fps 60,120",
+     "finds the best settings for 60 and for 120 frames a second"},
+    {"diptych cost --out report --predict --budget-ms 4,8,16,33",
+     "ranks 1512 combinations of settings and measures only the best of them"},
+    {"diptych cost --out report --model scene.glb --size 1280x720", "measures your own model"},
+    {"diptych cost --out part0 --places 8 --part 0:4",
+     "measures the errors at half of the viewpoints"},
+    {"diptych cost --out part1 --places 8 --part 4:8 --errors-only",
+     "measures the errors at the other half, on another machine"},
+    {"diptych cost merge --out report part0/cost.json part1/cost.json", "joins the two parts"},
+};
+
+const DipCommand dip_cost_command = {
+    .name = "cost",
+    .summary = "report what each setting costs in time and buys in accuracy",
+    .usage = "--out DIR [OPTION]...",
+    .text = "Cost changes one setting at a time. It measures how much longer a frame takes, and "
+            "how much closer the picture comes to the converged picture, which has very many "
+            "samples per pixel. It writes a report with tables, plots and pictures.\n\n"
+            "A run takes minutes. To continue an interrupted run, give the same command again. "
+            "docs/cost-methods.md defines every number in the report.",
+    .examples = cost_examples,
+    .example_count = DIP_ARRAY_COUNT(cost_examples),
+    .lists_settings = true,
+    .parts = &dip_cost_option_parts,
+    .options_size = sizeof(DipCostArguments),
+    .set_defaults = dip_cost_options_default,
+    .check = dip_cost_options_check,
+    .describe_session = describe_cost,
+    .run = run_command,
+};

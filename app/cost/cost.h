@@ -1,4 +1,4 @@
-// The work of `diptych cost` and `diptych cost merge`.
+// What `diptych cost` and `diptych cost merge` share.
 #ifndef DIP_APP_COST_COST_H
 #define DIP_APP_COST_COST_H
 
@@ -16,12 +16,5 @@ bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err
 // of the page; it is not used with --pictures none.
 bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
                            const char *folder, DipError *err);
-
-// Measures the time and the error of each setting, writes the report and prints its table.
-bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipError *err);
-
-// Joins the parts of a report that several machines measured. The session shows the scene of the
-// parts; with --pictures none it has no scene.
-bool dip_cost_merge_run(DipSession *session, const DipCostMergeArguments *arguments, DipError *err);
 
 #endif

@@ -2,10 +2,14 @@
 // against the truths.
 #include "app/cost/steps.h"
 #include "app/cli/interrupt.h"
+#include "app/files/folder.h"
+#include "app/files/pfm.h"
 #include "app/measure/metrics/meter.h"
 #include "app/cli/progress.h"
 #include "renderer/base/hash.h"
 
+#include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,38 +32,52 @@ static bool show_truth(void *context, double done) {
     return !dip_interrupted();
 }
 
-static bool make_path_truths(DipCostContext *cost, int path, TruthProgress *at, DipError *err) {
-    DipCostReport *report = cost->report;
-    const DipCostOptions *options = &report->options;
-    for (int viewpoint = options->first_place; viewpoint < options->end_place; viewpoint++) {
-        for (int frame = 0; frame < options->burst; frame++) {
-            DipTruth truth;
-            const bool got =
-                dip_cost_context_truth(cost, path, viewpoint, frame, show_truth, at, &truth, err);
-            if (!got) {
-                dip_cost_interrupted(cost, err);
-                return false;
-            }
-            const int index = path * options->places + viewpoint;
-            dip_metric_sums_add(&report->floors[index], &truth.floor);
-            report->has_floor[index] = true;
-            dip_truth_free(&truth);
-            at->before += STEPS_PER_TRUTH;
-        }
+// Writes a truth into the folder of --save-truths as PATH-VIEWPOINT-FRAME.pfm.
+static bool save_truth(const DipCostReport *report, const DipTruth *truth, int path, int viewpoint,
+                       int frame, DipError *err) {
+    const char *folder = report->options.truths;
+    char file[PATH_MAX];
+    const int length = snprintf(file, sizeof file, "%s/%s-%d-%d.pfm", folder, report->paths[path],
+                                viewpoint, frame);
+    if (length < 0 || (size_t)length >= sizeof file) {
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--save-truths",
+                                     "the name is too long");
     }
-    return true;
+    return dip_pfm_write(file, truth->rgb_lin, truth->width, truth->height, err);
+}
+
+static bool make_truth(DipCostContext *cost, int path, int viewpoint, int frame, TruthProgress *at,
+                       DipError *err) {
+    DipCostReport *report = cost->report;
+    const int index = path * report->options.places + viewpoint;
+    DipTruth truth;
+    if (!dip_cost_context_truth(cost, path, viewpoint, frame, show_truth, at, &truth, err)) {
+        return false;
+    }
+    dip_metric_sums_add(&report->floors[index], &truth.floor);
+    report->has_floor[index] = true;
+    at->before += STEPS_PER_TRUTH;
+    const bool saved =
+        !report->options.truths || save_truth(report, &truth, path, viewpoint, frame, err);
+    dip_truth_free(&truth);
+    return saved;
 }
 
 bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
     const DipCostOptions *options = &cost->report->options;
-    const int truths =
-        cost->report->path_count * (options->end_place - options->first_place) * options->burst;
+    const int per_path = (options->end_place - options->first_place) * options->burst;
+    const int truths = cost->report->path_count * per_path;
+    if (options->truths && !dip_folder_make(options->truths, "--save-truths", err)) {
+        return false;
+    }
     TruthProgress at = {
         dip_progress_begin("steps (1000 per converged picture)", (int64_t)truths * STEPS_PER_TRUTH),
         0};
     bool made = true;
-    for (int path = 0; made && path < cost->report->path_count; path++) {
-        made = make_path_truths(cost, path, &at, err);
+    for (int i = 0; made && i < truths; i++) {
+        const int in_path = i % per_path;
+        made = make_truth(cost, i / per_path, options->first_place + in_path / options->burst,
+                          in_path % options->burst, &at, err);
     }
     dip_progress_end(&at.progress, at.before);
     return made;
@@ -188,25 +206,16 @@ static bool judge_bursts(Judge *j, DipError *err) {
 // Draws a row's burst and computes its key.
 static bool draw_burst(Judge *j, int row, Burst *drawn, DipError *err) {
     const DipCostReport *report = j->cost->report;
-    const size_t row_bytes = (size_t)report->width * 4;
     DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, "diptych errors 1");
     dip_hash_number(&hash, report->options.pixels_per_degree);
     drawn->row = row;
     for (int f = 0; f < report->options.burst; f++) {
-        const int64_t time_ns =
-            dip_cost_viewpoint_time_ns(report, j->cost->session, j->path, j->viewpoint, f);
-        uint8_t *to = drawn->rgba8 + (size_t)f * picture_bytes(j);
-        DipFrame frame;
         char hex[33];
-        if (!dip_cost_draw(j->cost, row, time_ns, f, &frame, err)) {
+        if (!dip_cost_draw_viewpoint(j->cost, row, j->viewpoint, f,
+                                     drawn->rgba8 + (size_t)f * picture_bytes(j), hex, err)) {
             return false;
         }
-        for (int y = 0; y < report->height; y++) {
-            memcpy(to + (size_t)y * row_bytes, frame.rgba8 + (size_t)y * frame.stride_bytes,
-                   row_bytes);
-        }
-        dip_frame_hash(&frame, hex);
         dip_hash_text(&hash, hex);
         dip_hash_text(&hash, j->truths[f].key);
     }
@@ -220,7 +229,7 @@ static bool judge_rows(Judge *j, DipError *err) {
     DipCostReport *report = j->cost->report;
     bool judged = true;
     for (int row = 0; judged && row < report->row_count; row++) {
-        if (report->rows[row].path != j->path) {
+        if (report->rows[row].path != j->path || report->rows[row].judged[j->viewpoint]) {
             continue;
         }
         Burst *drawn = &j->bursts[j->burst_count];
@@ -231,22 +240,16 @@ static bool judge_rows(Judge *j, DipError *err) {
             judged = judge_bursts(j, err);
         }
         dip_progress_show(&j->progress, ++j->done);
-        judged = judged && !dip_cost_interrupted(j->cost, err);
+        judged = judged && !dip_cost_interrupted(err);
     }
     return judged && judge_bursts(j, err);
-}
-
-static bool no_progress(void *context, double done) {
-    (void)context;
-    (void)done;
-    return true;
 }
 
 static bool judge_viewpoint(Judge *j, DipError *err) {
     const int burst = j->cost->report->options.burst;
     int got = 0;
-    while (got < burst && dip_cost_context_truth(j->cost, j->path, j->viewpoint, got, no_progress,
-                                                 NULL, &j->truths[got], err)) {
+    while (got < burst && dip_cost_context_truth(j->cost, j->path, j->viewpoint, got, NULL, NULL,
+                                                 &j->truths[got], err)) {
         const DipSrgbPicture picture = picture_of(j, j->truths[got].rgba8);
         dip_flip_analyse(&j->meters[0].flip, &picture, &j->analyses[got]);
         got++;

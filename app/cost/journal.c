@@ -1,34 +1,33 @@
 // The journal is a text file. Each line has a kind, a key, numbers in exact hexadecimal notation,
-// and a checksum.
+// and a checksum: "errors KEY v v ... CHECK" or "round PLAN v v ... CHECK".
 #include "app/cost/journal.h"
 
+#include "renderer/base/file.h"
 #include "renderer/base/hash.h"
 
 #include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { KEY_LENGTH = 32, ERROR_VALUES = DIP_METRIC_SUM_COUNT + DIP_FLIP_TAIL_COUNT };
-
-typedef struct Entry {
-    bool is_round;
-    char key[KEY_LENGTH + 1];
-    double *values;
-    int count;
-} Entry;
+enum {
+    CHECK = DIP_HASH_HEX_SIZE, // Letters of " CHECK".
+    ERROR_VALUES = DIP_METRIC_SUM_COUNT + DIP_FLIP_TAIL_COUNT,
+    TIMED_VALUES = 10 + DIP_TIMED_PARTS // A round has its seed, and then these of each frame.
+};
 
 struct DipCostJournal {
     char file[PATH_MAX];
-    char plan[KEY_LENGTH + 1];
+    char plan[33];
     FILE *out;
-    Entry *entries;
-    int count;
-    int capacity;
+    // What the file had when it was opened: good lines without their checksums, between zeros.
+    char *text;
+    size_t size;
 };
 
 static bool io_fault(const DipCostJournal *journal, DipError *err) {
@@ -36,112 +35,39 @@ static bool io_fault(const DipCostJournal *journal, DipError *err) {
                                  strerror(errno));
 }
 
-// Appends an entry and takes ownership of its values.
-static bool keep(DipCostJournal *journal, const Entry *entry) {
-    if (journal->count == journal->capacity) {
-        const int capacity = journal->capacity ? 2 * journal->capacity : 256;
-        Entry *entries = realloc(journal->entries, (size_t)capacity * sizeof *entries);
-        if (!entries) {
-            return false;
-        }
-        journal->entries = entries;
-        journal->capacity = capacity;
-    }
-    journal->entries[journal->count++] = *entry;
-    return true;
-}
-
-static void check_of(const char *text, size_t length, char check[33]) {
-    DipHash hash = dip_hash_begin(0);
-    dip_hash_bytes(&hash, text, length);
-    dip_hash_hex(&hash, check);
-}
-
-// Reads the text from..end as numbers with one space between them. Sets *values to NULL if the text
-// has another form. Returns false when memory runs out. `*end` must not be part of a number.
-static bool read_values(const char *from, const char *end, double **values_read, int *count) {
-    int room = 1;
-    for (const char *c = from; c < end; c++) {
-        room += *c == ' ';
-    }
-    double *values = malloc((size_t)room * sizeof *values);
-    bool is_good = values != NULL;
-    *count = 0;
-    while (is_good && from < end) {
-        char *rest;
-        values[*count] = strtod(from, &rest);
-        // strtod skips white space before a number.
-        is_good = rest != from && rest <= end && !isspace((unsigned char)*from) &&
-                  (rest == end || *rest == ' ');
-        ++*count;
-        from = rest + (rest < end);
-    }
-    *values_read = is_good ? values : NULL;
-    if (!is_good) {
-        free(values);
-    }
-    return values != NULL;
-}
-
-// Reads and keeps one line without its line break: "errors KEY v v ... CHECK" or "round PLAN v v
-// ... CHECK". Ignores a line whose checksum CHECK is wrong. Returns false when memory runs out.
-static bool read_line(DipCostJournal *journal, char *line, size_t length) {
-    Entry entry = {.is_round = strncmp(line, "round ", 6) == 0};
-    const size_t head = entry.is_round ? 6 : 7;
+// Overwrites a line's checksum with zeros, and the whole line if the checksum is wrong.
+static void check_line(char *line, size_t length) {
     char check[33];
-    if (length < head + KEY_LENGTH + 1 + 33 ||
-        (!entry.is_round && strncmp(line, "errors ", 7) != 0)) {
-        return true;
-    }
-    const size_t body = length - 33; // without " CHECK"
-    check_of(line, body, check);
-    if (line[body] != ' ' || memcmp(line + body + 1, check, 32) != 0) {
-        return true;
-    }
-    memcpy(entry.key, line + head, KEY_LENGTH);
-    line[body] = '\0';
-    if (!read_values(line + head + KEY_LENGTH + 1, line + body, &entry.values, &entry.count)) {
-        return false;
-    }
-    if (entry.values && !keep(journal, &entry)) {
-        free(entry.values);
-        return false;
-    }
-    return true;
+    const size_t body = length < CHECK ? 0 : length - CHECK;
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_bytes(&hash, line, body);
+    dip_hash_hex(&hash, check);
+    const bool good = body > 0 && line[body] == ' ' && !memchr(line, '\0', length) &&
+                      memcmp(line + body + 1, check, CHECK - 1) == 0;
+    memset(line + (good ? body : 0), 0, length - (good ? body : 0));
 }
 
 // Reads all complete lines. Cuts an incomplete line off the end of the file, but only after the
 // whole file was read: if memory runs out, the file keeps its measurements.
 static bool read_file(DipCostJournal *journal, DipError *err) {
-    FILE *in = fopen(journal->file, "r");
-    if (!in) {
-        return errno == ENOENT || io_fault(journal, err);
-    }
-    char *line = NULL;
-    size_t room = 0;
-    long whole = 0;
-    bool kept = true;
-    errno = 0;
-    for (ssize_t length; kept && (length = getline(&line, &room, in)) > 0;) {
-        if (line[length - 1] != '\n') {
-            break;
+    DipError fault = {0};
+    unsigned char *bytes;
+    if (!dip_file_read(journal->file, "journal", SIZE_MAX / 2, &bytes, &journal->size, &fault)) {
+        if (fault.code != DIP_ERROR_MISSING && err) {
+            *err = fault;
         }
-        whole = ftell(in);
-        kept = read_line(journal, line, (size_t)length - 1);
+        journal->size = 0;
+        return fault.code == DIP_ERROR_MISSING;
     }
-    const bool ended = feof(in) != 0;
-    const int reason = errno;
-    free(line);
-    fclose(in);
-    if (!kept || (!ended && reason == ENOMEM)) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, journal->file, 0, NULL,
-                             "cannot be read: out of memory");
+    journal->text = (char *)bytes;
+    size_t whole = 0;
+    for (char *end; (end = memchr(journal->text + whole, '\n', journal->size - whole));) {
+        *end = '\0';
+        check_line(journal->text + whole, (size_t)(end - journal->text) - whole);
+        whole = (size_t)(end - journal->text) + 1;
     }
-    if (!ended) {
-        return dip_error_set_runtime(err, DIP_ERROR_IO, journal->file, 0, NULL,
-                                     "cannot be read: %s", strerror(reason));
-    }
-    return truncate(journal->file, whole) == 0 || io_fault(journal, err);
+    journal->size = whole;
+    return truncate(journal->file, (off_t)whole) == 0 || io_fault(journal, err);
 }
 
 DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipError *err) {
@@ -152,13 +78,11 @@ DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipE
     }
     const int length = snprintf(journal->file, sizeof journal->file, "%s/cost.state", folder);
     snprintf(journal->plan, sizeof journal->plan, "%s", plan);
-    if (length < 0 || (size_t)length >= sizeof journal->file) {
+    bool opened = length >= 0 && (size_t)length < sizeof journal->file;
+    if (!opened) {
         dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
-        dip_cost_journal_close(&journal, false);
-        return NULL;
     }
-    bool opened = read_file(journal, err);
-    if (opened) {
+    if (opened && (opened = read_file(journal, err))) {
         journal->out = fopen(journal->file, "a");
         opened = journal->out || io_fault(journal, err);
     }
@@ -179,144 +103,133 @@ void dip_cost_journal_close(DipCostJournal **state_pointer, bool finished) {
             remove(journal->file);
         }
     }
-    for (int i = 0; i < journal->count; i++) {
-        free(journal->entries[i].values);
-    }
-    free(journal->entries);
+    free(journal->text);
     free(journal);
     *state_pointer = NULL;
 }
 
-// Returns the text of a line without its checksum, or NULL when memory runs out. The caller frees
-// it.
-static char *make_line(bool is_round, const char *key, const double *values, int count,
-                       size_t *size) {
-    char *text = NULL;
-    FILE *line = open_memstream(&text, size);
-    if (!line) {
-        return NULL;
-    }
-    fprintf(line, "%s %s", is_round ? "round" : "errors", key);
-    for (int i = 0; i < count; i++) {
-        fprintf(line, " %a", values[i]);
-    }
-    const bool made = !ferror(line);
-    if (fclose(line) != 0 || !made) {
-        free(text);
-        return NULL;
-    }
-    return text;
+// --- lines ---------------------------------------------------------------------------------------
+
+static void put(FILE *out, DipHash *hash, const char *text) {
+    dip_hash_bytes(hash, text, strlen(text));
+    fputs(text, out);
 }
 
-// Keeps a measurement, then writes it to the file. If memory runs out, does neither.
-static bool append(DipCostJournal *journal, bool is_round, const char *key, const double *values,
-                   int count, DipError *err) {
-    size_t size = 0;
-    char *text = make_line(is_round, key, values, count, &size);
-    Entry entry = {is_round, "", malloc((size_t)count * sizeof *values), count};
-    snprintf(entry.key, sizeof entry.key, "%s", key);
-    if (!text || !entry.values || !keep(journal, &entry)) {
-        free(text);
-        free(entry.values);
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+// Writes a line, for the next run.
+static bool append(const DipCostJournal *journal, const char *kind, const char *key,
+                   const double *values, int count, DipError *err) {
+    DipHash hash = dip_hash_begin(0);
+    char text[80];
+    snprintf(text, sizeof text, "%s %.32s", kind, key);
+    put(journal->out, &hash, text);
+    for (int i = 0; i < count; i++) {
+        snprintf(text, sizeof text, " %a", values[i]);
+        put(journal->out, &hash, text);
     }
-    memcpy(entry.values, values, (size_t)count * sizeof *values);
-    char check[33];
-    check_of(text, size, check);
-    const bool written =
-        fprintf(journal->out, "%s %s\n", text, check) > 0 && fflush(journal->out) == 0;
-    free(text);
-    return written || io_fault(journal, err);
+    dip_hash_hex(&hash, text);
+    return (fprintf(journal->out, " %s\n", text) > 0 && fflush(journal->out) == 0 &&
+            !ferror(journal->out)) ||
+           io_fault(journal, err);
+}
+
+// Returns the numbers of a line with this kind and key, or NULL; of the first one if *skip is 0.
+// *skip sinks by the number of lines that it passes over.
+static const char *find(const DipCostJournal *journal, const char *kind, const char *key,
+                        int *skip) {
+    char head[64];
+    const size_t length = (size_t)snprintf(head, sizeof head, "%s %s ", kind, key);
+    for (size_t at = 0; at < journal->size; at += strlen(journal->text + at) + 1) {
+        if (strncmp(journal->text + at, head, length) == 0 && (*skip)-- == 0) {
+            return journal->text + at + length;
+        }
+    }
+    return NULL;
+}
+
+// Reads at most `most` numbers with one space between them. Returns how many there are; 0 if the
+// text has another form.
+static int read_values(const char *text, double *values, int most) {
+    for (int count = 0; count < most;) {
+        char *rest;
+        values[count++] = strtod(text, &rest);
+        // strtod skips white space before a number.
+        if (rest == text || isspace((unsigned char)*text) || (*rest && *rest != ' ')) {
+            return 0;
+        }
+        if (!*rest) {
+            return count;
+        }
+        text = rest + 1;
+    }
+    return 0;
 }
 
 bool dip_cost_journal_find(const DipCostJournal *journal, const char *key,
                            DipCostBurstErrors *errors) {
-    for (int i = 0; i < journal->count; i++) {
-        const Entry *entry = &journal->entries[i];
-        if (!entry->is_round && entry->count == ERROR_VALUES && strcmp(entry->key, key) == 0) {
-            memcpy(errors, entry->values, sizeof *errors);
-            return true;
-        }
+    double values[ERROR_VALUES];
+    int skip = 0;
+    const char *text = find(journal, "errors", key, &skip);
+    const bool found = text && read_values(text, values, ERROR_VALUES) == ERROR_VALUES;
+    if (found) {
+        memcpy(errors, values, sizeof *errors);
     }
-    return false;
+    return found;
 }
 
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
                           const DipCostBurstErrors *errors, DipError *err) {
     double values[ERROR_VALUES];
     memcpy(values, errors, sizeof values);
-    return append(journal, false, key, values, ERROR_VALUES, err);
+    return append(journal, "errors", key, values, ERROR_VALUES, err);
 }
 
 // --- rounds --------------------------------------------------------------------------------------
 
-// A round's entry has its seed, and then the numbers of each frame.
-enum { TIMED_VALUES = 10 + DIP_TIMED_PARTS };
-
-static void write_timed(const DipTimed *timed, double values[TIMED_VALUES]) {
-    const double all[10] = {
-        timed->subject,          timed->start, timed->round, timed->block,  timed->frame,
-        (double)timed->begin_ns, timed->ms,    timed->wait,  timed->cpu_ms, timed->switches};
-    memcpy(values, all, sizeof all);
-    memcpy(values + 10, timed->parts_ms, sizeof timed->parts_ms);
-}
+_Static_assert(offsetof(DipTimed, parts_ms) == offsetof(DipTimed, ms) + 4 * sizeof(double),
+               "the times follow one another");
+enum { TIMES_SIZE = (TIMED_VALUES - 6) * sizeof(double) };
 
 // Returns -1 for what is no index. Such a frame fits no round.
 static int read_index(double value) {
     return value >= 0.0 && value <= INT_MAX ? (int)value : -1;
 }
 
-static DipTimed read_timed(const double values[TIMED_VALUES]) {
-    DipTimed timed = {
-        .subject = read_index(values[0]),
-        .start = read_index(values[1]),
-        .round = read_index(values[2]),
-        .block = read_index(values[3]),
-        .frame = read_index(values[4]),
-        .begin_ns = fabs(values[5]) < 9e18 ? (int64_t)values[5] : 0,
-        .ms = values[6],
-        .wait = values[7],
-        .cpu_ms = values[8],
-        .switches = values[9],
-    };
-    memcpy(timed.parts_ms, values + 10, sizeof timed.parts_ms);
-    return timed;
-}
-
-static const Entry *find_round(const DipCostJournal *journal, int round, int *rounds) {
-    *rounds = 0;
-    for (int i = 0; i < journal->count; i++) {
-        const Entry *entry = &journal->entries[i];
-        if (entry->is_round && entry->count % TIMED_VALUES == 1 &&
-            strcmp(entry->key, journal->plan) == 0 && (*rounds)++ == round) {
-            return entry;
-        }
-    }
-    return NULL;
-}
-
 int dip_cost_journal_round_count(const DipCostJournal *journal) {
-    int count;
-    find_round(journal, -1, &count);
-    return count;
+    int skip = INT_MAX;
+    find(journal, "round", journal->plan, &skip);
+    return INT_MAX - skip;
 }
 
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count) {
-    int rounds;
-    const Entry *entry = find_round(journal, round, &rounds);
-    *count = entry && entry->values[0] == seed ? entry->count / TIMED_VALUES : 0;
-    DipTimed *timed = malloc(((size_t)*count + 1) * sizeof *timed);
-    for (int i = 0; timed && i < *count; i++) {
-        timed[i] = read_timed(entry->values + 1 + i * TIMED_VALUES);
+    const char *text = find(journal, "round", journal->plan, &round);
+    const int most = text ? (int)strlen(text) / 2 + 1 : 0;
+    double *values = malloc(((size_t)most + 1) * sizeof *values);
+    const int found = values ? read_values(text, values, most) : 0;
+    DipTimed *timed = malloc(((size_t)found + 1) * sizeof *timed);
+    *count = timed && found % TIMED_VALUES == 1 && values[0] == seed ? found / TIMED_VALUES : 0;
+    for (int i = 0; i < *count; i++) {
+        const double *v = values + 1 + i * TIMED_VALUES;
+        timed[i] = (DipTimed){.subject = read_index(v[0]),
+                              .start = read_index(v[1]),
+                              .round = read_index(v[2]),
+                              .block = read_index(v[3]),
+                              .frame = read_index(v[4]),
+                              .begin_ns = fabs(v[5]) < 9e18 ? (int64_t)v[5] : 0};
+        memcpy(&timed[i].ms, v + 6, TIMES_SIZE);
     }
+    if (!values) {
+        free(timed);
+        timed = NULL;
+    }
+    free(values);
     return timed;
 }
 
 void dip_cost_journal_seed(const DipCostJournal *journal, int *seed) {
-    int rounds;
-    const Entry *entry = find_round(journal, 0, &rounds);
-    if (entry) {
-        *seed = read_index(entry->values[0]);
+    int skip = 0;
+    const char *text = find(journal, "round", journal->plan, &skip);
+    if (text) {
+        *seed = read_index(strtod(text, NULL));
     }
 }
 
@@ -328,9 +241,14 @@ bool dip_cost_journal_add_round(DipCostJournal *journal, int seed, const DipTime
     }
     values[0] = seed;
     for (int i = 0; i < count; i++) {
-        write_timed(&timed[i], values + 1 + i * TIMED_VALUES);
+        double *v = values + 1 + i * TIMED_VALUES;
+        const double head[6] = {timed[i].subject, timed[i].start, timed[i].round,
+                                timed[i].block,   timed[i].frame, (double)timed[i].begin_ns};
+        memcpy(v, head, sizeof head);
+        memcpy(v + 6, &timed[i].ms, TIMES_SIZE);
     }
-    const bool added = append(journal, true, journal->plan, values, count * TIMED_VALUES + 1, err);
+    const bool added =
+        append(journal, "round", journal->plan, values, count * TIMED_VALUES + 1, err);
     free(values);
     return added;
 }

@@ -30,15 +30,15 @@ DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipE
 // Closes the journal. Removes its file if the report is finished.
 void dip_cost_journal_close(DipCostJournal **journal, bool finished);
 
-// dip_cost_journal_find looks up the errors of a burst and returns false if the journal does not
-// have them. dip_cost_journal_add stores them. The key is a hash of the burst's pictures and
-// truths.
+// dip_cost_journal_find looks up the errors of a burst and returns false if the journal did not
+// have them when it was opened. dip_cost_journal_add stores them for the next run. The key is a
+// hash of the burst's pictures and truths.
 bool dip_cost_journal_find(const DipCostJournal *journal, const char *key,
                            DipCostBurstErrors *errors);
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
                           const DipCostBurstErrors *errors, DipError *err);
 
-// Returns the number of rounds that were stored with the journal's own plan hash.
+// Returns the number of rounds with the journal's own plan hash that it had when it was opened.
 int dip_cost_journal_round_count(const DipCostJournal *journal);
 
 // Returns the frames of such a round, in the order in which they were stored: 0 of them if the

@@ -26,8 +26,7 @@ static bool read_part(void *fields, const DipOptionRow *row, const char *value, 
     return true;
 }
 
-bool dip_cost_read_samples(void *fields, const DipOptionRow *row, const char *value,
-                           DipError *err) {
+static bool read_samples(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipCostOptions *cost = fields;
     int count;
     if (!dip_integer_parse(value, strlen(value), &count) || count < 1 || count > 4096 ||
@@ -55,44 +54,26 @@ static bool add_combined(void *fields, const DipOptionRow *row, const char *valu
 }
 
 static bool read_combined(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    const DipOptionRow list = {row->name, row->argument, DIP_OPTION_CUSTOM, .separator = ',',
+                               .read = add_combined};
     ((DipCostOptions *)fields)->combined = 0;
-    return strcmp(value, "none") == 0 ||
-           dip_option_each(fields, row, value, ',', add_combined, err);
+    return strcmp(value, "none") == 0 || dip_option_store(&list, value, fields, err);
 }
 
-static bool add_budget(DipCostOptions *cost, const DipOptionRow *row, double ms, DipError *err) {
+// Reads a budget, or for --fps the rate that it keeps.
+static bool read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipCostOptions *cost = fields;
+    double number;
+    if (!dip_number_parse(value, strlen(value), &number) || number < 0.01 || number > 100000.0) {
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value, row->accepted);
+    }
     if (cost->budget_count == DIP_COST_MAX_BUDGETS) {
         return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, row->name,
                              "lists more than %d values", DIP_COST_MAX_BUDGETS);
     }
-    cost->budgets_ms[cost->budget_count++] = ms;
+    cost->budgets_ms[cost->budget_count++] =
+        strcmp(row->name, "--fps") == 0 ? 1000.0 / number : number;
     return true;
-}
-
-static bool read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    double ms;
-    if (!dip_number_parse(value, strlen(value), &ms) || ms < 0.01 || ms > 100000.0) {
-        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
-                                 "a number of milliseconds from 0.01 to 100000");
-    }
-    return add_budget(fields, row, ms, err);
-}
-
-static bool read_rate(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    double fps;
-    if (!dip_number_parse(value, strlen(value), &fps) || fps < 0.01 || fps > 100000.0) {
-        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
-                                 "a number of frames a second from 0.01 to 100000");
-    }
-    return add_budget(fields, row, 1000.0 / fps, err);
-}
-
-static bool read_budgets(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    return dip_option_each(fields, row, value, ',', read_budget, err);
-}
-
-static bool read_rates(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    return dip_option_each(fields, row, value, ',', read_rate, err);
 }
 
 void dip_cost_default_budgets(DipCostOptions *options) {
@@ -102,18 +83,15 @@ void dip_cost_default_budgets(DipCostOptions *options) {
     }
 }
 
-typedef struct Viewing {
-    const char *name;
-    double pixels_per_degree;
-} Viewing;
-
 // Distance times the tangent of a degree, over the distance of two pixels. Phone: 1170 pixels on 65
 // mm, seen from 0.3 m. Monitor: 1920 pixels on 531 mm (24 inches), from 0.6 m. UHD: 3840 pixels on
 // 0.7 m, from 0.7 m. Headset: what headsets of 2023 with 2000 pixels per eye state.
-static const Viewing viewings[] = {
-    {"phone", 94.2}, {"monitor", 37.9}, {"uhd", DIP_FLIP_PIXELS_PER_DEGREE}, {"headset", 25.0}};
-
 static bool read_viewing(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    static const struct {
+        const char *name;
+        double pixels_per_degree;
+    } viewings[] = {
+        {"phone", 94.2}, {"monitor", 37.9}, {"uhd", DIP_FLIP_PIXELS_PER_DEGREE}, {"headset", 25.0}};
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(viewings); i++) {
         if (strcmp(value, viewings[i].name) == 0) {
             *(double *)fields = viewings[i].pixels_per_degree;
@@ -124,211 +102,108 @@ static bool read_viewing(void *fields, const DipOptionRow *row, const char *valu
                              "phone, monitor, uhd or headset");
 }
 
-static bool read_budget_of(void *fields, const DipOptionRow *row, const char *value,
-                           DipError *err) {
-    for (int i = 0; i < DIP_TIME_KIND_COUNT; i++) {
-        if (strcmp(value, dip_time_kind_names[i]) == 0) {
-            ((DipCostOptions *)fields)->budget_of = (DipTimeKind)i;
-            return true;
-        }
-    }
-    return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "p95, mean or worst");
-}
-
-static bool read_pictures(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    for (int i = 0; i < (int)DIP_ARRAY_COUNT(dip_cost_picture_kind_names); i++) {
-        if (strcmp(value, dip_cost_picture_kind_names[i]) == 0) {
-            ((DipCostOptions *)fields)->pictures = (DipCostPictureKind)i;
-            return true;
-        }
-    }
-    return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "crops, full or none");
-}
-
 // --- the tables ----------------------------------------------------------------------------------
 
 static const DipOptionRow out_rows[] = {
-    {.name = "--out",
-     .argument = "DIR",
+    {"--out", "DIR", DIP_OPTION_TEXT,
      .text = "Write cost.json, cost.csv and cost.html into this folder. To continue an interrupted "
-             "run, give the same command again.",
-     .kind = DIP_OPTION_TEXT,
-     .field = offsetof(DipCostArguments, out)},
-};
-
-static const DipOptionRow merge_rows[] = {
-    {.name = "--out",
-     .argument = "DIR",
-     .text = "Write the joined cost.json, cost.csv and cost.html into this folder.",
-     .kind = DIP_OPTION_TEXT,
-     .field = offsetof(DipCostMergeArguments, out)},
+             "run of cost, give the same command again."},
 };
 
 static const DipOptionRow choice_rows[] = {
-    {.name = "--baseline",
-     .argument = "SET",
+    {"--baseline", "SET", DIP_OPTION_SETTINGS, FIELD(baseline),
      .text = "The settings to start from. Cost changes one of them at a time and compares the "
-             "result with the baseline. By default, every setting has its default.",
-     .kind = DIP_OPTION_SETTINGS,
-     .field = FIELD(baseline)},
-    {.name = "--combine",
-     .argument = "LIST",
+             "result with the baseline. By default, every setting has its default."},
+    {"--combine", "LIST", DIP_OPTION_CUSTOM, .given = FIELD(has_combined), .read = read_combined,
      .text =
          "Also measure every combination of the steps of these settings. The default is aa,af, and "
          "aa,aaa,asd,af,aaf with --fps or --budget-ms. With the word none, no combinations are "
-         "measured.",
-     .kind = DIP_OPTION_CUSTOM,
-     .given = FIELD(has_combined),
-     .read = read_combined},
-    {.name = "--predict",
-     .text = "Instead of measuring every step and every combination, measure the few combinations "
-             "that tell most about all others, predict the others, and measure those that the "
-             "prediction finds best. By default it combines aa, aaa, asd, af, aaf, opt and miplod.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(predict)},
+         "measured."},
+    {"--predict", NULL, DIP_OPTION_FLAG, FIELD(predict),
+     .text =
+         "Instead of measuring every step and every combination, measure the few combinations "
+         "that tell most about all others, predict the others, and measure those that the "
+         "prediction finds best. By default it combines aa, aaa, asd, af, aaf, opt and miplod."},
 };
 
 static const DipOptionRow budget_rows[] = {
-    {.name = "--fps",
-     .argument = "LIST",
+    {"--fps", "LIST", DIP_OPTION_CUSTOM, .separator = ',', .read = read_budget,
+     .accepted = "a number of frames a second from 0.01 to 100000",
      .text = "Advise settings that keep each of these numbers of frames a second, such as 60,120. "
-             "The default is 60,30.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_rates},
-    {.name = "--budget-ms",
-     .argument = "LIST",
+             "The default is 60,30."},
+    {"--budget-ms", "LIST", DIP_OPTION_CUSTOM, .separator = ',', .read = read_budget,
+     .accepted = "a number of milliseconds from 0.01 to 100000",
      .text = "Advise settings for each of these times of a frame in milliseconds, such as 8,12. "
              "They may be given beside --fps. Four budgets are also printed as the tiers low, "
-             "medium, high and ultra.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_budgets},
-    {.name = "--budget-of",
-     .argument = "TIME",
+             "medium, high and ultra."},
+    {"--budget-of", "TIME", DIP_OPTION_CHOICE, FIELD(budget_of), .names = dip_time_kind_names,
+     .most = DIP_TIME_KIND_COUNT, .accepted = "p95, mean or worst",
      .text = "The time that must be within the budget: p95 (the 95th percentile of the frames "
-             "along the path), mean or worst. The default is p95.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_budget_of},
+             "along the path), mean or worst. The default is p95."},
 };
-const DipOptionTable dip_cost_budget_option_table = {"Budgets", budget_rows,
-                                                     DIP_ARRAY_COUNT(budget_rows)};
-
 static const DipOptionRow picture_rows[] = {
-    {.name = "--pictures",
-     .argument = "KIND",
+    {"--pictures", "KIND", DIP_OPTION_CHOICE, FIELD(pictures), .names = dip_cost_picture_kind_names,
+     .most = DIP_ARRAY_COUNT(dip_cost_picture_kind_names), .accepted = "crops, full or none",
      .text = "The pictures in cost.html: crops (the part of each picture in which the steps differ "
              "most), full (whole frames, as many as fit in 10 MB, and otherwise crops) or none. "
-             "The default is crops.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_pictures},
+             "The default is crops."},
 };
 
 static const DipOptionRow cache_rows[] = {
-    {.name = "--cache",
-     .argument = "DIR",
+    {"--cache", "DIR", DIP_OPTION_TEXT,
      .text = "Keep the converged pictures in this folder. The default is $XDG_CACHE_HOME/diptych. "
-             "If XDG_CACHE_HOME is not set, it is ~/.cache/diptych.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(cache)},
-};
-
-static const DipOptionRow truth_rows[] = {
-    {.name = "--save-truths",
-     .argument = "DIR",
-     .text = "Also write the converged pictures into this folder, as PFM files in linear light. "
-             "Other programs can check the errors with them.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(truths)},
+             "If XDG_CACHE_HOME is not set, it is ~/.cache/diptych."},
 };
 
 static const DipOptionRow error_rows[] = {
-    {.name = "--places",
-     .argument = "N",
-     .text = "Measure errors at this many viewpoints on each camera path. The default is 3.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(places),
-     .least = 1,
-     .most = DIP_COST_MAX_PLACES},
-    {.name = "--burst",
-     .argument = "N",
+    {"--places", "N", DIP_OPTION_INTEGER, FIELD(places), .least = 1, .most = DIP_COST_MAX_PLACES,
+     .text = "Measure errors at this many viewpoints on each camera path. The default is 3."},
+    {"--burst", "N", DIP_OPTION_INTEGER, FIELD(burst), .least = 1, .most = DIP_COST_MAX_BURST,
      .text = "Draw this many successive frames at each viewpoint, to measure flicker. The default "
-             "is 2.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(burst),
-     .least = 1,
-     .most = DIP_COST_MAX_BURST},
-    {.name = "--samples",
-     .argument = "N",
+             "is 2."},
+    {"--samples", "N", DIP_OPTION_CUSTOM, .read = read_samples,
      .text = "Draw the converged picture in two halves with this many samples per pixel each. The "
-             "number must be a square. The default is 64.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = dip_cost_read_samples},
-    {.name = "--part",
-     .argument = "A:B",
+             "number must be a square. The default is 64."},
+    {"--part", "A:B", DIP_OPTION_CUSTOM, .read = read_part,
      .text = "Measure errors only at the viewpoints A to B - 1; the first viewpoint is 0. This "
-             "lets several machines share the work. `diptych cost merge` joins their reports.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_part},
+             "lets several machines share the work. `diptych cost merge` joins their reports."},
+    {"--save-truths", "DIR", DIP_OPTION_TEXT, FIELD(truths),
+     .text = "Also write the converged pictures into this folder, as PFM files in linear light. "
+             "Other programs can check the errors with them."},
 };
 
 static const DipOptionRow viewing_rows[] = {
-    {.name = "--pixels-per-degree",
-     .argument = "X",
+    {"--pixels-per-degree", "X", DIP_OPTION_NUMBER, .least = DIP_FLIP_MIN_PIXELS_PER_DEGREE,
+     .most = DIP_FLIP_MAX_PIXELS_PER_DEGREE,
      .text = "Pixels per degree of the viewer's field of view, for FLIP. The default 67.02 is for "
-             "a display that is 0.7 m wide, has 3840 pixels in a row and is seen from 0.7 m.",
-     .kind = DIP_OPTION_NUMBER,
-     .least = DIP_FLIP_MIN_PIXELS_PER_DEGREE,
-     .most = DIP_FLIP_MAX_PIXELS_PER_DEGREE},
-    {.name = "--viewing",
-     .argument = "HOW",
+             "a display that is 0.7 m wide, has 3840 pixels in a row and is seen from 0.7 m."},
+    {"--viewing", "HOW", DIP_OPTION_CUSTOM, .read = read_viewing,
      .text =
          "Set --pixels-per-degree for a usual way of viewing: phone (94.2), monitor (37.9, full "
-         "HD), uhd (67.02, the default) or headset (25).",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_viewing},
+         "HD), uhd (67.02, the default) or headset (25)."},
 };
 
 static const DipOptionRow time_rows[] = {
-    {.name = "--errors-only",
-     .text = "Measure only errors, and no times.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(errors_only)},
-    {.name = "--timed",
-     .argument = "N",
-     .text = "Time this many frames in each round, spread evenly over the path. The default is 4.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(timed_frames),
-     .least = 1,
-     .most = 100},
-    {.name = "--require-quiet",
+    {"--errors-only", NULL, DIP_OPTION_FLAG, FIELD(errors_only),
+     .text = "Measure only errors, and no times."},
+    {"--timed", "N", DIP_OPTION_INTEGER, FIELD(timed_frames), .least = 1, .most = 100,
+     .text = "Time this many frames in each round, spread evenly over the path. The default is 4."},
+    {"--require-quiet", NULL, DIP_OPTION_FLAG, FIELD(require_quiet),
      .text = "Exit with code 1 if other programs kept the machine so busy that the times are "
-             "wrong. The report is written all the same.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(require_quiet)},
+             "wrong. The report is written all the same."},
 };
 
-static const DipOptionRow serve_rows[] = {
-    {.name = "--serve",
-     .text = "Answer requests for frames on standard input. Cost starts itself so with --starts.",
-     .kind = DIP_OPTION_FLAG,
-     .field = offsetof(DipCostArguments, serve)},
-};
-
-static const DipOptionTable serve_table = {"Starts", serve_rows, DIP_ARRAY_COUNT(serve_rows)};
-static const DipOptionTable out_table = {"What to measure", out_rows, DIP_ARRAY_COUNT(out_rows)};
-static const DipOptionTable merge_table = {"Output", merge_rows, DIP_ARRAY_COUNT(merge_rows)};
-static const DipOptionTable choice_table = {"What to measure", choice_rows,
-                                            DIP_ARRAY_COUNT(choice_rows)};
-static const DipOptionTable picture_table = {"Pictures", picture_rows,
-                                             DIP_ARRAY_COUNT(picture_rows)};
-static const DipOptionTable cache_table = {"Pictures", cache_rows, DIP_ARRAY_COUNT(cache_rows)};
-static const DipOptionTable truth_table = {"Pictures", truth_rows, DIP_ARRAY_COUNT(truth_rows)};
-static const DipOptionTable error_table = {"Errors", error_rows, DIP_ARRAY_COUNT(error_rows)};
-const DipOptionTable dip_viewing_option_table = {"Errors", viewing_rows,
-                                                 DIP_ARRAY_COUNT(viewing_rows)};
-static const DipOptionTable time_table = {"Times", time_rows, DIP_ARRAY_COUNT(time_rows)};
+static const DipOptionTable out_table = DIP_OPTION_TABLE("What to measure", out_rows);
+static const DipOptionTable choice_table = DIP_OPTION_TABLE("What to measure", choice_rows);
+static const DipOptionTable error_table = DIP_OPTION_TABLE("Errors", error_rows);
+static const DipOptionTable time_table = DIP_OPTION_TABLE("Times", time_rows);
+static const DipOptionTable picture_table = DIP_OPTION_TABLE("Pictures", picture_rows);
+const DipOptionTable dip_cost_budget_option_table = DIP_OPTION_TABLE("Budgets", budget_rows);
+const DipOptionTable dip_viewing_option_table = DIP_OPTION_TABLE("Errors", viewing_rows);
+const DipOptionTable dip_cache_option_table = DIP_OPTION_TABLE("Pictures", cache_rows);
 
 static const DipOptionPart cost_parts[] = {
-    {&out_table, 0},
+    {&out_table, offsetof(DipCostArguments, out)},
     {&choice_table, offsetof(DipCostArguments, cost)},
     {&dip_cost_budget_option_table, offsetof(DipCostArguments, cost)},
     {&error_table, offsetof(DipCostArguments, cost)},
@@ -336,10 +211,9 @@ static const DipOptionPart cost_parts[] = {
     {&time_table, offsetof(DipCostArguments, cost)},
     {&dip_measure_option_table, offsetof(DipCostArguments, measure)},
     {&dip_starts_option_table, offsetof(DipCostArguments, measure)},
-    {&serve_table, 0},
+    {&dip_serve_option_table, offsetof(DipCostArguments, serve)},
     {&picture_table, offsetof(DipCostArguments, cost)},
-    {&cache_table, offsetof(DipCostArguments, cost)},
-    {&truth_table, offsetof(DipCostArguments, cost)},
+    {&dip_cache_option_table, offsetof(DipCostArguments, cost.cache)},
     {&dip_scene_option_table, offsetof(DipCostArguments, session)},
     {&dip_path_option_table, offsetof(DipCostArguments, session)},
     {&dip_size_option_table, offsetof(DipCostArguments, session)},
@@ -347,9 +221,9 @@ static const DipOptionPart cost_parts[] = {
     {&dip_program_option_table, offsetof(DipCostArguments, program)},
 };
 static const DipOptionPart merge_parts[] = {
-    {&merge_table, 0},
+    {&out_table, offsetof(DipCostMergeArguments, out)},
     {&picture_table, offsetof(DipCostMergeArguments, cost)},
-    {&cache_table, offsetof(DipCostMergeArguments, cost)},
+    {&dip_cache_option_table, offsetof(DipCostMergeArguments, cost.cache)},
     {&dip_scene_option_table, offsetof(DipCostMergeArguments, session)},
     {&dip_threads_option_table, offsetof(DipCostMergeArguments, session)},
     {&dip_program_option_table, offsetof(DipCostMergeArguments, program)},
@@ -361,8 +235,7 @@ const DipOptionParts dip_cost_merge_option_parts = {merge_parts, DIP_ARRAY_COUNT
 
 void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
     DipCostArguments *all = arguments;
-    all->argc = argc;
-    all->argv = argv;
+    all->serve = (DipServeOptions){.argc = argc, .argv = argv};
     all->measure = (DipMeasureOptions){.rounds = 4, .starts = 4};
     all->cost = (DipCostOptions){
         .baseline = dip_quality_default(),

@@ -16,9 +16,7 @@ typedef struct DipCostArguments {
     const char *out;     // Folder of the report.
     DipCostOptions cost; // Without what `measure` has.
     DipMeasureOptions measure;
-    bool serve; // This process is a start of another one.
-    int argc;   // The command line.
-    char *const *argv;
+    DipServeOptions serve; // A start of another process serves.
 } DipCostArguments;
 
 // The whole command line of `diptych cost merge`.
@@ -33,6 +31,7 @@ typedef struct DipCostMergeArguments {
 
 extern const DipOptionParts dip_cost_option_parts;
 extern const DipOptionTable dip_viewing_option_table; // For the pixels per degree, a double.
+extern const DipOptionTable dip_cache_option_table;   // For the folder's name, a text.
 extern const DipOptionParts dip_cost_merge_option_parts;
 
 // Options of budgets. The fields are those of DipCostOptions.
@@ -40,9 +39,6 @@ extern const DipOptionTable dip_cost_budget_option_table;
 
 // Gives options without budgets those of 60 and 30 frames a second.
 void dip_cost_default_budgets(DipCostOptions *options);
-
-// Reads the value of --samples into DipCostOptions.
-bool dip_cost_read_samples(void *fields, const DipOptionRow *row, const char *value, DipError *err);
 
 // Sets rounds, starts and seed.
 void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure);

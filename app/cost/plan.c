@@ -193,54 +193,34 @@ static void add_base_rows(DipCostReport *report) {
 
 // --- combinations ------------------------------------------------------------------------------
 
-static bool too_many(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--combine",
-                         "these settings make more than %d combinations; give fewer settings",
-                         DIP_COST_MAX_ROWS);
-}
-
-static bool add_combinations(DipCostReport *report, const DipQuality *list, int count,
-                             DipError *err) {
-    if (report->row_count + count > DIP_COST_MAX_ROWS) {
-        return too_many(err);
-    }
-    for (int i = 0; i < count; i++) {
-        report->rows[report->row_count++] = (DipCostRow){.quality = list[i], .path = 0};
-    }
-    return true;
-}
-
-// The combinations are to be predicted: only a few of them become rows later.
-static bool add_predictions(DipCostReport *report, const DipQuality *list, int count,
-                            DipError *err) {
-    if (count > DIP_COST_MAX_ROWS) {
-        return too_many(err);
-    }
-    report->predicted.list = calloc((size_t)count + 1, sizeof *report->predicted.list);
-    if (!report->predicted.list) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-    }
-    report->predicted.count = count;
-    for (int i = 0; i < count; i++) {
-        report->predicted.list[i] = (DipCostPrediction){.quality = list[i], .row = -1};
-    }
-    return true;
-}
-
+// Adds the combinations as rows, or as predictions, of which only a few become rows later.
 static bool plan_combinations(DipCostReport *report, DipError *err) {
+    const DipCostOptions *options = &report->options;
+    DipCostPredictions *predicted = &report->predicted;
     DipQuality *list = malloc(DIP_COST_MAX_ROWS * sizeof *list);
-    if (!list) {
+    predicted->list = options->predict ? calloc(DIP_COST_MAX_ROWS, sizeof *predicted->list) : NULL;
+    if (!list || (options->predict && !predicted->list)) {
+        free(list);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     }
-    const int count =
-        report->options.combined
-            ? dip_cost_list_combinations(&report->options.baseline, report->options.combined, list,
-                                         DIP_COST_MAX_ROWS)
-            : 0;
-    const bool added = report->options.predict ? add_predictions(report, list, count, err)
-                                               : add_combinations(report, list, count, err);
+    const int count = options->combined
+                          ? dip_cost_list_combinations(&options->baseline, options->combined, list,
+                                                       DIP_COST_MAX_ROWS)
+                          : 0;
+    const bool fit = count + (options->predict ? 0 : report->row_count) <= DIP_COST_MAX_ROWS;
+    for (int i = 0; fit && i < count; i++) {
+        if (options->predict) {
+            predicted->list[predicted->count++] =
+                (DipCostPrediction){.quality = list[i], .row = -1};
+        } else {
+            report->rows[report->row_count++] = (DipCostRow){.quality = list[i], .path = 0};
+        }
+    }
     free(list);
-    return added;
+    return fit || dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--combine",
+                                "these settings make more than %d combinations; give fewer "
+                                "settings",
+                                DIP_COST_MAX_ROWS);
 }
 
 // --- the whole ---------------------------------------------------------------------------------
@@ -285,8 +265,7 @@ void dip_cost_describe(DipCostReport *report, const DipSession *session) {
 
 // Returns the settings that are combined by default. A plot of the Pareto front needs two settings.
 // Advice for budgets of the user's own needs three more, which are worth choosing in any scene. A
-// prediction
-// (--predict) has all settings that change the error of a single picture.
+// prediction (--predict) has all settings that change the error of a single picture.
 static unsigned default_combined(const DipCostOptions *options) {
     const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
     const unsigned five =

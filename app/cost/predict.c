@@ -3,8 +3,11 @@
 
 #include "app/report/candidates.h"
 #include "app/report/fit.h"
-#include "app/cost/prediction_counts.h"
+#include "app/report/combinations.h"
+#include "app/report/work.h"
+#include "app/cli/progress.h"
 #include "app/cost/steps.h"
+#include "app/measure/timing/sample.h"
 #include "app/measure/stats/least_squares.h"
 #include "renderer/base/assert.h"
 
@@ -13,6 +16,7 @@
 #include <string.h>
 
 enum {
+    COUNTED_FRAMES = 8, // Frames of path 0 that are counted, spread evenly.
     DESIGN_TERMS = DIP_LEAST_SQUARES_MAX_TERMS,
     MOST_PROMISING = 24, // Combinations that are measured in one go.
     MOST_GOES = 3,
@@ -21,6 +25,95 @@ enum {
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+}
+
+// --- counting work -------------------------------------------------------------------------------
+
+bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames, double *counters,
+                    DipError *err) {
+    memset(counters, 0, DIP_COUNTER_COUNT * sizeof *counters);
+    for (int k = 0; k < frames; k++) {
+        DipFrame frame;
+        // The middle of the k-th of equal parts.
+        const int index = dip_cost_frame_count(cost->report) * (2 * k + 1) / (2 * frames);
+        if (dip_cost_interrupted(err) ||
+            !dip_cost_draw_timed(cost, quality, 0, index, &frame, err)) {
+            return false;
+        }
+        dip_counters_add(&frame.counters, counters);
+    }
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
+        counters[c] /= frames;
+    }
+    return true;
+}
+
+// The counters of a listed combination; see DipWorkFind.
+static const double *find(const void *context, const DipQuality *quality) {
+    const DipCostPredictions *predicted = context;
+    for (int i = 0; i < predicted->count; i++) {
+        if (dip_quality_equal(&predicted->list[i].quality, quality)) {
+            return predicted->list[i].counters;
+        }
+    }
+    return NULL;
+}
+
+// True if the combination is composed rather than drawn: of many combinations, those that have
+// neither the baseline's antialiasing nor its filtering. A list from which combinations with the
+// same pictures were joined can lack what a combination is composed of.
+static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
+    const DipQuality *baseline = &report->options.baseline;
+    const unsigned settings = dip_cost_sampling_settings();
+    const DipQuality sampling = dip_cost_take_settings(&combination->quality, baseline, ~settings);
+    const DipQuality filtering = dip_cost_take_settings(&combination->quality, baseline, settings);
+    return report->predicted.count > DIP_COST_MOST_COUNTED &&
+           !dip_quality_equal(&sampling, &combination->quality) &&
+           !dip_quality_equal(&filtering, &combination->quality) &&
+           find(&report->predicted, baseline) && find(&report->predicted, &sampling) &&
+           find(&report->predicted, &filtering);
+}
+
+bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
+    DipCostReport *report = cost->report;
+    DipCostPredictions *predicted = &report->predicted;
+    DipProgress progress = dip_progress_begin("combinations counted", predicted->count);
+    bool counted = true;
+    for (int i = 0; counted && i < predicted->count; i++) {
+        DipCostPrediction *to = &predicted->list[i];
+        counted = is_composed(report, to) ||
+                  dip_cost_count(cost, &to->quality, COUNTED_FRAMES, to->counters, err);
+        dip_progress_show(&progress, i + 1);
+    }
+    dip_progress_end(&progress, predicted->count);
+    for (int i = 0; counted && i < predicted->count; i++) {
+        DipCostPrediction *to = &predicted->list[i];
+        if (is_composed(report, to)) {
+            dip_work_compose(find, predicted, &report->options.baseline, &to->quality,
+                             to->counters);
+        }
+    }
+    return counted;
+}
+
+void dip_cost_scale_counters(DipCostReport *report) {
+    DipCostPredictions *predicted = &report->predicted;
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        double few = 0.0, all = 0.0;
+        for (int i = 0; i < predicted->count; i++) {
+            const DipCostPrediction *p = &predicted->list[i];
+            if (p->row >= 0) {
+                few += p->counters[c];
+                all += report->rows[p->row].counters[c];
+            }
+        }
+        for (int i = 0; i < predicted->count; i++) {
+            DipCostPrediction *p = &predicted->list[i];
+            p->counters[c] = p->row >= 0 ? report->rows[p->row].counters[c]
+                             : few > 0.0 ? p->counters[c] * all / few
+                                         : p->counters[c];
+        }
+    }
 }
 
 // --- the rows to measure first -----------------------------------------------------------------

@@ -2,7 +2,24 @@
 #ifndef DIP_APP_COST_PREDICT_H
 #define DIP_APP_COST_PREDICT_H
 
-#include "app/report/report.h"
+#include "app/cost/context.h"
+
+// Draws this many timed frames of path 0, spread evenly, and writes the means of their counters.
+bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames, double *counters,
+                    DipError *err);
+
+// Fills in the counters of all of report->predicted: means over a few frames. Up to
+// DIP_COST_MOST_COUNTED combinations are drawn one by one. Of more, only those are drawn that have
+// the baseline's antialiasing or the baseline's filtering. The counters of any other combination
+// are then composed: those with its antialiasing and the baseline's filtering, times those with the
+// baseline's antialiasing and its filtering, over those of the baseline. Shows its progress on
+// standard error.
+bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
+
+// Scales the counters of combinations that were not measured to the frames that are timed. The
+// factor of each counter comes from the measured combinations, which have both. Then gives the
+// measured ones the counters of their rows.
+void dip_cost_scale_counters(DipCostReport *report);
 
 // Returns how many combinations are measured to predict `count` combinations of these settings
 // (bit s: setting s): 16 for antialiasing and anisotropic filtering, and two more for every further

@@ -10,9 +10,9 @@
 // Starts this program anew, with the command line of the context. Fails as dip_child_start does.
 DipChild *dip_cost_start(const DipCostContext *cost, DipError *err);
 
-// Asks a start for a row's timed frame `index`. Writes its counters and its times.
-bool dip_cost_start_draw(DipChild *child, const DipCostRow *row, int index, DipCounters *counters,
-                         DipTimed *timed, DipError *err);
+// Asks a start for the timed frame `index` of a path. Writes its counters and its times.
+bool dip_cost_start_draw(DipChild *child, const DipQuality *quality, int path, int index,
+                         DipCounters *counters, DipTimed *timed, DipError *err);
 
 // Runs in a start: answers requests on standard input until it is closed.
 bool dip_cost_serve(DipCostContext *cost, DipError *err);

@@ -1,99 +1,148 @@
-// Timing every row beside the baseline of its path, and counting its work. Counters are the same
-// in every run of a frame, so each frame is counted once.
+// Timing rows beside the baseline of their paths, here or elsewhere, and counting their work.
+// Counters are the same in every run of a frame, so each frame is counted once.
 #include "app/cli/drive.h"
 #include "app/cli/interrupt.h"
 #include "app/cost/starts.h"
 #include "app/cost/steps.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Rows per block besides the baseline. Blocks of 4 halve the deviation of ratios against one
-// baseline per round, at the same cost.
-enum { BLOCK_ROWS = 4 };
+enum {
+    BASE_COPIES = 3,  // Rounds that draw a frame of the baseline: slow frames or slow moments?
+    BLOCK_ROWS = 4,   // Halves the deviation of ratios against one baseline per round, at its cost.
+    LEAST_SIDE = 64,  // Pixels; smaller pictures have no half size.
+    SEED_SALT = 0x517 // The order elsewhere is another than that of the report's rows.
+};
 
 // A start may take this share of the time of its rounds.
 static const double most_start = 0.1;
 
-// A measurement of some rows of the report.
-typedef struct RowTiming {
+// What is timed: settings on a path of a context's report.
+typedef struct Subject {
     DipCostContext *cost;
-    const int *rows;    // [subject]
-    const int *base_of; // [subject]
-    int count;          // Subjects.
-    bool *counted;      // [subject * frames + frame]: the frame's counters are in the row's sums.
+    const DipQuality *quality;
+    int path;
+    double *counters; // Sums over the frames, then means; NULL: they are known.
+} Subject;
+
+// A measurement. The bases are subjects, too.
+typedef struct Timing {
+    DipCostContext *cost;
+    int count;
+    Subject *subjects;
+    int *rows;          // Rows of the subjects in the report's log.
+    int *base_of;       // [subject]
+    bool *counted;      // [subject * frames + frame]: the frame's counters are in the sums.
     DipTimePair *pairs; // [subject * frames + frame]
-    DipChild *child;    // The start that draws; NULL: this process does.
-} RowTiming;
+    DipDriverMachine machine;
+    DipTimesFit *fit; // Of subjects elsewhere.
+    DipChild *child;  // The start that draws; NULL: this process does.
+} Timing;
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
 }
 
-// --- counters ----------------------------------------------------------------------------------
-
-// Adds a frame's counters to the row's sums. The sums are whole numbers, so that they do not depend
-// on the order of the frames: an interrupted run has another order.
-static void count_work(const RowTiming *t, int subject, int frame, const DipCounters *counters) {
-    DipCostReport *report = t->cost->report;
-    bool *counted = &t->counted[subject * dip_cost_frame_count(report) + frame];
-    double *value = report->rows[t->rows[subject]].counters;
-    if (!*counted) {
-#define ADD_COUNTER(name, text) *value++ += (double)counters->name;
-        DIP_COUNTER_LIST(ADD_COUNTER)
-#undef ADD_COUNTER
-        *counted = true;
-    }
+static void close_timing(Timing *t) {
+    dip_times_fit_free(&t->fit);
+    free(t->subjects);
+    free(t->rows);
+    free(t->base_of);
+    free(t->counted);
+    free(t->pairs);
 }
 
-// Makes means over the timed frames of the sums of count_work.
-static void average_work(DipCostReport *report, int row) {
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-        report->rows[row].counters[c] /= dip_cost_frame_count(report);
+// Begins a measurement. All subjects are the baseline of path 0, and subject 0 is their base.
+static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *err) {
+    const DipCostReport *report = cost->report;
+    const size_t size = (size_t)count, values = size * (size_t)dip_cost_frame_count(report);
+    *t = (Timing){.cost = cost, .count = count};
+    t->subjects = calloc(size, sizeof *t->subjects);
+    t->rows = calloc(size, sizeof *t->rows);
+    t->base_of = calloc(size, sizeof *t->base_of);
+    t->counted = calloc(values, sizeof *t->counted);
+    t->pairs = calloc(values, sizeof *t->pairs);
+    if (!t->subjects || !t->rows || !t->base_of || !t->counted || !t->pairs) {
+        close_timing(t);
+        return out_of_memory(err);
     }
-}
-
-// Draws the frames of rounds that the journal had, since the journal has no counters.
-static bool count_known_rounds(const RowTiming *t, DipError *err) {
-    const int frames = dip_cost_frame_count(t->cost->report);
-    DipFrame drawn;
-    for (int i = 0; i < t->count * frames; i++) {
-        if (t->counted[i]) {
-            continue;
-        }
-        if (dip_cost_interrupted(t->cost, err) ||
-            !dip_cost_draw_timed(t->cost, t->rows[i / frames], i % frames, &drawn, err)) {
-            return false;
-        }
-        count_work(t, i / frames, i % frames, &drawn.counters);
+    for (int s = 0; s < count; s++) {
+        t->rows[s] = report->base_rows[0];
+        t->subjects[s] = (Subject){cost, &report->rows[t->rows[s]].quality, 0, NULL};
     }
     return true;
 }
 
+// Makes the subject a row of the report, whose work is counted unless it is known.
+static void set_row(Timing *t, int subject, int row, bool counts) {
+    DipCostRow *timed = &t->cost->report->rows[row];
+    t->rows[subject] = row;
+    t->subjects[subject] =
+        (Subject){t->cost, &timed->quality, timed->path, counts ? timed->counters : NULL};
+}
+
 // --- drawing -------------------------------------------------------------------------------------
 
+static void count_work(const Timing *t, int subject, int frame, const DipCounters *counters) {
+    bool *counted = &t->counted[subject * dip_cost_frame_count(t->cost->report) + frame];
+    if (t->subjects[subject].counters && !*counted) {
+        dip_counters_add(counters, t->subjects[subject].counters);
+        *counted = true;
+    }
+}
+
+// Makes means of the sums of count_work. Draws the frames of rounds that the journal had, since the
+// journal has no counters.
+static bool average_work(const Timing *t, DipError *err) {
+    const int frames = dip_cost_frame_count(t->cost->report);
+    for (int s = 0; s < t->count; s++) {
+        const Subject *subject = &t->subjects[s];
+        for (int f = 0; subject->counters && f < frames; f++) {
+            DipFrame drawn;
+            if (t->counted[s * frames + f]) {
+                continue;
+            }
+            if (dip_cost_interrupted(err) || !dip_cost_draw_timed(subject->cost, subject->quality,
+                                                                  subject->path, f, &drawn, err)) {
+                return false;
+            }
+            count_work(t, s, f, &drawn.counters);
+        }
+        for (int c = 0; subject->counters && c < DIP_COUNTER_COUNT; c++) {
+            subject->counters[c] /= frames;
+        }
+    }
+    return true;
+}
+
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
-    const RowTiming *t = context;
-    const int row = t->rows[turn->subject];
+    _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is a part");
+    const Timing *t = context;
+    const Subject *s = &t->subjects[turn->subject];
     DipFrame frame;
     if (t->child) {
-        if (!dip_cost_start_draw(t->child, &t->cost->report->rows[row], turn->frame,
-                                 &frame.counters, timed, err)) {
+        if (!dip_cost_start_draw(t->child, s->quality, s->path, turn->frame, &frame.counters, timed,
+                                 err)) {
             return false;
         }
     } else {
-        if (!dip_cost_draw_timed(t->cost, row, turn->frame, &frame, err)) {
+        double *part = timed->parts_ms;
+        if (!dip_cost_draw_timed(s->cost, s->quality, s->path, turn->frame, &frame, err)) {
             return false;
         }
-        dip_cost_stage_parts(&frame, timed->parts_ms);
+#define WRITE_STAGE(name, text) *part++ = frame.stages.name##_ms;
+        DIP_STAGE_LIST(WRITE_STAGE)
+#undef WRITE_STAGE
     }
     count_work(t, turn->subject, turn->frame, &frame.counters);
     return true;
 }
 
 static bool start(void *context, int index, DipError *err) {
-    RowTiming *t = context;
+    Timing *t = context;
     (void)index;
     dip_child_stop(&t->child, dip_interrupted());
     t->child = dip_cost_start(t->cost, err);
@@ -101,13 +150,13 @@ static bool start(void *context, int index, DipError *err) {
 }
 
 static bool keep_round(void *context, const DipTimed *timed, int count, DipError *err) {
-    const RowTiming *t = context;
+    const Timing *t = context;
     return dip_cost_journal_add_round(t->cost->journal, t->cost->report->options.seed, timed, count,
                                       err);
 }
 
 // Hands the rounds of the journal to the driver. It skips those that are not the next.
-static bool resume(const RowTiming *t, DipDriver *driver, DipError *err) {
+static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     const DipCostJournal *journal = t->cost->journal;
     const int seed = t->cost->report->options.seed;
     for (int i = 0; i < dip_cost_journal_round_count(journal); i++) {
@@ -122,106 +171,111 @@ static bool resume(const RowTiming *t, DipDriver *driver, DipError *err) {
     return true;
 }
 
-// Times the subjects in the report's starts. With `keep`, the journal and the report get
-// everything.
-static bool drive(RowTiming *t, DipDriverDef *def, bool keep, const char *progress, DipError *err) {
+typedef enum Where {
+    KEPT,     // In the report's starts; the journal keeps everything.
+    HERE,     // In the report's starts.
+    ELSEWHERE // In this process; the report's log does not get the times.
+} Where;
+
+// Times the subjects.
+static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const char *progress,
+                  DipError *err) {
     DipCostReport *report = t->cost->report;
-    const bool starts = report->options.starts > 1 && t->cost->argv;
+    const bool starts = report->options.starts > 1 && t->cost->start && where != ELSEWHERE;
     const DipDriverCalls calls = {
         .draw = draw,
         .start = starts ? start : NULL,
-        .keep = keep ? keep_round : NULL,
+        .keep = where == KEPT ? keep_round : NULL,
         .context = t,
     };
-    def->starts = starts ? report->options.starts : 1;
-    def->rounds = report->options.rounds / def->starts;
-    def->most_start = keep ? most_start : 0.0;
-    DipDriver *driver = dip_driver_create(def, &calls, err);
-    bool done = driver && (!keep || resume(t, driver, err)) &&
+    const int rounds = report->options.rounds;
+    const DipDriverDef def = {
+        .subjects = t->count,
+        .base_of = t->base_of,
+        .block_subjects = block_rows,
+        .starts = starts ? report->options.starts : 1,
+        .rounds = starts ? rounds / report->options.starts : rounds,
+        .frames = dip_cost_frame_count(report),
+        .base_copies = rounds < BASE_COPIES ? rounds : BASE_COPIES,
+        .warm_frames = 1,
+        .seed = seed,
+        .settle = where == KEPT,
+        .most_wait = DIP_TIMED_MOST_WAIT,
+        .most_start = where == KEPT ? most_start : 0.0,
+    };
+    DipDriver *driver = dip_driver_create(&def, &calls, err);
+    bool done = driver && (where != KEPT || resume(t, driver, err)) &&
                 dip_drive(driver, progress, "cost", DIP_COST_INTERRUPTED, err);
     if (done) {
         const DipTimes times = dip_driver_times(driver);
-        done = dip_times_pairs(&times, t->pairs, err) &&
-               dip_cost_log_add(report, &times, t->rows, err);
-        if (keep) {
-            report->machine = dip_driver_machine(driver, report->threads);
+        t->machine = dip_driver_machine(driver, report->threads);
+        done = dip_times_pairs(&times, t->pairs, err);
+        if (done && where == ELSEWHERE) {
+            t->fit = dip_times_fit(&times, err);
+            done = t->fit != NULL;
+        } else if (done) {
+            done = dip_cost_log_add(report, &times, t->rows, err);
+        }
+        if (where == KEPT) {
+            report->machine = t->machine;
             report->options.starts = times.starts;
         }
     }
     dip_child_stop(&t->child, dip_interrupted());
     dip_driver_destroy(&driver);
-    return done && count_known_rounds(t, err);
+    return done && average_work(t, err);
 }
 
-static bool open_timing(RowTiming *t, DipError *err) {
-    const size_t values = (size_t)t->count * (size_t)dip_cost_frame_count(t->cost->report);
-    t->counted = calloc(values, sizeof *t->counted);
-    t->pairs = calloc(values, sizeof *t->pairs);
-    return (t->counted && t->pairs) || out_of_memory(err);
+static void keep_pairs(const Timing *t, int subject) {
+    const size_t frames = (size_t)dip_cost_frame_count(t->cost->report);
+    memcpy(t->cost->report->rows[t->rows[subject]].pairs, t->pairs + (size_t)subject * frames,
+           frames * sizeof *t->pairs);
 }
 
-static void close_timing(RowTiming *t) {
-    free(t->counted);
-    free(t->pairs);
-}
-
-// --- all rows ------------------------------------------------------------------------------------
+// --- rows ----------------------------------------------------------------------------------------
 
 bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     DipCostReport *report = cost->report;
-    const size_t frames = (size_t)dip_cost_frame_count(report);
-    int *rows = malloc(2 * (size_t)report->row_count * sizeof *rows);
-    RowTiming t = {.cost = cost, .rows = rows, .count = report->row_count};
-    for (int r = 0; rows && r < report->row_count; r++) {
-        rows[r] = r;
-        rows[report->row_count + r] = report->base_rows[report->rows[r].path];
+    Timing t;
+    if (!open_timing(&t, cost, report->row_count, err)) {
+        return false;
+    }
+    for (int r = 0; r < report->row_count; r++) {
+        set_row(&t, r, r, true);
+        t.base_of[r] = report->base_rows[report->rows[r].path];
     }
     if (!report->options.has_seed) {
         dip_cost_journal_seed(cost->journal, &report->options.seed);
     }
-    DipDriverDef def = dip_cost_driver_def(report, report->row_count, BLOCK_ROWS);
-    def.base_of = rows ? rows + report->row_count : NULL;
-    def.settle = true;
     dip_cost_log_clear(report);
-    bool done = (rows || out_of_memory(err)) && open_timing(&t, err) &&
-                drive(&t, &def, true, "frames timed", err);
+    bool done = drive(&t, KEPT, BLOCK_ROWS, (uint64_t)report->options.seed, "frames timed", err);
     for (int r = 0; done && r < report->row_count; r++) {
-        memcpy(report->rows[r].pairs, t.pairs + (size_t)r * frames, frames * sizeof *t.pairs);
-        average_work(report, r);
+        keep_pairs(&t, r);
     }
+    close_timing(&t);
     if (done) {
         report->rounds = report->options.rounds;
         done = dip_cost_estimate_times(report, err);
     }
-    close_timing(&t);
-    free(rows);
     return done;
 }
 
-// --- some rows of path 0 -------------------------------------------------------------------------
-
-// Times the rows beside the baseline in as many rounds as dip_cost_time_rows. Subject 0 is the
-// baseline; subject i is rows[i - 1]. `counts`: the rows' work is not counted yet.
-static bool time_some(RowTiming *t, DipCostContext *cost, const int *rows, int count,
-                      int block_rows, uint64_t seed, bool counts, DipError *err) {
-    const DipCostReport *report = cost->report;
-    const size_t frames = (size_t)dip_cost_frame_count(report);
-    int *subjects = malloc(((size_t)count + 1) * sizeof *subjects);
-    int *base_of = calloc((size_t)count + 1, sizeof *base_of);
-    *t = (RowTiming){.cost = cost, .rows = subjects, .count = count + 1};
-    bool done = ((subjects && base_of) || out_of_memory(err)) && open_timing(t, err);
-    if (done) {
-        subjects[0] = report->base_rows[0];
-        memcpy(subjects + 1, rows, (size_t)count * sizeof *rows);
-        memset(t->counted, true, counts ? frames : (size_t)t->count * frames);
-        DipDriverDef def = dip_cost_driver_def(report, t->count, block_rows);
-        def.base_of = base_of;
-        def.seed = seed;
-        done = drive(t, &def, false, "frames timed for the advice", err);
+// Times rows of path 0 beside the baseline in as many rounds as dip_cost_time_rows. Subject i is
+// rows[i - 1].
+static bool time_some(Timing *t, DipCostContext *cost, const int *rows, int count, int block_rows,
+                      uint64_t seed, bool counts, DipError *err) {
+    if (!open_timing(t, cost, count + 1, err)) {
+        return false;
     }
-    free(subjects);
-    free(base_of);
-    return done;
+    for (int i = 0; i < count; i++) {
+        set_row(t, i + 1, rows[i], counts);
+    }
+    if (!drive(t, HERE, block_rows, (uint64_t)cost->report->options.seed + seed,
+               "frames timed for the advice", err)) {
+        close_timing(t);
+        return false;
+    }
+    return true;
 }
 
 // Joins a new pair to the one before. If both are good, their ratios' geometric mean is kept: the
@@ -241,33 +295,108 @@ static void join_pair(DipTimePair *pair, const DipTimePair *again, int before) {
 
 bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int times_before,
                          DipError *err) {
-    DipCostReport *report = cost->report;
-    const size_t frames = (size_t)dip_cost_frame_count(report);
-    RowTiming t;
-    const uint64_t seed = (uint64_t)report->options.seed + (uint64_t)times_before;
+    const int frames = dip_cost_frame_count(cost->report);
+    Timing t;
     // One row per block: two rows that are compared with a budget get a baseline each.
-    const bool done = time_some(&t, cost, rows, count, 1, seed, false, err);
-    for (int i = 0; done && i < count; i++) {
-        for (size_t f = 0; f < frames; f++) {
-            join_pair(&report->rows[rows[i]].pairs[f], &t.pairs[(size_t)(i + 1) * frames + f],
-                      times_before);
-        }
+    if (!time_some(&t, cost, rows, count, 1, (uint64_t)times_before, false, err)) {
+        return false;
     }
+    for (int i = 0; i < count * frames; i++) {
+        join_pair(&cost->report->rows[rows[i / frames]].pairs[i % frames], &t.pairs[frames + i],
+                  times_before);
+    }
+    close_timing(&t);
+    return true;
+}
+
+bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err) {
+    Timing t;
+    const uint64_t seed = UINT64_C(0x10000) + (uint64_t)rows[0];
+    if (!time_some(&t, cost, rows, count, BLOCK_ROWS, seed, true, err)) {
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
+        keep_pairs(&t, i + 1);
+    }
+    close_timing(&t);
+    return true;
+}
+
+// --- elsewhere -----------------------------------------------------------------------------------
+
+void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report, int width,
+                              int height, const char *path) {
+    *there = (DipCostReport){
+        .options = report->options, .path_count = 1, .width = width, .height = height};
+    memcpy(there->scene_hash, report->scene_hash, sizeof there->scene_hash);
+    snprintf(there->paths[0], sizeof there->paths[0], "%s", path);
+}
+
+bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
+                             int count, const char *progress, DipDriverMachine *machine,
+                             DipError *err) {
+    const int frames = dip_cost_frame_count(cost->report);
+    Timing t;
+    if (!open_timing(&t, cost, count + 1, err)) {
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
+        rows[i] = (DipCostElsewhere){.quality = rows[i].quality};
+        t.subjects[i + 1] = (Subject){there, &rows[i].quality, 0, rows[i].counters};
+    }
+    const bool done = drive(&t, ELSEWHERE, BLOCK_ROWS,
+                            (uint64_t)cost->report->options.seed ^ SEED_SALT, progress, err);
+    for (int i = 0; done && i < count; i++) {
+        const DipEstimate ratio = dip_times_ratio(t.fit, i + 1);
+        dip_cost_estimate_elsewhere(cost->report, &ratio, &t.pairs[(i + 1) * frames], &rows[i]);
+    }
+    *machine = t.machine;
     close_timing(&t);
     return done;
 }
 
-bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err) {
-    DipCostReport *report = cost->report;
-    const size_t frames = (size_t)dip_cost_frame_count(report);
-    RowTiming t;
-    const uint64_t seed = (uint64_t)report->options.seed + UINT64_C(0x10000) + (uint64_t)rows[0];
-    const bool done = time_some(&t, cost, rows, count, BLOCK_ROWS, seed, true, err);
-    for (int i = 0; done && i < count; i++) {
-        memcpy(report->rows[rows[i]].pairs, t.pairs + (size_t)(i + 1) * frames,
-               frames * sizeof *t.pairs);
-        average_work(report, rows[i]);
+// --- half the size -------------------------------------------------------------------------------
+
+// The settings that stand for edges, for textures and for both.
+static void list_smaller(DipCostReport *report) {
+    static const struct {
+        uint8_t aa, aaa, af; // Steps; 0: as in the baseline.
+    } steps[DIP_COST_MAX_SMALLER] = {{0, 0, 0}, {2, 0, 0}, {0, 0, 4}, {4, 1, 4}};
+    for (int i = 0; i < DIP_COST_MAX_SMALLER; i++) {
+        DipQuality quality = report->options.baseline;
+        if (steps[i].aa) {
+            quality.step[DIP_SETTING_AA] = steps[i].aa;
+            quality.step[DIP_SETTING_AAA] = steps[i].aaa;
+            quality.step[DIP_SETTING_ASD] = 0;
+        }
+        if (steps[i].af) {
+            quality.step[DIP_SETTING_AF] = steps[i].af;
+        }
+        if (dip_quality_check(&quality, NULL)) {
+            report->smaller[report->smaller_count++].quality = quality;
+        }
     }
-    close_timing(&t);
+}
+
+bool dip_cost_time_smaller(DipCostContext *cost, DipError *err) {
+    DipCostReport *report = cost->report;
+    DipCostReport there;
+    DipCostContext context;
+    if (report->width < LEAST_SIDE || report->height < LEAST_SIDE) {
+        return true;
+    }
+    report->smaller_width = (report->width + 1) / 2;
+    report->smaller_height = (report->height + 1) / 2;
+    dip_cost_elsewhere_begin(&there, report, report->smaller_width, report->smaller_height,
+                             report->paths[0]);
+    if (!dip_cost_context_open(&context, cost->session, &there, NULL, NULL, false, err)) {
+        return false;
+    }
+    list_smaller(report);
+    DipDriverMachine machine;
+    const bool done =
+        dip_cost_time_elsewhere(cost, &context, report->smaller, report->smaller_count,
+                                "smaller frames timed", &machine, err);
+    dip_cost_context_close(&context);
     return done;
 }

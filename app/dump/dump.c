@@ -1,6 +1,4 @@
 // `diptych dump`: drawing frames and writing pictures, hashes and the record.
-#include "app/dump/dump.h"
-
 #include "app/dump/options.h"
 #include "app/dump/record.h"
 #include "app/dump/stream.h"
@@ -17,11 +15,13 @@
 #include <string.h>
 #include <unistd.h>
 
+enum { MOST_STREAMS = 2 }; // --y4m and --raw.
+
 // What the frames are written to, besides pictures and hashes.
 typedef struct Outputs {
     DipRecord *record; // NULL if no record is asked for.
-    DipStream *y4m;    // NULL if --y4m is not given.
-    DipStream *raw;    // NULL if --raw is not given.
+    DipStream *streams[MOST_STREAMS];
+    int stream_count;
 } Outputs;
 
 // A frame of both panes and what is known about it.
@@ -81,17 +81,14 @@ static bool dump_frame(DipSession *session, const DipDumpOptions *options, int i
             return false;
         }
     }
-    return (!outputs->record || record_frame(outputs->record, &drawn, err)) &&
-           (!outputs->y4m || dip_stream_add(outputs->y4m, drawn.frame.panes, err)) &&
-           (!outputs->raw || dip_stream_add(outputs->raw, drawn.frame.panes, err));
+    bool written = !outputs->record || record_frame(outputs->record, &drawn, err);
+    for (int i = 0; written && i < outputs->stream_count; i++) {
+        written = dip_stream_add(outputs->streams[i], drawn.frame.panes, err);
+    }
+    return written;
 }
 
-static bool write_json(const DipRecord *record, const char *file, DipError *err) {
-    return strcmp(file, "-") == 0 ? dip_record_print(record, stdout, err)
-                                  : dip_record_write(record, file, err);
-}
-
-static bool write_records(const DipRecord *record, const DipDumpOptions *options, DipError *err) {
+static bool write_record(const DipRecord *record, const DipDumpOptions *options, DipError *err) {
     if (options->out) {
         char file[PATH_MAX];
         snprintf(file, sizeof file, "%s/frames.json", options->out);
@@ -99,7 +96,11 @@ static bool write_records(const DipRecord *record, const DipDumpOptions *options
             return false;
         }
     }
-    return !options->json || write_json(record, options->json, err);
+    if (options->json && strcmp(options->json, "-") == 0) {
+        dip_record_print(record, stdout);
+        return true;
+    }
+    return !options->json || dip_record_write(record, options->json, err);
 }
 
 // Draws the frames of the range, with the progress on standard error.
@@ -131,32 +132,35 @@ static bool dump_frames(DipSession *session, const DipDumpOptions *options, cons
     return done;
 }
 
-// Opens a stream if its option gives a file; otherwise *stream stays NULL. The stream's frames are
-// `step` frames apart, so that it shows them at the speed of the scene's time.
-static bool open_stream(DipStream **stream, const DipDumpOptions *options, bool y4m,
-                        DipError *err) {
-    const DipStreamDef def = {
-        .option = y4m ? "--y4m" : "--raw",
-        .file = y4m ? options->y4m : options->raw,
-        .y4m = y4m,
-        .picture = options->picture,
-        .rate = {options->rate.frames, options->rate.seconds * options->frames.step},
-    };
-    *stream = def.file ? dip_stream_open(&def, err) : NULL;
-    return *stream || !def.file;
-}
-
+// The stream's frames are `step` frames apart, so that it shows them at the speed of the scene's
+// time.
 static bool open_outputs(Outputs *outputs, const DipDumpOptions *options, DipError *err) {
     const bool records = options->out || options->json;
+    const char *const files[MOST_STREAMS] = {options->y4m, options->raw};
     outputs->record = records ? dip_record_create(err) : NULL;
-    return (outputs->record || !records) && open_stream(&outputs->y4m, options, true, err) &&
-           open_stream(&outputs->raw, options, false, err);
+    bool opened = outputs->record || !records;
+    for (int i = 0; opened && i < MOST_STREAMS; i++) {
+        const DipStreamDef def = {
+            .option = i == 0 ? "--y4m" : "--raw",
+            .file = files[i],
+            .y4m = i == 0,
+            .picture = options->picture,
+            .rate = {options->rate.frames, options->rate.seconds * options->frames.step},
+        };
+        if (def.file) {
+            outputs->streams[outputs->stream_count] = dip_stream_open(&def, err);
+            opened = outputs->streams[outputs->stream_count] != NULL;
+            outputs->stream_count += opened;
+        }
+    }
+    return opened;
 }
 
 // Closes the streams. Keeps the first error: *err is filled only if everything was `done` before.
 static bool close_outputs(Outputs *outputs, bool done, DipError *err) {
-    done = dip_stream_close(&outputs->y4m, done ? err : NULL) && done;
-    done = dip_stream_close(&outputs->raw, done ? err : NULL) && done;
+    for (int i = 0; i < outputs->stream_count; i++) {
+        done = dip_stream_close(&outputs->streams[i], done ? err : NULL) && done;
+    }
     dip_record_destroy(&outputs->record);
     return done;
 }
@@ -172,7 +176,7 @@ static bool run(DipSession *session, const void *all_options, DipError *err) {
         open_outputs(&outputs, options, err) && dump_frames(session, options, &outputs, err) &&
         (!outputs.record || (dip_record_set_start(outputs.record, &session->times,
                                                   dip_machine_peak_rss_bytes(), err) &&
-                             write_records(outputs.record, options, err)));
+                             write_record(outputs.record, options, err)));
     return close_outputs(&outputs, done, err);
 }
 

@@ -52,79 +52,43 @@ static bool read_rate(void *fields, const DipOptionRow *row, const char *value, 
                              "or 30000/1001");
 }
 
-static bool read_picture(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipDumpOptions *options = fields;
-    for (int i = 0; i < DIP_STREAM_PICTURE_COUNT; i++) {
-        if (strcmp(value, dip_stream_picture_names[i]) == 0) {
-            options->picture = (DipStreamPicture)i;
-            options->has_picture = true;
-            return true;
-        }
-    }
-    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
-                         "'%.40s' is not a picture; give one of "
-                         "current|requested|both|difference",
-                         value);
-}
-
 #define PICTURE(name, text) " `" #name "` " text "."
 #define PICTURES            DIP_STREAM_PICTURE_LIST(PICTURE)
 
 static const DipOptionRow rows[] = {
-    {.name = "--frames",
-     .argument = "A:B[:S]",
+    {"--frames", "A:B[:S]", DIP_OPTION_CUSTOM, .read = read_frames,
      .text = "Draw the frames A, A + S, A + 2 S, ... that come before B. Without :S, S is 1. The "
-             "default 0:1 draws the first frame only.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_frames},
-    {.name = "--fps",
-     .argument = "N",
+             "default 0:1 draws the first frame only."},
+    {"--fps", "N", DIP_OPTION_CUSTOM, .read = read_rate,
      .text =
          "Frame n shows the scene at the time n / N seconds. N is a number such as 59.94, which is "
          "rounded to thousandths, or a ratio such as 30000/1001, which is exact. The default is 30 "
-         "frames per second.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_rate},
-    {.name = "--out",
-     .argument = "DIR",
+         "frames per second."},
+    {"--out", "DIR", DIP_OPTION_TEXT, FIELD(out),
      .text = "Write the pictures current_0000.png, requested_0000.png, ... and the record "
-             "frames.json into this folder. Diptych makes the folder if it is missing.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(out)},
-    {.name = "--json",
-     .argument = "FILE",
+             "frames.json into this folder. Diptych makes the folder if it is missing."},
+    {"--json", "FILE", DIP_OPTION_TEXT, FIELD(json),
      .text = "Write the record of all frames to this file: settings, hashes, times, counters. "
-             "The name - stands for standard output.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(json)},
-    {.name = "--y4m",
-     .argument = "FILE",
+             "The name - stands for standard output."},
+    {"--y4m", "FILE", DIP_OPTION_TEXT, FIELD(y4m),
      .text = "Write the frames to this file as video without compression (YUV4MPEG2), which mpv, "
              "ffmpeg and encoders read. The name - stands for standard output. The format is C444, "
              "the range is limited and the matrix is BT.709. The header cannot name the matrix, so "
-             "tell the reader, as `mpv --vf=format:colormatrix=bt.709 -` does.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(y4m)},
-    {.name = "--raw",
-     .argument = "FILE",
+             "tell the reader, as `mpv --vf=format:colormatrix=bt.709 -` does."},
+    {"--raw", "FILE", DIP_OPTION_TEXT, FIELD(raw),
      .text = "Write the pixels of the frames to this file, without a header: 3 bytes per pixel "
              "(RGB24, sRGB), the top row first. The name - stands for standard output. A line on "
-             "standard error gives the options with which ffmpeg reads the stream.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(raw)},
-    {.name = "--pane",
-     .argument = "NAME",
-     .text = "What --y4m and --raw show." PICTURES " The default is both.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_picture},
-    {.name = "--hash",
+             "standard error gives the options with which ffmpeg reads the stream."},
+    {"--pane", "NAME", DIP_OPTION_CHOICE, FIELD(picture), .given = FIELD(has_picture),
+     .names = dip_stream_picture_names, .most = DIP_STREAM_PICTURE_COUNT,
+     .accepted = "a picture; give one of current|requested|both|difference",
+     .text = "What --y4m and --raw show." PICTURES " The default is both."},
+    {"--hash", NULL, DIP_OPTION_FLAG, FIELD(hash),
      .text = "Print a line per frame and pane, such as `0000 current HASH`. Equal hashes mean "
-             "equal pictures.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(hash)},
+             "equal pictures."},
 };
 
-static const DipOptionTable table = {"Frames and output", rows, DIP_ARRAY_COUNT(rows)};
+static const DipOptionTable table = DIP_OPTION_TABLE("Frames and output", rows);
 
 static const DipOptionPart parts[] = {
     {&table, 0},

@@ -31,6 +31,7 @@ typedef struct DipDumpOptions {
     DipFrameRate rate; // Frame n shows the time n * rate.seconds / rate.frames, in seconds.
 } DipDumpOptions;
 
+extern const DipCommand dip_dump_command; // in dump.c
 extern const DipOptionParts dip_dump_option_parts;
 
 // Returns the time that a frame shows, in nanoseconds, rounded down.

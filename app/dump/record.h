@@ -37,14 +37,15 @@ void dip_record_destroy(DipRecord **record);
 bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose, double ms,
                     const DipRecordPane panes[2], DipError *err);
 
-// Adds the time of each part of the start, and the greatest amount of memory that was in use.
+// Ends the record with the time of each part of the start, and the greatest amount of memory that
+// was in use.
 bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
                           DipError *err);
 
 // Writes the record to a file, whole or not at all.
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err);
 
-// Prints the record and a newline. The caller checks `out` for a write error.
-bool dip_record_print(const DipRecord *record, FILE *out, DipError *err);
+// Prints the record. The caller checks `out` for a write error.
+void dip_record_print(const DipRecord *record, FILE *out);
 
 #endif

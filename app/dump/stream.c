@@ -114,51 +114,27 @@ static bool begin(DipStream *stream, const DipFrame *pane, DipError *err) {
 
 // --- pictures ------------------------------------------------------------------------------------
 
-static const uint8_t *row_of(const DipFrame *frame, int y) {
-    return frame->rgba8 + (size_t)y * frame->stride_bytes;
-}
-
-// Copies a pane to the column x of the stream's picture.
-static void copy_pane(DipStream *stream, const DipFrame *pane, int x) {
+// Writes a pane's picture at the column x of the stream's picture; with `other`, how much each
+// channel differs from that pane.
+static void put_pane(DipStream *stream, const DipFrame *pane, const DipFrame *other, int x) {
     for (int y = 0; y < pane->height; y++) {
-        const uint8_t *from = row_of(pane, y);
+        const uint8_t *from = pane->rgba8 + (size_t)y * pane->stride_bytes;
+        const uint8_t *less = other ? other->rgba8 + (size_t)y * other->stride_bytes : NULL;
         uint8_t *to = stream->rgb + 3 * ((size_t)y * (size_t)stream->width + (size_t)x);
-        for (int i = 0; i < pane->width; i++) {
-            memcpy(to + 3 * i, from + 4 * i, 3);
-        }
-    }
-}
-
-static void subtract_panes(DipStream *stream, const DipFrame panes[2]) {
-    for (int y = 0; y < stream->height; y++) {
-        const uint8_t *a = row_of(&panes[0], y);
-        const uint8_t *b = row_of(&panes[1], y);
-        uint8_t *to = stream->rgb + 3 * (size_t)y * (size_t)stream->width;
-        for (int i = 0; i < stream->width; i++) {
+        for (int i = 0; i < pane->width; i++, to += 3, from += 4) {
             for (int c = 0; c < 3; c++) {
-                to[3 * i + c] = (uint8_t)abs(a[4 * i + c] - b[4 * i + c]);
+                to[c] = less ? (uint8_t)abs(from[c] - less[4 * i + c]) : from[c];
             }
         }
     }
 }
 
 static void compose(DipStream *stream, const DipFrame panes[2]) {
-    switch (stream->def.picture) {
-    case DIP_STREAM_current:
-        copy_pane(stream, &panes[0], 0);
-        break;
-    case DIP_STREAM_requested:
-        copy_pane(stream, &panes[1], 0);
-        break;
-    case DIP_STREAM_both:
-        copy_pane(stream, &panes[0], 0);
-        copy_pane(stream, &panes[1], panes[0].width);
-        break;
-    case DIP_STREAM_difference:
-        subtract_panes(stream, panes);
-        break;
-    case DIP_STREAM_PICTURE_COUNT:
-        break;
+    const DipStreamPicture picture = stream->def.picture;
+    put_pane(stream, &panes[picture == DIP_STREAM_requested],
+             picture == DIP_STREAM_difference ? &panes[1] : NULL, 0);
+    if (picture == DIP_STREAM_both) {
+        put_pane(stream, &panes[1], NULL, panes[0].width);
     }
 }
 

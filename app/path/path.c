@@ -1,16 +1,53 @@
 // `diptych path info` and `diptych path convert`: reading and rewriting camera paths.
 #include "app/path/path.h"
 
-#include "app/path/options.h"
 #include "campaths/campath.h"
 #include "renderer/base/assert.h"
 
 #include <stdio.h>
 #include <string.h>
 
+enum { MAX_FILES = 2 };
+
+// Texts are borrowed from argv.
+typedef struct PathOptions {
+    DipProgramOptions program;
+    const char *files[MAX_FILES]; // The file to read and the file to write.
+    int file_count;
+} PathOptions;
+
+static const DipOptionPart parts[] = {
+    {&dip_program_option_table, offsetof(PathOptions, program)},
+};
+static const DipOptionParts all_parts = {parts, DIP_ARRAY_COUNT(parts)};
+
+static bool check_info(const void *options, DipError *err) {
+    const PathOptions *path = options;
+    return path->file_count == 1 || dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path info",
+                                                  "needs a file: path info FILE");
+}
+
+static bool ends_with(const char *text, const char *end) {
+    const size_t length = strlen(text);
+    return length >= strlen(end) && strcmp(text + length - strlen(end), end) == 0;
+}
+
+static bool check_convert(const void *options, DipError *err) {
+    const PathOptions *path = options;
+    if (path->file_count != 2) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path convert",
+                             "needs two files but got %d: path convert IN OUT", path->file_count);
+    }
+    return ends_with(path->files[1], ".pth") || ends_with(path->files[1], ".bth") ||
+           dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "path convert",
+                         "'%.200s' names no format; write to a file that ends in .pth (text) or "
+                         ".bth (binary)",
+                         path->files[1]);
+}
+
 static bool run_info(DipSession *session, const void *options, DipError *err) {
     (void)session;
-    const char *file = ((const DipPathOptions *)options)->files[0];
+    const char *file = ((const PathOptions *)options)->files[0];
     DipCamPath *path;
     if (!dip_campath_load(file, &path, err)) {
         return false;
@@ -30,7 +67,7 @@ static bool run_info(DipSession *session, const void *options, DipError *err) {
 
 static bool run_convert(DipSession *session, const void *options, DipError *err) {
     (void)session;
-    const DipPathOptions *files = options;
+    const PathOptions *files = options;
     const char *to = files->files[1];
     const bool text = strcmp(to + strlen(to) - strlen(".pth"), ".pth") == 0;
     DipCamPath *path;
@@ -56,7 +93,7 @@ static const DipExample convert_examples[] = {
 };
 
 #define PATH_OPERANDS(number)                                                                      \
-    { offsetof(DipPathOptions, files), offsetof(DipPathOptions, file_count), number }
+    { offsetof(PathOptions, files), offsetof(PathOptions, file_count), number }
 
 const DipCommand dip_path_info_command = {
     .name = "path info",
@@ -66,10 +103,10 @@ const DipCommand dip_path_info_command = {
             "that holds it and its greatest speeds.",
     .examples = info_examples,
     .example_count = DIP_ARRAY_COUNT(info_examples),
-    .parts = &dip_path_option_parts,
+    .parts = &all_parts,
     .operands = PATH_OPERANDS(1),
-    .options_size = sizeof(DipPathOptions),
-    .check = dip_path_info_options_check,
+    .options_size = sizeof(PathOptions),
+    .check = check_info,
     .run = run_info,
 };
 
@@ -82,9 +119,9 @@ const DipCommand dip_path_convert_command = {
             "hold exactly the same path.",
     .examples = convert_examples,
     .example_count = DIP_ARRAY_COUNT(convert_examples),
-    .parts = &dip_path_option_parts,
+    .parts = &all_parts,
     .operands = PATH_OPERANDS(2),
-    .options_size = sizeof(DipPathOptions),
-    .check = dip_path_convert_options_check,
+    .options_size = sizeof(PathOptions),
+    .check = check_convert,
     .run = run_convert,
 };

@@ -25,115 +25,46 @@ static bool read_window(void *fields, const DipOptionRow *row, const char *value
     return true;
 }
 
-// Finds a value in a list of names. Returns its index, or -1.
-static int find_name(const char *value, const char *const *names, int count) {
-    for (int i = 0; i < count; ++i) {
-        if (strcmp(value, names[i]) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
-static bool read_display(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    static const char *const names[] = {"auto", "window", "terminal"}; // By DipDisplayChoice.
-    DipPreviewOptions *options = fields;
-    const int choice = find_name(value, names, (int)DIP_ARRAY_COUNT(names));
-    if (choice < 0) {
-        return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value,
-                                 "a display; give one of auto|window|terminal");
-    }
-    options->display = (DipDisplayChoice)choice;
-    return true;
-}
-
-static bool read_panel(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    static const char *const names[] = {"on", "off"};
-    const int choice = find_name(value, names, (int)DIP_ARRAY_COUNT(names));
-    if (choice < 0) {
-        return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value,
-                                 "a state of the panel; give on or off");
-    }
-    ((DipPreviewOptions *)fields)->hides_panel = choice == 1;
-    return true;
-}
-
-static bool read_colours(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    static const char *const names[] = {"auto", "true", "256", "none"}; // By DipTerminalColours.
-    DipPreviewOptions *options = fields;
-    const int choice = find_name(value, names, (int)DIP_ARRAY_COUNT(names));
-    if (choice < 0) {
-        return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value,
-                                 "a number of colours; give one of auto|true|256|none");
-    }
-    options->terminal_colours = (DipTerminalColours)choice;
-    return true;
-}
+static const char *const displays[] = {"auto", "window", "terminal"}; // By DipDisplayChoice.
+static const char *const colours[] = {"auto", "true", "256", "none"}; // By DipTerminalColours.
+static const char *const panels[] = {"on", "off"};                    // By hides_panel.
 
 static const DipOptionRow rows[] = {
-    {.name = "--cost",
-     .argument = "FILE",
+    {"--cost", "FILE", DIP_OPTION_TEXT, FIELD(cost_report),
      .text = "Read the cost.json that `diptych cost` wrote for this scene. The window then shows "
-             "what each setting costs and advises the best settings for a time budget.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(cost_report)},
-    {.name = "--cache",
-     .argument = "DIR",
-     .text = "Keep the converged pictures in this folder, as `diptych cost` does. The default is "
-             "$XDG_CACHE_HOME/diptych. If XDG_CACHE_HOME is not set, it is ~/.cache/diptych.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(cache)},
-    {.name = "--control",
-     .argument = "PATH|-",
+             "what each setting costs and advises the best settings for a time budget."},
+    {"--control", "PATH|-", DIP_OPTION_TEXT, FIELD(control),
      .text = "Let other programs control the preview: it reads requests as lines of JSON and "
              "answers each of them. With a path, it listens on a Unix domain socket; with -, it "
-             "uses standard input and output. docs/embedding.md describes the requests.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(control)},
-    {.name = "--window-id",
-     .argument = "ID",
+             "uses standard input and output. docs/embedding.md describes the requests."},
+    {"--window-id", "ID", DIP_OPTION_CUSTOM, FIELD(window_id), .read = read_window,
      .text = "Show the preview inside this X11 window of another program, in the window's size, "
-             "until that program closes the window.",
-     .kind = DIP_OPTION_CUSTOM,
-     .field = FIELD(window_id),
-     .read = read_window},
-    {.name = "--watch",
+             "until that program closes the window."},
+    {"--watch", NULL, DIP_OPTION_FLAG, FIELD(watch),
      .text =
          "Reload the scene when the ini, a model, one of its pictures or a camera path changes. "
          "The camera, the time and the settings stay. If a file is bad, the window says so and "
-         "keeps what it shows.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(watch)},
-    {.name = "--ui-scale",
-     .argument = "F",
+         "keeps what it shows."},
+    {"--ui-scale", "F", DIP_OPTION_NUMBER, FIELD(ui_scale), .least = 0.75, .most = 4,
      .text = "Enlarge text and controls by F, from 0.75 to 4. The display's own scale counts, too. "
-             "Ctrl+= and Ctrl+- change it in the window.",
-     .kind = DIP_OPTION_NUMBER,
-     .field = FIELD(ui_scale),
-     .least = 0.75,
-     .most = 4},
-    {.name = "--panel",
-     .argument = "on|off",
+             "Ctrl+= and Ctrl+- change it in the window."},
+    {"--panel", "on|off", DIP_OPTION_CHOICE, FIELD(hides_panel), .names = panels,
+     .most = DIP_ARRAY_COUNT(panels), .accepted = "a state of the panel; give on or off",
      .text = "Show the panel with all settings, which is the default, or nothing but the panes, "
-             "for programs that have a panel of their own. The key / changes it in the window.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_panel},
-    {.name = "--display",
-     .argument = "auto|window|terminal",
+             "for programs that have a panel of their own. The key / changes it in the window."},
+    {"--display", "auto|window|terminal", DIP_OPTION_CHOICE, FIELD(display), .names = displays,
+     .most = DIP_ARRAY_COUNT(displays), .accepted = "a display; give one of auto|window|terminal",
      .text = "Where the preview shows. `terminal` draws half blocks and characters into the "
              "terminal of standard output. `auto`, the default, opens a window, and uses the "
-             "terminal if there is no display to open a window on.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_display},
-    {.name = "--terminal-colours",
-     .argument = "auto|true|256|none",
+             "terminal if there is no display to open a window on."},
+    {"--terminal-colours", "auto|true|256|none", DIP_OPTION_CHOICE, FIELD(terminal_colours),
+     .names = colours, .most = DIP_ARRAY_COUNT(colours),
+     .accepted = "a number of colours; give one of auto|true|256|none",
      .text = "The colours of a preview in the terminal: 24 bits, a palette of 256, or characters "
-             "without colours. `auto`, the default, follows COLORTERM, TERM and NO_COLOR.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_colours},
+             "without colours. `auto`, the default, follows COLORTERM, TERM and NO_COLOR."},
 };
 
-static const DipOptionTable table = {"Drawing", rows, DIP_ARRAY_COUNT(rows)};
+static const DipOptionTable table = DIP_OPTION_TABLE("Drawing", rows);
 
 static const DipOptionPart parts[] = {
     {&dip_scene_option_table, FIELD(session)},
@@ -145,6 +76,7 @@ static const DipOptionPart parts[] = {
     {&dip_threads_option_table, FIELD(session)},
     {&table, 0},
     {&dip_viewing_option_table, FIELD(pixels_per_degree)},
+    {&dip_cache_option_table, FIELD(cache)},
     {&dip_program_option_table, FIELD(program)},
 };
 const DipOptionParts dip_preview_option_parts = {parts, DIP_ARRAY_COUNT(parts)};

@@ -25,7 +25,7 @@ typedef struct DipPreviewOptions {
     const char *control;      // "-" or the path of a socket, borrowed from argv, or NULL.
     unsigned long window_id;  // X11 window to open the preview in; 0: open a window of its own.
     bool watch;               // Reload what the preview shows when a file changes.
-    bool hides_panel;         // --panel off.
+    int hides_panel;          // 1: --panel off.
     double ui_scale;          // Factor by which controls are enlarged; 0 without the option.
     DipDisplayChoice display;
     DipTerminalColours terminal_colours;

@@ -52,49 +52,11 @@ static bool read_look(void *fields, const DipOptionRow *row, const char *value, 
     return true;
 }
 
-// Reads one of `count` names as its index. what: what a name stands for, for the message.
-static bool read_name(const DipOptionRow *row, const char *value, const char *what,
-                      const char *const *names, int count, int *index, DipError *err) {
-    char known[64] = "";
-    for (int i = 0; i < count; i++) {
-        if (strcmp(value, names[i]) == 0) {
-            *index = i;
-            return true;
-        }
-        strcat(strcat(known, i ? "|" : ""), names[i]);
-    }
-    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
-                         "'%.40s' is not %s; give one of %s", value, what, known);
-}
-
 // Names and their meanings, for the help.
 #define NAME_AND_TEXT(name, text) " `" #name "` " text "."
 #define UP_AXES                   DIP_UP_AXIS_LIST(NAME_AND_TEXT)
 #define SHADINGS                  DIP_MODEL_SHADING_LIST(NAME_AND_TEXT)
 #define PATH_ENDS                 DIP_CAMPATH_END_LIST(NAME_AND_TEXT)
-
-static bool read_up(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    int up = 0;
-    const bool read = read_name(row, value, "an axis", dip_up_axis_names, DIP_UP_COUNT, &up, err);
-    ((DipSessionOptions *)fields)->up = (DipUpAxis)up;
-    return read;
-}
-
-static bool read_shading(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    int shading = 0;
-    const bool read = read_name(row, value, "a shading", dip_model_shading_names,
-                                DIP_MODEL_SHADING_COUNT, &shading, err);
-    ((DipSessionOptions *)fields)->shading = (DipModelShading)shading;
-    return read;
-}
-
-static bool read_path_end(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    int end = 0;
-    const bool read = read_name(row, value, "the end of a path", dip_campath_end_names,
-                                DIP_CAMPATH_END_COUNT, &end, err);
-    ((DipSessionOptions *)fields)->path_end = (DipCamPathEnd)end;
-    return read;
-}
 
 // Reads numbers that are separated by spaces, tabs or commas. Returns how many there are; a number
 // beyond `most` counts, but is not stored. Returns 0 if a part is not a number.
@@ -140,167 +102,104 @@ static bool read_pose(void *fields, const DipOptionRow *row, const char *value, 
 }
 
 static const DipOptionRow scene_rows[] = {
-    {.name = "--config",
-     .argument = "FILE",
+    {"--config", "FILE", DIP_OPTION_TEXT, FIELD(config),
      .text = "Read this ini file. Without the option, Diptych reads the ini of the courtyard, the "
-             "scene that comes with Diptych.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(config)},
-    {.name = "--model",
-     .argument = "FILE",
+             "scene that comes with Diptych."},
+    {"--model", "FILE", DIP_OPTION_TEXTS, FIELD(models), .count = FIELD(model_count),
+     .room = DIP_MAX_MODELS,
      .text = "Draw this model instead of the ini's. Diptych reads every format that assimp reads. "
              "Repeat the option to draw several files in one scene. The camera orbits the model "
-             "unless --path is given.",
-     .kind = DIP_OPTION_TEXTS,
-     .field = FIELD(models),
-     .count = FIELD(model_count),
-     .most = DIP_MAX_MODELS},
-    {.name = "--scene",
-     .argument = "NAME",
+             "unless --path is given."},
+    {"--scene", "NAME", DIP_OPTION_TEXT, FIELD(scene),
      .text = "Show this scene of the gallery instead of models: model, shadow, prism, blend, "
              "stencil, toon, dice, phone, quads, cubes, tunnel or water. `tour` shows all of them, "
-             "15 seconds each. `models` shows the ini's models even if the ini names a scene.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(scene)},
-    {.name = "--look",
-     .argument = "N",
+             "15 seconds each. `models` shows the ini's models even if the ini names a scene."},
+    {"--look", "N", DIP_OPTION_CUSTOM, .read = read_look,
      .text = "Show the N-th variant of the gallery's scene, such as another resolution of the "
              "shadow map. The first one is 1, which is also the default; docs/gallery.md lists "
-             "them.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_look},
-    {.name = "--up",
-     .argument = "AXIS",
-     .text = "The axis of the model files that points up:" UP_AXES " The default is auto.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_up},
-    {.name = "--shading",
-     .argument = "NAME",
+             "them."},
+    {"--up", "AXIS", DIP_OPTION_CHOICE, FIELD(up), .names = dip_up_axis_names, .most = DIP_UP_COUNT,
+     .accepted = "an axis; give one of auto|y|z",
+     .text = "The axis of the model files that points up:" UP_AXES " The default is auto."},
+    {"--shading", "NAME", DIP_OPTION_CHOICE, FIELD(shading), .given = FIELD(has_shading),
+     .names = dip_model_shading_names, .most = DIP_MODEL_SHADING_COUNT,
+     .accepted = "a shading; give one of auto|flat|gouraud|phong",
      .text = "Where the light of surfaces without a light map is computed." SHADINGS
              " Without lights, flat, gouraud and phong shade the fixed light of sky and sun. "
              "Without the option, the ini's SHADING decides; with --model, it is auto "
-             "(docs/models.md).",
-     .kind = DIP_OPTION_CUSTOM,
-     .given = FIELD(has_shading),
-     .read = read_shading},
-    {.name = "--import-seconds",
-     .argument = "N",
-     .text = "Refuse the models if reading them takes more than N seconds. The default is 120.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(import_seconds),
-     .least = 1,
-     .most = DIP_IMPORT_MAX_WALL_S},
-    {.name = "--force-all-effects",
+             "(docs/models.md)."},
+    {"--import-seconds", "N", DIP_OPTION_INTEGER, FIELD(import_seconds), .least = 1,
+     .most = DIP_IMPORT_MAX_WALL_S,
+     .text = "Refuse the models if reading them takes more than N seconds. The default is 120."},
+    {"--force-all-effects", NULL, DIP_OPTION_FLAG, FIELD(force_all_effects),
      .text = "Run every effect even where it cannot be seen. The picture stays the same and takes "
-             "longer to draw.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(force_all_effects)},
+             "longer to draw."},
 };
 
 static const DipOptionRow path_rows[] = {
-    {.name = "--path",
-     .argument = "FILE",
+    {"--path", "FILE", DIP_OPTION_TEXT, FIELD(path),
      .text = "Fly this camera path (.pth or .bth) instead of the ini's. The field of view is the "
              "ini's CAMPATH_DEFAULT_FOV. Instead of a file, FILE can be the name of a camera in a "
-             "glTF model (docs/models.md), which has its own field of view.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(path)},
+             "glTF model (docs/models.md), which has its own field of view."},
 };
 
 static const DipOptionRow category_rows[] = {
-    {.name = "--category",
-     .argument = "NAME",
+    {"--category", "NAME", DIP_OPTION_TEXT, FIELD(category),
      .text = "Fly this camera path of the ini: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ... The ini "
-             "gives the file of the path NAME in its key CAMPATH_NAME.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(category)},
+             "gives the file of the path NAME in its key CAMPATH_NAME."},
 };
 
 static const DipOptionRow camera_rows[] = {
-    {.name = "--pose",
-     .argument = "POSE",
+    {"--pose", "POSE", DIP_OPTION_CUSTOM, .read = read_pose,
      .text =
          "Let the camera stand still at this pose: the seven numbers x y z qx qy qz qw, in quotes, "
          "in the order of a line of a .pth file (docs/campaths.md). The position is in metres; the "
-         "quaternion rotates camera space to world space, so \"0 1.7 6 0 0 0 1\" looks along -Z.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_pose},
-    {.name = "--fov",
-     .argument = "DEGREES",
+         "quaternion rotates camera space to world space, so \"0 1.7 6 0 0 0 1\" looks along -Z."},
+    {"--fov", "DEGREES", DIP_OPTION_NUMBER, FIELD(fov_y_deg), .least = 1.0, .most = 170.0,
+     .accepted = "an angle from 1 to 170 degrees",
      .text = "Vertical field of view of the camera, from 1 to 170 degrees, on every path. Without "
-             "the option, the ini decides.",
-     .kind = DIP_OPTION_NUMBER,
-     .field = FIELD(fov_y_deg),
-     .least = 1.0,
-     .most = 170.0,
-     .accepted = "an angle from 1 to 170 degrees"},
-    {.name = "--path-end",
-     .argument = "HOW",
+             "the option, the ini decides."},
+    {"--path-end", "HOW", DIP_OPTION_CHOICE, FIELD(path_end), .names = dip_campath_end_names,
+     .most = DIP_CAMPATH_END_COUNT, .accepted = "the end of a path; give one of loop|once|back",
      .text = "What the camera does at the end of a path." PATH_ENDS
-             " The default is loop. Scenes of the gallery have loops of their own.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_path_end},
+             " The default is loop. Scenes of the gallery have loops of their own."},
 };
 
 static const DipOptionRow pane_rows[] = {
-    {.name = "--current",
-     .argument = "SET",
-     .text = "Settings of the left pane, such as aa=none. Without the option, the ini decides.",
-     .kind = DIP_OPTION_SETTINGS,
-     .field = FIELD(current),
-     .given = FIELD(has_current)},
-    {.name = "--requested",
-     .argument = "SET",
-     .text = "Settings of the right pane, such as aa=4,af=16. Without the option, the ini decides.",
-     .kind = DIP_OPTION_SETTINGS,
-     .field = FIELD(requested),
-     .given = FIELD(has_requested)},
-    {.name = "--timing",
+    {"--current", "SET", DIP_OPTION_SETTINGS, FIELD(current), .given = FIELD(has_current),
+     .text = "Settings of the left pane, such as aa=none. Without the option, the ini decides."},
+    {"--requested", "SET", DIP_OPTION_SETTINGS, FIELD(requested), .given = FIELD(has_requested),
+     .text =
+         "Settings of the right pane, such as aa=4,af=16. Without the option, the ini decides."},
+    {"--timing", NULL, DIP_OPTION_FLAG, FIELD(timing),
      .text = "At the end, print how long starting and ending took, and the greatest amount of "
-             "memory that was in use.",
-     .kind = DIP_OPTION_FLAG,
-     .field = FIELD(timing)},
+             "memory that was in use."},
 };
 
 static const DipOptionRow size_rows[] = {
-    {.name = "--size",
-     .argument = "WxH",
+    {"--size", "WxH", DIP_OPTION_SIZE, FIELD(size), .given = FIELD(has_size),
      .text =
-         "Size of one pane in pixels, such as 640x480. Without the option, the ini's RES decides.",
-     .kind = DIP_OPTION_SIZE,
-     .field = FIELD(size),
-     .given = FIELD(has_size)},
-    {.name = "--isa",
-     .argument = "NAME",
+         "Size of one pane in pixels, such as 640x480. Without the option, the ini's RES decides."},
+    {"--isa", "NAME", DIP_OPTION_CUSTOM, .read = read_isa,
      .text = "Draw with this instruction set: auto, scalar, sse2, avx2 or avx512. All of them draw "
-             "the same picture.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_isa},
+             "the same picture."},
 };
 
 static const DipOptionRow threads_rows[] = {
-    {.name = "--threads",
-     .argument = "N",
-     .text = "Draw with this many threads. 0, which is also the ini's default, stands for all "
-             "processors. The picture is the same with any number.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(threads),
-     .given = FIELD(has_threads),
+    {"--threads", "N", DIP_OPTION_INTEGER, FIELD(threads), .given = FIELD(has_threads),
      .most = DIP_MAX_THREADS,
-     .accepted = "a number of threads from 1 to 256, or 0 for all processors"},
+     .accepted = "a number of threads from 1 to 256, or 0 for all processors",
+     .text = "Draw with this many threads. 0, which is also the ini's default, stands for all "
+             "processors. The picture is the same with any number."},
 };
 
-const DipOptionTable dip_scene_option_table = {scene_title, scene_rows,
-                                               DIP_ARRAY_COUNT(scene_rows)};
-const DipOptionTable dip_path_option_table = {scene_title, path_rows, DIP_ARRAY_COUNT(path_rows)};
-const DipOptionTable dip_category_option_table = {scene_title, category_rows,
-                                                  DIP_ARRAY_COUNT(category_rows)};
-const DipOptionTable dip_camera_option_table = {scene_title, camera_rows,
-                                                DIP_ARRAY_COUNT(camera_rows)};
-const DipOptionTable dip_pane_option_table = {drawing_title, pane_rows, DIP_ARRAY_COUNT(pane_rows)};
-const DipOptionTable dip_size_option_table = {drawing_title, size_rows, DIP_ARRAY_COUNT(size_rows)};
-const DipOptionTable dip_threads_option_table = {drawing_title, threads_rows,
-                                                 DIP_ARRAY_COUNT(threads_rows)};
+const DipOptionTable dip_scene_option_table = DIP_OPTION_TABLE(scene_title, scene_rows);
+const DipOptionTable dip_path_option_table = DIP_OPTION_TABLE(scene_title, path_rows);
+const DipOptionTable dip_category_option_table = DIP_OPTION_TABLE(scene_title, category_rows);
+const DipOptionTable dip_camera_option_table = DIP_OPTION_TABLE(scene_title, camera_rows);
+const DipOptionTable dip_pane_option_table = DIP_OPTION_TABLE(drawing_title, pane_rows);
+const DipOptionTable dip_size_option_table = DIP_OPTION_TABLE(drawing_title, size_rows);
+const DipOptionTable dip_threads_option_table = DIP_OPTION_TABLE(drawing_title, threads_rows);
 
 // Returns the option that also says where the camera is, or NULL.
 static const char *other_camera(const DipSessionOptions *options) {

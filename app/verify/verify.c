@@ -4,16 +4,23 @@
 
 #include "app/cli/machine.h"
 #include "app/cli/progress.h"
-#include "app/verify/options.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/pool.h"
 #include "renderer/catalogue/shipped_hashes.h"
 #include "renderer/catalogue/stability.h"
 
 #include <stdio.h>
 
+typedef struct VerifyOptions {
+    DipProgramOptions program;
+    bool all;     // Run as many cases of each row as ./test does.
+    int threads;  // Greatest number of threads; 0: all processors.
+    bool verbose; // Print a line for every row.
+} VerifyOptions;
+
 // A verification in progress.
 typedef struct Verification {
-    const DipVerifyOptions *options;
+    const VerifyOptions *options;
     int threads[2];
     DipPool *pools[2];
     DipProgress progress;
@@ -188,7 +195,7 @@ static bool conclude(const Verification *verification, DipError *err) {
 
 static bool run_verify(DipSession *session, const void *arguments, DipError *err) {
     (void)session;
-    const DipVerifyOptions *options = arguments;
+    const VerifyOptions *options = arguments;
     const int processors = dip_machine_processor_count();
     Verification verification = {.options = options, .threads = {1, options->threads}};
     if (!options->threads) {
@@ -210,6 +217,27 @@ static bool run_verify(DipSession *session, const void *arguments, DipError *err
     return opened && conclude(&verification, err);
 }
 
+#define FIELD(name) offsetof(VerifyOptions, name)
+
+static const DipOptionRow rows[] = {
+    {"--threads", "N", DIP_OPTION_INTEGER, FIELD(threads), .least = 0, .most = DIP_MAX_THREADS,
+     .text =
+         "Compare one thread with this many threads. 0, the default, stands for all processors, "
+         "but at least 2 threads."},
+    {"--all", NULL, DIP_OPTION_FLAG, FIELD(all),
+     .text = "Run as many cases of every hard case as the tests do. This takes a few minutes."},
+    {"--list", NULL, DIP_OPTION_FLAG, FIELD(verbose),
+     .text = "Also print every promise, its bound and the greatest error found."},
+};
+
+static const DipOptionTable table = DIP_OPTION_TABLE("What to verify", rows);
+
+static const DipOptionPart parts[] = {
+    {&table, 0},
+    {&dip_program_option_table, FIELD(program)},
+};
+static const DipOptionParts all_parts = {parts, DIP_ARRAY_COUNT(parts)};
+
 static const DipExample examples[] = {
     {"diptych verify", "checks this machine in about ten seconds"},
     {"diptych verify --list", "also prints every promise and the error found"},
@@ -228,7 +256,7 @@ const DipCommand dip_verify_command = {
         "no files.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),
-    .parts = &dip_verify_option_parts,
-    .options_size = sizeof(DipVerifyOptions),
+    .parts = &all_parts,
+    .options_size = sizeof(VerifyOptions),
     .run = run_verify,
 };

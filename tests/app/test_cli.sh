@@ -193,7 +193,7 @@ done
 check "dump writes six pictures" test "$(find a -name '*.png' | wc -l)" = 6
 check "both files hold the same record" cmp a/b/frames.json c.json
 check "no temporary file is left" test -z "$(find . -name '*.tmp')"
-for word in '"index"' '"time_s"' '"pose"' '"settings":	"aa=4,' '"stages_ms"' '"counters"' \
+for word in '"index"' '"time_s"' '"pose"' '"settings": "aa=4,' '"stages_ms"' '"counters"' \
     '"texels_fetched"' '"effects"' '"light_map"' '"why"'; do
     check "the record holds $word" grep -q "$word" c.json
 done
@@ -235,12 +235,12 @@ expect 0 '' "$diptych" $equal --json copied.json
 cp out.txt copied.txt
 check "the requested pane shows the current pane's picture" \
     test "$(sed -n '1s/.* //p' out.txt)" = "$(sed -n '2s/.* //p' out.txt)"
-check "the record says that it is copied" test "$(grep -c '"copied":	true' copied.json)" = 2
-check "the record says that the copy took no time" test "$(grep -c '"ms":	0,' copied.json)" = 2
-check "panes with different settings are not copied" sh -c '! grep -q "\"copied\":	true" c.json'
+check "the record says that it is copied" test "$(grep -c '"copied": true' copied.json)" = 2
+check "the record says that the copy took no time" test "$(grep -c '"ms": 0,' copied.json)" = 2
+check "panes with different settings are not copied" sh -c '! grep -q "\"copied\": true" c.json'
 expect 0 '' "$diptych" $equal --json forced.json --force-all-effects
 check "drawing both panes gives the same pictures" cmp out.txt copied.txt
-check "the record says that no pane is copied" sh -c '! grep -q "\"copied\":	true" forced.json'
+check "the record says that no pane is copied" sh -c '! grep -q "\"copied\": true" forced.json'
 
 expect 0 '' "$diptych" dump $small --hash --fps 15 --frames 0:3
 check "frame 1 at 15 per second is frame 2 at 30" test \

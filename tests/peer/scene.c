@@ -1,10 +1,12 @@
 // Loads the shipped courtyard or models, or creates a synthetic scene.
 #include "tests/peer/scene.h"
 
+#include "tests/peer/synthetic_scenes.h"
 #include "config/config.h"
 #include "renderer/base/srgb.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double DEFAULT_FOV_Y_DEG = 55.0;
@@ -97,24 +99,25 @@ static bool open_synthetic(DipPeerScene *scene, const DipPeerOptions *options, D
     }
     if (options->scene == DIP_PEER_SCENE_LARGE) {
         snprintf(scene->name, sizeof scene->name, "a few large triangles");
-        scene->synthetic = dip_synthetic_room(err);
+        scene->synthetic = dip_peer_room(err);
     } else if (options->scene == DIP_PEER_SCENE_TINY) {
         const int count = options->width * options->height / 3;
         snprintf(scene->name, sizeof scene->name, "triangles of about 3 pixels");
-        scene->synthetic = dip_synthetic_relief(count < 2 ? 2 : count, false, scene->fov_y_deg,
-                                                aspect, options->turn_deg, err);
+        scene->synthetic = dip_peer_coloured_relief(count < 2 ? 2 : count, scene->fov_y_deg, aspect,
+                                                    options->turn_deg, &scene->colours_lin, err);
     } else {
         snprintf(scene->name, sizeof scene->name, "a grid");
-        scene->synthetic = dip_synthetic_relief(options->grid_triangles, true, scene->fov_y_deg,
-                                                aspect, options->turn_deg, err);
+        scene->synthetic = dip_synthetic_relief(options->grid_triangles, scene->fov_y_deg, aspect,
+                                                options->turn_deg, err);
     }
     if (!scene->synthetic) {
         return false;
     }
     scene->all_in_view = options->scene != DIP_PEER_SCENE_LARGE && options->turn_deg == 0.0;
-    scene->def = *dip_synthetic_scene_def(scene->synthetic);
+    scene->def = scene->synthetic->def;
     if (!options->path) {
-        scene->path = dip_synthetic_take_path(scene->synthetic);
+        scene->path = scene->synthetic->path;
+        scene->synthetic->path = NULL;
     }
     return true;
 }
@@ -160,6 +163,8 @@ bool dip_peer_scene_open(const DipPeerOptions *options, DipPool *pool, DipPeerSc
 void dip_peer_scene_close(DipPeerScene *scene) {
     dip_campath_destroy(&scene->path);
     dip_synthetic_destroy(&scene->synthetic);
+    free(scene->colours_lin);
+    scene->colours_lin = NULL;
     dip_model_destroy(&scene->model);
 }
 

@@ -18,6 +18,7 @@ typedef struct DipPeerScene {
     double fov_y_deg;
     DipModel *model;
     DipSynthetic *synthetic;
+    float *colours_lin; // Of `synthetic`; NULL for none.
 } DipPeerScene;
 
 // Loads or creates the scene that the options ask for. On failure *scene is closed.

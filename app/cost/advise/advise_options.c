@@ -3,19 +3,9 @@
 
 #include "renderer/base/assert.h"
 
-static const DipOptionRow output_rows[] = {
-    {.name = "--json",
-     .argument = "FILE",
-     .text = "Also write the advice to this file.",
-     .kind = DIP_OPTION_TEXT,
-     .field = offsetof(DipCostAdviseArguments, json)},
-};
-
-static const DipOptionTable output_table = {"Output", output_rows, DIP_ARRAY_COUNT(output_rows)};
-
 static const DipOptionPart parts[] = {
     {&dip_cost_budget_option_table, offsetof(DipCostAdviseArguments, cost)},
-    {&output_table, 0},
+    {&dip_json_option_table, offsetof(DipCostAdviseArguments, json)},
     {&dip_program_option_table, offsetof(DipCostAdviseArguments, program)},
 };
 const DipOptionParts dip_cost_advise_option_parts = {parts, DIP_ARRAY_COUNT(parts)};

@@ -37,45 +37,27 @@ static bool read_share(void *fields, const DipOptionRow *row, const char *value,
 }
 
 static const DipOptionRow judge_rows[] = {
-    {.name = "--fail-over",
-     .argument = "P%",
+    {"--fail-over", "P%", DIP_OPTION_CUSTOM, .read = read_share,
      .text = "Exit with code 1 if B takes surely more than P % longer with any settings, or if an "
-             "error grew by more than P %. Without the option, differences are only reported.",
-     .kind = DIP_OPTION_CUSTOM,
-     .read = read_share},
-    {.name = "--json",
-     .argument = "FILE",
-     .text = "Also write the comparison to this file.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(json)},
+             "error grew by more than P %. Without the option, differences are only reported."},
 };
 
 static const DipOptionRow run_rows[] = {
-    {.name = "--sets",
-     .argument = "LIST",
+    {"--sets", "LIST", DIP_OPTION_LIST, .count = FIELD(set_count), .room = DIP_COST_DIFF_MAX_SETS,
+     .separator = ';', .read = read_set,
      .text = "Settings to time, as SET;SET;... in quotes. The default is eight sets that use every "
-             "part of the renderer.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(set_count),
-     .most = DIP_COST_DIFF_MAX_SETS,
-     .separator = ';',
-     .read = read_set},
-    {.name = "--frames",
-     .argument = "N",
+             "part of the renderer."},
+    {"--frames", "N", DIP_OPTION_INTEGER, FIELD(frames), .least = 1, .most = 1000,
      .text = "Draw this many frames, which divide the camera path evenly. The default is 6. If a "
-             "program is compared with a report, the frames are those of the report.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(frames),
-     .least = 1,
-     .most = 1000},
+             "program is compared with a report, the frames are those of the report."},
 };
 
-static const DipOptionTable judge_table = {"Judging and output", judge_rows,
-                                           DIP_ARRAY_COUNT(judge_rows)};
-static const DipOptionTable run_table = {"Timing programs", run_rows, DIP_ARRAY_COUNT(run_rows)};
+static const DipOptionTable judge_table = DIP_OPTION_TABLE("Judging and output", judge_rows);
+static const DipOptionTable run_table = DIP_OPTION_TABLE("Timing programs", run_rows);
 
 static const DipOptionPart parts[] = {
     {&judge_table, 0},
+    {&dip_json_option_table, FIELD(json)},
     {&run_table, 0},
     {&dip_measure_option_table, offsetof(DipCostDiffArguments, measure)},
     {&dip_starts_option_table, offsetof(DipCostDiffArguments, measure)},
@@ -88,17 +70,12 @@ static const DipOptionPart parts[] = {
 };
 const DipOptionParts dip_cost_diff_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
-static bool add_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipCostDiffArguments *diff = fields;
-    return read_set(fields, row, value, err) && ++diff->set_count;
-}
-
 void dip_cost_diff_options_default(void *arguments, int argc, char *const *argv) {
     (void)argc;
     (void)argv;
     DipCostDiffArguments *diff = arguments;
     diff->measure.starts = DIP_COST_DIFF_STARTS;
-    dip_option_each(diff, &run_rows[0], default_sets, ';', add_set, NULL);
+    dip_option_store(&run_rows[0], default_sets, diff, NULL);
 }
 
 bool dip_cost_diff_options_check(const void *arguments, DipError *err) {

@@ -103,11 +103,7 @@ const DipBenchSample *dip_cost_setup_sample(const DipCostSetup *setup, int side,
 void dip_cost_setup_count(const DipCostSetup *setup, int side, int pair, double *counters) {
     const int frames = setup->def.frames;
     for (int f = 0; f < frames; f++) {
-        double *value = counters;
-        const DipCounters *counted = &dip_cost_setup_sample(setup, side, pair, f)->counters;
-#define ADD_COUNTER(name, text) *value++ += (double)counted->name;
-        DIP_COUNTER_LIST(ADD_COUNTER)
-#undef ADD_COUNTER
+        dip_counters_add(&dip_cost_setup_sample(setup, side, pair, f)->counters, counters);
     }
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] /= frames;

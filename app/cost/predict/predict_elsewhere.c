@@ -4,7 +4,6 @@
 #include "app/report/format/formats.h"
 #include "app/cost/plan.h"
 #include "app/cost/predict.h"
-#include "app/cost/prediction_counts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -92,19 +91,10 @@ static const DipCostPrediction *find_baseline(const DipCostReport *report) {
 // them tells by how much the few differ from all.
 static bool scale_counters(DipCostContext *there, DipError *err) {
     DipCostReport *report = there->report;
-    const int frames = dip_cost_frame_count(report);
-    double all[DIP_COST_COUNTER_COUNT] = {0};
+    double all[DIP_COST_COUNTER_COUNT];
     const DipCostPrediction baseline = *find_baseline(report);
-    for (int f = 0; f < frames; f++) {
-        DipFrame frame;
-        if (dip_cost_interrupted(there, err) ||
-            !dip_cost_draw_settings(there, &baseline.quality, 0, f, &frame, err)) {
-            return false;
-        }
-        double *value = all;
-#define ADD_COUNTER(name, text) *value++ += (double)frame.counters.name / frames;
-        DIP_COUNTER_LIST(ADD_COUNTER)
-#undef ADD_COUNTER
+    if (!dip_cost_count(there, &baseline.quality, dip_cost_frame_count(report), all, err)) {
+        return false;
     }
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         const double scale = baseline.counters[c] > 0.0 ? all[c] / baseline.counters[c] : 1.0;

@@ -8,7 +8,7 @@
 #ifndef DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 #define DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 
-#include "app/cost/elsewhere.h"
+#include "app/cost/steps.h"
 #include "app/report/format/fields.h"
 #include "app/report/fit.h"
 #include "app/cost/predict/predict_options.h"

@@ -6,40 +6,24 @@
 #define FIELD(name) offsetof(DipCostPredictArguments, name)
 
 static const DipOptionRow prediction_rows[] = {
-    {.name = "--time",
-     .argument = "N",
+    {"--time", "N", DIP_OPTION_INTEGER, FIELD(timed), .most = DIP_COST_MOST_TIMED,
      .text =
          "Time this many combinations there, those that tell most about all others, and predict "
          "the others from these and from the report. With 0, nothing is timed and the predictions "
-         "come from the report alone. The default is 6.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(timed),
-     .most = DIP_COST_MOST_TIMED},
-    {.name = "--check",
-     .argument = "N",
+         "come from the report alone. The default is 6."},
+    {"--check", "N", DIP_OPTION_INTEGER, FIELD(checked), .most = DIP_COST_MOST_TIMED,
      .text =
          "Then time this many other combinations, spread evenly over the list, and tell how far "
-         "their predictions lie from them. The default is 0.",
-     .kind = DIP_OPTION_INTEGER,
-     .field = FIELD(checked),
-     .most = DIP_COST_MOST_TIMED},
-    {.name = "--json",
-     .argument = "FILE",
-     .text = "Also write the predictions to this file.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(json)},
-    {.name = "--csv",
-     .argument = "FILE",
-     .text = "Also write a line per combination to this file.",
-     .kind = DIP_OPTION_TEXT,
-     .field = FIELD(csv)},
+         "their predictions lie from them. The default is 0."},
+    {"--csv", "FILE", DIP_OPTION_TEXT, FIELD(csv),
+     .text = "Also write a line per combination to this file."},
 };
 
-static const DipOptionTable prediction_table = {"Predicting", prediction_rows,
-                                                DIP_ARRAY_COUNT(prediction_rows)};
+static const DipOptionTable prediction_table = DIP_OPTION_TABLE("Predicting", prediction_rows);
 
 static const DipOptionPart parts[] = {
     {&prediction_table, 0},
+    {&dip_json_option_table, FIELD(json)},
     {&dip_scene_option_table, FIELD(session)},
     {&dip_path_option_table, FIELD(session)},
     {&dip_category_option_table, FIELD(session)},

@@ -16,6 +16,13 @@ typedef enum DipBenchStage {
     DIP_BENCH_STAGE_COUNT
 } DipBenchStage;
 
+enum {
+#define DIP_COUNTER_ENUM(name, text) DIP_COUNTER_##name,
+    DIP_COUNTER_LIST(DIP_COUNTER_ENUM)
+#undef DIP_COUNTER_ENUM
+        DIP_COUNTER_COUNT
+};
+
 extern const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
 
 // The measurements of one drawing of a frame.
@@ -29,5 +36,13 @@ void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool ha
 
 // Writes the sample's time, and those of its stages as the parts of the time.
 void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed);
+
+// Adds a frame's counters to sums in the order of DIP_COUNTER_LIST. The sums are whole numbers, so
+// that they do not depend on the order of the frames.
+static inline void dip_counters_add(const DipCounters *counters, double sums[DIP_COUNTER_COUNT]) {
+#define DIP_COUNTER_ADD(name, text) *sums++ += (double)counters->name;
+    DIP_COUNTER_LIST(DIP_COUNTER_ADD)
+#undef DIP_COUNTER_ADD
+}
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_APP_BENCH_MADE_RESULT_H
 #define DIP_TESTS_APP_BENCH_MADE_RESULT_H
 
-#include "app/bench/result.h"
+#include "app/bench/measure.h"
 
 #include <stdio.h>
 

@@ -1,7 +1,6 @@
 // Tests of the options of `diptych bench`: options that take a list, the limits of the lists, and
 // options that exclude each other.
 #include "app/session/session.h"
-#include "app/bench/bench.h"
 #include "app/bench/options.h"
 #include "app/cli/command_line.h"
 #include "renderer/base/assert.h"
@@ -106,8 +105,8 @@ static void the_whole_command_line_is_kept_for_other_programs(void **state) {
     (void)state;
     DipCommandLine line;
     const DipBenchOptions *bench = options_of(&line, WORDS("--frames", "3"));
-    assert_int_equal(bench->argc, 4);
-    assert_ptr_equal(bench->argv, argv);
+    assert_int_equal(bench->serve.argc, 4);
+    assert_ptr_equal(bench->serve.argv, argv);
     dip_command_line_free(&line);
 }
 

@@ -415,22 +415,19 @@ static void check_opened(void *context, bool succeeded) {
     assert_rounds(1);
 }
 
+// The next run must find what was added, and what was there before.
 static void check_round(void *context, bool succeeded) {
-    for (int reopened = 0; reopened < 2; reopened++) {
-        assert_rounds(1 + succeeded);
-        close_journal(context);
-        assert_true(open_journal(context, NULL));
-    }
+    close_journal(context);
+    assert_true(open_journal(context, NULL));
+    assert_rounds(1 + succeeded);
 }
 
 static void check_errors(void *context, bool succeeded) {
     DipCostBurstErrors errors;
-    for (int reopened = 0; reopened < 2; reopened++) {
-        assert_rounds(1);
-        assert_int_equal(dip_cost_journal_find(journal, key, &errors), succeeded);
-        close_journal(context);
-        assert_true(open_journal(context, NULL));
-    }
+    close_journal(context);
+    assert_true(open_journal(context, NULL));
+    assert_rounds(1);
+    assert_int_equal(dip_cost_journal_find(journal, key, &errors), succeeded);
 }
 
 static void journal_never_loses_a_measurement(void **state) {

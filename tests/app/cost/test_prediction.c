@@ -5,7 +5,6 @@
 #include "app/report/interaction.h"
 #include "app/cost/predict.h"
 #include "app/cost/predict/predict_elsewhere.h"
-#include "app/cost/prediction_counts.h"
 #include "app/report/same_pictures.h"
 #include "app/report/work.h"
 #include "renderer/catalogue/random.h"

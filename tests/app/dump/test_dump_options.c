@@ -1,6 +1,5 @@
 // Tests of the options of `diptych dump`, and of the record that it writes.
 #include "app/cli/command_line.h"
-#include "app/dump/dump.h"
 #include "app/dump/options.h"
 #include "app/dump/record.h"
 #include "renderer/base/assert.h"
@@ -196,7 +195,7 @@ static void printed_and_written_records_are_equal(void **state) {
     assert_true(mkstemp(file) >= 0);
     assert_true(dip_record_set_start(record, &times, 123, &err));
     assert_true(dip_record_write(record, file, &err));
-    assert_true(dip_record_print(record, out, &err));
+    dip_record_print(record, out);
     rewind(out);
     assert_true(fread(printed, 1, sizeof printed - 1, out) > 100);
     fclose(out);
@@ -205,7 +204,6 @@ static void printed_and_written_records_are_equal(void **state) {
     assert_true(fread(written, 1, sizeof written - 1, in) > 100);
     fclose(in);
     remove(file);
-    strcat(written, "\n"); // On standard output, a line feed follows the record.
     assert_string_equal(printed, written);
     dip_record_destroy(&record);
 }

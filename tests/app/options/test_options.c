@@ -27,6 +27,8 @@ typedef struct Fields {
     DipQuality settings;
     int numbers[MOST_NUMBERS];
     int number_count;
+    int shape;
+    bool has_shape;
     char letter;
 } Fields;
 
@@ -36,12 +38,6 @@ typedef struct All {
 } All;
 
 #define FIELD(name) offsetof(Fields, name)
-
-static bool read_item(void *to, const DipOptionRow *row, const char *value, DipError *err) {
-    Fields *fields = to;
-    const DipOptionRow range = {.name = row->name, .least = -9, .most = 9};
-    return dip_option_integer(&range, value, &fields->numbers[fields->number_count], err);
-}
 
 static bool read_letter(void *to, const DipOptionRow *row, const char *value, DipError *err) {
     ((Fields *)to)->letter = *value;
@@ -57,7 +53,7 @@ static const DipOptionRow first_rows[] = {
      .kind = DIP_OPTION_TEXTS,
      .field = FIELD(names),
      .count = FIELD(name_count),
-     .most = MOST_NAMES},
+     .room = MOST_NAMES},
     {.name = "--count",
      .argument = "N",
      .kind = DIP_OPTION_INTEGER,
@@ -66,6 +62,8 @@ static const DipOptionRow first_rows[] = {
      .least = -2,
      .most = 12},
 };
+
+static const char *const shapes[] = {"round", "square"};
 
 static const DipOptionRow second_rows[] = {
     {.name = "--share",
@@ -82,11 +80,17 @@ static const DipOptionRow second_rows[] = {
     {.name = "--numbers",
      .argument = "LIST",
      .kind = DIP_OPTION_LIST,
+     .field = FIELD(numbers),
      .count = FIELD(number_count),
-     .most = MOST_NUMBERS,
-     .separator = ':',
-     .read = read_item},
+     .room = MOST_NUMBERS,
+     .item = DIP_OPTION_INTEGER,
+     .least = -9,
+     .most = 9,
+     .separator = ':'},
     {.name = "--letter", .argument = "L", .kind = DIP_OPTION_CUSTOM, .read = read_letter},
+    {"--shape", "S", DIP_OPTION_CHOICE, FIELD(shape), .given = FIELD(has_shape), .names = shapes,
+     .most = 2, .accepted = "round or square"},
+    {"--letters", "L", DIP_OPTION_CUSTOM, .separator = ',', .read = read_letter},
 };
 
 static const DipOptionTable first_table = {"First", first_rows, DIP_ARRAY_COUNT(first_rows)};
@@ -134,6 +138,11 @@ static void each_kind_is_stored_in_its_field(void **state) {
     assert_int_equal(dip_quality_sample_count(&fields->settings), 4);
     assert_int_equal(parse("--letter", "q", &all, &err), 2);
     assert_int_equal(fields->letter, 'q');
+    assert_int_equal(parse("--letters", "a,b", &all, &err), 2);
+    assert_int_equal(fields->letter, 'b');
+    assert_int_equal(parse("--shape", "square", &all, &err), 2);
+    assert_int_equal(fields->shape, 1);
+    assert_true(fields->has_shape);
     assert_int_equal(fields->guard, 0);
     assert_true(all.other == 7.0);
 }
@@ -189,6 +198,8 @@ static void bad_values_are_refused_with_what_is_accepted(void **state) {
     assert_refused("--size", "1x8193", DIP_ERROR_RANGE, "'1x8193' is not");
     assert_refused("--settings", "aa=3", DIP_ERROR_UNKNOWN, "'3'");
     assert_refused("--letter", "qq", DIP_ERROR_TYPE, "'qq' is not one letter");
+    assert_refused("--letters", "q,", DIP_ERROR_MISSING, "holds an empty value");
+    assert_refused("--shape", "Square", DIP_ERROR_UNKNOWN, "'Square' is not round or square");
     assert_refused("--numbers", "1::2", DIP_ERROR_MISSING, "'1::2' holds an empty value");
     assert_refused("--numbers", "1:", DIP_ERROR_MISSING, "holds an empty value");
     assert_refused("--numbers", "1:2:3:4:5", DIP_ERROR_OVERSIZED, "more than 4 values");
