@@ -2,7 +2,7 @@
 #include "app/bench/plots.h"
 
 #include "app/cli/machine.h"
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 #include "app/report/page/plot.h"
 
 #include <limits.h>
@@ -132,9 +132,9 @@ static void add_point(Series *series, double x, const double *ms, int count, dou
         return;
     }
     double *const columns[] = {series->x, series->y, series->low, series->high};
-    const double values[] = {x, dip_stats_quantile(ms, count, 0.5, scratch),
-                             dip_stats_quantile(ms, count, 0.05, scratch),
-                             dip_stats_quantile(ms, count, 0.95, scratch)};
+    const double values[] = {x, dip_percentile_of(ms, count, 0.5, scratch),
+                             dip_percentile_of(ms, count, 0.05, scratch),
+                             dip_percentile_of(ms, count, 0.95, scratch)};
     for (int c = 0; c < 4; c++) {
         memmove(columns[c] + at + 1, columns[c] + at,
                 sizeof(double) * (size_t)(series->count - at));

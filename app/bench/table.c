@@ -3,7 +3,7 @@
 
 #include "app/files/whole_file.h"
 #include "app/cli/machine.h"
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -77,7 +77,7 @@ static void print_quantile(const DipBenchResult *result, int combination, double
                            double *scratch, FILE *out) {
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         const double *ms = dip_bench_result_ms(result, combination, (DipBenchStage)stage);
-        fprintf(out, " %9.3f", dip_stats_quantile(ms, value_count(result->plan), share, scratch));
+        fprintf(out, " %9.3f", dip_percentile_of(ms, value_count(result->plan), share, scratch));
     }
 }
 
@@ -225,9 +225,9 @@ static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *ot
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         const DipBenchStage s = (DipBenchStage)stage;
         medians[0][stage] =
-            dip_stats_quantile(dip_bench_result_ms(here, combination, s), count, 0.5, scratch);
+            dip_percentile_of(dip_bench_result_ms(here, combination, s), count, 0.5, scratch);
         medians[1][stage] =
-            dip_stats_quantile(dip_bench_result_ms(other, combination, s), count, 0.5, scratch);
+            dip_percentile_of(dip_bench_result_ms(other, combination, s), count, 0.5, scratch);
     }
     fprintf(out, " %8.3f %8.3f", medians[1][DIP_BENCH_STAGE_total],
             medians[0][DIP_BENCH_STAGE_total]);

@@ -60,7 +60,7 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
 }
 
 // Times the rows, and estimates their ratios to the baseline.
-static bool run(Elsewhere *e, int count, const int *base_of, DipTimePair *pairs, DipTimesFit **fit,
+static bool run(Elsewhere *e, int count, const int *base_of, DipTimesFit **fit,
                 const char *progress, DipDriverMachine *machine, DipError *err) {
     const DipCostReport *report = e->cost->report;
     DipDriverDef def = dip_cost_driver_def(report, count + 1, BLOCK_ROWS);
@@ -72,24 +72,22 @@ static bool run(Elsewhere *e, int count, const int *base_of, DipTimePair *pairs,
     if (done) {
         const DipTimes times = dip_driver_times(driver);
         *machine = dip_driver_machine(driver, report->threads);
-        done = dip_times_pairs(&times, pairs, err);
-        *fit = done ? dip_times_fit(&times, err) : NULL;
+        *fit = dip_times_fit(&times, err);
         done = *fit != NULL;
     }
     dip_driver_destroy(&driver);
     return done;
 }
 
-static void estimate(Elsewhere *e, int count, const DipTimePair *pairs, const DipTimesFit *fit) {
+static void estimate(Elsewhere *e, int count, const DipTimesFit *fit) {
     const DipCostReport *report = e->cost->report;
     const int frames = dip_cost_frame_count(report);
     for (int i = 0; i < count; i++) {
-        const DipEstimate ratio = dip_times_ratio(fit, i + 1);
         DipCostElsewhere *row = &e->rows[i];
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
             row->counters[c] /= frames;
         }
-        dip_cost_estimate_elsewhere(report, &ratio, pairs + (size_t)(i + 1) * (size_t)frames, row);
+        dip_cost_estimate_elsewhere(report, fit, i + 1, row);
     }
 }
 
@@ -100,21 +98,19 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
     const size_t values = ((size_t)count + 1) * frames;
     Elsewhere e = {.cost = cost, .there = there, .rows = rows};
     int *base_of = calloc((size_t)count + 1, sizeof *base_of); // The baseline is subject 0.
-    DipTimePair *pairs = calloc(values, sizeof *pairs);
     e.counted = calloc(values, sizeof *e.counted);
     for (int i = 0; i < count; i++) {
         rows[i] = (DipCostElsewhere){.quality = rows[i].quality};
     }
-    const bool made = (base_of && pairs && e.counted) ||
+    const bool made = (base_of && e.counted) ||
                       dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     DipTimesFit *fit = NULL;
-    const bool done = made && run(&e, count, base_of, pairs, &fit, progress, machine, err);
+    const bool done = made && run(&e, count, base_of, &fit, progress, machine, err);
     if (done) {
-        estimate(&e, count, pairs, fit);
+        estimate(&e, count, fit);
     }
     dip_times_fit_free(&fit);
     free(base_of);
-    free(pairs);
     free(e.counted);
     return done;
 }

@@ -23,7 +23,6 @@ typedef struct RowTiming {
     const int *base_of; // [subject]
     int count;          // Subjects.
     bool *counted;      // [subject * frames + frame]: the frame's counters are in the row's sums.
-    DipTimePair *pairs; // [subject * frames + frame]
     DipChild *child;    // The start that draws; NULL: this process does.
 } RowTiming;
 
@@ -141,8 +140,7 @@ static bool drive(RowTiming *t, DipDriverDef *def, bool keep, const char *progre
                 dip_drive(driver, progress, "cost", DIP_COST_INTERRUPTED, err);
     if (done) {
         const DipTimes times = dip_driver_times(driver);
-        done = dip_times_pairs(&times, t->pairs, err) &&
-               dip_cost_log_add(report, &times, t->rows, err);
+        done = dip_cost_log_add(report, &times, t->rows, err);
         if (keep) {
             report->machine = dip_driver_machine(driver, report->threads);
             report->options.starts = times.starts;
@@ -156,20 +154,13 @@ static bool drive(RowTiming *t, DipDriverDef *def, bool keep, const char *progre
 static bool open_timing(RowTiming *t, DipError *err) {
     const size_t values = (size_t)t->count * (size_t)dip_cost_frame_count(t->cost->report);
     t->counted = calloc(values, sizeof *t->counted);
-    t->pairs = calloc(values, sizeof *t->pairs);
-    return (t->counted && t->pairs) || out_of_memory(err);
-}
-
-static void close_timing(RowTiming *t) {
-    free(t->counted);
-    free(t->pairs);
+    return t->counted || out_of_memory(err);
 }
 
 // --- all rows ------------------------------------------------------------------------------------
 
 bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     DipCostReport *report = cost->report;
-    const size_t frames = (size_t)dip_cost_frame_count(report);
     int *rows = malloc(2 * (size_t)report->row_count * sizeof *rows);
     RowTiming t = {.cost = cost, .rows = rows, .count = report->row_count};
     for (int r = 0; rows && r < report->row_count; r++) {
@@ -186,14 +177,13 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     bool done = (rows || out_of_memory(err)) && open_timing(&t, err) &&
                 drive(&t, &def, true, "frames timed", err);
     for (int r = 0; done && r < report->row_count; r++) {
-        memcpy(report->rows[r].pairs, t.pairs + (size_t)r * frames, frames * sizeof *t.pairs);
         average_work(report, r);
     }
     if (done) {
         report->rounds = report->options.rounds;
         done = dip_cost_estimate_times(report, err);
     }
-    close_timing(&t);
+    free(t.counted);
     free(rows);
     return done;
 }
@@ -224,50 +214,24 @@ static bool time_some(RowTiming *t, DipCostContext *cost, const int *rows, int c
     return done;
 }
 
-// Joins a new pair to the one before. If both are good, their ratios' geometric mean is kept: the
-// row's and the baseline's times are each the geometric mean of two.
-static void join_pair(DipTimePair *pair, const DipTimePair *again, int before) {
-    if (dip_time_pair_is_disturbed(again)) {
-        return;
-    }
-    if (dip_time_pair_is_disturbed(pair)) {
-        *pair = *again;
-        return;
-    }
-    const double share = 1.0 / (before + 1.0);
-    pair->ms = pow(pair->ms, 1.0 - share) * pow(again->ms, share);
-    pair->base_ms = pow(pair->base_ms, 1.0 - share) * pow(again->base_ms, share);
-}
-
 bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int times_before,
                          DipError *err) {
-    DipCostReport *report = cost->report;
-    const size_t frames = (size_t)dip_cost_frame_count(report);
     RowTiming t;
-    const uint64_t seed = (uint64_t)report->options.seed + (uint64_t)times_before;
+    const uint64_t seed = (uint64_t)cost->report->options.seed + (uint64_t)times_before;
     // One row per block: two rows that are compared with a budget get a baseline each.
     const bool done = time_some(&t, cost, rows, count, 1, seed, false, err);
-    for (int i = 0; done && i < count; i++) {
-        for (size_t f = 0; f < frames; f++) {
-            join_pair(&report->rows[rows[i]].pairs[f], &t.pairs[(size_t)(i + 1) * frames + f],
-                      times_before);
-        }
-    }
-    close_timing(&t);
+    free(t.counted);
     return done;
 }
 
 bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err) {
     DipCostReport *report = cost->report;
-    const size_t frames = (size_t)dip_cost_frame_count(report);
     RowTiming t;
     const uint64_t seed = (uint64_t)report->options.seed + UINT64_C(0x10000) + (uint64_t)rows[0];
     const bool done = time_some(&t, cost, rows, count, BLOCK_ROWS, seed, true, err);
     for (int i = 0; done && i < count; i++) {
-        memcpy(report->rows[rows[i]].pairs, t.pairs + (size_t)(i + 1) * frames,
-               frames * sizeof *t.pairs);
         average_work(report, rows[i]);
     }
-    close_timing(&t);
+    free(t.counted);
     return done;
 }

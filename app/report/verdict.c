@@ -72,14 +72,13 @@ void dip_cost_judge_machine(DipCostReport *report) {
         signs.spread = fmax(signs.spread, dip_times_spread(report->fit, same));
         signs.offset = fmax(signs.offset, offset);
     }
-    int64_t disturbed = 0;
+    double disturbed = 0.0, timed = 0.0;
     for (int r = 0; r < report->row_count; r++) {
-        for (int f = 0; f < dip_cost_frame_count(report); f++) {
-            disturbed += dip_time_pair_is_disturbed(&report->rows[r].pairs[f]);
-        }
+        const DipAlong along = dip_times_along(report->fit, r);
+        disturbed += along.timed - along.kept;
+        timed += along.timed;
     }
-    signs.disturbed =
-        (double)disturbed / ((double)report->row_count * (double)dip_cost_frame_count(report));
+    signs.disturbed = disturbed / fmax(timed, 1.0);
     report->verdict = dip_cost_verdict_of(&signs, report->verdict_reason);
     // What was drawn twice should cost the same. How far it differs, and how far from round to
     // round, is what the machine adds to every comparison.

@@ -16,7 +16,7 @@ extern "C" {
 // What a verdict is made of.
 typedef struct DipCostSigns {
     double wait;      // Waiting time of the threads, as a share of the time on all threads.
-    double spread;    // Greatest spread of an A/A ratio over the rounds (dip_paired_spread).
+    double spread;    // Greatest spread of an A/A ratio over the rounds (dip_times_spread).
     double offset;    // Greatest |log| of an A/A ratio.
     double disturbed; // Share of the pairs that stayed disturbed.
     bool settled;     // The time was steady before the rounds.

@@ -1,7 +1,7 @@
 // The base's levels: how long each frame takes at the machine's usual speed.
 #include "app/measure/stats/rounds_fit.h"
 
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -83,7 +83,7 @@ static void join_cells(DipTimesWork *w, int count) {
             for (int i = first; i < end; i++) {
                 w->logs[i - first] = w->cells[i].log_ms - speed[w->cells[i].visit];
             }
-            const double middle = dip_stats_median(w->logs, end - first);
+            const double middle = dip_median(w->logs, end - first);
             for (int i = first; i < end; i++) {
                 sum[w->cells[i].visit] += w->cells[i].log_ms - middle;
                 frames[w->cells[i].visit]++;
@@ -108,14 +108,14 @@ static double rest_of(const DipTimesWork *w, const DipTimesCell *cell, const dou
 }
 
 // Weights cells by their distance from the fit: Tukey's biweight of 6 times the typical distance.
-static double trust_cells(DipTimesWork *w, int left_out, const double *level) {
+static double trust_cells(DipTimesWork *w, int set, const double *level) {
     int count = 0;
     for (int i = 0; i < w->cell_count; i++) {
-        if (w->cells[i].unit != left_out) {
+        if (dip_times_is_in_set(w, set, w->cells[i].unit)) {
             w->logs[count++] = fabs(rest_of(w, &w->cells[i], level)) * sqrt(w->cells[i].weight);
         }
     }
-    const double typical = count > 0 ? dip_stats_median(w->logs, count) : 0.0;
+    const double typical = count > 0 ? dip_median(w->logs, count) : 0.0;
     for (int i = 0; i < w->cell_count; i++) {
         const double distance =
             rest_of(w, &w->cells[i], level) * sqrt(w->cells[i].weight) / (6.0 * typical + 1e-9);
@@ -126,13 +126,13 @@ static double trust_cells(DipTimesWork *w, int left_out, const double *level) {
 }
 
 // Sets levels, or speeds, to the weighted means of what remains.
-static void fit_side(DipTimesWork *w, int left_out, double *to, int count, const double *other,
+static void fit_side(DipTimesWork *w, int set, double *to, int count, const double *other,
                      bool is_level) {
     memset(to, 0, (size_t)count * sizeof *to);
     memset(w->weights, 0, (size_t)count * sizeof *w->weights);
     for (int i = 0; i < w->cell_count; i++) {
         const DipTimesCell *cell = &w->cells[i];
-        if (cell->unit != left_out) {
+        if (dip_times_is_in_set(w, set, cell->unit)) {
             const int at = is_level ? cell->frame : cell->moment;
             const double weight = cell->weight * (cell->trust + 1e-3);
             to[at] += weight * (cell->log_ms - other[is_level ? cell->moment : cell->frame]);
@@ -162,10 +162,10 @@ void dip_times_fill_gaps(double *values, int count) {
     }
 }
 
-// Fits log ms = level(frame) + speed(moment) + rest, without the cells of one unit (-1: with all).
+// Fits log ms = level(frame) + speed(moment) + rest from the cells of a set.
 // Levels of frames that have no cell are interpolated. Returns the mean variance of the noise that
 // levels have.
-static double fit_levels(DipTimesWork *w, int left_out, double *level) {
+static double fit_levels(DipTimesWork *w, int set, double *level) {
     const int frames = w->times->frames;
     double typical = 0.0;
     memset(w->speed, 0, (size_t)w->moment_count * sizeof *w->speed);
@@ -173,21 +173,21 @@ static double fit_levels(DipTimesWork *w, int left_out, double *level) {
         w->cells[i].trust = 1.0;
     }
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        fit_side(w, left_out, level, frames, w->speed, true);
-        fit_side(w, left_out, w->speed, w->moment_count, level, false);
+        fit_side(w, set, level, frames, w->speed, true);
+        fit_side(w, set, w->speed, w->moment_count, level, false);
         if (sweep % 10 == 9) {
-            typical = trust_cells(w, left_out, level);
+            typical = trust_cells(w, set, level);
         }
     }
     int cells = 0, levels = 0, moments = 0;
     for (int i = 0; i < w->cell_count; i++) {
-        cells += w->cells[i].unit != left_out;
+        cells += dip_times_is_in_set(w, set, w->cells[i].unit);
     }
     for (int m = 0; m < w->moment_count; m++) {
         moments += !isnan(w->speed[m]);
     }
     double noise = 0.0;
-    fit_side(w, left_out, level, frames, w->speed, true);
+    fit_side(w, set, level, frames, w->speed, true);
     for (int f = 0; f < frames; f++) {
         if (w->weights[f] > 0.0) {
             noise += 1.0 / w->weights[f];
@@ -220,7 +220,7 @@ static double speed_of_round(DipTimesWork *w, int base, int round, const double 
             w->logs[count++] = log(t->ms) - level[t->frame];
         }
     }
-    return count > 0 ? dip_stats_median(w->logs, count) : NAN;
+    return count > 0 ? dip_median(w->logs, count) : NAN;
 }
 
 // Finds the rounds' speeds, relates the levels to the usual one (the median), and tells how far the
@@ -256,7 +256,7 @@ static void judge_speeds(DipTimesWork *w, int b) {
             fmax(deviation(of_groups, group_count) / sqrt(group_count), DIP_TIMES_LEAST_ERROR);
         base->level_degrees = group_count - 1;
     }
-    const double usual = known > 0 ? dip_stats_median(w->rest, known) : 0.0;
+    const double usual = known > 0 ? dip_median(w->rest, known) : 0.0;
     for (int f = 0; f < times->frames; f++) {
         level[f] += usual;
         base->level_ms += exp(level[f]) / times->frames;
@@ -267,8 +267,8 @@ void dip_times_fit_levels(DipTimesWork *w, int base) {
     const int count = list_base_times(w, base);
     qsort(w->cells, (size_t)count, sizeof *w->cells, compare_cells);
     join_cells(w, count);
-    for (int unit = -1; unit < w->fit->units; unit++) {
-        w->noise[unit + 1] = fit_levels(w, unit, w->level + (unit + 1) * w->times->frames);
+    for (int set = -1; set < w->fit->units; set++) {
+        w->noise[set + 1] = fit_levels(w, set, w->level + (set + 1) * w->times->frames);
     }
     judge_speeds(w, base);
 }
