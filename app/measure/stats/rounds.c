@@ -129,8 +129,11 @@ static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
     }
     const Variance level = {fit->excess * fit->units * base->level_error * base->level_error,
                             base->level_degrees};
-    return estimate_of(fit, log(base->level_ms) + s->logs[v],
-                       variance.value > 0.0 ? add_variance(variance, level) : level);
+    // The slowest frames lie side by side, so that smoothing misses them all alike.
+    const double doubt = v == DIP_TIMES_RATIO ? 0.0 : s->doubt;
+    const Variance smoothed = {fit->excess * fit->units * doubt, INFINITY};
+    const Variance all = variance.value > 0.0 ? add_variance(variance, level) : level;
+    return estimate_of(fit, log(base->level_ms) + s->logs[v], add_variance(all, smoothed));
 }
 
 DipAlong dip_times_along(const DipTimesFit *fit, int subject) {

@@ -14,10 +14,6 @@ enum { MOST_VISITS = 512 };
 // freedom beside a subject's own: subjects differ in how much luck they have.
 static const double most_pooled_degrees = 12.0;
 
-// Noise makes frames differ more than they do; so much more is taken off than expected, since what
-// is expected is uncertain itself.
-static const double noise_margin = 2.0;
-
 // The jackknife's variance is too great by about this where frames are dealt to rounds, since a
 // unit that is left out takes its frames' places with it (test_rounds).
 static const double excess_of_dealt_frames = 1.25;
@@ -275,7 +271,7 @@ static void take_off_noise(double *ms, int frames, double noise_variance) {
     for (int f = 0; f < frames; f++) {
         squares += (log(ms[f]) - mean) * (log(ms[f]) - mean) / frames;
     }
-    const double share = sqrt(fmax(1.0 - noise_margin * noise_variance / (squares + 1e-12), 0.0));
+    const double share = sqrt(fmax(1.0 - noise_variance / (squares + 1e-12), 0.0));
     for (int f = 0; f < frames; f++) {
         ms[f] = exp(mean + share * (log(ms[f]) - mean));
         after += ms[f];
@@ -307,17 +303,23 @@ static double fit_ratios(DipTimesWork *w, int count) {
     return 1.5 / (joined + 0.5) * noise * noise; // The variance of a median.
 }
 
+// Set -1 has the times of all units. The others lack one unit each, or have it alone.
+static bool is_in_set(const DipTimesWork *w, int set, int unit) {
+    return set < 0 || (unit == set) == w->is_alone;
+}
+
 // Computes the logarithms of a subject's values from a set, and its frames' times in w->time. If
 // the set has no times, returns false, and the values are NAN.
 static bool find_values(DipTimesWork *w, int set, double logs[DIP_TIMES_VALUE_COUNT]) {
     const int frames = w->times->frames;
-    const double *level = w->level + (set + 1) * frames;
+    const int lacking = w->is_alone && !w->is_base ? 0 : set + 1;
+    const double *level = w->level + lacking * frames;
     int count = 0;
     for (int f = 0; f < frames; f++) {
         w->ratio[f] = w->is_base ? 0.0 : NAN;
     }
     for (int i = 0; i < w->pair_count; i++) {
-        if (dip_times_is_in_set(w, set, w->pairs[i].unit)) {
+        if (is_in_set(w, set, w->pairs[i].unit)) {
             w->logs[count] = w->pairs[i].log_ratio;
             w->pair_frames[count] = w->pairs[i].frame;
             w->visits[count++] = w->pairs[i].visit;
@@ -333,14 +335,16 @@ static bool find_values(DipTimesWork *w, int set, double logs[DIP_TIMES_VALUE_CO
         w->repeats = w->times->complete || count >= 3 * frames;
         w->window = w->repeats ? 0 : choose_window(w, w->logs, count);
     }
-    const double noise = w->noise[set + 1] + (count > 0 ? fit_ratios(w, count) : 0.0);
+    const double noise = count > 0 ? fit_ratios(w, count) : 0.0;
     double base_total = 0.0, total = 0.0, worst = 0.0;
     for (int f = 0; f < frames; f++) {
         w->time[f] = exp(level[f] + w->ratio[f]);
         base_total += exp(level[f]);
         total += w->time[f];
     }
-    take_off_noise(w->time, frames, noise);
+    const double missing = w->missing[lacking];
+    w->doubt = noise + missing;
+    take_off_noise(w->time, frames, noise - missing);
     for (int f = 0; f < frames; f++) {
         worst = fmax(worst, w->time[f]);
         w->ratio[f] = w->time[f]; // To be sorted.
@@ -388,7 +392,7 @@ static void find_moves(DipTimesWork *w, int s) {
         }
     }
     double scale = known == units ? 1.0 - units : NAN;
-    if (w->is_alone) {
+    if (w->is_alone && !w->is_base) {
         scale = known > 1 ? sqrt(units * (units - 1.0) / (known * (known - 1.0))) : NAN;
     }
     for (int unit = 0; unit < units; unit++) {
@@ -410,6 +414,7 @@ static void fit_subject(DipTimesWork *w, int s) {
     w->spread = NAN;
     const bool known = find_values(w, -1, subject->logs);
     subject->spread = w->spread;
+    subject->doubt = known ? w->doubt : 0.0;
     for (int f = 0; f < fit->frames; f++) {
         fit->frame_ms[(size_t)s * (size_t)fit->frames + (size_t)f] = known ? w->time[f] : NAN;
     }
@@ -522,8 +527,8 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, int part, DipTimes
         !w->level || !w->logs || !sort_times(w)) {
         return false;
     }
-    w->noise = w->level + sets * frames;
-    w->speed = w->noise + sets;
+    w->missing = w->level + sets * frames;
+    w->speed = w->missing + sets;
     w->weights = w->speed + count;
     w->ratio = w->weights + all;
     w->time = w->ratio + frames;

@@ -54,6 +54,7 @@ typedef struct DipTimesSubject {
     int base;
     int timed, kept;
     double spread;                          // See dip_times_spread.
+    double doubt;                           // Variance of single frames about their neighbours.
     double logs[DIP_TIMES_VALUE_COUNT];     // Logarithms of the values.
     double variance[DIP_TIMES_VALUE_COUNT]; // Variance of a unit, of the subject's own luck.
     double shares[DIP_TIMED_PARTS];
@@ -76,19 +77,20 @@ typedef struct DipTimesWork {
     const DipTimes *times;
     DipTimesFit *fit;
     int part;      // The part of the times in which subjects differ; -1: in all.
-    bool is_alone; // A set holds one unit alone.
+    bool is_alone; // A set has the pairs of one unit alone; otherwise it lacks them.
     int *order;    // [count]: indices of times, those of a subject by round, block and frame.
     int *first_of; // [subjects + 1]: where a subject's times begin in `order`.
     DipTimesCell *cells;
     int cell_count;
     DipTimesPair *pairs;
     int pair_count, visit_count;
-    int window;              // Frames of the running median of the subject's log ratios.
-    bool repeats;            // Most frames were timed several times.
-    bool is_base;            // The subject is the base itself: it has no pairs.
-    double *level;           // [(1 + set) * frames]: log ms.
-    double *noise;           // [1 + set]: mean variance of the levels' noise.
-    double spread;           // Of the subject's visits.
+    int window;      // Frames of the running median of the subject's log ratios.
+    bool repeats;    // Most frames were timed several times.
+    bool is_base;    // The subject is the base itself: it has no pairs.
+    double *level;   // [(1 + units) * frames]: log ms, with all units and with each left out.
+    double *missing; // [1 + units]: by how much more the variance of true levels is.
+    double spread;   // Of the subject's visits.
+    double doubt;    // Of the subject's frames.
     DipTimesMoment *moments; // [count]
     int moment_count, base_visits;
     double *speed;                           // [count]: of moments.
@@ -113,11 +115,6 @@ typedef struct DipTimesWork {
 
 static inline int dip_times_unit(const DipTimes *times, const DipTimed *timed) {
     return times->starts > 1 ? timed->start : timed->round;
-}
-
-// Set -1 has the times of all units. The others lack one unit each, or have it alone.
-static inline bool dip_times_is_in_set(const DipTimesWork *w, int set, int unit) {
-    return set < 0 || (unit == set) == w->is_alone;
 }
 
 // Returns the index of a frame's round among those of all starts.

@@ -108,10 +108,10 @@ static double rest_of(const DipTimesWork *w, const DipTimesCell *cell, const dou
 }
 
 // Weights cells by their distance from the fit: Tukey's biweight of 6 times the typical distance.
-static double trust_cells(DipTimesWork *w, int set, const double *level) {
+static void trust_cells(DipTimesWork *w, int left_out, const double *level) {
     int count = 0;
     for (int i = 0; i < w->cell_count; i++) {
-        if (dip_times_is_in_set(w, set, w->cells[i].unit)) {
+        if (w->cells[i].unit != left_out) {
             w->logs[count++] = fabs(rest_of(w, &w->cells[i], level)) * sqrt(w->cells[i].weight);
         }
     }
@@ -122,17 +122,16 @@ static double trust_cells(DipTimesWork *w, int set, const double *level) {
         const double close = 1.0 - fmin(distance * distance, 1.0);
         w->cells[i].trust = close * close;
     }
-    return typical;
 }
 
 // Sets levels, or speeds, to the weighted means of what remains.
-static void fit_side(DipTimesWork *w, int set, double *to, int count, const double *other,
+static void fit_side(DipTimesWork *w, int left_out, double *to, int count, const double *other,
                      bool is_level) {
     memset(to, 0, (size_t)count * sizeof *to);
     memset(w->weights, 0, (size_t)count * sizeof *w->weights);
     for (int i = 0; i < w->cell_count; i++) {
         const DipTimesCell *cell = &w->cells[i];
-        if (dip_times_is_in_set(w, set, cell->unit)) {
+        if (cell->unit != left_out) {
             const int at = is_level ? cell->frame : cell->moment;
             const double weight = cell->weight * (cell->trust + 1e-3);
             to[at] += weight * (cell->log_ms - other[is_level ? cell->moment : cell->frame]);
@@ -162,42 +161,94 @@ void dip_times_fill_gaps(double *values, int count) {
     }
 }
 
-// Fits log ms = level(frame) + speed(moment) + rest from the cells of a set.
-// Levels of frames that have no cell are interpolated. Returns the mean variance of the noise that
-// levels have.
-static double fit_levels(DipTimesWork *w, int set, double *level) {
+// Fits log ms = level(frame) + speed(moment) + rest, without the cells of one unit (-1: with all).
+// Levels of frames that have no cell are NAN.
+static void fit_levels(DipTimesWork *w, int left_out, double *level) {
     const int frames = w->times->frames;
-    double typical = 0.0;
     memset(w->speed, 0, (size_t)w->moment_count * sizeof *w->speed);
     for (int i = 0; i < w->cell_count; i++) {
         w->cells[i].trust = 1.0;
     }
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        fit_side(w, set, level, frames, w->speed, true);
-        fit_side(w, set, w->speed, w->moment_count, level, false);
+        fit_side(w, left_out, level, frames, w->speed, true);
+        fit_side(w, left_out, w->speed, w->moment_count, level, false);
         if (sweep % 10 == 9) {
-            typical = trust_cells(w, set, level);
+            trust_cells(w, left_out, level);
         }
     }
-    int cells = 0, levels = 0, moments = 0;
-    for (int i = 0; i < w->cell_count; i++) {
-        cells += dip_times_is_in_set(w, set, w->cells[i].unit);
+}
+
+// Returns the variance of the noise that the levels of single frames have, beyond what is common to
+// all frames: from how far levels move when a unit is left out. The jackknife of a median is twice
+// too large (Efron 1982, The Jackknife, the Bootstrap and Other Resampling Plans, chapter 3), and
+// a robust fit to few cells is like a median.
+static double noise_of_levels(const DipTimesWork *w) {
+    const int frames = w->times->frames, units = w->fit->units;
+    double squares = 0.0;
+    for (int unit = 0; unit < units; unit++) {
+        const double *without = w->level + (unit + 1) * frames;
+        double mean = 0.0, sum = 0.0;
+        int known = 0;
+        for (int f = 0; f < frames; f++) {
+            const double moved = without[f] - w->level[f];
+            if (!isnan(moved)) {
+                known++;
+                sum += (moved - mean) * (moved - mean) * (known - 1) / known;
+                mean += (moved - mean) / known;
+            }
+        }
+        squares += known > 0 ? sum / known : 0.0;
     }
-    for (int m = 0; m < w->moment_count; m++) {
-        moments += !isnan(w->speed[m]);
-    }
-    double noise = 0.0;
-    fit_side(w, set, level, frames, w->speed, true);
+    return 0.5 * squares * (units - 1.0) / units;
+}
+
+// Writes the mean of up to `reach` frames on either side of each frame, of as many on one side as
+// on the other; of the one neighbour at the path's ends. Returns the mean square of what it misses.
+static double predict_levels(const double *level, int frames, int reach, double *to) {
+    double squares = 0.0;
     for (int f = 0; f < frames; f++) {
-        if (w->weights[f] > 0.0) {
-            noise += 1.0 / w->weights[f];
-            levels++;
+        const int inside = f < frames - 1 - f ? f : frames - 1 - f;
+        const int side = inside < reach ? inside : reach;
+        double sum = side > 0 ? 0.0 : level[f == 0 ? 1 : f - 1];
+        for (int i = 1; i <= side; i++) {
+            sum += 0.5 * (level[f - i] + level[f + i]) / side;
+        }
+        to[f] = sum;
+        squares += (level[f] - sum) * (level[f] - sum) / frames;
+    }
+    return squares;
+}
+
+// Returns how many neighbours on either side predict the levels best.
+static int choose_reach(DipTimesWork *w, const double *level) {
+    int best = 1;
+    double least = INFINITY;
+    for (int reach = 1; reach <= 16; reach *= 2) {
+        const double squares = predict_levels(level, w->times->frames, reach, w->time);
+        if (squares < least) {
+            least = squares;
+            best = reach;
         }
     }
-    dip_times_fill_gaps(level, frames);
-    const int free_cells = cells - levels - moments + 1;
-    const double spread = DIP_TIMES_MAD_TO_SD * typical;
-    return free_cells > 0 ? noise / levels * spread * spread * cells / free_cells : 0.0;
+    return best;
+}
+
+// Joins each level with what its neighbours predict, each weighted by the inverse of its variance.
+// Neighbours miss by their own noise and by what changes along the path; both show in how they miss
+// the levels, which were timed in other rounds. `noise` is the levels' variance. Returns the
+// variance that remains, by which the true levels differ more than the joined ones do.
+static double join_neighbours(DipTimesWork *w, int reach, double noise, double *level) {
+    const int frames = w->times->frames;
+    if (frames < 3 || !(noise > 0.0)) { // Nothing tells how noisy the levels are.
+        return 0.0;
+    }
+    const double squares = predict_levels(level, frames, reach, w->time);
+    const double missed = fmax(squares - noise, 0.5 * noise / reach);
+    const double own = missed / (missed + noise);
+    for (int f = 0; f < frames; f++) {
+        level[f] = own * level[f] + (1.0 - own) * w->time[f];
+    }
+    return own * noise;
 }
 
 static double deviation(const double *values, int count) {
@@ -267,8 +318,18 @@ void dip_times_fit_levels(DipTimesWork *w, int base) {
     const int count = list_base_times(w, base);
     qsort(w->cells, (size_t)count, sizeof *w->cells, compare_cells);
     join_cells(w, count);
-    for (int set = -1; set < w->fit->units; set++) {
-        w->noise[set + 1] = fit_levels(w, set, w->level + (set + 1) * w->times->frames);
+    const int frames = w->times->frames, units = w->fit->units;
+    for (int unit = -1; unit < units; unit++) {
+        fit_levels(w, unit, w->level + (unit + 1) * frames);
+    }
+    const double noise = noise_of_levels(w);
+    dip_times_fill_gaps(w->level, frames);
+    const int reach = frames > 2 ? choose_reach(w, w->level) : 1;
+    for (int unit = -1; unit < units; unit++) {
+        double *level = w->level + (unit + 1) * frames;
+        const double share = unit < 0 ? 1.0 : units / (units - 1.0);
+        dip_times_fill_gaps(level, frames);
+        w->missing[unit + 1] = join_neighbours(w, reach, share * noise, level);
     }
     judge_speeds(w, base);
 }

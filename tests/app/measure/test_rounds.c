@@ -35,14 +35,25 @@ enum {
     RUNS = 400
 };
 
-typedef enum Scenario { QUIET, CALIBRATED, BURSTS, DRIFT, STEPS, NEIGHBOUR, SCENARIOS } Scenario;
-static const char *const names[] = {"quiet", "calibrated", "bursts", "drift", "steps", "neighbour"};
+typedef enum Scenario {
+    QUIET,
+    CALIBRATED,
+    BURSTS,
+    DRIFT,
+    STEPS,
+    NEIGHBOUR,
+    CROWDED,
+    SCENARIOS
+} Scenario;
+static const char *const names[] = {"quiet", "calibrated", "bursts", "drift",
+                                    "steps", "neighbour",  "crowded"};
 
 typedef struct World {
     Scenario scenario;
     int starts;
     bool flat;     // All frames take equally long.
     double wobble; // Of each round.
+    double crowd;  // How much more noise a crowded host makes than usual.
     NoiseRandom random;
     double slots[SLOTS];           // Logarithm of the machine's slowness.
     bool loaded[SLOTS];            // A neighbour runs.
@@ -120,6 +131,7 @@ static void make_machine(World *w) {
         noise_run(NOISE_QUIET, &w->random, w->slots, SLOTS);
         break;
     case CALIBRATED:
+    case CROWDED:
         break;
     case BURSTS:
         noise_run(NOISE_BURSTS, &w->random, w->slots, SLOTS);
@@ -150,8 +162,13 @@ static void make_machine(World *w) {
 }
 
 static void visit(World *w, int subject, int round, int block, const int *frames, int slot) {
-    const double shared = w->scenario == CALIBRATED ? 0.044 * noise_normal(&w->random) : 0.0;
-    const double own = w->scenario == CALIBRATED ? 0.05 : 0.004;
+    // A crowded host: processors that share their cores with other virtual machines.
+    const double shared = w->scenario == CALIBRATED ? 0.044 * noise_normal(&w->random)
+                          : w->scenario == CROWDED  ? 0.09 * w->crowd * noise_normal(&w->random)
+                                                    : 0.0;
+    const double own = w->scenario == CALIBRATED ? 0.05
+                       : w->scenario == CROWDED  ? 0.12 * w->crowd
+                                                 : 0.004;
     for (int i = 0; i < VISIT; i++) {
         double noise = 0.0, wait = 1.0;
         for (int again = 0; wait > DIP_TIMED_MOST_WAIT && again < 2; again++) {
@@ -322,7 +339,7 @@ static void add_score(Score *score, const World *w, const DipTimesFit *fit, int 
 static World world;
 
 static void begin_world(Scenario scenario, int starts, bool flat) {
-    world = (World){.scenario = scenario, .starts = starts, .flat = flat};
+    world = (World){.scenario = scenario, .starts = starts, .flat = flat, .crowd = 1.0};
     world.random.state = 77 + (uint64_t)scenario * 1000 + (uint64_t)starts;
 }
 
@@ -356,10 +373,9 @@ static void intervals_over_starts_hold_the_truth(void **state) {
         const Score got = score((Scenario)i, 4, false, 400);
         assert_true(got.covered >= 0.93 && got.covered <= 0.98);
         assert_true(got.steps_covered >= 0.93 && got.steps_covered <= 0.98);
-        // A neighbour that comes and goes within visits leaves some of its time in every frame.
         assert_true(fabs(got.p95_bias) < 0.02);
-        assert_true(got.p95_error < (i == NEIGHBOUR ? 0.07 : 0.05));
-        assert_true(got.p95_held >= (i == NEIGHBOUR ? 0.9 : 0.95));
+        assert_true(got.p95_error < (i == CROWDED ? 0.07 : 0.05));
+        assert_true(got.p95_held >= 0.95);
     }
 }
 
@@ -368,7 +384,7 @@ static void intervals_of_one_start_hold_its_truth(void **state) {
     for (int i = 0; i < SCENARIOS; i++) {
         const Score got = score((Scenario)i, 1, false, 100);
         assert_true(got.covered >= 0.92 && got.covered <= 0.99);
-        assert_true(fabs(got.p95_bias) < 0.02 && got.p95_error < (i == NEIGHBOUR ? 0.07 : 0.05));
+        assert_true(fabs(got.p95_bias) < 0.02 && got.p95_error < (i == CROWDED ? 0.07 : 0.05));
     }
 }
 
@@ -382,6 +398,28 @@ static void a_moment_is_not_a_place(void **state) {
     (void)state;
     const Score drift = score(DRIFT, 4, true, 100);
     assert_true(fabs(drift.p95_bias) < 0.02 && drift.p95_error < 0.02 && drift.p95_held > 0.97);
+}
+
+// Noise as large as what changes along the path hides single frames, but their neighbours still
+// show the path: its 95th percentile becomes neither the mean nor what noise makes of it.
+static void noise_does_not_hide_the_path(void **state) {
+    (void)state;
+    double squares = 0.0;
+    enum { TRIES = 100 };
+    for (int run = 0; run < TRIES; run++) {
+        begin_world(CROWDED, 4, false);
+        world.random.state += (uint64_t)run;
+        world.crowd = 1.5;
+        DipTimesFit *fit = simulate(&world);
+        const Truth truth = truth_of(&world, 0);
+        const DipAlong along = dip_times_along(fit, 0);
+        const double miss = log(along.p95_ms.value / along.mean_ms.value * truth.mean / truth.p95);
+        squares += miss * miss / TRIES;
+        dip_times_fit_free(&fit);
+    }
+    print_message("a crowded host: p95 / mean of the base has an rms error of %.1f %%\n",
+                  100.0 * sqrt(squares));
+    assert_true(sqrt(squares) < 0.048);
 }
 
 static void a_wobble_of_rounds_does_not_move_p95(void **state) {
@@ -591,6 +629,7 @@ int main(void) {
         cmocka_unit_test(intervals_of_one_start_hold_its_truth),
         cmocka_unit_test(single_frames_hold_the_truth_too_rarely),
         cmocka_unit_test(a_moment_is_not_a_place),
+        cmocka_unit_test(noise_does_not_hide_the_path),
         cmocka_unit_test(a_wobble_of_rounds_does_not_move_p95),
         cmocka_unit_test(a_log_without_noise_is_exact),
         cmocka_unit_test(what_is_not_known_has_no_interval),
