@@ -32,6 +32,11 @@ extern const DipCostLimits dip_cost_wait_limits;
 extern const DipCostLimits dip_cost_spread_limits;
 extern const DipCostLimits dip_cost_offset_limits;
 
+// Collects the signs that the times of some subjects give; same[] are those of A/A. Waiting is not
+// known, and the times count as settled.
+DipCostSigns dip_cost_signs_of(const DipTimesFit *fit, int subjects, const int *same,
+                               int same_count);
+
 // Returns the verdict, and writes the reason as a sentence.
 DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_COST_REASON]);
 

@@ -256,18 +256,7 @@ bool dip_cost_duel_per_start(const DipCostDuel *duel, DipBenchStage stage, doubl
 DipCostVerdict dip_cost_duel_verdict(const DipCostDuel *duel, char reason[DIP_COST_REASON]) {
     const int same = 2 * duel->pair_count - 1;
     const DipDriverMachine machine = dip_driver_machine(duel->driver, duel->threads);
-    double disturbed = 0.0, timed = 0.0;
-    for (int s = 1; s <= same; s += 2) {
-        const DipAlong along = dip_times_along(duel->fit, s);
-        disturbed += along.timed - along.kept;
-        timed += along.timed;
-    }
-    const DipCostSigns signs = {
-        .wait = machine.has_wait ? machine.wait : 0.0,
-        .spread = fmax(dip_times_spread(duel->fit, same), 0.0),
-        .offset = fabs(log(dip_times_ratio(duel->fit, same).value)),
-        .disturbed = disturbed / timed,
-        .settled = true,
-    };
+    DipCostSigns signs = dip_cost_signs_of(duel->fit, same + 1, &same, 1);
+    signs.wait = machine.has_wait ? machine.wait : 0.0;
     return dip_cost_verdict_of(&signs, reason);
 }

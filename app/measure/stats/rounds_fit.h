@@ -130,8 +130,8 @@ static inline double *dip_times_moves(const DipTimesFit *fit, int subject, int u
 // Fills values that are NAN from their neighbours: linear between them, constant beyond.
 void dip_times_fill_gaps(double *values, int count);
 
-// Fits the levels of a base's frames and the speeds of its rounds. Fills w->level, w->noise and, in
-// the fit's bases[base], all about the level.
+// Fits the levels of a base's frames and the speeds of its rounds. Fills w->level, w->missing and,
+// in the fit's bases[base], all about the level.
 void dip_times_fit_levels(DipTimesWork *w, int base);
 
 #endif

@@ -181,8 +181,8 @@ static double reported(const cJSON *root, const double *frame) {
         const bool wanted =
             has_number(visit, "row", frame[SUBJECT]) && has_number(visit, "start", frame[START]) &&
             has_number(visit, "round", frame[ROUND]) && has_number(visit, "block", frame[BLOCK]);
-        const cJSON *frames = cJSON_GetObjectItemCaseSensitive(visit, "frames");
-        cJSON_ArrayForEach(number, wanted ? frames : NULL) {
+        const cJSON *frames = wanted ? cJSON_GetObjectItemCaseSensitive(visit, "frames") : NULL;
+        cJSON_ArrayForEach(number, frames) {
             if (number->valuedouble == frame[FRAME]) {
                 return ms->valuedouble;
             }
