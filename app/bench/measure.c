@@ -2,7 +2,7 @@
 #include "app/bench/measure.h"
 
 #include "app/cli/drive.h"
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -63,8 +63,8 @@ void dip_bench_result_set_first(DipBenchResult *result, int combination, int fra
 
 double dip_bench_result_quantile(const DipBenchResult *result, int combination, DipBenchStage stage,
                                  double share) {
-    return dip_stats_quantile(dip_bench_result_ms(result, combination, stage),
-                              (int)values_per_stage(result->plan), share, result->scratch);
+    return dip_percentile_of(dip_bench_result_ms(result, combination, stage),
+                             (int)values_per_stage(result->plan), share, result->scratch);
 }
 
 const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,

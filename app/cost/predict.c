@@ -191,7 +191,7 @@ static double usual_p95(const DipCostReport *report, const int *rows, int count)
         const DipPathEstimate *time = &report->rows[rows[i]].time;
         ratios[i] = time->p95_ms.value / time->mean_ms.value;
     }
-    return dip_stats_median(ratios, count);
+    return dip_median(ratios, count);
 }
 
 void dip_cost_predict_others(DipCostReport *report) {

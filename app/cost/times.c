@@ -33,10 +33,9 @@ typedef struct Timing {
     DipCostContext *cost;
     int count;
     Subject *subjects;
-    int *rows;          // Rows of the subjects in the report's log.
-    int *base_of;       // [subject]
-    bool *counted;      // [subject * frames + frame]: the frame's counters are in the sums.
-    DipTimePair *pairs; // [subject * frames + frame]
+    int *rows;     // Rows of the subjects in the report's log.
+    int *base_of;  // [subject]
+    bool *counted; // [subject * frames + frame]: the frame's counters are in the sums.
     DipDriverMachine machine;
     DipTimesFit *fit; // Of subjects elsewhere.
     DipChild *child;  // The start that draws; NULL: this process does.
@@ -52,7 +51,6 @@ static void close_timing(Timing *t) {
     free(t->rows);
     free(t->base_of);
     free(t->counted);
-    free(t->pairs);
 }
 
 // Begins a measurement. All subjects are the baseline of path 0, and subject 0 is their base.
@@ -64,8 +62,7 @@ static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *er
     t->rows = calloc(size, sizeof *t->rows);
     t->base_of = calloc(size, sizeof *t->base_of);
     t->counted = calloc(values, sizeof *t->counted);
-    t->pairs = calloc(values, sizeof *t->pairs);
-    if (!t->subjects || !t->rows || !t->base_of || !t->counted || !t->pairs) {
+    if (!t->subjects || !t->rows || !t->base_of || !t->counted) {
         close_timing(t);
         return out_of_memory(err);
     }
@@ -209,11 +206,10 @@ static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const c
     if (done) {
         const DipTimes times = dip_driver_times(driver);
         t->machine = dip_driver_machine(driver, report->threads);
-        done = dip_times_pairs(&times, t->pairs, err);
-        if (done && where == ELSEWHERE) {
+        if (where == ELSEWHERE) {
             t->fit = dip_times_fit(&times, err);
             done = t->fit != NULL;
-        } else if (done) {
+        } else {
             done = dip_cost_log_add(report, &times, t->rows, err);
         }
         if (where == KEPT) {
@@ -224,12 +220,6 @@ static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const c
     dip_child_stop(&t->child, dip_interrupted());
     dip_driver_destroy(&driver);
     return done && average_work(t, err);
-}
-
-static void keep_pairs(const Timing *t, int subject) {
-    const size_t frames = (size_t)dip_cost_frame_count(t->cost->report);
-    memcpy(t->cost->report->rows[t->rows[subject]].pairs, t->pairs + (size_t)subject * frames,
-           frames * sizeof *t->pairs);
 }
 
 // --- rows ----------------------------------------------------------------------------------------
@@ -249,9 +239,6 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     }
     dip_cost_log_clear(report);
     bool done = drive(&t, KEPT, BLOCK_ROWS, (uint64_t)report->options.seed, "frames timed", err);
-    for (int r = 0; done && r < report->row_count; r++) {
-        keep_pairs(&t, r);
-    }
     close_timing(&t);
     if (done) {
         report->rounds = report->options.rounds;
@@ -260,66 +247,32 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     return done;
 }
 
-// Times rows of path 0 beside the baseline in as many rounds as dip_cost_time_rows. Subject i is
-// rows[i - 1].
-static bool time_some(Timing *t, DipCostContext *cost, const int *rows, int count, int block_rows,
+// Times rows of path 0 beside the baseline in as many rounds as dip_cost_time_rows. `counts`: their
+// work is not counted yet.
+static bool time_some(DipCostContext *cost, const int *rows, int count, int block_rows,
                       uint64_t seed, bool counts, DipError *err) {
-    if (!open_timing(t, cost, count + 1, err)) {
+    Timing t;
+    if (!open_timing(&t, cost, count + 1, err)) {
         return false;
     }
     for (int i = 0; i < count; i++) {
-        set_row(t, i + 1, rows[i], counts);
+        set_row(&t, i + 1, rows[i], counts);
     }
-    if (!drive(t, HERE, block_rows, (uint64_t)cost->report->options.seed + seed,
-               "frames timed for the advice", err)) {
-        close_timing(t);
-        return false;
-    }
-    return true;
-}
-
-// Joins a new pair to the one before. If both are good, their ratios' geometric mean is kept: the
-// row's and the baseline's times are each the geometric mean of two.
-static void join_pair(DipTimePair *pair, const DipTimePair *again, int before) {
-    if (dip_time_pair_is_disturbed(again)) {
-        return;
-    }
-    if (dip_time_pair_is_disturbed(pair)) {
-        *pair = *again;
-        return;
-    }
-    const double share = 1.0 / (before + 1.0);
-    pair->ms = pow(pair->ms, 1.0 - share) * pow(again->ms, share);
-    pair->base_ms = pow(pair->base_ms, 1.0 - share) * pow(again->base_ms, share);
+    const bool done = drive(&t, HERE, block_rows, (uint64_t)cost->report->options.seed + seed,
+                            "frames timed for the advice", err);
+    close_timing(&t);
+    return done;
 }
 
 bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int times_before,
                          DipError *err) {
-    const int frames = dip_cost_frame_count(cost->report);
-    Timing t;
     // One row per block: two rows that are compared with a budget get a baseline each.
-    if (!time_some(&t, cost, rows, count, 1, (uint64_t)times_before, false, err)) {
-        return false;
-    }
-    for (int i = 0; i < count * frames; i++) {
-        join_pair(&cost->report->rows[rows[i / frames]].pairs[i % frames], &t.pairs[frames + i],
-                  times_before);
-    }
-    close_timing(&t);
-    return true;
+    return time_some(cost, rows, count, 1, (uint64_t)times_before, false, err);
 }
 
 bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err) {
-    Timing t;
     const uint64_t seed = UINT64_C(0x10000) + (uint64_t)rows[0];
-    if (!time_some(&t, cost, rows, count, BLOCK_ROWS, seed, true, err)) {
-        return false;
-    }
-    for (int i = 0; i < count; i++) {
-        keep_pairs(&t, i + 1);
-    }
-    close_timing(&t);
-    return true;
+    return time_some(cost, rows, count, BLOCK_ROWS, seed, true, err);
 }
 
 // --- elsewhere -----------------------------------------------------------------------------------
@@ -335,7 +288,6 @@ void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report,
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
                              int count, const char *progress, DipDriverMachine *machine,
                              DipError *err) {
-    const int frames = dip_cost_frame_count(cost->report);
     Timing t;
     if (!open_timing(&t, cost, count + 1, err)) {
         return false;
@@ -347,8 +299,7 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
     const bool done = drive(&t, ELSEWHERE, BLOCK_ROWS,
                             (uint64_t)cost->report->options.seed ^ SEED_SALT, progress, err);
     for (int i = 0; done && i < count; i++) {
-        const DipEstimate ratio = dip_times_ratio(t.fit, i + 1);
-        dip_cost_estimate_elsewhere(cost->report, &ratio, &t.pairs[(i + 1) * frames], &rows[i]);
+        dip_cost_estimate_elsewhere(cost->report, t.fit, i + 1, &rows[i]);
     }
     *machine = t.machine;
     close_timing(&t);

@@ -48,68 +48,34 @@ bool dip_cost_log_add(DipCostReport *report, const DipTimes *times, const int *r
     return true;
 }
 
-// Makes a log of the rows' pairs, each of two frames that stand beside each other in a block. Frame
-// f of a path belongs to round f % rounds: so older reports were timed.
-static int log_pairs(const DipCostReport *report, DipTimed *log) {
-    const int frames = dip_cost_frame_count(report);
-    int count = 0;
-    for (int r = 0; r < report->row_count; r++) {
-        const int base = report->base_rows[report->rows[r].path];
-        for (int f = 0; f < frames; f++) {
-            const DipTimePair *pair = &report->rows[r].pairs[f];
-            DipTimed timed = {.block = r, .round = f % report->options.rounds, .frame = f};
-            if (pair->ms > 0.0 && pair->base_ms > 0.0) {
-                timed.subject = base;
-                timed.ms = pair->base_ms;
-                timed.wait = pair->base_wait;
-                log[count++] = timed;
-                if (r != base) {
-                    timed.subject = r;
-                    timed.ms = pair->ms;
-                    timed.wait = pair->wait;
-                    log[count++] = timed;
-                }
-            }
-        }
-    }
-    return count;
-}
-
 static DipTimesFit *fit_rows(const DipCostReport *report, DipError *err) {
-    const size_t rows = (size_t)report->row_count, frames = (size_t)dip_cost_frame_count(report);
-    const int starts = report->log ? report->starts : 1;
-    int *base_of = malloc((rows + 1) * sizeof *base_of);
-    DipTimed *made = report->log ? NULL : malloc((2 * rows * frames + 1) * sizeof *made);
-    DipTimesFit *fit = NULL;
-    if (base_of && (report->log || made)) {
-        DipTimes times = {
-            .list = report->log ? report->log : made,
-            .count = report->log_count,
-            .subjects = report->row_count,
-            .starts = starts,
-            .rounds = report->options.rounds / starts,
-            .frames = (int)frames,
-            .base_of = base_of,
-        };
-        for (int r = 0; r < report->row_count; r++) {
-            base_of[r] = report->base_rows[report->rows[r].path];
-        }
-        if (made) {
-            times.count = log_pairs(report, made);
-        }
-        fit = dip_times_fit(&times, err);
-    } else {
+    int *base_of = malloc(((size_t)report->row_count + 1) * sizeof *base_of);
+    if (!base_of) {
         out_of_memory(err);
+        return NULL;
     }
+    const int starts = report->starts > 0 ? report->starts : 1;
+    const DipTimes times = {
+        .list = report->log,
+        .count = report->log_count,
+        .subjects = report->row_count,
+        .starts = starts,
+        .rounds = report->options.rounds / starts,
+        .frames = dip_cost_frame_count(report),
+        .base_of = base_of,
+    };
+    for (int r = 0; r < report->row_count; r++) {
+        base_of[r] = report->base_rows[report->rows[r].path];
+    }
+    DipTimesFit *fit = dip_times_fit(&times, err);
     free(base_of);
-    free(made);
     return fit;
 }
 
 // --- rows ----------------------------------------------------------------------------------------
 
 bool dip_cost_is_timed(const DipCostReport *report, int row) {
-    return report->rounds > 0 && report->rows[row].pairs;
+    return report->rounds > 0 && row < report->row_count;
 }
 
 double dip_cost_ms(const DipCostReport *report, int row) {
@@ -133,45 +99,27 @@ void dip_cost_frame_times(const DipCostReport *report, const int *rows, int coun
     }
 }
 
-// Computes how a mean time divides into the stages: the shares of the frames that were not
-// disturbed, weighted by the baseline's times. Pairs that were read from a file have no shares;
+// Computes how a mean time divides into the stages. Times that were read from a file have no parts;
 // then the stages keep the times that the file has.
-static void divide_into_stages(const DipCostReport *report, const double *level_ms,
-                               const DipTimePair *pairs, double mean_ms,
+static void divide_into_stages(const DipTimesFit *fit, int subject, double mean_ms,
                                double stage_ms[DIP_COST_STAGE_COUNT]) {
-    double sums[DIP_TIME_PARTS] = {0};
-    double weight = 0.0, all = 0.0;
-    int disturbed = 0;
-    const int frames = dip_cost_frame_count(report);
-    for (int f = 0; f < frames; f++) {
-        disturbed += dip_time_pair_is_disturbed(&pairs[f]);
+    const double *shares = dip_times_shares(fit, subject);
+    double all = 0.0;
+    for (int i = 0; i < DIP_TIMED_PARTS; i++) {
+        all += shares[i];
     }
-    for (int f = 0; f < frames; f++) {
-        const DipTimePair *pair = &pairs[f];
-        const double share = pair->shares[0] + pair->shares[1] + pair->shares[2] + pair->shares[3];
-        if (share > 0.0 && (2 * disturbed > frames || !dip_time_pair_is_disturbed(pair))) {
-            weight += level_ms[f];
-            for (int i = 0; i < DIP_TIME_PARTS; i++) {
-                sums[i] += level_ms[f] * pair->shares[i];
-            }
-        }
-    }
-    if (weight > 0.0) {
-        for (int i = 0; i < DIP_TIME_PARTS; i++) {
-            stage_ms[i] = mean_ms * sums[i] / weight;
-            all += stage_ms[i];
-        }
-        stage_ms[DIP_COST_STAGE_rest] = fmax(mean_ms - all, 0.0);
+    for (int i = 0; all > 0.0 && i < DIP_COST_STAGE_COUNT; i++) {
+        stage_ms[i] = mean_ms * (i < DIP_TIMED_PARTS ? shares[i] : fmax(1.0 - all, 0.0));
     }
 }
 
-void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipEstimate *ratio,
-                                 const DipTimePair *pairs, DipCostElsewhere *row) {
+void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimesFit *fit, int subject,
+                                 DipCostElsewhere *row) {
     const DipEstimate level = report->rows[report->base_rows[0]].time.mean_ms;
-    row->ms = dip_estimate_make(ratio->value * level.value,
-                                hypot(ratio->log_error, level.log_error), ratio->degrees);
-    divide_into_stages(report, dip_times_frames(report->fit, report->base_rows[0]), pairs,
-                       row->ms.value, row->stage_ms);
+    const DipEstimate ratio = dip_times_ratio(fit, subject);
+    row->ms = dip_estimate_make(ratio.value * level.value, hypot(ratio.log_error, level.log_error),
+                                ratio.degrees);
+    divide_into_stages(fit, subject, row->ms.value, row->stage_ms);
 }
 
 // An estimate's own error; 0 if it has none beside the level's.
@@ -195,8 +143,7 @@ static void estimate_row(DipCostReport *report, int r) {
         .level_error = along.level_error,
         .used = along.kept,
     };
-    divide_into_stages(report, dip_times_frames(report->fit, base), row->pairs,
-                       row->time.mean_ms.value, row->stage_ms);
+    divide_into_stages(report->fit, r, row->time.mean_ms.value, row->stage_ms);
 }
 
 static void estimate_all(DipCostReport *report) {

@@ -33,8 +33,7 @@ static bool alloc_row(const DipCostReport *report, DipCostRow *row) {
     row->tails = calloc(viewpoints, sizeof *row->tails);
     row->judged = calloc(viewpoints, sizeof *row->judged);
     row->pictures = calloc(viewpoints, sizeof *row->pictures);
-    row->pairs = calloc((size_t)dip_cost_frame_count(report), sizeof *row->pairs);
-    return row->viewpoints && row->tails && row->judged && row->pictures && row->pairs;
+    return row->viewpoints && row->tails && row->judged && row->pictures;
 }
 
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
@@ -69,7 +68,6 @@ void dip_cost_row_free(DipCostRow *row) {
     free(row->tails);
     free(row->judged);
     free(row->pictures);
-    free(row->pairs);
     *row = (DipCostRow){0};
 }
 

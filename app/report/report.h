@@ -9,9 +9,7 @@
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
 #include "app/measure/stats/rounds.h"
-#include "app/measure/stats/statistics.h"
 #include "app/measure/timing/driver.h"
-#include "app/measure/timing/pairs.h"
 #include "app/report/choice.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
@@ -75,9 +73,8 @@ typedef struct DipCostRow {
     DipFlipTail *tails;        // [viewpoint]: distribution of FLIP; all 0 if not known. Owned.
     bool *judged;              // [viewpoint]: its errors are known. Owned.
     char (*pictures)[33];      // [viewpoint]: hash of the row's pictures and truths, or "". Owned.
-    DipTimePair *pairs;        // Times of the frames along the path. Owned.
     double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
-    DipPathEstimate time;                    // Computed from the pairs.
+    DipPathEstimate time;                    // Computed from the log.
     double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of time.mean_ms; they add up to it.
 } DipCostRow;
 
@@ -190,10 +187,10 @@ typedef struct DipCostReport {
     int refused_count;
     int rounds;               // Number of rounds timed; 0 if the report has no times.
     DipDriverMachine machine; // What the timing tells about the machine.
-    DipTimed *log; // Every timed frame; a frame's subject is its row. Owned; NULL: see the pairs.
+    DipTimed *log; // Every timed frame; a frame's subject is its row. Owned; NULL without times.
     int log_count;
     int starts;       // Process starts of the log, each with rounds / starts rounds; 0 or more.
-    DipTimesFit *fit; // Computed from the log, or from the pairs. Owned; NULL without times.
+    DipTimesFit *fit; // Computed from the log. Owned; NULL without times.
     double doubt;     // Error of the logarithm of all times that an amber verdict adds.
     DipCostVerdict verdict; // Valid if the report has times.
     char verdict_reason[DIP_COST_REASON];
@@ -314,9 +311,8 @@ int dip_cost_frame_count(const DipCostReport *report);
 bool dip_cost_log_add(DipCostReport *report, const DipTimes *times, const int *rows, DipError *err);
 void dip_cost_log_clear(DipCostReport *report);
 
-// Computes the time of every row from the log, or without one from its pairs, the ratios of all
-// sweeps, the verdict and the choice. Call it once all pairs are there. Fails with
-// DIP_ERROR_MEMORY.
+// Computes the time of every row from the log, the ratios of all sweeps, the verdict and the
+// choice. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_estimate_times(DipCostReport *report, DipError *err);
 
 bool dip_cost_is_timed(const DipCostReport *report, int row);
@@ -328,10 +324,10 @@ double dip_cost_ms(const DipCostReport *report, int row);
 // ms[i * dip_cost_frame_count + frame] for rows[i]. The means over the frames are dip_cost_ms.
 void dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms);
 
-// Computes the times of a combination that was timed elsewhere from its ratio to the baseline of
-// path 0, and their stages from its pairs. The report's times must be estimated.
-void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipEstimate *ratio,
-                                 const DipTimePair *pairs, DipCostElsewhere *row);
+// Computes the time of a combination that was timed elsewhere, as a subject beside the baseline of
+// path 0, and its stages. The report's times must be estimated.
+void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimesFit *fit, int subject,
+                                 DipCostElsewhere *row);
 
 // Returns the ratio of the times of two rows of one path. A row's ratio to itself has no interval.
 DipEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);

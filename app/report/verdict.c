@@ -64,22 +64,28 @@ DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_CO
     return verdict;
 }
 
+DipCostSigns dip_cost_signs_of(const DipTimesFit *fit, int subjects, const int *same,
+                               int same_count) {
+    DipCostSigns signs = {.settled = true};
+    double disturbed = 0.0, timed = 0.0;
+    for (int i = 0; i < same_count; i++) {
+        signs.spread = fmax(signs.spread, dip_times_spread(fit, same[i]));
+        signs.offset = fmax(signs.offset, fabs(log(dip_times_ratio(fit, same[i]).value)));
+    }
+    for (int s = 0; s < subjects; s++) {
+        const DipAlong along = dip_times_along(fit, s);
+        disturbed += along.timed - along.kept;
+        timed += along.timed;
+    }
+    signs.disturbed = disturbed / fmax(timed, 1.0);
+    return signs;
+}
+
 void dip_cost_judge_machine(DipCostReport *report) {
-    DipCostSigns signs = {.wait = report->machine.wait, .settled = report->machine.settled};
-    for (int p = 0; p < report->path_count; p++) {
-        const int same = report->same_rows[p];
-        const double offset = fabs(log(dip_times_ratio(report->fit, same).value));
-        signs.spread = fmax(signs.spread, dip_times_spread(report->fit, same));
-        signs.offset = fmax(signs.offset, offset);
-    }
-    int64_t disturbed = 0;
-    for (int r = 0; r < report->row_count; r++) {
-        for (int f = 0; f < dip_cost_frame_count(report); f++) {
-            disturbed += dip_time_pair_is_disturbed(&report->rows[r].pairs[f]);
-        }
-    }
-    signs.disturbed =
-        (double)disturbed / ((double)report->row_count * (double)dip_cost_frame_count(report));
+    DipCostSigns signs =
+        dip_cost_signs_of(report->fit, report->row_count, report->same_rows, report->path_count);
+    signs.wait = report->machine.wait;
+    signs.settled = report->machine.settled;
     report->verdict = dip_cost_verdict_of(&signs, report->verdict_reason);
     // What was drawn twice should cost the same. How far it differs, and how far from round to
     // round, is what the machine adds to every comparison.

@@ -16,7 +16,7 @@ extern "C" {
 // What a verdict is made of.
 typedef struct DipCostSigns {
     double wait;      // Waiting time of the threads, as a share of the time on all threads.
-    double spread;    // Greatest spread of an A/A ratio over the rounds (dip_paired_spread).
+    double spread;    // Greatest spread of an A/A ratio over the rounds (dip_times_spread).
     double offset;    // Greatest |log| of an A/A ratio.
     double disturbed; // Share of the pairs that stayed disturbed.
     bool settled;     // The time was steady before the rounds.
@@ -31,6 +31,11 @@ typedef struct DipCostLimits {
 extern const DipCostLimits dip_cost_wait_limits;
 extern const DipCostLimits dip_cost_spread_limits;
 extern const DipCostLimits dip_cost_offset_limits;
+
+// Collects the signs that the times of some subjects give; same[] are those of A/A. Waiting is not
+// known, and the times count as settled.
+DipCostSigns dip_cost_signs_of(const DipTimesFit *fit, int subjects, const int *same,
+                               int same_count);
 
 // Returns the verdict, and writes the reason as a sentence.
 DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_COST_REASON]);

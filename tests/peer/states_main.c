@@ -2,7 +2,7 @@
 //
 // Then it prints the time of a blended fragment beside that of an opaque one.
 // Usage: dip_peer_states [ROUNDS [SCENE]]     (default: 40 rounds, all scenes)
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 #include "renderer/base/clock.h"
 #include "tests/peer/likeness.h"
 #include "tests/peer/states_ours.h"
@@ -72,11 +72,11 @@ static bool measure(DipStatesOurs *ours, const DipStatesTheirs *theirs, int roun
     printf("%-7s %dx  peer %8.2f ms  ours %7.2f ms  ratio %5.2f, quartiles %5.2f to %5.2f  "
            "PSNR %5.1f dB\n",
            dip_states_names[ours->data->kind], ours->sample_count,
-           dip_stats_quantile(theirs_ms, rounds, 0.5, scratch),
-           dip_stats_quantile(ours_ms, rounds, 0.5, scratch),
-           dip_stats_quantile(ratios, rounds, 0.5, scratch),
-           dip_stats_quantile(ratios, rounds, 0.25, scratch),
-           dip_stats_quantile(ratios, rounds, 0.75, scratch), psnr_db);
+           dip_percentile_of(theirs_ms, rounds, 0.5, scratch),
+           dip_percentile_of(ours_ms, rounds, 0.5, scratch),
+           dip_percentile_of(ratios, rounds, 0.5, scratch),
+           dip_percentile_of(ratios, rounds, 0.25, scratch),
+           dip_percentile_of(ratios, rounds, 0.75, scratch), psnr_db);
     return true;
 }
 
@@ -99,7 +99,7 @@ static double layers_ms(DipStatesData *data, int parts, int samples, int rounds,
     *fragments =
         (double)(data->opaque ? ours.counters.fragments_shaded : ours.counters.fragments_ordered);
     dip_states_ours_close(&ours);
-    return done ? dip_stats_quantile(ms, rounds, 0.5, scratch) : -1.0;
+    return done ? dip_percentile_of(ms, rounds, 0.5, scratch) : -1.0;
 }
 
 // Prints what a blended fragment costs: the time that the upper half of the layers adds, for each

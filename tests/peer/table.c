@@ -2,7 +2,7 @@
 #include "tests/peer/table.h"
 
 #include "app/cli/machine.h"
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/rounds.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -49,19 +49,40 @@ static void print_decibels(FILE *out, const DipPeerMeasurement *m) {
     fprintf(out, "\n");
 }
 
+// Estimates how many times as long as ours the peer takes. Both took turns at every frame.
+static DipEstimate ratio_of(const DipPeerMeasurement *m) {
+    static const int base_of[2] = {0};
+    const int count = m->frames * m->rounds;
+    DipEstimate ratio = dip_estimate_unknown(NAN);
+    DipTimed *list = malloc(2 * (size_t)count * sizeof *list);
+    for (int i = 0; list && i < 2 * count; i++) {
+        list[i] = (DipTimed){.subject = i % 2,
+                             .round = i / 2 / m->frames,
+                             .frame = i / 2 % m->frames,
+                             .ms = i % 2 ? m->peer_ms[i / 2] : m->ours_ms[i / 2]};
+    }
+    const DipTimes times = {list, 2 * count, 2, 1, m->rounds, m->frames, base_of, true};
+    DipTimesFit *fit = list ? dip_times_fit(&times, NULL) : NULL;
+    if (fit) {
+        ratio = dip_times_ratio(fit, 1);
+    }
+    dip_times_fit_free(&fit);
+    free(list);
+    return ratio;
+}
+
 static void print_row(FILE *out, const DipPeerMeasurement *m, double *scratch) {
     const int count = m->frames * m->rounds;
     fprintf(out, "%-9s", m->row->name);
     if (count) {
-        const double ours = dip_stats_quantile(m->ours_ms, count, 0.5, scratch);
-        const double ours_p95 = dip_stats_quantile(m->ours_ms, count, 0.95, scratch);
+        const double ours = dip_percentile_of(m->ours_ms, count, 0.5, scratch);
+        const double ours_p95 = dip_percentile_of(m->ours_ms, count, 0.95, scratch);
         if (dip_peer_row_has_peer(m->row)) {
-            const double peer = dip_stats_quantile(m->peer_ms, count, 0.5, scratch);
-            const double peer_p95 = dip_stats_quantile(m->peer_ms, count, 0.95, scratch);
-            const DipStatsInterval interval =
-                dip_stats_ratio_interval(m->peer_ms, m->ours_ms, m->frames, m->rounds, scratch);
+            const double peer = dip_percentile_of(m->peer_ms, count, 0.5, scratch);
+            const double peer_p95 = dip_percentile_of(m->peer_ms, count, 0.95, scratch);
+            const DipEstimate ratio = ratio_of(m);
             fprintf(out, "%8.2f %8.2f  %8.2f %8.2f  %6.2fx  %5.2f to %5.2f", peer, peer_p95, ours,
-                    ours_p95, peer / ours, interval.low, interval.high);
+                    ours_p95, ratio.value, ratio.low, ratio.high);
         } else {
             fprintf(out, "%8s %8s  %8.2f %8.2f  %7s  %14s", "-", "-", ours, ours_p95, "-", "-");
         }
@@ -76,8 +97,8 @@ static void print_note(FILE *out, const DipPeerMeasurement *m, double *scratch) 
     if (!count || !dip_peer_row_has_peer(m->row)) {
         return;
     }
-    const double median = dip_stats_quantile(m->peer_ms, count, 0.5, scratch);
-    const double slowest = dip_stats_quantile(m->peer_ms, count, 1.0, scratch);
+    const double median = dip_percentile_of(m->peer_ms, count, 0.5, scratch);
+    const double slowest = dip_percentile_of(m->peer_ms, count, 1.0, scratch);
     double sum = 0.0;
     for (int i = 0; i < count; i++) {
         sum += m->peer_ms[i];
@@ -90,7 +111,7 @@ static void print_note(FILE *out, const DipPeerMeasurement *m, double *scratch) 
 
 static double *allocate_scratch(const DipPeerMeasurement *measurements, int count, DipError *err) {
     const size_t most = count ? (size_t)measurements->frames * (size_t)measurements->rounds : 0;
-    double *scratch = malloc((3 * most + DIP_STATS_RESAMPLES) * sizeof *scratch);
+    double *scratch = malloc((most + 1) * sizeof *scratch);
     if (!scratch) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--frames", "out of memory");
     }
@@ -133,12 +154,11 @@ bool dip_table_print_triangles(FILE *out, const DipPeerMeasurement *measurements
         fprintf(out, "%-9s", m->row->name);
         if (dip_peer_row_has_peer(m->row)) {
             fprintf(out, "%8.2f",
-                    millions_ms / dip_stats_quantile(m->peer_ms, values, 0.5, scratch));
+                    millions_ms / dip_percentile_of(m->peer_ms, values, 0.5, scratch));
         } else {
             fprintf(out, "%8s", "-");
         }
-        fprintf(out, " %8.2f\n",
-                millions_ms / dip_stats_quantile(m->ours_ms, values, 0.5, scratch));
+        fprintf(out, " %8.2f\n", millions_ms / dip_percentile_of(m->ours_ms, values, 0.5, scratch));
     }
     free(scratch);
     return true;

@@ -2,6 +2,8 @@
 // best fit is luck.
 #include "app/cost/diff/diff_cause.h"
 
+#include "app/measure/stats/random.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -10,14 +12,6 @@ enum { DRAWS = 200 };
 static const double surely_wins = 0.9;
 static const double surely_explains = 0.9;
 static const double same_cosine = 0.999;
-
-// SplitMix64 (Steele, Lea and Flood 2014).
-static int random_below(uint64_t *state, int count) {
-    uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return (int)((z ^ z >> 31) % (uint64_t)count);
-}
 
 static double dot(const double *a, const double *b, int count) {
     double sum = 0.0;
@@ -81,7 +75,7 @@ static double share_of_wins(const DipCauseData *data, int kind, int *drawn, doub
     int wins = 0;
     for (int i = 0; i < DRAWS; i++) {
         for (int s = 0; s < data->starts; s++) {
-            drawn[s] = random_below(&random, data->starts);
+            drawn[s] = dip_random_below(&random, data->starts);
         }
         wins += mean_times(data, drawn, times) && best_fit(data, times).kind == kind;
     }

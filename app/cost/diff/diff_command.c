@@ -6,8 +6,6 @@
 #include "app/report/format/formats.h"
 #include "renderer/base/assert.h"
 
-#include <errno.h>
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,88 +16,45 @@
 // Differences of times below this are not reported.
 static const double least_limit = 1.01;
 
-// --- the sides -----------------------------------------------------------------------------------
-
-// What A or B is.
-typedef struct Side {
-    bool is_report;
-    char file[PATH_MAX]; // The program, or the report's JSON file.
-} Side;
-
-static bool ends_with(const char *text, const char *end) {
-    const size_t length = strlen(text), end_length = strlen(end);
-    return length >= end_length && strcmp(text + length - end_length, end) == 0;
-}
-
-static bool find_side(const char *name, Side *side, DipError *err) {
-    struct stat status;
-    const char *format = "%s";
-    *side = (Side){.is_report = false};
-    if (strcmp(name, ".") == 0) {
-        snprintf(side->file, sizeof side->file, "/proc/self/exe");
-        return true;
-    }
-    if (stat(name, &status) != 0) {
-        return dip_error_set(err, DIP_ERROR_IO, name, 0, "cost diff", "cannot be opened: %s",
-                             strerror(errno));
-    }
-    if (S_ISDIR(status.st_mode)) {
-        side->is_report = true;
-        format = "%s/cost.json";
-    } else {
-        side->is_report = ends_with(name, ".json") || access(name, X_OK) != 0;
-    }
-    const int length = snprintf(side->file, sizeof side->file, format, name);
-    return (length > 0 && (size_t)length < sizeof side->file) ||
-           dip_error_set(err, DIP_ERROR_OVERSIZED, name, 0, "cost diff", "the name is too long");
-}
-
 // --- comparing -----------------------------------------------------------------------------------
 
-static bool compare_reports(const Side sides[2], DipCostDiff *diff, DipError *err) {
+// Returns the file of a side that is a program, or NULL if it is a report.
+static const char *program_of(const char *name) {
+    struct stat status;
+    const size_t length = strlen(name);
+    if (strcmp(name, ".") == 0) {
+        return "/proc/self/exe";
+    }
+    const bool is_report = (length >= 5 && strcmp(name + length - 5, ".json") == 0) ||
+                           stat(name, &status) != 0 || S_ISDIR(status.st_mode) ||
+                           access(name, X_OK) != 0;
+    return is_report ? NULL : name;
+}
+
+// Compares what A and B are. Of a report and a program, the program measures rows of the report
+// again.
+static bool compare(const DipCostDiffArguments *arguments, DipCostDiff *diff, DipError *err) {
+    const char *programs[2];
     DipCostReport reports[2] = {{.rows = NULL}, {.rows = NULL}};
     bool done = true;
     for (int i = 0; done && i < 2; i++) {
-        done = dip_cost_read_json(&reports[i], sides[i].file, err);
+        programs[i] = program_of(arguments->sides[i]);
+        done = programs[i] || dip_cost_read_report(arguments->sides[i], &reports[i], err);
+    }
+    if (done && programs[0] && programs[1]) {
+        return dip_cost_diff_programs(arguments, programs, diff, err);
+    }
+    if (done && (programs[0] || programs[1])) {
+        const int p = programs[0] ? 0 : 1;
+        diff->some_rows = true;
+        dip_cost_diff_note(diff, "errors are not compared: only `diptych cost` measures them");
+        done =
+            dip_cost_diff_measure_report(arguments, programs[p], &reports[1 - p], &reports[p], err);
     }
     done = done && dip_cost_diff_reports(&reports[0], &reports[1], diff, err);
     dip_cost_report_free(&reports[0]);
     dip_cost_report_free(&reports[1]);
     return done;
-}
-
-// Measures the rows of the report again with the program, and compares the two.
-static bool compare_with_report(const DipCostDiffArguments *arguments, const Side sides[2],
-                                DipCostDiff *diff, DipError *err) {
-    const int r = sides[0].is_report ? 0 : 1;
-    DipCostReport reports[2] = {{.rows = NULL}, {.rows = NULL}};
-    bool done = dip_cost_read_json(&reports[r], sides[r].file, err) &&
-                dip_cost_diff_measure_report(arguments, sides[1 - r].file, &reports[r],
-                                             &reports[1 - r], err);
-    if (done) {
-        diff->some_rows = true;
-        dip_cost_diff_note(diff, "errors are not compared: only `diptych cost` measures them");
-        done = dip_cost_diff_reports(&reports[0], &reports[1], diff, err);
-    }
-    dip_cost_report_free(&reports[0]);
-    dip_cost_report_free(&reports[1]);
-    return done;
-}
-
-static bool compare(const DipCostDiffArguments *arguments, DipCostDiff *diff, DipError *err) {
-    Side sides[2];
-    if (!find_side(arguments->sides[0], &sides[0], err) ||
-        !find_side(arguments->sides[1], &sides[1], err)) {
-        return false;
-    }
-    if (sides[0].is_report && sides[1].is_report) {
-        return compare_reports(sides, diff, err);
-    }
-    if (sides[0].is_report || sides[1].is_report) {
-        return compare_with_report(arguments, sides, diff, err);
-    }
-    const char *const programs[2] = {sides[0].file, sides[1].file};
-    return dip_cost_diff_programs(arguments, programs, diff, err);
 }
 
 // --- the result ----------------------------------------------------------------------------------

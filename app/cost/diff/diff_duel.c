@@ -1,14 +1,18 @@
 // Running the programs, start by start, and estimating from their times.
 #include "app/cost/diff/diff_duel.h"
 
-#include "app/cli/interrupt.h"
-#include "app/measure/timing/child.h"
 #include "app/cli/drive.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/machine.h"
+#include "app/measure/timing/child.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { MOST_ARGUMENTS = 40 + 2 * DIP_MAX_MODELS, MOST_SUBJECTS = 2 * (DIP_COST_DIFF_MAX_SETS + 1) };
 
 // Rest before a frame, in which the other program's threads go to sleep.
 static const int64_t rest_ns = 1000000;
@@ -17,64 +21,95 @@ static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
 }
 
-// --- indices -------------------------------------------------------------------------------------
+// --- the command line of the programs ------------------------------------------------------------
 
-static int frame_count(const DipCostDuel *duel) {
-    return duel->def->frames;
+typedef struct CommandLine {
+    char *list[MOST_ARGUMENTS];
+    int count;
+    char numbers[8][24]; // Texts of the numbers.
+    int number_count;
+} CommandLine;
+
+static void add_option(CommandLine *line, const char *name, const char *value) {
+    if (value) {
+        line->list[line->count++] = (char *)name;
+        line->list[line->count++] = (char *)value;
+    }
 }
 
-static int time_count(const DipCostDuel *duel) {
-    return duel->def->starts * duel->def->rounds * frame_count(duel);
+static void add_number(CommandLine *line, const char *name, const char *format, ...)
+    DIP_PRINTF(3, 4);
+static void add_number(CommandLine *line, const char *name, const char *format, ...) {
+    char *text = line->numbers[line->number_count++];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof line->numbers[0], format, arguments);
+    va_end(arguments);
+    add_option(line, name, text);
 }
 
-static double *times_of(const DipCostDuel *duel, int side, int pair, DipBenchStage stage) {
-    const int index = (side * duel->def->pair_count + pair) * DIP_BENCH_STAGE_COUNT + (int)stage;
-    return duel->ms + (size_t)index * (size_t)time_count(duel);
+// Hands the options of the scene and of the drawing on.
+static void add_session(CommandLine *line, const DipSessionOptions *session) {
+    add_option(line, "--config", session->config);
+    for (int m = 0; m < session->model_count; m++) {
+        add_option(line, "--model", session->models[m]);
+    }
+    add_option(line, "--scene", session->scene);
+    if (session->look) {
+        add_number(line, "--look", "%d", session->look + 1);
+    }
+    add_option(line, "--up", session->up ? dip_up_axis_names[session->up] : NULL);
+    add_option(line, "--shading",
+               session->has_shading ? dip_model_shading_names[session->shading] : NULL);
+    if (session->import_seconds) {
+        add_number(line, "--import-seconds", "%d", session->import_seconds);
+    }
+    if (session->force_all_effects) {
+        line->list[line->count++] = (char *)"--force-all-effects";
+    }
+    add_option(line, "--path", session->path);
+    add_option(line, "--category", session->category);
+    if (session->has_size) {
+        add_number(line, "--size", "%dx%d", session->size.width, session->size.height);
+    }
+    if (session->has_threads) {
+        add_number(line, "--threads", "%d", session->threads);
+    }
+    add_option(line, "--isa", session->has_isa ? dip_isa_name(session->isa) : NULL);
 }
 
-const double *dip_cost_duel_ms(const DipCostDuel *duel, int side, int pair, DipBenchStage stage) {
-    return times_of(duel, side, pair, stage);
-}
-
-static const bool *disturbed_of(const DipCostDuel *duel, int pair) {
-    return duel->disturbed + (size_t)pair * (size_t)time_count(duel);
+void dip_cost_duel_add_set(DipCostDuel *duel, const char *text) {
+    const size_t used = strlen(duel->sets);
+    snprintf(duel->sets + used, sizeof duel->sets - used, "%s%s", used ? ";" : "", text);
+    duel->set_count++;
 }
 
 // --- drawing -------------------------------------------------------------------------------------
 
-// Subject i is side i % 2 of pair i / 2; side 0 is the base.
 typedef struct Programs {
     DipCostDuel *duel;
+    CommandLine line;
     DipChild *children[2];
 } Programs;
 
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     const Programs *p = context;
-    DipCostDuel *duel = p->duel;
-    const DipCostDuelDef *def = duel->def;
-    const int pair = turn->subject / 2, side = turn->subject % 2;
-    const int program = def->program_of[pair][side];
+    const DipCostDuel *duel = p->duel;
+    const int pair = turn->subject / 2, side = turn->subject % 2, same = duel->pair_count - 1;
+    const bool two = duel->programs[1] != NULL;
+    const int set = two ? (pair == same && side == 0 ? 0 : pair) : side * (pair + 1);
     const bool first = turn->phase == DIP_DRIVER_WARM_UP && turn->start == 0;
     char request[64];
     DipBenchSample sample;
-    snprintf(request, sizeof request, "draw %d %d %d", def->combination_of[pair][side], turn->frame,
-             first);
-    if (!dip_child_draw(p->children[program], request, &sample, timed, err)) {
+    snprintf(request, sizeof request, "draw %d %d %d", set, turn->frame, first);
+    if (!dip_child_draw(p->children[two && side == 1 && pair < same], request, &sample, timed,
+                        err)) {
         return false;
     }
     if (first) {
-        duel->first[(side * def->pair_count + pair) * frame_count(duel) + turn->frame] = sample;
+        duel->first[turn->subject * duel->frames + turn->frame] = sample;
     }
     return true;
-}
-
-// --- starts --------------------------------------------------------------------------------------
-
-// The number of threads that draw. If it was not given, the programs' ini decides, and the threads
-// are counted: bench has a pool of its own beside the session's, and the main thread is in both.
-static int thread_count(const DipCostDuelDef *def, const DipChild *child) {
-    const int threads = (dip_child_thread_count(child) + 1) / 2;
-    return def->threads > 0 ? def->threads : threads > 0 ? threads : 1;
 }
 
 static void stop_programs(Programs *p) {
@@ -86,12 +121,10 @@ static void stop_programs(Programs *p) {
 static bool start_programs(void *context, int start, DipError *err) {
     Programs *p = context;
     DipCostDuel *duel = p->duel;
-    const DipCostDuelDef *duel_def = duel->def;
     stop_programs(p);
-    for (int i = 0; i < duel_def->program_count; i++) {
-        const DipChildDef def = {
-            duel_def->programs[i],       duel_def->argv,   duel_def->argc, "bench",
-            duel_def->combination_count, duel_def->frames, "--vs"};
+    for (int i = 0; i < 2 && duel->programs[i]; i++) {
+        const DipChildDef def = {duel->programs[i], p->line.list, p->line.count, "bench",
+                                 duel->set_count,   duel->frames, "--vs"};
         p->children[i] = dip_child_start(&def, err);
         if (!p->children[i]) {
             if (err && err->code != DIP_ERROR_MEMORY) {
@@ -100,162 +133,130 @@ static bool start_programs(void *context, int start, DipError *err) {
             }
             return false;
         }
-        duel->threads = thread_count(duel->def, p->children[i]);
+        if (duel->threads == 0) {
+            // The programs' ini decides, so the threads are counted. bench has a pool of its own
+            // beside the session's, and the main thread is in both.
+            const int threads = (dip_child_thread_count(p->children[i]) + 1) / 2;
+            duel->threads = threads > 0 ? threads : 1;
+        }
     }
     return true;
 }
 
-// Copies the times to the duel's arrays.
-static void keep_times(DipCostDuel *duel, const DipTimes *times) {
-    for (int i = 0; i < times->count; i++) {
-        const DipTimed *timed = &times->list[i];
-        const int pair = timed->subject / 2;
-        const int at = (timed->start * times->rounds + timed->round) * times->frames + timed->frame;
-        for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
-            times_of(duel, timed->subject % 2, pair, (DipBenchStage)stage)[at] =
-                stage == DIP_BENCH_STAGE_total ? timed->ms : timed->parts_ms[stage];
-        }
-        duel->disturbed[pair * time_count(duel) + at] |= timed->wait > DIP_TIMED_MOST_WAIT;
-    }
-}
-
-static bool run_starts(DipCostDuel *duel, DipError *err) {
-    const DipCostDuelDef *def = duel->def;
-    int base_of[2 * DIP_COST_DUEL_MAX_PAIRS];
-    for (int s = 0; s < 2 * def->pair_count; s++) {
+static bool run_starts(Programs *p, uint64_t seed, DipError *err) {
+    DipCostDuel *duel = p->duel;
+    int base_of[MOST_SUBJECTS];
+    for (int s = 0; s < 2 * duel->pair_count; s++) {
         base_of[s] = s - s % 2;
     }
     const DipDriverDef timing = {
-        .subjects = 2 * def->pair_count,
+        .subjects = 2 * duel->pair_count,
         .base_of = base_of,
         .block_subjects = 1,
-        .starts = def->starts,
-        .rounds = def->rounds,
-        .frames = def->frames,
-        .warm_frames = def->frames,
-        .seed = def->seed,
+        .starts = duel->starts,
+        .rounds = duel->rounds,
+        .frames = duel->frames,
+        .warm_frames = duel->frames,
+        .seed = seed,
         .in_turn = true,
         .rest_ns = rest_ns,
     };
-    Programs p = {.duel = duel};
-    const DipDriverCalls calls = {.draw = draw, .start = start_programs, .context = &p};
-    DipDriver *driver = dip_driver_create(&timing, &calls, err);
-    const bool done = driver && dip_drive(driver, "frames", "cost diff", "interrupted", err);
-    if (done) {
-        const DipTimes times = dip_driver_times(driver);
-        const DipDriverMachine machine = dip_driver_machine(driver, duel->threads);
-        keep_times(duel, &times);
-        duel->has_wait = machine.has_wait;
-        duel->wait = machine.has_wait ? machine.wait : 0.0;
+    const DipDriverCalls calls = {.draw = draw, .start = start_programs, .context = p};
+    duel->driver = dip_driver_create(&timing, &calls, err);
+    if (duel->driver && dip_drive(duel->driver, "frames", "cost diff", "interrupted", err)) {
+        const DipTimes times = dip_driver_times(duel->driver);
+        duel->fit = dip_times_fit(&times, err);
     }
-    stop_programs(&p);
-    dip_driver_destroy(&driver);
-    return done;
+    stop_programs(p);
+    return duel->fit != NULL;
 }
 
-bool dip_cost_duel_run(const DipCostDuelDef *def, DipCostDuel *duel, DipError *err) {
-    *duel = (DipCostDuel){.def = def};
-    const size_t pairs = (size_t)def->pair_count;
-    const size_t times = pairs * (size_t)time_count(duel);
-    duel->ms = calloc(2 * DIP_BENCH_STAGE_COUNT * times, sizeof *duel->ms);
-    duel->disturbed = calloc(times, sizeof *duel->disturbed);
-    duel->first = calloc(2 * pairs * (size_t)frame_count(duel), sizeof *duel->first);
+bool dip_cost_duel_run(DipCostDuel *duel, const DipCostDiffArguments *arguments, int frames,
+                       int rounds, DipError *err) {
+    const DipSessionOptions *session = &arguments->session;
+    Programs p = {.duel = duel};
+    duel->pair_count = duel->set_count - (duel->programs[1] ? 0 : 1);
+    duel->starts = arguments->measure.starts;
+    duel->rounds = rounds;
+    duel->frames = frames;
+    duel->threads = !session->has_threads ? 0
+                    : session->threads    ? session->threads
+                                          : dip_machine_processor_count();
+    add_option(&p.line, "diptych", "bench");
+    add_option(&p.line, "--sets", duel->sets);
+    add_number(&p.line, "--frames", "%d", frames);
+    add_session(&p.line, session);
+    duel->first = calloc(2 * (size_t)duel->pair_count * (size_t)frames, sizeof *duel->first);
     dip_interrupt_watch();
-    const bool made = duel->ms && duel->disturbed && duel->first;
-    const bool done = made ? run_starts(duel, err) : out_of_memory(err);
-    if (!done) {
-        dip_cost_duel_free(duel);
-    }
-    return done;
+    return (duel->first || out_of_memory(err)) &&
+           run_starts(&p, (uint64_t)dip_measure_seed(&arguments->measure), err);
 }
 
 void dip_cost_duel_free(DipCostDuel *duel) {
-    free(duel->ms);
-    free(duel->disturbed);
-    free(duel->first);
-    *duel = (DipCostDuel){.def = NULL};
+    if (duel) {
+        dip_driver_destroy(&duel->driver);
+        dip_times_fit_free(&duel->fit);
+        free(duel->first);
+        free(duel);
+    }
 }
 
 // --- estimates -----------------------------------------------------------------------------------
 
-static bool drops(const DipCostDuel *duel, int pair) {
-    int disturbed = 0;
-    for (int i = 0; i < time_count(duel); i++) {
-        disturbed += disturbed_of(duel, pair)[i];
-    }
-    return 2 * disturbed <= time_count(duel);
+const DipBenchSample *dip_cost_duel_sample(const DipCostDuel *duel, int subject, int frame) {
+    return &duel->first[subject * duel->frames + frame];
 }
 
-// Fills ms[] with side 1's time of the frame as if only the given stage differed from side 0, so
-// that the ratio to side 0's time is the stage's share of the change.
-static DipPairedStarts list_times(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                                  double *ms) {
-    const double *base = dip_cost_duel_ms(duel, 0, pair, DIP_BENCH_STAGE_total);
-    const double *from = dip_cost_duel_ms(duel, 0, pair, stage);
-    const double *to = dip_cost_duel_ms(duel, 1, pair, stage);
-    const bool *disturbed = disturbed_of(duel, pair);
-    const bool drop = drops(duel, pair);
-    for (int i = 0; i < time_count(duel); i++) {
-        ms[i] = drop && disturbed[i] ? NAN : fmax(base[i] + to[i] - from[i], 0.01 * base[i]);
+void dip_cost_duel_count(const DipCostDuel *duel, int subject, double *counters) {
+    for (int f = 0; f < duel->frames; f++) {
+        double *value = counters;
+        const DipCounters *counted = &dip_cost_duel_sample(duel, subject, f)->counters;
+#define ADD_COUNTER(name, text) *value++ += (double)counted->name;
+        DIP_COUNTER_LIST(ADD_COUNTER)
+#undef ADD_COUNTER
     }
-    return (DipPairedStarts){ms, base, duel->def->starts, duel->def->rounds, frame_count(duel)};
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        counters[c] /= duel->frames;
+    }
 }
 
-bool dip_cost_duel_change(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                          DipEstimate *change, DipError *err) {
-    double *ms = malloc((size_t)time_count(duel) * sizeof *ms);
-    if (!ms) {
-        return out_of_memory(err);
+double dip_cost_duel_ms(const DipCostDuel *duel, int subject) {
+    return dip_times_along(duel->fit, subject).mean_ms.value;
+}
+
+bool dip_cost_duel_per_start(const DipCostDuel *duel, DipBenchStage stage, double *per_start,
+                             DipError *err) {
+    DipTimes times = dip_driver_times(duel->driver);
+    DipTimed *list = malloc(((size_t)times.count + 1) * sizeof *list);
+    bool done = list || out_of_memory(err);
+    const int count = times.count;
+    const DipTimed *all = times.list;
+    times.list = list;
+    times.starts = 1;
+    for (int start = 0; done && start < duel->starts; start++) {
+        times.count = 0;
+        for (int i = 0; i < count; i++) {
+            if (all[i].start == start) {
+                list[times.count] = all[i];
+                list[times.count++].start = 0;
+            }
+        }
+        DipTimesFit *fit = dip_times_fit_part(&times, (int)stage, err);
+        done = fit != NULL;
+        for (int p = 0; done && p < duel->pair_count - 1; p++) {
+            per_start[p * duel->starts + start] = dip_times_along(fit, 2 * p + 1).mean_ms.value -
+                                                  dip_times_along(fit, 2 * p).mean_ms.value;
+        }
+        dip_times_fit_free(&fit);
     }
-    const DipPairedStarts times = list_times(duel, pair, stage, ms);
-    const bool done = dip_paired_starts_ratio(&times, change, err);
-    free(ms);
+    free(list);
     return done;
 }
 
-bool dip_cost_duel_difference(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                              double *per_start, DipStartDifference *difference, DipError *err) {
-    double *ms = malloc((size_t)time_count(duel) * sizeof *ms);
-    if (!ms) {
-        return out_of_memory(err);
-    }
-    const DipPairedStarts times = list_times(duel, pair, stage, ms);
-    const bool done = dip_paired_starts_difference(&times, difference, per_start, err);
-    free(ms);
-    return done;
-}
-
-double dip_cost_duel_mean_ms(const DipCostDuel *duel, int side, int pair) {
-    const int rounds = duel->def->starts * duel->def->rounds;
-    double *scratch = malloc((size_t)rounds * sizeof *scratch);
-    const double ms =
-        scratch ? dip_stats_time(dip_cost_duel_ms(duel, side, pair, DIP_BENCH_STAGE_total),
-                                 frame_count(duel), rounds, scratch)
-                : NAN;
-    free(scratch);
-    return ms;
-}
-
-bool dip_cost_duel_signs(const DipCostDuel *duel, DipCostSigns *signs, DipError *err) {
-    const int same = duel->def->pair_count - 1;
-    const DipPairedTimes times = {dip_cost_duel_ms(duel, 1, same, DIP_BENCH_STAGE_total),
-                                  dip_cost_duel_ms(duel, 0, same, DIP_BENCH_STAGE_total),
-                                  duel->def->starts * duel->def->rounds, frame_count(duel)};
-    DipEstimate ratio;
-    if (!dip_cost_duel_change(duel, same, DIP_BENCH_STAGE_total, &ratio, err)) {
-        return false;
-    }
-    int disturbed = 0;
-    const int count = duel->def->pair_count * time_count(duel);
-    for (int i = 0; i < count; i++) {
-        disturbed += duel->disturbed[i];
-    }
-    *signs = (DipCostSigns){
-        .wait = duel->wait,
-        .spread = fmax(dip_paired_spread(&times), 0.0),
-        .offset = fabs(log(ratio.value)),
-        .disturbed = (double)disturbed / count,
-        .settled = true,
-    };
-    return true;
+DipCostVerdict dip_cost_duel_verdict(const DipCostDuel *duel, char reason[DIP_COST_REASON]) {
+    const int same = 2 * duel->pair_count - 1;
+    const DipDriverMachine machine = dip_driver_machine(duel->driver, duel->threads);
+    DipCostSigns signs = dip_cost_signs_of(duel->fit, same + 1, &same, 1);
+    signs.wait = machine.has_wait ? machine.wait : 0.0;
+    return dip_cost_verdict_of(&signs, reason);
 }

@@ -1,16 +1,17 @@
 // The measurement beneath `cost diff`: pairs of subjects that take turns at every frame, in several
-// starts of the programs.
+// starts of the programs, because each start has luck of its own.
 //
-// A pair has two sides. Each side is a combination of settings that one of the programs draws. The
-// last pair is the A/A pair: the same settings twice in the same program, which shows how quiet the
-// machine is.
+// The programs run as `PROGRAM bench ... --serve` (app/measure/timing/child.h) and draw sets of
+// settings. With two programs, pair p is set p in both. With one, it is set 0 beside set p + 1. The
+// last pair is the A/A pair: set 0 and the last set, which has the same settings, in program 0.
 #ifndef DIP_APP_COST_DIFF_DIFF_DUEL_H
 #define DIP_APP_COST_DIFF_DIFF_DUEL_H
 
+#include "app/cost/diff/diff_options.h"
+#include "app/measure/timing/driver.h"
+#include "app/measure/timing/sample.h"
 #include "app/report/report.h"
 #include "app/report/verdict.h"
-#include "app/measure/stats/paired_starts.h"
-#include "app/measure/timing/sample.h"
 
 #include <stdbool.h>
 
@@ -18,60 +19,49 @@
 extern "C" {
 #endif
 
-enum { DIP_COST_DUEL_MAX_PAIRS = 32 };
-
-// What to measure. Everything is borrowed.
-typedef struct DipCostDuelDef {
-    const char *programs[2];
-    int program_count; // 1 or 2.
-    char *const *argv; // The command line of `bench`.
-    int argc;
-    int combination_count; // Of the command line.
-    int frames;
-    int pair_count; // With the A/A pair, which is the last one.
-    int program_of[DIP_COST_DUEL_MAX_PAIRS][2];
-    int combination_of[DIP_COST_DUEL_MAX_PAIRS][2];
+// Zero-initialise it.
+typedef struct DipCostDuel {
+    const char *programs[2]; // The second one is NULL if there is one. Borrowed.
+    char sets[(DIP_COST_DIFF_MAX_SETS + 2) * DIP_COST_TEXT];
+    int set_count;
+    int pair_count;
     int starts;
     int rounds;
-    uint64_t seed;
-    int threads; // Threads that draw; 0: those that the programs' ini asks for.
-} DipCostDuelDef;
-
-// What was measured. Arrays are owned.
-typedef struct DipCostDuel {
-    const DipCostDuelDef *def;
-    double *ms;            // [side][pair][stage][start][round][frame].
-    bool *disturbed;       // [pair][start][round][frame]: a side's threads waited too long.
-    DipBenchSample *first; // [side][pair][frame]: counters and hash of the first start.
-    double wait;           // Waiting time of the threads / (time * threads).
-    bool has_wait;
-    int threads; // Threads of a program.
+    int frames;
+    int threads;           // Threads of a program that draw.
+    DipDriver *driver;     // Has the times: subject 2 * pair + side; side 0 is the base. Owned.
+    DipTimesFit *fit;      // Owned.
+    DipBenchSample *first; // [subject * frames + frame]: counters and hashes. Owned.
 } DipCostDuel;
 
-// Fails as dip_child_start does, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with
-// DIP_ERROR_MEMORY. On success the caller frees the duel.
-bool dip_cost_duel_run(const DipCostDuelDef *def, DipCostDuel *duel, DipError *err);
+// Adds a set of settings.
+void dip_cost_duel_add_set(DipCostDuel *duel, const char *text);
+
+// Times all pairs in `frames` frames and `rounds` rounds of each start. Fails as dip_child_start
+// does, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with DIP_ERROR_MEMORY.
+bool dip_cost_duel_run(DipCostDuel *duel, const DipCostDiffArguments *arguments, int frames,
+                       int rounds, DipError *err);
+
+// Frees the duel, which was allocated with malloc. Accepts NULL.
 void dip_cost_duel_free(DipCostDuel *duel);
 
-// Returns the times of a side's stage: starts * rounds * frames values.
-const double *dip_cost_duel_ms(const DipCostDuel *duel, int side, int pair, DipBenchStage stage);
+// Returns the first drawing of a subject's frame, which has its counters and hash.
+const DipBenchSample *dip_cost_duel_sample(const DipCostDuel *duel, int subject, int frame);
 
-// Estimates how many times as long side 1 of a pair takes. For a stage, the change is 1 + (the
-// difference of the stage's times) / (side 0's time of the frame). Disturbed pairs of times take no
-// part unless more than half are disturbed.
-bool dip_cost_duel_change(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                          DipEstimate *change, DipError *err);
+// Adds up the counters of a subject's frames and divides them by the number of frames. The counters
+// have the order of DIP_COUNTER_LIST and must be 0.
+void dip_cost_duel_count(const DipCostDuel *duel, int subject, double *counters);
 
-// Writes the difference of each start in a stage, in milliseconds, and estimates their mean.
-bool dip_cost_duel_difference(const DipCostDuel *duel, int pair, DipBenchStage stage,
-                              double *per_start, DipStartDifference *difference, DipError *err);
+// Returns the mean time of a subject's frames.
+double dip_cost_duel_ms(const DipCostDuel *duel, int subject);
 
-// Returns the mean time of a side's frame: the mean over the frames of their medians. Returns NAN
-// when memory runs out.
-double dip_cost_duel_mean_ms(const DipCostDuel *duel, int side, int pair);
+// Writes how much longer side 1 of each pair takes in a stage, in milliseconds, in each start by
+// itself: per_start[pair * starts + start]. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_duel_per_start(const DipCostDuel *duel, DipBenchStage stage, double *per_start,
+                             DipError *err);
 
-// Collects the signs of the verdict from the waiting times and the A/A pair.
-bool dip_cost_duel_signs(const DipCostDuel *duel, DipCostSigns *signs, DipError *err);
+// Judges the machine by the waiting times and the A/A pair.
+DipCostVerdict dip_cost_duel_verdict(const DipCostDuel *duel, char reason[DIP_COST_REASON]);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,4 @@
 // Timing two programs, or one program's settings beside its baseline, for `cost diff`.
-//
-// The programs run as `PROGRAM bench ... --serve` (app/measure/timing/child.h) and are started anew
-// several times, because each start has luck of its own (app/measure/stats/paired_starts.h).
 #ifndef DIP_APP_COST_DIFF_DIFF_PROGRAMS_H
 #define DIP_APP_COST_DIFF_DIFF_PROGRAMS_H
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Two runs of one program differ by this standard deviation in their ratios, whatever their own
-// intervals say.
+// Two starts of one program differ by this standard deviation in their ratios. A report of a single
+// start does not show it.
 static const double luck_of_a_start = 0.006;
 
 enum { NAMED_ROWS = 4 }; // Rows that a note names; the others are counted.
@@ -218,13 +218,8 @@ static void copy_counters(const DipCostReport *const reports[2], const int rows[
     }
 }
 
-// Half the width of an interval, as a logarithm.
-static double log_half(const DipEstimate *e) {
-    return 0.5 * log(e->high / e->low);
-}
-
-// The quotient of two ratios. Its logarithm's error is that of both ratios and the luck of a start
-// in quadrature. The baseline's ratio to itself has no error.
+// The quotient of two ratios. Its logarithm's error is that of both ratios in quadrature, and the
+// luck of a start if a report does not have it. The baseline's ratio to itself has no error.
 static void compare_times(const DipCostReport *const reports[2], const int rows[2],
                           DipCostDiffRow *to) {
     const int rounds = reports[0]->options.rounds < reports[1]->options.rounds
@@ -238,29 +233,35 @@ static void compare_times(const DipCostReport *const reports[2], const int rows[
     if (!to->timed) {
         return;
     }
-    double error = luck_of_a_start;
+    double error = 0.0, degrees = rounds - 1;
+    bool has_luck = true;
     for (int side = 0; side < 2; side++) {
         const double own = to->ratios[side].log_error;
         error = hypot(error, isnan(own) ? 0.0 : own);
+        degrees = fmin(degrees, to->ratios[side].degrees);
+        has_luck = has_luck && reports[side]->starts > 1;
     }
-    to->change = dip_estimate_make(to->ratios[1].value / to->ratios[0].value, error, rounds - 1);
+    to->change = dip_estimate_make(to->ratios[1].value / to->ratios[0].value,
+                                   hypot(error, has_luck ? 0.0 : luck_of_a_start), degrees);
 }
 
 // Widens the intervals so that all rows together are judged with 95 %: of a hundred intervals of 95
 // %, five miss (Bonferroni).
-static void widen_bounds(DipCostDiff *diff, int rounds) {
+static void widen_bounds(DipCostDiff *diff) {
     int count = 0;
     for (int r = 0; r < diff->row_count; r++) {
         count += diff->rows[r].timed;
     }
-    const double one = dip_student_quantile(0.975, rounds - 1);
-    const double all =
-        dip_student_quantile(fmin(1.0 - 0.025 / fmax(count, 1.0), 0.9999), rounds - 1);
+    const double probability = fmin(1.0 - 0.025 / fmax(count, 1.0), 0.9999);
     for (int r = 0; r < diff->row_count; r++) {
         DipCostDiffRow *row = &diff->rows[r];
-        const double half = row->timed ? log_half(&row->change) * all / one : 0.0;
-        row->surely_above = row->change.value * exp(-half);
-        row->surely_below = row->change.value * exp(half);
+        const DipEstimate *change = &row->change;
+        const double half =
+            change->degrees >= 1.0
+                ? dip_student_quantile(probability, change->degrees) * change->log_error
+                : NAN;
+        row->surely_above = change->value * exp(-half);
+        row->surely_below = change->value * exp(half);
     }
 }
 
@@ -326,8 +327,7 @@ bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCo
         compare_rows(reports, &can, taken, lonely, diff);
         dip_cost_diff_leave_out_uncounted(diff);
         if (diff->has_times) {
-            widen_bounds(diff, a->options.rounds < b->options.rounds ? a->options.rounds
-                                                                     : b->options.rounds);
+            widen_bounds(diff);
         }
         dip_cost_diff_mark(diff);
     } else {

@@ -118,22 +118,6 @@ static bool print_exact(const DipCostDiff *diff, FILE *out, DipError *err) {
 
 // --- times ---------------------------------------------------------------------------------------
 
-static const char *mark_text(DipCostDiffMark mark) {
-    return mark == DIP_COST_DIFF_SLOWER ? "slower" : mark == DIP_COST_DIFF_FASTER ? "faster" : "";
-}
-
-static void print_interval(const DipEstimate *change, FILE *out) {
-    char interval[32];
-    snprintf(interval, sizeof interval, "%.3f to %.3f", change->low, change->high);
-    dip_put_text(out, "  %6.3f  %-16s", change->value, interval);
-}
-
-static void print_program_row(const DipCostDiffRow *row, FILE *out) {
-    for (int stage = 0; stage < DIP_COST_DIFF_STAGES; stage++) {
-        dip_put_text(out, " %+8.1f", 100.0 * (row->stages[stage].value - 1.0));
-    }
-}
-
 static void print_time_columns(const DipCostDiff *diff, FILE *out) {
     dip_put_text(out, "%-32s %-8s %8s %8s", "", "path", "A ms", "B ms");
     if (diff->kind == DIP_COST_DIFF_REPORTS) {
@@ -147,21 +131,23 @@ static void print_time_columns(const DipCostDiff *diff, FILE *out) {
 }
 
 static void print_time(const DipCostDiff *diff, const DipCostDiffRow *row, FILE *out) {
-    char settings[DIP_COST_TEXT];
+    static const char *const marks[] = {"", "slower", "faster"};
+    const bool is_program = diff->kind == DIP_COST_DIFF_PROGRAMS;
+    char settings[DIP_COST_TEXT], change[16] = "", interval[32] = "baseline";
     dip_cost_settings_text(&row->quality, settings);
     dip_put_text(out, "%-32s %-8s %8.2f %8.2f", settings, row->path, row->ms[0], row->ms[1]);
-    if (diff->kind == DIP_COST_DIFF_REPORTS) {
+    if (!is_program) {
         dip_put_text(out, " %8.3f %8.3f", row->ratios[0].value, row->ratios[1].value);
     }
-    if (row->is_base) {
-        dip_put_text(out, "  %6s  %-16s", "", "baseline");
-    } else {
-        print_interval(&row->change, out);
+    if (!row->is_base) {
+        snprintf(change, sizeof change, "%6.3f", row->change.value);
+        snprintf(interval, sizeof interval, "%.3f to %.3f", row->change.low, row->change.high);
     }
-    if (diff->kind == DIP_COST_DIFF_PROGRAMS) {
-        print_program_row(row, out);
+    dip_put_text(out, "  %6s  %-16s", change, interval);
+    for (int stage = 0; is_program && stage < DIP_COST_DIFF_STAGES; stage++) {
+        dip_put_text(out, " %+8.1f", 100.0 * (row->stages[stage].value - 1.0));
     }
-    dip_put_text(out, "  %s\n", mark_text(row->mark));
+    dip_put_text(out, "  %s\n", marks[row->mark]);
 }
 
 static void print_explanation(const DipCostDiff *diff, FILE *out) {

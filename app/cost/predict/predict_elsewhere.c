@@ -215,7 +215,7 @@ void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
             fitted[checked][k] = fabs((checked ? c->ms : predict_left_out(p, i)) / ms - 1.0);
         }
     }
-    p->factor = count[0] > 0 ? exp(dip_stats_median(logs, count[0])) : 1.0;
+    p->factor = count[0] > 0 ? exp(dip_median(logs, count[0])) : 1.0;
     p->timed_as_is = dip_cost_misses_of(as_is[0], count[0]);
     p->timed_left_out = dip_cost_misses_of(fitted[0], count[0]);
     p->checked_as_is = dip_cost_misses_of(as_is[1], count[1]);

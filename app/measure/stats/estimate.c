@@ -1,4 +1,4 @@
-// Student's t, intervals of logarithms, and the percentile.
+// Student's t, intervals of logarithms, and order statistics.
 #include "app/measure/stats/estimate.h"
 
 #include "renderer/base/assert.h"
@@ -83,7 +83,7 @@ double dip_estimate_chance_below(const DipEstimate *estimate, double limit, doub
                        : 0.0;
 }
 
-// --- percentile ----------------------------------------------------------------------------------
+// --- order statistics ----------------------------------------------------------------------------
 
 static int compare(const void *a, const void *b) {
     const double x = *(const double *)a;
@@ -98,4 +98,40 @@ double dip_percentile(double *values, int count, double share) {
     const int below = (int)position;
     const int above = below + 1 < count ? below + 1 : below;
     return values[below] + (position - below) * (values[above] - values[below]);
+}
+
+// Returns the value that sorting would put at values[index]. Uses Hoare's selection, which reorders
+// the values.
+static double select_value(double *values, int count, int index) {
+    int low = 0, high = count - 1;
+    while (low < high) {
+        const double pivot = values[(low + high) / 2];
+        int i = low, j = high;
+        while (i <= j) {
+            while (values[i] < pivot) {
+                i++;
+            }
+            while (values[j] > pivot) {
+                j--;
+            }
+            if (i <= j) {
+                const double swap = values[i];
+                values[i++] = values[j];
+                values[j--] = swap;
+            }
+        }
+        if (index <= j) {
+            high = j;
+        } else if (index >= i) {
+            low = i;
+        } else {
+            break;
+        }
+    }
+    return values[index];
+}
+
+double dip_median(double *values, int count) {
+    const double below = select_value(values, count, (count - 1) / 2);
+    return count % 2 ? below : 0.5 * (below + select_value(values, count, count / 2));
 }

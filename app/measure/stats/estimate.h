@@ -1,6 +1,8 @@
-// A value and how well it is known.
+// A value and how well it is known, the median and the percentile. All functions are thread-safe.
 #ifndef DIP_APP_MEASURE_STATS_ESTIMATE_H
 #define DIP_APP_MEASURE_STATS_ESTIMATE_H
+
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -41,6 +43,17 @@ double dip_student_quantile(double probability, double degrees);
 // Returns the value below which the given share (0 to 1) of count >= 1 values lies, linear between
 // order statistics. Sorts the values.
 double dip_percentile(double *values, int count, double share);
+
+// The same of values that stay in their order; scratch has room for them.
+static inline double dip_percentile_of(const double *values, int count, double share,
+                                       double *scratch) {
+    memcpy(scratch, values, (size_t)count * sizeof *values);
+    return dip_percentile(scratch, count, share);
+}
+
+// Returns the median of count >= 1 values. Reorders the values. Takes linear time (Hoare's
+// selection).
+double dip_median(double *values, int count);
 
 #ifdef __cplusplus
 }

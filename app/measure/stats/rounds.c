@@ -6,10 +6,6 @@
 
 #include <stdlib.h>
 
-// The jackknife's variance is too great by about this, since a unit that is left out takes its
-// frames' places with it (test_rounds).
-static const double jackknife_excess = 1.25;
-
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "timing", "out of memory");
 }
@@ -78,7 +74,7 @@ static DipEstimate estimate_of(const DipTimesFit *fit, double log_value, Varianc
         return dip_estimate_unknown(exp(log_value));
     }
     const Variance rest = {DIP_TIMES_LEAST_ERROR * DIP_TIMES_LEAST_ERROR, INFINITY};
-    of_unit.value /= jackknife_excess * fit->units;
+    of_unit.value /= fit->excess * fit->units;
     const Variance all = add_variance(of_unit, rest);
     return dip_estimate_make(exp(log_value), sqrt(all.value), all.degrees);
 }
@@ -127,17 +123,17 @@ double dip_times_spread(const DipTimesFit *fit, int subject) {
 static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
     const DipTimesSubject *s = &fit->subjects[subject];
     const DipTimesBase *base = &fit->bases[s->base];
-    if (!(base->level_error > 0.0)) {
+    const Variance variance = variance_of(fit, subject, v);
+    if (!(base->level_error > 0.0) || isnan(variance.value)) {
         return dip_estimate_unknown(base->level_ms * exp(s->logs[v]));
     }
-    const Variance level = {jackknife_excess * fit->units * base->level_error * base->level_error,
+    const Variance level = {fit->excess * fit->units * base->level_error * base->level_error,
                             base->level_degrees};
     // The slowest frames lie side by side, so that smoothing misses them all alike.
     const double doubt = v == DIP_TIMES_RATIO ? 0.0 : s->doubt;
-    const Variance smoothed = {jackknife_excess * fit->units * doubt, INFINITY};
-    Variance variance = variance_of(fit, subject, v);
-    variance = variance.value > 0.0 ? add_variance(variance, level) : level;
-    return estimate_of(fit, log(base->level_ms) + s->logs[v], add_variance(variance, smoothed));
+    const Variance smoothed = {fit->excess * fit->units * doubt, INFINITY};
+    const Variance all = variance.value > 0.0 ? add_variance(variance, level) : level;
+    return estimate_of(fit, log(base->level_ms) + s->logs[v], add_variance(all, smoothed));
 }
 
 DipAlong dip_times_along(const DipTimesFit *fit, int subject) {
@@ -156,4 +152,8 @@ DipAlong dip_times_along(const DipTimesFit *fit, int subject) {
 
 const double *dip_times_frames(const DipTimesFit *fit, int subject) {
     return fit->frame_ms + (size_t)subject * (size_t)fit->frames;
+}
+
+const double *dip_times_shares(const DipTimesFit *fit, int subject) {
+    return fit->subjects[subject].shares;
 }

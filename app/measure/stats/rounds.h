@@ -63,17 +63,24 @@ typedef struct DipTimes { // Borrowed.
     int rounds; // Of each start.
     int frames;
     const int *base_of; // [subject]; a base is its own base.
+    bool complete;      // Every round draws every frame of every subject.
 } DipTimes;
 
 // --- ratios and times ----------------------------------------------------------------------------
 
 // What is computed once from all times: the base's level of every frame, the speed of every round,
 // the ratios of all subjects, and how far these move when a start, or a round if there is only one
-// start, is left out. Holds no reference to the times.
+// start, is left out. Of a complete log, each start alone tells how large a ratio is, so that its
+// distance from the mean of the starts is taken instead. Holds no reference to the times.
 typedef struct DipTimesFit DipTimesFit;
 
 // Fails with DIP_ERROR_MEMORY.
 DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err);
+
+// The same, as if a subject differed from its base in one part of its time only: its time is that
+// of the base and what the part takes longer.
+DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err);
+
 void dip_times_fit_free(DipTimesFit **fit);
 
 // Returns the ratio of the mean time of a subject's frames to that of its base. Unknown (NAN) if
@@ -103,6 +110,10 @@ typedef struct DipAlong {
 } DipAlong;
 
 DipAlong dip_times_along(const DipTimesFit *fit, int subject);
+
+// Returns the shares of the subject's parts in its time, [DIP_TIMED_PARTS], borrowed; all 0 if the
+// log has no parts.
+const double *dip_times_shares(const DipTimesFit *fit, int subject);
 
 // Returns the times from which dip_times_along makes its values: [frame], borrowed.
 const double *dip_times_frames(const DipTimesFit *fit, int subject);

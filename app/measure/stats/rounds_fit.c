@@ -1,7 +1,7 @@
-// The fit of subjects beside their bases, with all units and with each left out.
+// The fit of subjects beside their bases, from all units and from sets of them.
 #include "app/measure/stats/rounds_fit.h"
 
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 #include "renderer/base/assert.h"
 
 #include <stdlib.h>
@@ -13,6 +13,10 @@ enum { MOST_VISITS = 512 };
 // The variance that all subjects of a base have in the mean counts for at most this many degrees of
 // freedom beside a subject's own: subjects differ in how much luck they have.
 static const double most_pooled_degrees = 12.0;
+
+// The jackknife's variance is too great by about this where frames are dealt to rounds, since a
+// unit that is left out takes its frames' places with it (test_rounds).
+static const double excess_of_dealt_frames = 1.25;
 
 // --- order of the log ----------------------------------------------------------------------------
 
@@ -82,6 +86,14 @@ static const DipTimed *beside(const DipTimesWork *w, int base, const DipTimed *t
     return NULL;
 }
 
+static double log_ratio(const DipTimesWork *w, const DipTimed *timed, const DipTimed *base) {
+    if (w->part < 0) {
+        return log(timed->ms / base->ms);
+    }
+    const double more = timed->parts_ms[w->part] - base->parts_ms[w->part];
+    return log(fmax(1.0 + more / base->ms, 0.01));
+}
+
 static int compare_pairs(const void *a, const void *b) {
     const DipTimesPair *x = a, *y = b;
     return x->frame != y->frame ? x->frame - y->frame : x->visit - y->visit;
@@ -113,7 +125,7 @@ static void list_pairs(DipTimesWork *w, int subject, DipTimesSubject *to) {
                 w->visit_count++;
             }
             w->pairs[w->pair_count++] = (DipTimesPair){
-                t->frame, w->visit_count - 1, dip_times_unit(times, t), log(t->ms / base->ms)};
+                t->frame, w->visit_count - 1, dip_times_unit(times, t), log_ratio(w, t, base)};
         }
         if (pass == 0) {
             to->kept = w->pair_count;
@@ -134,7 +146,7 @@ static double hodges_lehmann(const double *values, int count, double *means) {
             means[pairs++] = 0.5 * (values[i] + values[j]);
         }
     }
-    return dip_stats_median(means, pairs);
+    return dip_median(means, pairs);
 }
 
 // Index of the first of `count` sorted values that is not less than `value`.
@@ -192,7 +204,7 @@ static int choose_window(DipTimesWork *w, const double *values, int count) {
         }
         // Large misses are a visit's bad luck.
         double sum = 0.0;
-        const double typical = dip_stats_median(w->rest, count);
+        const double typical = dip_median(w->rest, count);
         for (int i = 0; i < count; i++) {
             sum += fmin(w->rest[i], 3.0 * typical);
         }
@@ -211,7 +223,7 @@ static void median_of_frames(const double *values, const int *frames, int count,
         for (end = first; end < count && frames[end] == frames[first]; end++) {
             scratch[end - first] = values[end];
         }
-        const double middle = dip_stats_median(scratch, end - first);
+        const double middle = dip_median(scratch, end - first);
         for (int i = first; i < end; i++) {
             smooth[i] = middle;
         }
@@ -232,20 +244,20 @@ static double common_rest(DipTimesWork *w, int count, const int *visits, const d
             }
         }
         if (in_visit > 0) {
-            of_visits[found++] = dip_stats_median(w->of_visit, in_visit);
+            of_visits[found++] = dip_median(w->of_visit, in_visit);
         }
     }
     w->spread = NAN;
     if (found > 1) {
         memcpy(w->of_visit, of_visits, (size_t)found * sizeof *of_visits);
-        const double middle = dip_stats_median(w->of_visit, found);
+        const double middle = dip_median(w->of_visit, found);
         for (int i = 0; i < found; i++) {
             w->of_visit[i] = fabs(of_visits[i] - middle);
         }
-        w->spread = DIP_TIMES_MAD_TO_SD * dip_stats_median(w->of_visit, found);
+        w->spread = DIP_TIMES_MAD_TO_SD * dip_median(w->of_visit, found);
     }
     return found <= MOST_VISITS ? hodges_lehmann(of_visits, found, w->means)
-                                : dip_stats_median(of_visits, found);
+                                : dip_median(of_visits, found);
 }
 
 // Takes what noise adds to the differences between frames off their times: a percentile would be
@@ -281,7 +293,7 @@ static double fit_ratios(DipTimesWork *w, int count) {
         w->rest[i] = w->logs[i] - w->smooth[i];
         w->of_visit[i] = fabs(w->rest[i]);
     }
-    const double noise = DIP_TIMES_MAD_TO_SD * dip_stats_median(w->of_visit, count);
+    const double noise = DIP_TIMES_MAD_TO_SD * dip_median(w->of_visit, count);
     const double common = common_rest(w, count, w->visits, w->rest);
     for (int i = 0; i < count; i++) {
         w->ratio[w->pair_frames[i]] = w->smooth[i] + common;
@@ -291,27 +303,36 @@ static double fit_ratios(DipTimesWork *w, int count) {
     return 1.5 / (joined + 0.5) * noise * noise; // The variance of a median.
 }
 
-// Computes the logarithms of a subject's values without one unit (-1: with all), and its frames'
-// times in w->time. Returns false if no pair is left.
-static bool find_values(DipTimesWork *w, int left_out, double logs[DIP_TIMES_VALUE_COUNT]) {
+// Set -1 has the times of all units. The others lack one unit each, or have it alone.
+static bool is_in_set(const DipTimesWork *w, int set, int unit) {
+    return set < 0 || (unit == set) == w->is_alone;
+}
+
+// Computes the logarithms of a subject's values from a set, and its frames' times in w->time. If
+// the set has no times, returns false, and the values are NAN.
+static bool find_values(DipTimesWork *w, int set, double logs[DIP_TIMES_VALUE_COUNT]) {
     const int frames = w->times->frames;
-    const double *level = w->level + (left_out + 1) * frames;
+    const int lacking = w->is_alone && !w->is_base ? 0 : set + 1;
+    const double *level = w->level + lacking * frames;
     int count = 0;
     for (int f = 0; f < frames; f++) {
         w->ratio[f] = w->is_base ? 0.0 : NAN;
     }
     for (int i = 0; i < w->pair_count; i++) {
-        if (w->pairs[i].unit != left_out) {
+        if (is_in_set(w, set, w->pairs[i].unit)) {
             w->logs[count] = w->pairs[i].log_ratio;
             w->pair_frames[count] = w->pairs[i].frame;
             w->visits[count++] = w->pairs[i].visit;
         }
     }
-    if (count == 0 && !w->is_base) {
+    for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
+        logs[v] = NAN;
+    }
+    if ((count == 0 && !w->is_base) || isnan(level[0])) {
         return false;
     }
-    if (left_out < 0 && count > 0) {
-        w->repeats = count >= 3 * frames;
+    if (set < 0 && count > 0) {
+        w->repeats = w->times->complete || count >= 3 * frames;
         w->window = w->repeats ? 0 : choose_window(w, w->logs, count);
     }
     const double noise = count > 0 ? fit_ratios(w, count) : 0.0;
@@ -321,7 +342,7 @@ static bool find_values(DipTimesWork *w, int left_out, double logs[DIP_TIMES_VAL
         base_total += exp(level[f]);
         total += w->time[f];
     }
-    const double missing = w->missing[left_out + 1];
+    const double missing = w->missing[lacking];
     w->doubt = noise + missing;
     take_off_noise(w->time, frames, noise - missing);
     for (int f = 0; f < frames; f++) {
@@ -334,10 +355,54 @@ static bool find_values(DipTimesWork *w, int left_out, double logs[DIP_TIMES_VAL
     return true;
 }
 
-// --- how far a unit moves a value ----------------------------------------------------------------
+// --- a subject -----------------------------------------------------------------------------------
 
-// Fits one subject, with all units and with each left out. A unit moves a value by units - 1 times
-// the difference that leaving it out makes (the jackknife).
+// Finds which shares of the subject's time its parts take. Disturbed frames count only if most are.
+static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) {
+    const bool all = w->is_base || 2 * subject->kept < subject->timed;
+    double total = 0.0;
+    for (int i = w->first_of[s]; i < w->first_of[s + 1]; i++) {
+        const DipTimed *t = &w->times->list[w->order[i]];
+        if (t->ms > 0.0 && (all || !(t->wait > DIP_TIMED_MOST_WAIT))) {
+            const double weight = exp(w->level[t->frame]);
+            total += weight;
+            for (int p = 0; p < DIP_TIMED_PARTS; p++) {
+                subject->shares[p] += weight * t->parts_ms[p] / t->ms;
+            }
+        }
+    }
+    for (int p = 0; p < DIP_TIMED_PARTS && total > 0.0; p++) {
+        subject->shares[p] /= total;
+    }
+}
+
+// Finds how far each unit moves the values: units - 1 times the difference that leaving it out
+// makes (the jackknife), or how far the unit alone is from the mean. Of units alone, those without
+// times take no part.
+static void find_moves(DipTimesWork *w, int s) {
+    DipTimesFit *fit = w->fit;
+    const int units = fit->units;
+    double mean[DIP_TIMES_VALUE_COUNT] = {0};
+    int known = 0;
+    for (int unit = 0; unit < units; unit++) {
+        double *move = dip_times_moves(fit, s, unit);
+        known += find_values(w, unit, move);
+        for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
+            mean[v] += isnan(move[v]) ? 0.0 : move[v];
+        }
+    }
+    double scale = known == units ? 1.0 - units : NAN;
+    if (w->is_alone && !w->is_base) {
+        scale = known > 1 ? sqrt(units * (units - 1.0) / (known * (known - 1.0))) : NAN;
+    }
+    for (int unit = 0; unit < units; unit++) {
+        double *move = dip_times_moves(fit, s, unit);
+        for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
+            move[v] = scale * (isnan(move[v]) ? 0.0 : move[v] - mean[v] / known);
+        }
+    }
+}
+
 static void fit_subject(DipTimesWork *w, int s) {
     DipTimesFit *fit = w->fit;
     DipTimesSubject *subject = &fit->subjects[s];
@@ -346,10 +411,6 @@ static void fit_subject(DipTimesWork *w, int s) {
     if (!w->is_base) {
         list_pairs(w, s, subject);
     }
-    double mean[DIP_TIMES_VALUE_COUNT] = {0};
-    for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
-        subject->logs[v] = NAN;
-    }
     w->spread = NAN;
     const bool known = find_values(w, -1, subject->logs);
     subject->spread = w->spread;
@@ -357,28 +418,20 @@ static void fit_subject(DipTimesWork *w, int s) {
     for (int f = 0; f < fit->frames; f++) {
         fit->frame_ms[(size_t)s * (size_t)fit->frames + (size_t)f] = known ? w->time[f] : NAN;
     }
-    for (int unit = 0; unit < fit->units; unit++) {
-        double *move = dip_times_moves(fit, s, unit);
-        if (!find_values(w, unit, move)) {
-            memset(move, 0, DIP_TIMES_VALUE_COUNT * sizeof *move);
-        }
-        for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
-            mean[v] += move[v] / fit->units;
-        }
-    }
-    for (int unit = 0; unit < fit->units; unit++) {
-        double *move = dip_times_moves(fit, s, unit);
-        for (int v = 0; v < DIP_TIMES_VALUE_COUNT; v++) {
-            move[v] = (fit->units - 1) * (mean[v] - move[v]);
-        }
-    }
+    find_shares(w, s, subject);
+    find_moves(w, s);
+}
+
+// --- the parts of the variance -------------------------------------------------------------------
+
+static bool has_moves(const DipTimesFit *fit, int subject) {
+    return !isnan(dip_times_moves(fit, subject, 0)[DIP_TIMES_RATIO]);
 }
 
 static int list_members(const DipTimesWork *w, int base, int *members) {
     int count = 0;
     for (int s = 0; s < w->times->subjects; s++) {
-        if (w->times->base_of[s] == base && s != base &&
-            !isnan(w->fit->subjects[s].logs[DIP_TIMES_RATIO])) {
+        if (w->times->base_of[s] == base && s != base && has_moves(w->fit, s)) {
             members[count++] = s;
         }
     }
@@ -425,6 +478,11 @@ static void fit_base(DipTimesWork *w, int b, int *members) {
     }
     const int count = list_members(w, b, members);
     for (int v = 0; fit->units > 1 && v < DIP_TIMES_VALUE_COUNT; v++) {
+        for (int s = 0; s < w->times->subjects; s++) {
+            if (w->times->base_of[s] == b && !has_moves(fit, s)) {
+                fit->subjects[s].variance[v] = NAN;
+            }
+        }
         divide_variance(fit, &fit->bases[b], members, count, v);
         for (int unit = 0; unit < fit->units; unit++) {
             const double move = dip_times_moves(fit, b, unit)[v];
@@ -447,13 +505,15 @@ static void close_work(DipTimesWork *w) {
     free(w->means);
 }
 
-static bool open_work(DipTimesWork *w, const DipTimes *times, DipTimesFit *fit) {
+static bool open_work(DipTimesWork *w, const DipTimes *times, int part, DipTimesFit *fit) {
     const size_t count = (size_t)times->count + 1, frames = (size_t)times->frames;
     const size_t all = count > frames ? count : frames;
     const size_t sets = 1 + (size_t)fit->units;
     *w = (DipTimesWork){
         .times = times,
         .fit = fit,
+        .part = part,
+        .is_alone = times->complete && times->starts > 1,
         .order = malloc(count * sizeof(int)),
         .first_of = malloc(((size_t)times->subjects + 1) * sizeof(int)),
         .cells = malloc(count * sizeof(DipTimesCell)),
@@ -487,6 +547,10 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, DipTimesFit *fit) 
 }
 
 DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err) {
+    return dip_times_fit_part(times, -1, err);
+}
+
+DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err) {
     DIP_ASSERT(times->subjects > 0 && times->frames > 0 && times->starts > 0 && times->rounds > 0);
     const size_t subjects = (size_t)times->subjects, frames = (size_t)times->frames;
     DipTimesFit *fit = calloc(1, sizeof *fit);
@@ -496,13 +560,14 @@ DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err) {
     if (made) {
         fit->frames = times->frames;
         fit->units = times->starts > 1 ? times->starts : times->rounds;
+        fit->excess = times->complete ? 1.0 : excess_of_dealt_frames;
         fit->subjects = calloc(subjects, sizeof *fit->subjects);
         fit->bases = calloc(subjects, sizeof *fit->bases);
         fit->frame_ms = malloc(subjects * frames * sizeof *fit->frame_ms);
         fit->moves =
             calloc(subjects * (size_t)fit->units * DIP_TIMES_VALUE_COUNT, sizeof *fit->moves);
-        made =
-            fit->subjects && fit->bases && fit->frame_ms && fit->moves && open_work(&w, times, fit);
+        made = fit->subjects && fit->bases && fit->frame_ms && fit->moves &&
+               open_work(&w, times, part, fit);
     }
     for (int s = 0; made && s < times->subjects; s++) {
         if (times->base_of[s] == s) {

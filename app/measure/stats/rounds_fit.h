@@ -57,11 +57,13 @@ typedef struct DipTimesSubject {
     double doubt;                           // Variance of single frames about their neighbours.
     double logs[DIP_TIMES_VALUE_COUNT];     // Logarithms of the values.
     double variance[DIP_TIMES_VALUE_COUNT]; // Variance of a unit, of the subject's own luck.
+    double shares[DIP_TIMED_PARTS];
 } DipTimesSubject;
 
 struct DipTimesFit {
     int frames;
-    int units; // Starts, or rounds if there is one start.
+    int units;     // Starts, or rounds if there is one start.
+    double excess; // By which the variance of units is too great.
     DipTimesSubject *subjects;
     DipTimesBase *bases; // [subject], of those that are bases.
     double *frame_ms;    // [subject * frames + frame]
@@ -74,6 +76,8 @@ struct DipTimesFit {
 typedef struct DipTimesWork {
     const DipTimes *times;
     DipTimesFit *fit;
+    int part;      // The part of the times in which subjects differ; -1: in all.
+    bool is_alone; // A set has the pairs of one unit alone; otherwise it lacks them.
     int *order;    // [count]: indices of times, those of a subject by round, block and frame.
     int *first_of; // [subjects + 1]: where a subject's times begin in `order`.
     DipTimesCell *cells;
@@ -126,8 +130,8 @@ static inline double *dip_times_moves(const DipTimesFit *fit, int subject, int u
 // Fills values that are NAN from their neighbours: linear between them, constant beyond.
 void dip_times_fill_gaps(double *values, int count);
 
-// Fits the levels of a base's frames and the speeds of its rounds. Fills w->level, w->noise and, in
-// the fit's bases[base], all about the level.
+// Fits the levels of a base's frames and the speeds of its rounds. Fills w->level, w->missing and,
+// in the fit's bases[base], all about the level.
 void dip_times_fit_levels(DipTimesWork *w, int base);
 
 #endif

@@ -1,7 +1,7 @@
 // The base's levels: how long each frame takes at the machine's usual speed.
 #include "app/measure/stats/rounds_fit.h"
 
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -83,7 +83,7 @@ static void join_cells(DipTimesWork *w, int count) {
             for (int i = first; i < end; i++) {
                 w->logs[i - first] = w->cells[i].log_ms - speed[w->cells[i].visit];
             }
-            const double middle = dip_stats_median(w->logs, end - first);
+            const double middle = dip_median(w->logs, end - first);
             for (int i = first; i < end; i++) {
                 sum[w->cells[i].visit] += w->cells[i].log_ms - middle;
                 frames[w->cells[i].visit]++;
@@ -115,7 +115,7 @@ static void trust_cells(DipTimesWork *w, int left_out, const double *level) {
             w->logs[count++] = fabs(rest_of(w, &w->cells[i], level)) * sqrt(w->cells[i].weight);
         }
     }
-    const double typical = count > 0 ? dip_stats_median(w->logs, count) : 0.0;
+    const double typical = count > 0 ? dip_median(w->logs, count) : 0.0;
     for (int i = 0; i < w->cell_count; i++) {
         const double distance =
             rest_of(w, &w->cells[i], level) * sqrt(w->cells[i].weight) / (6.0 * typical + 1e-9);
@@ -271,7 +271,7 @@ static double speed_of_round(DipTimesWork *w, int base, int round, const double 
             w->logs[count++] = log(t->ms) - level[t->frame];
         }
     }
-    return count > 0 ? dip_stats_median(w->logs, count) : NAN;
+    return count > 0 ? dip_median(w->logs, count) : NAN;
 }
 
 // Finds the rounds' speeds, relates the levels to the usual one (the median), and tells how far the
@@ -307,7 +307,7 @@ static void judge_speeds(DipTimesWork *w, int b) {
             fmax(deviation(of_groups, group_count) / sqrt(group_count), DIP_TIMES_LEAST_ERROR);
         base->level_degrees = group_count - 1;
     }
-    const double usual = known > 0 ? dip_stats_median(w->rest, known) : 0.0;
+    const double usual = known > 0 ? dip_median(w->rest, known) : 0.0;
     for (int f = 0; f < times->frames; f++) {
         level[f] += usual;
         base->level_ms += exp(level[f]) / times->frames;

@@ -2,7 +2,7 @@
 #include "app/measure/timing/driver.h"
 
 #include "app/measure/stats/random.h"
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 
@@ -511,7 +511,7 @@ static bool draw_settling(DipDriver *d, DipError *err) {
     }
     d->settle_ms[d->settle_runs++ % SETTLE_RUNS] = timed.ms;
     if (d->settle_runs % SETTLE_RUNS == 0) {
-        const double median = dip_stats_median(d->settle_ms, SETTLE_RUNS);
+        const double median = dip_median(d->settle_ms, SETTLE_RUNS);
         d->settled = d->settle_runs > SETTLE_RUNS &&
                      fabs(median - d->settle_last_ms) <= settle_tolerance * d->settle_last_ms;
         d->settle_last_ms = median;
@@ -700,6 +700,7 @@ DipTimes dip_driver_times(const DipDriver *d) {
         .rounds = d->def.rounds,
         .frames = d->def.frames,
         .base_of = d->base_of,
+        .complete = !d->deal,
     };
 }
 

@@ -1,7 +1,6 @@
 // Timing combinations of settings beside the base, in blocks.
 #include "app/preview/live/price_job.h"
 
-#include "app/measure/stats/paired.h"
 #include "app/measure/timing/driver.h"
 #include "app/preview/prices/price_question.h"
 #include "app/report/verdict.h"
@@ -221,7 +220,7 @@ static double base_ms_of(const DipPriceJob *job) {
     double ms[LEVELS];
     const int count = job->blocks < LEVELS ? job->blocks : LEVELS;
     memcpy(ms, job->base_ms, (size_t)count * sizeof *ms);
-    return dip_stats_median(ms, count);
+    return dip_median(ms, count);
 }
 
 // Publishes all prices anew, because the base's time has become better known.
@@ -238,32 +237,6 @@ static bool publish(DipPriceJob *job) {
            dip_error_set(&job->failure, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
 }
 
-// Lists a member's and the base's times in each round. Disturbed rounds are left out, unless more
-// than half of them are. Returns the number of disturbed ones.
-static int list_rounds(const DipTimes *times, int member, double ms[DIP_PRICE_JOB_ROUNDS],
-                       double base_ms[DIP_PRICE_JOB_ROUNDS]) {
-    double waits[DIP_PRICE_JOB_ROUNDS] = {0.0};
-    int disturbed = 0;
-    for (int i = 0; i < times->count; i++) {
-        const DipTimed *timed = &times->list[i];
-        for (int j = 0; timed->subject == member && j < times->count; j++) {
-            const DipTimed *base = &times->list[j];
-            if (base->subject == 0 && base->round == timed->round && base->block == timed->block) {
-                ms[timed->round] = timed->ms;
-                base_ms[timed->round] = base->ms;
-                waits[timed->round] = fmax(timed->wait, base->wait);
-            }
-        }
-    }
-    for (int r = 0; r < times->rounds; r++) {
-        disturbed += waits[r] > DIP_TIMED_MOST_WAIT;
-    }
-    for (int r = 0; r < times->rounds && 2 * disturbed <= times->rounds; r++) {
-        ms[r] = waits[r] > DIP_TIMED_MOST_WAIT ? NAN : ms[r];
-    }
-    return disturbed;
-}
-
 // Tells whether the machine was too busy: by the rule of a report, as far as its signs are known.
 static void judge(DipPriceJob *job, double wait, int disturbed, int rounds) {
     job->waited += wait * rounds;
@@ -278,32 +251,25 @@ static void judge(DipPriceJob *job, double wait, int disturbed, int rounds) {
 
 static bool end_block(DipPriceJob *job) {
     const DipTimes times = dip_driver_times(job->driver);
-    double ms[DIP_PRICE_JOB_ROUNDS], base_ms[DIP_PRICE_JOB_ROUNDS];
+    DipTimesFit *fit = dip_times_fit(&times, &job->failure);
     int disturbed = 0;
-    bool done = true;
-    for (int m = 1; done && m < job->member_count; m++) {
-        disturbed += list_rounds(&times, m, ms, base_ms);
-        const DipPairedTimes paired = {ms, base_ms, times.rounds, 1};
+    for (int m = 1; fit && m < job->member_count; m++) {
+        const DipAlong along = dip_times_along(fit, m);
         Timed *before = find_timed(job, &job->members[m]);
-        Timed timed = {.quality = job->members[m], .rounds = times.rounds};
-        done = dip_paired_ratio(&paired, &timed.ratio, &job->failure);
-        if (done) {
-            *(before ? before : &job->timed[job->timed_count++]) = timed;
-        }
+        disturbed += along.timed - along.kept;
+        *(before ? before : &job->timed[job->timed_count++]) =
+            (Timed){job->members[m], dip_times_ratio(fit, m), times.rounds};
     }
-    int kept = 0;
-    for (int r = 0; r < times.rounds; r++) {
-        base_ms[kept] = base_ms[r];
-        kept += !isnan(ms[r]);
+    if (fit) {
+        job->base_ms[job->blocks++ % LEVELS] = dip_times_frames(fit, 0)[0];
+        judge(job, dip_driver_machine(job->driver, job->calls.threads).wait, disturbed,
+              times.rounds * (job->member_count - 1));
     }
-    job->base_ms[job->blocks++ % LEVELS] = dip_stats_median(base_ms, kept);
-    judge(job, dip_driver_machine(job->driver, job->calls.threads).wait, disturbed,
-          times.rounds * (job->member_count - 1));
     drop_block(job);
-    done = done && publish(job);
-    job->failed = !done;
+    job->failed = !fit || !publish(job);
+    dip_times_fit_free(&fit);
     list_wanted(job);
-    return done;
+    return !job->failed;
 }
 
 // --- frames --------------------------------------------------------------------------------------

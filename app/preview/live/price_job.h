@@ -3,7 +3,7 @@
 // The job times combinations of settings in blocks: the base and a few combinations, each drawn
 // once in every round, in an order that is shuffled anew. A visit draws one frame untimed, because
 // the previous combination has used the caches, and times the next one. The ratios of each
-// combination to the base give its price with an interval (app/measure/stats/paired.h). At first
+// combination to the base give its price with an interval (app/measure/stats/rounds.h). At first
 // every combination gets three rounds, so that all prices are soon known roughly; then each gets a
 // block of eight rounds. The combinations nearest to the requested settings come first.
 //

@@ -315,44 +315,6 @@ static bool is_timed(const DipFieldAt *at) {
     return dip_cost_is_timed(report_of(at), row_of(at));
 }
 
-static int count_pairs(const DipFieldAt *at) {
-    return is_timed(at) ? dip_cost_frame_count(report_of(at)) : 0;
-}
-
-static DipErrorCode open_pairs(const DipFieldAt *at, int count) {
-    return count == count_pairs(at) ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
-}
-
-// X(member, what it is): the fields of DipTimePair. Each is an array in the order of the
-// path.
-#define PAIR_LIST(X)                                                                               \
-    X(ms, "Time of each frame along the path, in milliseconds.")                                   \
-    X(base_ms, "Time of the baseline's same frame beside it, in milliseconds.")                    \
-    X(wait, "Time that the frame's threads waited for a processor, as a share of its time.")       \
-    X(base_wait, "The same share of the baseline's frame.")                                        \
-    X(cpu_ms, "Processor time of all threads in the frame, in milliseconds.")                      \
-    X(switches, "Context switches that the frame's threads did not ask for.")
-
-static const DipField pair_element = {.kind = DIP_FIELD_NUMBER, .most = DIP_COST_MOST_MS};
-
-#define PAIR_FIELD(member, means)                                                                  \
-    {#member,                                                                                      \
-     NULL,                                                                                         \
-     NULL,                                                                                         \
-     means,                                                                                        \
-     LIST,                                                                                         \
-     .list = &(const DipFieldList){.element = &pair_element,                                       \
-                                   .items = offsetof(DipCostRow, pairs),                           \
-                                   .points = true,                                                 \
-                                   .within = offsetof(DipTimePair, member),                        \
-                                   .stride = sizeof(DipTimePair),                                  \
-                                   .count = count_pairs,                                           \
-                                   .open = open_pairs}},
-static const DipField pair_fields[] = {PAIR_LIST(PAIR_FIELD)};
-static const DipRecord pair_record =
-    DIP_RECORD("frames of a row", "The times of the frames along the path, an array each.",
-               pair_fields, DipCostRow, NULL);
-
 static const void *derive_text(const DipFieldAt *at, DipFieldScratch *scratch) {
     dip_cost_settings_text(&((const DipCostRow *)at->item)->quality, scratch->text);
     return scratch->text;
@@ -421,18 +383,10 @@ static const DipField row_fields[] = {
                worst_ms, 2),
     STAGE_NAMES_FIELD(DipCostRow, is_timed),
     COUNTERS_FIELD(DipCostRow, is_timed),
-    {"pairs", NULL, NULL, "What was timed.", RECORD, .record = &pair_record, .known = is_timed},
 };
 
 static bool check_row(const DipFieldAt *at) {
-    const DipCostRow *row = at->item;
-    bool ok = row->path < report_of(at)->path_count;
-    for (int f = 0; f < count_pairs(at); f++) {
-        const DipTimePair *pair = &row->pairs[f];
-        ok = ok && (pair->ms == 0.0 ||
-                    (pair->ms >= DIP_COST_LEAST_MS && pair->base_ms >= DIP_COST_LEAST_MS));
-    }
-    return ok;
+    return ((const DipCostRow *)at->item)->path < report_of(at)->path_count;
 }
 
 const DipRecord dip_cost_row_record =
@@ -499,7 +453,7 @@ static const void *get_visit(const DipFieldAt *at, int index, DipFieldScratch *s
     return visit;
 }
 
-// Files without visits are read by their pairs.
+// Older files have no visits, but pairs of times (cost_json.c).
 static DipErrorCode open_visits(const DipFieldAt *at, int count) {
     const DipCostReport *report = report_of(at);
     return count == 0 || (report->starts > 0 && report->rounds % report->starts == 0)
@@ -1150,7 +1104,7 @@ static const DipField machine_fields[] = {
      "Standard error of the logarithm of all times that an amber verdict adds to their intervals.",
      DIP_COMPUTED(NUMBER, DipCostReport, doubt), .digits = 3},
     {"starts", NULL, NULL,
-     "Number of starts of the program, each with rounds / starts rounds; 0 without `visits`.",
+     "Number of starts of the program, each with rounds / starts rounds; 0 without times.",
      DIP_FACT(WHOLE, DipCostReport, starts), .most = DIP_TIMED_MOST_STARTS},
 };
 static const DipRecord machine_record = DIP_RECORD(
@@ -1234,8 +1188,7 @@ static const DipField report_fields[] = {
                                                .open = open_rows}),
                 "What was measured."),
     REPORT_LIST("visits", .list = &visit_list,
-                "Every timed frame, from which all times are computed; without visits they are "
-                "computed from the rows' pairs."),
+                "Every timed frame, from which all times are computed."),
     REPORT_LIST("floors", .list = &floor_list, "The truths' own noise."),
     REPORT_LIST("same_pictures",
                 OWNED(DipCostReport, same, same_count, DIP_COST_MAX_ROWS, &same_record),

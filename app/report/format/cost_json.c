@@ -11,7 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { MAX_FILE_BYTES = 1 << 29, PAIR_NUMBERS = 6 };
+enum { MAX_FILE_BYTES = 1 << 29, TIMED_NUMBERS = 3 };
 
 static bool print_report(const void *context, FILE *out) {
     const DipFieldAt at = {(void *)context, context, 0, NULL};
@@ -53,11 +53,11 @@ static void forget_no_interval(cJSON *object) {
 }
 
 static void upgrade_rows(cJSON *root) {
-    static const char *const times[] = {"counters", "stages_ms", "pairs"};
+    static const char *const times[] = {"counters", "stages_ms"};
     static const char *const tail[] = {"flip_tail"};
     cJSON *row, *viewpoint;
     cJSON_ArrayForEach(row, cJSON_GetObjectItemCaseSensitive(root, "rows")) {
-        add_nulls(row, times, 3);
+        add_nulls(row, times, 2);
         cJSON_ArrayForEach(viewpoint, cJSON_GetObjectItemCaseSensitive(row, "places")) {
             add_nulls(viewpoint, tail, 1);
             add_missing(viewpoint, "pictures", cJSON_CreateString(""));
@@ -100,9 +100,71 @@ static double number_of(const cJSON *root, const char *name) {
 // characters. If it cannot, memory for the times would be out of proportion to the file.
 static bool times_fit(const cJSON *root, size_t size_bytes) {
     const int rows = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(root, "rows"));
-    return rows * number_of(root, "rounds") * number_of(root, "timed_frames") * PAIR_NUMBERS *
+    return rows * number_of(root, "rounds") * number_of(root, "timed_frames") * TIMED_NUMBERS *
                2.0 <=
            (double)size_bytes;
+}
+
+// Takes the next number of an array, which is from least to most.
+static bool next_number(const cJSON **item, double least, double most, double *value) {
+    const cJSON *from = *item;
+    const bool known =
+        cJSON_IsNumber(from) && from->valuedouble >= least && from->valuedouble <= most;
+    *value = known ? from->valuedouble : 0.0;
+    *item = from ? from->next : NULL;
+    return known;
+}
+
+// Adds the times of a row that older files have as pairs: arrays of the times of the frames, and of
+// the baseline's same frames beside them. Frame f of a path belongs to round f % rounds.
+static bool add_pairs(const cJSON *pairs, DipCostReport *report, int row, DipTimed *log) {
+    static const char *const names[] = {"base_ms", "ms", "base_wait", "wait"};
+    const int base = report->base_rows[report->rows[row].path];
+    const cJSON *items[4];
+    for (int i = 0; i < 4; i++) {
+        const cJSON *array = cJSON_GetObjectItemCaseSensitive(pairs, names[i]);
+        items[i] = cJSON_IsArray(array) ? array->child : NULL;
+    }
+    for (int f = 0; f < dip_cost_frame_count(report); f++) {
+        double ms[2], wait[2];
+        for (int i = 0; i < 2; i++) {
+            if (!next_number(&items[i], 0.0, DIP_COST_MOST_MS, &ms[i]) ||
+                !next_number(&items[2 + i], 0.0, DIP_COST_MOST_MEAN, &wait[i])) {
+                return false;
+            }
+        }
+        // A base stands beside itself.
+        for (int i = 0; i < 2 && ms[1] > 0.0 && (i == 0 || row != base); i++) {
+            if (ms[i] < DIP_COST_LEAST_MS) {
+                return false;
+            }
+            log[report->log_count++] = (DipTimed){.subject = i == 0 ? base : row,
+                                                  .round = f % report->rounds,
+                                                  .block = row,
+                                                  .frame = f,
+                                                  .ms = ms[i],
+                                                  .wait = wait[i]};
+        }
+    }
+    return !items[0] && !items[1];
+}
+
+// Makes the log of a report that has pairs of times.
+static bool read_pairs(const cJSON *root, DipCostReport *report, const char *file, DipError *err) {
+    const size_t values = (size_t)report->row_count * (size_t)dip_cost_frame_count(report);
+    const cJSON *row = cJSON_GetObjectItemCaseSensitive(root, "rows")->child;
+    report->log = malloc((2 * values + 1) * sizeof *report->log);
+    if (!report->log) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    report->starts = 1;
+    for (int r = 0; r < report->row_count; r++, row = row->next) {
+        if (!add_pairs(cJSON_GetObjectItemCaseSensitive(row, "pairs"), report, r, report->log)) {
+            return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, "pairs",
+                                 "of row %d are missing, or are not what `diptych` writes", r);
+        }
+    }
+    return true;
 }
 
 static bool read_report(cJSON *root, size_t size_bytes, DipCostReport *report, const char *file,
@@ -125,7 +187,8 @@ static bool read_report(cJSON *root, size_t size_bytes, DipCostReport *report, c
     if (!dip_fields_read_json(&dip_cost_report_record, &at, root, file, err)) {
         return false;
     }
-    return report->rounds == 0 || dip_cost_estimate_times(report, err);
+    return report->rounds == 0 || ((report->log || read_pairs(root, report, file, err)) &&
+                                   dip_cost_estimate_times(report, err));
 }
 
 bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) {

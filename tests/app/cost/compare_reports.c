@@ -86,25 +86,6 @@ static bool is_measured(const char *key) {
     return is_one_of(key, keys);
 }
 
-static void compare_pairs(const char *path, const cJSON *a, const cJSON *b) {
-    const cJSON *list;
-    cJSON_ArrayForEach(list, a) {
-        const cJSON *other = cJSON_GetObjectItemCaseSensitive(b, list->string);
-        if (cJSON_GetArraySize(list) == 0 ||
-            cJSON_GetArraySize(list) != cJSON_GetArraySize(other)) {
-            fault(path, "has another number of times");
-        }
-        const cJSON *item;
-        const cJSON *times = strstr(list->string, "ms") ? other : NULL;
-        cJSON_ArrayForEach(item, times) {
-            const bool is_wall = strcmp(list->string, "cpu_ms") != 0;
-            if ((is_wall && !(item->valuedouble > 0.0)) || item->valuedouble > most_ms) {
-                fault(path, "has a time that was not measured");
-            }
-        }
-    }
-}
-
 // The order of visits is random, and frames may be drawn again.
 static void compare_visits(const char *path, const cJSON *a, const cJSON *b) {
     const cJSON *visit, *ms;
@@ -154,9 +135,7 @@ static void compare(const char *path, const cJSON *a, const cJSON *b, bool exact
             snprintf(to, sizeof to, "%.400s[%d]", path, index);
         }
         index++;
-        if (item->string && strcmp(item->string, "pairs") == 0) {
-            compare_pairs(to, item, other);
-        } else if (item->string && strcmp(item->string, "visits") == 0) {
+        if (item->string && strcmp(item->string, "visits") == 0) {
             compare_visits(to, item, other);
         } else if (!is_time(item->string)) {
             compare(to, item, other, exactly || is_measured(item->string));
@@ -187,25 +166,41 @@ static char *cut_check(char *line) {
     return last;
 }
 
-static double reported(const cJSON *row, const char *key, int frame) {
-    const cJSON *pairs = cJSON_GetObjectItemCaseSensitive(row, "pairs");
-    const cJSON *list = cJSON_GetObjectItemCaseSensitive(pairs, key);
-    const cJSON *item = cJSON_GetArrayItem(list, frame);
-    return item ? item->valuedouble : NAN;
-}
-
-static void expect_time(const cJSON *row, const char *key, int frame, double value) {
-    // cJSON writes 15 digits.
-    if (!(fabs(reported(row, key, frame) - value) <= 1e-14 * value)) {
-        char text[128];
-        snprintf(text, sizeof text, "frame %d has %.17g, the journal %.17g", frame,
-                 reported(row, key, frame), value);
-        fault(key, text);
-    }
-}
-
 // The numbers of a frame in a line of the journal.
 enum { SUBJECT, START, ROUND, BLOCK, FRAME, BEGIN, MS, WAIT, FRAME_VALUES = 14 };
+
+static bool has_number(const cJSON *visit, const char *key, double value) {
+    return cJSON_GetObjectItemCaseSensitive(visit, key)->valuedouble == value;
+}
+
+// Returns the time that the report has for a frame of the journal.
+static double reported(const cJSON *root, const double *frame) {
+    const cJSON *visit;
+    cJSON_ArrayForEach(visit, cJSON_GetObjectItemCaseSensitive(root, "visits")) {
+        const cJSON *number, *ms = cJSON_GetObjectItemCaseSensitive(visit, "ms")->child;
+        const bool wanted =
+            has_number(visit, "row", frame[SUBJECT]) && has_number(visit, "start", frame[START]) &&
+            has_number(visit, "round", frame[ROUND]) && has_number(visit, "block", frame[BLOCK]);
+        const cJSON *frames = wanted ? cJSON_GetObjectItemCaseSensitive(visit, "frames") : NULL;
+        cJSON_ArrayForEach(number, frames) {
+            if (number->valuedouble == frame[FRAME]) {
+                return ms->valuedouble;
+            }
+            ms = ms->next;
+        }
+    }
+    return NAN;
+}
+
+static void expect_time(const cJSON *root, const double *frame) {
+    // cJSON writes 15 digits.
+    if (!(fabs(reported(root, frame) - frame[MS]) <= 1e-14 * frame[MS])) {
+        char text[128];
+        snprintf(text, sizeof text, "frame %.0f of row %.0f has %.17g, the journal %.17g",
+                 frame[FRAME], frame[SUBJECT], reported(root, frame), frame[MS]);
+        fault("ms", text);
+    }
+}
 
 // The baseline of a path draws more frames in a round than its rows do.
 static bool is_baseline(const double *frames, int count, double subject, int timed) {
@@ -244,11 +239,10 @@ static int expect_round(const cJSON *root, const double *values, int count) {
             continue; // A repetition.
         }
         const double *base = find_base(values + 1, frames, frame, timed);
-        const cJSON *row = cJSON_GetArrayItem(rows, (int)frame[SUBJECT]);
         if (base != frame && frame[WAIT] <= DIP_TIMED_MOST_WAIT &&
             base[WAIT] <= DIP_TIMED_MOST_WAIT) {
-            expect_time(row, "ms", (int)frame[FRAME], frame[MS]);
-            expect_time(row, "base_ms", (int)frame[FRAME], base[MS]);
+            expect_time(root, frame);
+            expect_time(root, base);
             kept++;
         }
     }

@@ -134,6 +134,7 @@ def main():
     with open("good.json", encoding="utf-8") as file:
         good = json.load(file)
     good["rows"] = good["rows"][:12]
+    good["visits"] = [visit for visit in good["visits"] if visit["row"] < 12]
     good["sweeps"] = good["sweeps"][:1]
     good["predicted"]["combinations"] = good["predicted"]["combinations"][:2]
     for item in [*good["advice"], *good["predicted"]["combinations"]]:

@@ -13,6 +13,13 @@ void dip_made_report(DipCostReport *report, int rounds);
 // Gives a row the same time in all frames, beside a baseline of 1 ms.
 void dip_made_times(DipCostReport *report, int row, double ms);
 
+// Gives one frame of a row its time and that of the base's frame beside it. A base's own frame
+// takes base_ms.
+void dip_made_frame(DipCostReport *report, int row, int frame, double ms, double base_ms);
+
+// Returns a row's frame in the log. Borrowed until the next frame is made.
+DipTimed *dip_made_timed(DipCostReport *report, int row, int frame);
+
 // Adds a combination of settings on path 0, with the same time in all frames and the same FLIP at
 // all viewpoints. Returns its row. The caller estimates the report's times afterwards.
 int dip_made_combination(DipCostReport *report, const DipQuality *quality, double ms, double flip);

@@ -1,7 +1,6 @@
 // The timing driver on a made-up machine: a clock that the frames advance, and threads that wait
 // when the test says so.
 #include "app/measure/timing/driver.h"
-#include "app/measure/timing/pairs.h"
 #include "renderer/base/assert.h"
 
 #include <setjmp.h>
@@ -191,7 +190,6 @@ static int round_of(const DipTimed *timed) {
 
 static void every_frame_is_timed_once_beside_its_base(void **state) {
     (void)state;
-    static DipTimePair pairs[SUBJECTS * PATH];
     static int timed_in[SUBJECTS * PATH][ALL_ROUNDS];
     const DipDriverDef def = path_def();
     memset(timed_in, 0, sizeof timed_in);
@@ -217,16 +215,15 @@ static void every_frame_is_timed_once_beside_its_base(void **state) {
             assert_true(bases[s] == s || all == 1);
         }
     }
-    assert_true(dip_times_pairs(&times, pairs, NULL));
+    DipTimesFit *fit = dip_times_fit(&times, NULL);
+    assert_non_null(fit);
     for (int s = 0; s < SUBJECTS; s++) {
-        for (int f = 0; f < PATH; f++) {
-            const DipTimePair *pair = &pairs[s * PATH + f];
-            assert_true(fabs(pair->ms - true_ms(s, f)) < 1e-5);
-            assert_true(fabs(pair->base_ms - true_ms(bases[s], f)) < 1e-5);
-            assert_true(pair->wait == 0.0 && pair->base_wait == 0.0);
-            assert_true(fabs(pair->shares[1] - 0.25) < 1e-6);
-        }
+        const DipAlong along = dip_times_along(fit, s);
+        assert_int_equal(along.timed, bases[s] == s ? 0 : PATH);
+        assert_int_equal(along.kept, along.timed);
+        assert_true(fabs(dip_times_shares(fit, s)[1] - 0.25) < 1e-6);
     }
+    dip_times_fit_free(&fit);
     // In each round: 8 subjects in 3 blocks, 2 subjects in 1 block, and a base in each block; a
     // visit has an untimed frame; and each base draws each frame in two more rounds.
     assert_int_equal(m.turn_count, STARTS * SUBJECTS * WARM +
@@ -320,17 +317,14 @@ static void starts_begin_with_untimed_frames(void **state) {
 
 static void drift_cancels(void **state) {
     (void)state;
-    static DipTimePair pairs[SUBJECTS * PATH];
     const DipDriverDef def = path_def();
     m.slow_down = 0.005; // The last frames take several times as long as the first.
     work_until_done(&def);
     const DipTimes times = dip_driver_times(driver);
-    assert_true(dip_times_pairs(&times, pairs, NULL));
-    double sum = 0.0;
-    for (int f = 0; f < PATH; f++) {
-        sum += pairs[5 * PATH + f].ms / pairs[5 * PATH + f].base_ms / PATH;
-    }
-    assert_true(fabs(sum / 3.5 - 1.0) < 0.02);
+    DipTimesFit *fit = dip_times_fit(&times, NULL);
+    assert_non_null(fit);
+    assert_true(fabs(dip_times_ratio(fit, 5).value / 3.5 - 1.0) < 0.02);
+    dip_times_fit_free(&fit);
 }
 
 // The medians of five are 90, 65, 40, 25 and 25 ms, so settling ends with the fifth.
@@ -349,7 +343,6 @@ static void settling_ends_when_two_medians_agree(void **state) {
 
 static void a_few_disturbed_frames_are_left(void **state) {
     (void)state;
-    static DipTimePair pairs[SUBJECTS * PATH];
     const DipDriverDef def = path_def();
     m.busy_round = 2; // 2 of 20 frames: more than three quarters are left.
     work_until_done(&def);
@@ -362,17 +355,14 @@ static void a_few_disturbed_frames_are_left(void **state) {
         assert_true(busy ? fabs(times.list[i].wait - 0.5) < 1e-6 && times.list[i].switches == 3.0
                          : times.list[i].wait == 0.0);
     }
-    assert_true(dip_times_pairs(&times, pairs, NULL));
-    int disturbed = 0;
-    for (int f = 0; f < PATH; f++) {
-        disturbed += dip_time_pair_is_disturbed(&pairs[3 * PATH + f]);
-    }
-    assert_int_equal(disturbed, PER_ROUND);
+    DipTimesFit *fit = dip_times_fit(&times, NULL);
+    assert_non_null(fit);
+    assert_int_equal(dip_times_along(fit, 3).kept, PATH - PER_ROUND);
+    dip_times_fit_free(&fit);
 }
 
 static void many_disturbed_frames_are_drawn_again(void **state) {
     (void)state;
-    static DipTimePair pairs[SUBJECTS * PATH];
     const DipDriverDef def = path_def();
     m.busy_at_first = true;
     work_until_done(&def);
@@ -381,15 +371,13 @@ static void many_disturbed_frames_are_drawn_again(void **state) {
     assert_int_equal(m.start_count, STARTS);
     const DipTimes times = dip_driver_times(driver);
     assert_true(dip_driver_machine(driver, 1).repeated > 0);
-    assert_true(dip_times_pairs(&times, pairs, NULL));
+    DipTimesFit *fit = dip_times_fit(&times, NULL);
+    assert_non_null(fit);
     for (int s = 0; s < SUBJECTS; s++) {
-        int undisturbed = 0;
-        for (int f = 0; f < PATH; f++) {
-            undisturbed += !dip_time_pair_is_disturbed(&pairs[s * PATH + f]);
-            assert_true(pairs[s * PATH + f].ms > 0.0);
-        }
-        assert_true(bases[s] == s || undisturbed == 16);
+        const DipAlong along = dip_times_along(fit, s);
+        assert_true(bases[s] == s || (along.timed == PATH && along.kept == 16));
     }
+    dip_times_fit_free(&fit);
     int again = 0;
     for (int i = 0; i < times.count; i++) {
         again += times.list[i].block >= SUBJECTS;

@@ -3,7 +3,6 @@
 #include "app/measure/metrics/meter.h"
 #include "app/measure/metrics/ssim.h"
 #include "app/measure/timing/driver.h"
-#include "app/measure/timing/pairs.h"
 #include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
 #include "renderer/catalogue/scenes.h"
@@ -235,18 +234,22 @@ static bool time_subjects(void *context, DipError *err) {
     DipDriverStep step = DIP_DRIVER_FAILED;
     while (driver && (step = dip_driver_step(driver, err)) < DIP_DRIVER_DONE) {
     }
-    DipTimePair *pairs = context;
-    const DipTimes times = step == DIP_DRIVER_DONE ? dip_driver_times(driver) : (DipTimes){0};
-    const bool done = step == DIP_DRIVER_DONE && dip_times_pairs(&times, pairs, err);
+    DipTimesFit *fit = NULL;
+    (void)context;
+    if (step == DIP_DRIVER_DONE) {
+        const DipTimes times = dip_driver_times(driver);
+        fit = dip_times_fit(&times, err);
+    }
+    const bool done = fit != NULL;
+    dip_times_fit_free(&fit);
     dip_driver_destroy(&driver);
     return done;
 }
 
 static void timing_says_that_memory_ran_out(void **state) {
     (void)state;
-    DipTimePair pairs[4];
-    dip_out_of_memory_check(&(DipOutOfMemory){
-        .name = "timing", .context = pairs, .run = time_subjects, .needs_every_allocation = true});
+    dip_out_of_memory_check(
+        &(DipOutOfMemory){.name = "timing", .run = time_subjects, .needs_every_allocation = true});
 }
 
 int main(int argc, char **argv) {

@@ -2,7 +2,7 @@
 // schedule that the tool runs: visits of four frames beside the base, in shuffled blocks, rounds
 // and starts.
 #include "app/measure/stats/rounds.h"
-#include "app/measure/stats/statistics.h"
+#include "app/measure/stats/estimate.h"
 #include "renderer/base/assert.h"
 #include "tests/app/measure/noise.h"
 
@@ -251,7 +251,7 @@ static DipTimesFit *simulate(World *w) {
         run_round(w, round_of, round);
     }
     const DipTimes times = {w->list, w->count, SUBJECTS, w->starts, ROUNDS / w->starts,
-                            FRAMES,  base_of};
+                            FRAMES,  base_of,  false};
     DipTimesFit *fit = dip_times_fit(&times, NULL);
     assert_non_null(fit);
     return fit;
@@ -350,7 +350,7 @@ static Score score(Scenario scenario, int starts, bool flat, int runs) {
     for (int run = 0; run < runs; run++) {
         DipTimesFit *fit = simulate(&world);
         memcpy(sorted, world.slots, sizeof sorted);
-        const double usual = exp(dip_stats_median(sorted, SLOTS));
+        const double usual = exp(dip_median(sorted, SLOTS));
         for (int s = 1; s < SUBJECTS; s++) {
             add_score(&score, &world, fit, s, usual, 1.0 / (runs * (SUBJECTS - 1.0)));
         }
@@ -478,7 +478,7 @@ static void a_log_without_noise_is_exact(void **state) {
     DipTimed list[4 * PATH];
     assert_true(dip_rounds_deal(PATH, STARTS * PER_START, 2, 5, round_of, NULL));
     const int count = list_exact(list, STARTS, PER_START, PATH, round_of);
-    const DipTimes times = {list, count, 3, STARTS, PER_START, PATH, base_of};
+    const DipTimes times = {list, count, 3, STARTS, PER_START, PATH, base_of, false};
     DipTimesFit *fit = dip_times_fit(&times, NULL);
     assert_non_null(fit);
     const DipEstimate ratio = dip_times_ratio(fit, 2), step = dip_times_ratio_of(fit, 2, 1);
@@ -498,7 +498,7 @@ static void a_log_without_noise_is_exact(void **state) {
 static void what_is_not_known_has_no_interval(void **state) {
     (void)state;
     DipTimed list[] = {{.subject = 0, .ms = 2.0}, {.subject = 1, .ms = 3.0}};
-    const DipTimes once = {list, 2, 3, 1, 1, 1, base_of};
+    const DipTimes once = {list, 2, 3, 1, 1, 1, base_of, false};
     DipTimesFit *fit = dip_times_fit(&once, NULL);
     const DipEstimate ratio = dip_times_ratio(fit, 1);
     const DipAlong along = dip_times_along(fit, 1);
@@ -521,7 +521,7 @@ static void disturbed_frames_take_no_part(void **state) {
     }
     list[1].ms = 90.0;
     list[1].wait = 0.5;
-    const DipTimes times = {list, count, 2, 1, 6, 6, base_of};
+    const DipTimes times = {list, count, 2, 1, 6, 6, base_of, false};
     DipTimesFit *fit = dip_times_fit(&times, NULL);
     assert_true(fabs(dip_times_ratio(fit, 1).value - 2.0) < 1e-9);
     assert_int_equal(dip_times_along(fit, 1).kept, 5);
@@ -552,7 +552,7 @@ static void frames_of_every_round_keep_their_ratio(void **state) {
             }
         }
     }
-    DipTimesFit *fit = dip_times_fit(&(DipTimes){list, count, 2, 1, 5, 4, base_of}, NULL);
+    DipTimesFit *fit = dip_times_fit(&(DipTimes){list, count, 2, 1, 5, 4, base_of, true}, NULL);
     for (int f = 0; f < 4; f++) {
         assert_true(fabs(dip_times_frames(fit, 1)[f] - (4.0 + f) * ratios[f]) < 1e-9);
     }

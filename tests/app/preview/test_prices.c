@@ -19,7 +19,7 @@
 enum { ROUNDS = 3 };
 
 // The 97.5 % quantile of Student's t with two degrees of freedom (tables), times the least standard
-// error of a ratio's logarithm (app/measure/stats/paired.h). Times without noise have no other
+// error of a ratio's logarithm (app/measure/stats/rounds.h). Times without noise have no other
 // error.
 static const double half_width = 1.959964 * 0.001;
 
@@ -49,7 +49,7 @@ static int add_row(const char *text, int path, double ms, double base_ms, double
         sums->regions[0].squared_lin = 10.0; // An error far above the floor.
     }
     for (int f = 0; f < dip_cost_frame_count(&report); f++) {
-        rows[row].pairs[f] = (DipTimePair){.ms = ms, .base_ms = base_ms, .cpu_ms = ms};
+        dip_made_frame(&report, row, f, ms, base_ms);
     }
     return row;
 }
@@ -65,7 +65,7 @@ static int set_up(void **state) {
     add_row("opt=standard", 0, 1.001, 1.0, 0.5);
     // Path 1, whose baseline takes 2 ms, is the only one with mip detail.
     for (int f = 0; f < dip_cost_frame_count(&report); f++) {
-        report.rows[4].pairs[f] = (DipTimePair){.ms = 2.0, .base_ms = 2.0};
+        dip_made_frame(&report, 4, f, 2.0, 2.0);
     }
     add_row("miplod=quality", 1, 1.5, 2.0, 0.6);
     return 0;

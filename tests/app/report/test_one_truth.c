@@ -336,13 +336,12 @@ static void presets_are_points_of_the_front_within_the_budget(void **state) {
 
 static void percentile_is_one(void **state) {
     (void)state;
-    double values[20], scratch[20];
+    double values[20];
     DipTiming timing = {0};
     for (int i = 0; i < 20; i++) {
         values[i] = 1.0 + (7 * i) % 20;
         dip_timing_add(&timing, 1000, values[i]);
     }
-    assert_true(fabs(dip_stats_quantile(values, 20, 0.95, scratch) - 19.05) < 1e-9);
     assert_true(fabs(dip_timing_median_ms(&timing, 1000) - 10.5) < 1e-9);
     assert_true(fabs(dip_percentile(values, 20, 0.95) - 19.05) < 1e-9);
 }
