@@ -127,15 +127,23 @@ void dip_cost_interval_text(const DipEstimate *estimate, int digits, char text[D
 }
 
 void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]) {
-    int length = snprintf(text, DIP_COST_REASON,
-                          "Milliseconds are those of this run. In another run all times may differ "
-                          "by a tenth; ratios repeat far better.");
-    if (report->doubt > 0.0 && length > 0 && length < DIP_COST_REASON) {
-        snprintf(
-            text + length, (size_t)(DIP_COST_REASON - length),
-            " All intervals of times were widened by what the machine's unrest showed, %.1f %%.",
-            100.0 * (exp(report->doubt) - 1.0));
+    char spread[160] = "one start of the program does not tell by how much", widened[160] = "";
+    const double error = report->row_count > 0 ? report->rows[0].time.level_error : NAN;
+    if (report->starts > 1 && error > 0.0) {
+        const double student = dip_student_quantile(0.975, report->starts - 1);
+        snprintf(spread, sizeof spread, "by how its %d starts lie apart, by up to %.1f %%",
+                 report->starts, 100.0 * (exp(student * error) - 1.0));
     }
+    if (report->doubt > 0.0) {
+        snprintf(widened, sizeof widened,
+                 " All intervals of times were widened by what the machine's unrest showed, %.1f "
+                 "%%.",
+                 100.0 * (exp(report->doubt) - 1.0));
+    }
+    snprintf(text, DIP_COST_REASON,
+             "Milliseconds are those of this run: in another, all may be higher or lower together "
+             "(%s). Ratios do not share this.%s",
+             spread, widened);
 }
 
 // --- errors ------------------------------------------------------------------------------------
