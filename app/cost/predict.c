@@ -68,11 +68,11 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
         double row[DESIGN_TERMS];
         terms = design_terms(&predicted->list[i], row);
         memcpy(matrix + (size_t)i * (size_t)terms, row, (size_t)terms * sizeof *row);
-        if (memcmp(&predicted->list[i].quality, &report->options.baseline, sizeof(DipQuality)) ==
-            0) {
-            chosen[0] = i;
-            given = count > 0;
-        }
+    }
+    const int baseline = dip_report_find_predicted(predicted, &report->options.baseline);
+    if (baseline >= 0 && count > 0) {
+        chosen[0] = baseline;
+        given = 1;
     }
     dip_design_choose(matrix, predicted->count, terms, given, count, chosen);
     free(matrix);

@@ -42,12 +42,8 @@ static bool count(Counting *c, const DipQuality *quality, double *counters, DipE
 // The counters of a listed combination; see DipWorkFind.
 static const double *find(const void *context, const DipQuality *quality) {
     const DipCostPredictions *predicted = context;
-    for (int i = 0; i < predicted->count; i++) {
-        if (dip_quality_equal(&predicted->list[i].quality, quality)) {
-            return predicted->list[i].counters;
-        }
-    }
-    return NULL;
+    const int found = dip_report_find_predicted(predicted, quality);
+    return found >= 0 ? predicted->list[found].counters : NULL;
 }
 
 // True if the combination is composed rather than drawn: of many combinations, those that have

@@ -64,6 +64,34 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
     return report->row_count - 1;
 }
 
+int dip_report_find(const DipCostReport *report, const DipQuality *quality, int path, int first) {
+    for (int r = first; r < report->row_count; r++) {
+        if (report->rows[r].path == path && dip_quality_equal(&report->rows[r].quality, quality)) {
+            return r;
+        }
+    }
+    return -1;
+}
+
+int dip_report_find_same(const DipCostReport *report, const DipQuality *quality, int first) {
+    const int row = dip_report_find(report, quality, 0, first);
+    for (int i = 0; row < 0 && i < report->same_count; i++) {
+        if (dip_quality_equal(&report->same[i].quality, quality)) {
+            return report->same[i].row;
+        }
+    }
+    return row;
+}
+
+int dip_report_find_predicted(const DipCostPredictions *predicted, const DipQuality *quality) {
+    for (int i = 0; i < predicted->count; i++) {
+        if (dip_quality_equal(&predicted->list[i].quality, quality)) {
+            return i;
+        }
+    }
+    return -1;
+}
+
 void dip_cost_row_free(DipCostRow *row) {
     free(row->viewpoints);
     free(row->tails);
@@ -111,18 +139,6 @@ void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, 
                  dip_setting_info(DIP_SETTING_ASD)->steps[q->step[DIP_SETTING_ASD]]);
     } else {
         snprintf(text, DIP_COST_TEXT, "%s", step);
-    }
-}
-
-const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
-    return dip_cost_at_floor(report, row) ? "at floor" : "";
-}
-
-void dip_cost_interval_text(const DipEstimate *estimate, int digits, char text[DIP_COST_INTERVAL]) {
-    text[0] = '\0';
-    if (!isnan(estimate->low) && !isnan(estimate->high)) {
-        snprintf(text, DIP_COST_INTERVAL, "%.*f to %.*f", digits, estimate->low, digits,
-                 estimate->high);
     }
 }
 

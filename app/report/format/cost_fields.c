@@ -3,7 +3,7 @@
 
 #include "app/measure/stats/estimate.h"
 #include "app/report/choice.h"
-#include "app/report/format/analysis.h"
+#include "app/report/analysis.h"
 #include "app/report/viewpoints.h"
 
 #include <limits.h>
@@ -400,8 +400,7 @@ static const void *derive_at_floor(const DipFieldAt *at, DipFieldScratch *scratc
     }
 #define COUNTERS_FIELD(TYPE, KNOWN)                                                                \
     {                                                                                              \
-        "counters", NULL, "thousands",                                                             \
-            "Work of a frame, as means over the timed frames; it is exact.",                       \
+        "counters", NULL, NULL, "Work of a frame, as means over the timed frames; it is exact.",   \
             DIP_FACT(NUMBERS, TYPE, counters),                                                     \
             .names = dip_cost_counter_names, .most = DIP_COST_MOST_COUNT, .known = KNOWN,          \
             .scale = 1e-3, .digits = 4, .show = DIP_SHOW_FIGURES                                   \

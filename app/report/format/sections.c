@@ -1,7 +1,7 @@
 // Writes the sections of a report, and prints a report for a terminal.
 #include "app/report/format/sections.h"
 
-#include "app/report/format/analysis.h"
+#include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/order.h"
 #include "app/report/words.h"
@@ -95,11 +95,6 @@ static const void *derive_tier(const DipFieldAt *at, DipFieldScratch *scratch) {
     return tier_names[at->index];
 }
 
-static const void *derive_budget(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_budget_ms_text(((const DipCostTier *)at->item)->budget_ms, scratch->text);
-    return scratch->text;
-}
-
 static const void *derive_line(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipQuality *quality = ((const DipCostTier *)at->item)->quality;
     strcpy(scratch->text, quality ? "REQUESTED: " : "nothing surely fits");
@@ -111,7 +106,8 @@ static const void *derive_line(const DipFieldAt *at, DipFieldScratch *scratch) {
 
 static const DipField tier_fields[] = {
     {"tier", NULL, NULL, "Name of the tier.", DIP_DERIVED(TEXT, derive_tier)},
-    {"budget", NULL, "ms", "The time that a frame may take.", DIP_DERIVED(TEXT, derive_budget)},
+    {"budget", NULL, "ms", "The time that a frame may take.",
+     DIP_FACT(NUMBER, DipCostTier, budget_ms), .digits = 3, .show = DIP_SHOW_FIGURES},
     {"line", "line for ini", NULL, "The best settings.", DIP_DERIVED(TEXT, derive_line),
      .show = DIP_SHOW_CODE},
 };

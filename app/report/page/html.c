@@ -114,14 +114,14 @@ static void write_work(DipForm *form, const DipCostReport *report) {
     dip_put_html(form->out, "<section class=\"%s\" aria-labelledby=\"work\">\n",
                  report->sweep_count > 0 ? "wide" : "narrow");
     dip_form_heading(form, "work", "Work");
-    dip_form_table(form,
-                   &(DipTable){.id = "work-counters",
-                               .caption = "Work per frame: means over the timed frames. The "
-                                          "counters are exact, the same on every machine and with "
-                                          "any number of threads. Those that are the same in all "
-                                          "steps are left out.",
-                               DIP_COST_LINES(report, lines, dip_cost_all_step_lines(report, lines),
-                                              columns)});
+    dip_form_table(
+        form, &(DipTable){
+                  .id = "work-counters",
+                  .caption = "Work per frame, in thousands: means over the timed frames. "
+                             "The counters are exact, the same on every machine and "
+                             "with any number of threads. Those that are the same in "
+                             "all steps are left out.",
+                  DIP_COST_LINES(report, lines, dip_cost_all_step_lines(report, lines), columns)});
     dip_put_html(form->out, "</section>\n");
     dip_section_fit(form, report);
 }

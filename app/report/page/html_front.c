@@ -73,41 +73,6 @@ static DipPlotSeries series_of(const Points *points, const char *name, const cha
                            .style = style};
 }
 
-// --- predictions ---------------------------------------------------------------------------------
-
-enum { MOST_LISTED = 500 }; // A page lists at most this many combinations.
-
-static int compare_times(const void *a, const void *b) {
-    const DipCandidate *x = a;
-    const DipCandidate *y = b;
-    return (x->time.value > y->time.value) - (x->time.value < y->time.value);
-}
-
-// Lists predictions in order of time: all, or if there are too many those that were measured later
-// and the front of what was predicted. The caller frees the list even after a failure. Returns
-// false when memory runs out.
-static bool list_predictions(const DipCostReport *report, DipCandidates *all) {
-    const DipCostPrediction *list = report->predicted.list;
-    int front[DIP_COST_MAX_ROWS];
-    bool is_best[DIP_COST_MAX_ROWS] = {false};
-    if (!dip_candidates_of_predictions(report, report->options.budget_of, false, all, NULL)) {
-        return false;
-    }
-    const int best = dip_front(all, DIP_CLEARLY_BETTER, front);
-    for (int i = 0; i < best; i++) {
-        is_best[front[i]] = true;
-    }
-    const int count = all->count;
-    all->count = 0;
-    for (int i = 0; i < count; i++) {
-        if ((count <= MOST_LISTED || is_best[i] || list[i].row >= 0) && all->count < MOST_LISTED) {
-            all->list[all->count++] = all->list[i];
-        }
-    }
-    qsort(all->list, (size_t)all->count, sizeof *all->list, compare_times);
-    return true;
-}
-
 // --- the plot ------------------------------------------------------------------------------------
 
 // The series of the plot, and the predictions that the page lists.
@@ -152,7 +117,7 @@ static void add_predicted(const DipCostReport *report, Parts *parts) {
 static bool split(const DipCostReport *report, Parts *parts) {
     const DipCostChoice *choice = &report->choice;
     const DipCandidates *all = &choice->candidates;
-    if (!list_predictions(report, &parts->listed) ||
+    if (!dip_candidates_to_list(report, &parts->listed) ||
         !alloc_points(&parts->front, choice->front_count) ||
         !alloc_points(&parts->others, all->count) ||
         !alloc_points(&parts->predicted, parts->listed.count)) {
@@ -249,7 +214,7 @@ static void write_predictions(DipForm *form, const DipCostReport *report,
                                         {"row.figures.all.flip", "measured FLIP"},
                                         {"time_miss", NULL},
                                         {"flip_miss", NULL}};
-    DipCostLine lines[MOST_LISTED];
+    DipCostLine lines[DIP_CANDIDATES_LISTED];
     char caption[300];
     const bool is_part = listed->count < report->predicted.count;
     if (report->predicted.count == 0) {

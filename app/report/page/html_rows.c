@@ -8,10 +8,12 @@ static void format_time(const DipCostReport *report, int row, char text[DIP_COST
     const DipPathEstimate *time = &report->rows[row].time;
     text[0] = '\0';
     if (dip_cost_is_timed(report, row)) {
-        char interval[DIP_COST_INTERVAL];
-        dip_cost_interval_text(&time->mean_ms, 2, interval);
-        snprintf(text, DIP_COST_TEXT, "%.2f ms%s%s%s, 95th percentile %.2f ms", time->mean_ms.value,
-                 interval[0] ? " (" : "", interval, interval[0] ? ")" : "", time->p95_ms.value);
+        const DipField digits = {.digits = 2};
+        char interval[DIP_CELL_BYTES];
+        dip_field_interval_text(&digits, &time->mean_ms, interval);
+        snprintf(text, DIP_COST_TEXT, "%.2f ms%s%.64s%s, 95th percentile %.2f ms",
+                 time->mean_ms.value, *interval ? " (" : "", interval, *interval ? ")" : "",
+                 time->p95_ms.value);
     }
 }
 

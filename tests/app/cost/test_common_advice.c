@@ -330,10 +330,10 @@ static void the_table_names_everything(void **state) {
     expect_text(text, "\n       1  2.00   1.99 to 2.01  0.0800  100.0  af=4\n");
     expect_text(text, "\n       2  4.00   3.98 to 4.02  0.0600    0.0  the same\n");
     expect_text(text, "Next better    af=2 (mean FLIP -28.6 %), for +2.00 ms in report 2, where it "
-                      "takes longest;\n                 fits with 0 %");
+                      "takes longest; fits\n                 with 0 %");
     expect_text(text,
                 "Within 3 ms a frame in every report:\nNo common combination surely fits. The "
-                "fastest, defaults, takes 4.00 ms in report 2 and fits with 0 %.");
+                "fastest, defaults, takes 4.00 ms in report 2 and fits with\n0 %.");
     expect_text(text,
                 "\n  low     3       nothing surely fits\n  medium  5       REQUESTED: aa=none,");
     expect_text(text, "\n  ultra   10      REQUESTED: aa=none,taa=off,aaa=off,asd=1,af=4,");

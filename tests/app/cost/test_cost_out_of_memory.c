@@ -2,7 +2,6 @@
 // stays as it was, and a journal never loses a measurement.
 #include "app/bench/enlarge.h"
 #include "app/cost/advise/common_advice.h"
-#include "app/report/page/data_uri.h"
 #include "app/cost/diff/diff.h"
 #include "app/cost/diff/diff_cause.h"
 #include "app/report/format/formats.h"
