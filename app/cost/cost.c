@@ -2,7 +2,7 @@
 // report.
 #include "app/cost/cost.h"
 
-#include "app/report/format/analysis.h"
+#include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/report/page/report_pictures.h"

@@ -90,14 +90,9 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 
 // Finds the row of these settings on this path, or adds it. Returns -1 when there is no room.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
-    for (int r = 0; r < report->row_count; r++) {
-        if (report->rows[r].path == path &&
-            memcmp(&report->rows[r].quality, quality, sizeof *quality) == 0) {
-            return r;
-        }
-    }
-    if (report->row_count == DIP_COST_MAX_ROWS) {
-        return -1;
+    const int known = dip_report_find(report, quality, path, 0);
+    if (known >= 0 || report->row_count == DIP_COST_MAX_ROWS) {
+        return known;
     }
     report->rows[report->row_count] = (DipCostRow){.quality = *quality, .path = path};
     return report->row_count++;

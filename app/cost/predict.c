@@ -51,12 +51,8 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
 // The counters of a listed combination; see DipWorkFind.
 static const double *find(const void *context, const DipQuality *quality) {
     const DipCostPredictions *predicted = context;
-    for (int i = 0; i < predicted->count; i++) {
-        if (dip_quality_equal(&predicted->list[i].quality, quality)) {
-            return predicted->list[i].counters;
-        }
-    }
-    return NULL;
+    const int found = dip_report_find_predicted(predicted, quality);
+    return found >= 0 ? predicted->list[found].counters : NULL;
 }
 
 // True if the combination is composed rather than drawn: of many combinations, those that have
@@ -161,11 +157,11 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
         double row[DESIGN_TERMS];
         terms = design_terms(&predicted->list[i], row);
         memcpy(matrix + (size_t)i * (size_t)terms, row, (size_t)terms * sizeof *row);
-        if (memcmp(&predicted->list[i].quality, &report->options.baseline, sizeof(DipQuality)) ==
-            0) {
-            chosen[0] = i;
-            given = count > 0;
-        }
+    }
+    const int baseline = dip_report_find_predicted(predicted, &report->options.baseline);
+    if (baseline >= 0 && count > 0) {
+        chosen[0] = baseline;
+        given = 1;
     }
     dip_design_choose(matrix, predicted->count, terms, given, count, chosen);
     free(matrix);

@@ -130,3 +130,32 @@ const DipCandidate *dip_cost_chosen(const DipCostReport *report, int budget) {
     const int chosen = budget < choice->advice_count ? choice->advice[budget].chosen : -1;
     return chosen >= 0 ? &choice->candidates.list[chosen] : NULL;
 }
+
+static int compare_times(const void *a, const void *b) {
+    const DipCandidate *x = a;
+    const DipCandidate *y = b;
+    return (x->time.value > y->time.value) - (x->time.value < y->time.value);
+}
+
+bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *all) {
+    const DipCostPrediction *list = report->predicted.list;
+    int front[DIP_COST_MAX_ROWS];
+    bool is_best[DIP_COST_MAX_ROWS] = {false};
+    if (!dip_candidates_of_predictions(report, report->options.budget_of, false, all, NULL)) {
+        return false;
+    }
+    const int best = dip_front(all, DIP_CLEARLY_BETTER, front);
+    for (int i = 0; i < best; i++) {
+        is_best[front[i]] = true;
+    }
+    const int count = all->count;
+    all->count = 0;
+    for (int i = 0; i < count; i++) {
+        if ((count <= DIP_CANDIDATES_LISTED || is_best[i] || list[i].row >= 0) &&
+            all->count < DIP_CANDIDATES_LISTED) {
+            all->list[all->count++] = all->list[i];
+        }
+    }
+    qsort(all->list, (size_t)all->count, sizeof *all->list, compare_times);
+    return true;
+}

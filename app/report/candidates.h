@@ -18,6 +18,12 @@ bool dip_candidates_of(const DipCostReport *report, DipTimeKind kind, DipCandida
 // later has its measured time and error; otherwise those that were predicted.
 bool dip_candidates_of_predictions(const DipCostReport *report, DipTimeKind kind, bool measured,
                                    DipCandidates *candidates, DipError *err);
+
+// Lists the predictions that a page shows, in order of time: all, or if there are too many those
+// that were measured later and the front of what was predicted. `row` is the index of the
+// prediction. The caller frees the list even after a failure. Returns false when memory runs out.
+enum { DIP_CANDIDATES_LISTED = 500 };
+bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *listed);
 void dip_candidates_free(DipCandidates *candidates);
 
 // Returns the candidate of a measured row, with its time of a kind.

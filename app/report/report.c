@@ -63,6 +63,34 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
     return report->row_count - 1;
 }
 
+int dip_report_find(const DipCostReport *report, const DipQuality *quality, int path, int first) {
+    for (int r = first; r < report->row_count; r++) {
+        if (report->rows[r].path == path && dip_quality_equal(&report->rows[r].quality, quality)) {
+            return r;
+        }
+    }
+    return -1;
+}
+
+int dip_report_find_same(const DipCostReport *report, const DipQuality *quality, int first) {
+    const int row = dip_report_find(report, quality, 0, first);
+    for (int i = 0; row < 0 && i < report->same_count; i++) {
+        if (dip_quality_equal(&report->same[i].quality, quality)) {
+            return report->same[i].row;
+        }
+    }
+    return row;
+}
+
+int dip_report_find_predicted(const DipCostPredictions *predicted, const DipQuality *quality) {
+    for (int i = 0; i < predicted->count; i++) {
+        if (dip_quality_equal(&predicted->list[i].quality, quality)) {
+            return i;
+        }
+    }
+    return -1;
+}
+
 void dip_cost_row_free(DipCostRow *row) {
     free(row->viewpoints);
     free(row->tails);
@@ -112,28 +140,24 @@ void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, 
     }
 }
 
-const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
-    return dip_cost_at_floor(report, row) ? "at floor" : "";
-}
-
-void dip_cost_interval_text(const DipEstimate *estimate, int digits, char text[DIP_COST_INTERVAL]) {
-    text[0] = '\0';
-    if (!isnan(estimate->low) && !isnan(estimate->high)) {
-        snprintf(text, DIP_COST_INTERVAL, "%.*f to %.*f", digits, estimate->low, digits,
-                 estimate->high);
-    }
-}
-
 void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]) {
-    int length = snprintf(text, DIP_COST_REASON,
-                          "Milliseconds are those of this run. In another run all times may differ "
-                          "by a tenth; ratios repeat far better.");
-    if (report->doubt > 0.0 && length > 0 && length < DIP_COST_REASON) {
-        snprintf(
-            text + length, (size_t)(DIP_COST_REASON - length),
-            " All intervals of times were widened by what the machine's unrest showed, %.1f %%.",
-            100.0 * (exp(report->doubt) - 1.0));
+    char spread[160] = "one start of the program does not tell by how much", widened[160] = "";
+    const double error = report->row_count > 0 ? report->rows[0].time.level_error : NAN;
+    if (report->starts > 1 && error > 0.0) {
+        const double student = dip_student_quantile(0.975, report->starts - 1);
+        snprintf(spread, sizeof spread, "by how its %d starts lie apart, by up to %.1f %%",
+                 report->starts, 100.0 * (exp(student * error) - 1.0));
     }
+    if (report->doubt > 0.0) {
+        snprintf(widened, sizeof widened,
+                 " All intervals of times were widened by what the machine's unrest showed, %.1f "
+                 "%%.",
+                 100.0 * (exp(report->doubt) - 1.0));
+    }
+    snprintf(text, DIP_COST_REASON,
+             "Milliseconds are those of this run: in another, all may be higher or lower together "
+             "(%s). Ratios do not share this.%s",
+             spread, widened);
 }
 
 // --- errors ------------------------------------------------------------------------------------

@@ -219,6 +219,16 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
                             DipError *err);
 void dip_cost_report_free(DipCostReport *report);
 
+// Returns the first row from `first` on with these settings on a path, or -1.
+int dip_report_find(const DipCostReport *report, const DipQuality *quality, int path, int first);
+
+// The same on path 0; otherwise the row that stands for these settings, since it draws the same
+// pictures, or -1.
+int dip_report_find_same(const DipCostReport *report, const DipQuality *quality, int first);
+
+// Returns the index of the prediction of these settings, or -1.
+int dip_report_find_predicted(const DipCostPredictions *predicted, const DipQuality *quality);
+
 // Writes a sentence that says what the report's milliseconds and ratios hold for.
 void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]);
 
@@ -230,10 +240,6 @@ void dip_cost_row_free(DipCostRow *row);
 static inline void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]) {
     dip_quality_format_changes(quality, text, DIP_COST_TEXT);
 }
-
-// Writes an interval, "1.23 to 1.45" with two digits, or "" if it is not known.
-enum { DIP_COST_INTERVAL = 64 };
-void dip_cost_interval_text(const DipEstimate *estimate, int digits, char text[DIP_COST_INTERVAL]);
 
 // Returns the plural ending of a noun after a number: "" or "s".
 static inline const char *dip_cost_plural(int count) {
@@ -249,9 +255,6 @@ void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep
 // "on, asd=2".
 void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
                         char text[DIP_COST_TEXT]);
-
-// Returns "at floor" if dip_cost_at_floor is true for the row, otherwise "".
-const char *dip_cost_floor_mark(const DipCostReport *report, int row);
 
 // --- errors ------------------------------------------------------------------------------------
 

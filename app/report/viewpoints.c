@@ -5,14 +5,6 @@
 
 #include <math.h>
 
-const char *const dip_cost_metric_names[DIP_COST_METRIC_COUNT] = {
-    [DIP_COST_RMSE] = "rmse_lin",
-    [DIP_COST_PSNR] = "psnr_db",
-    [DIP_COST_SSIM] = "ssim",
-    [DIP_COST_FLIP] = "flip",
-    [DIP_COST_FLICKER] = "flicker_rms_lin",
-};
-
 // True if the metric is computed from a mean of squares.
 static bool is_of_squares(DipCostMetric metric) {
     return metric == DIP_COST_RMSE || metric == DIP_COST_PSNR || metric == DIP_COST_FLICKER;

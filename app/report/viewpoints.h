@@ -15,9 +15,6 @@ typedef enum DipCostMetric {
     DIP_COST_METRIC_COUNT
 } DipCostMetric;
 
-// Names in cost.json and cost.csv: "rmse_lin", "psnr_db", "ssim", "flip", "flicker_rms_lin".
-extern const char *const dip_cost_metric_names[DIP_COST_METRIC_COUNT];
-
 // Returns a row's metric over all judged viewpoints, with the 95 % interval of what all viewpoints
 // of the path would have. For FLIP and SSIM it is Student's t of the viewpoints' own means. The
 // other metrics come from a mean of squares, which is positive and skewed: Student's t of its

@@ -1,14 +1,14 @@
 #!/bin/sh
-# Fails when a source of the report's page, of a plot or of a table for the terminal writes by itself
+# Fails when a source of the report's page, of a plot or of a form for the terminal writes by itself
 # and not through app/files/put.h, which escapes what it inserts. Only the sources that hold
 # style, scripts or SVG attributes may write markup unchanged.
 #
 # Usage: check_writers.sh ROOT
 set -eu
 cd "$1"
-sources=$(find app -name 'html*.c' -o -path '*/page/*.c' -o -name 'plot.c' |
+sources=$(find app -name 'html*.c' -o -name '*_html.c' -o -name 'form.c' -o -name 'sections.c' -o -path '*/page/*.c' -o -name 'plot.c' |
     grep -v '^app/preview/\|/put\.c$' | sort)
-tables=$(find app/cost app/report -name '*table.c' -o -name 'merge_machines.c' -o -name 'tiers.c')
+tables=$(find app/cost app/report -name '*table.c' -o -name 'merge_machines.c' -o -name '*_text.c')
 failed=0
 if test "$(echo "$sources" | wc -l)" -lt 5; then
     echo "only $(echo "$sources" | wc -l) sources of the page; has the tree moved?"

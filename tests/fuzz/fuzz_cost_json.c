@@ -1,7 +1,7 @@
 // Fuzzes the reader of cost.json, which `diptych cost merge` joins with others. A report that was
 // read can be written in every format, and is the same when its JSON is read again.
 #include "app/cost/diff/diff.h"
-#include "app/report/format/analysis.h"
+#include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "renderer/base/file.h"

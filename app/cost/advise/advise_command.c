@@ -1,6 +1,5 @@
 // The command `diptych cost advise`: one choice of settings for several reports.
 #include "app/cost/advise/advise_options.h"
-#include "app/cost/advise/advise_output.h"
 #include "app/cost/command.h"
 #include "renderer/base/assert.h"
 

@@ -4,6 +4,7 @@
 #ifndef DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 #define DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 
+#include "app/report/format/fields.h"
 #include "app/report/report.h"
 
 #ifdef __cplusplus
@@ -52,6 +53,23 @@ DipCandidate dip_cost_common_candidate(const DipCostCommon *common, int combinat
 // alone. For a single report the common choice is its own.
 void dip_cost_common_advise(const DipCostCommon *common, double budget_ms,
                             DipCostCommonAdvice *advice);
+
+// The share by which the chosen combination's FLIP in one report is above the FLIP of the row that
+// this report alone would choose. Both count at least as much as the floor of the report's truths.
+// NAN if either is missing.
+double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostCommonAdvice *advice,
+                                  int report);
+
+// Prints the advice for `count` budgets for a terminal. Four budgets are also printed as the tiers
+// of a settings menu.
+void dip_cost_common_print(const DipCostCommon *common, const DipCostCommonAdvice *advice,
+                           int count, FILE *out);
+
+// Writes the same to a file. Fails with DIP_ERROR_MEMORY, or DIP_ERROR_IO if the file cannot be
+// written.
+extern const DipRecord dip_cost_common_record; // Of the file.
+bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommonAdvice *advice,
+                                int count, const char *file, DipError *err);
 
 #ifdef __cplusplus
 }

@@ -209,11 +209,7 @@ const DipBenchSample *dip_cost_duel_sample(const DipCostDuel *duel, int subject,
 
 void dip_cost_duel_count(const DipCostDuel *duel, int subject, double *counters) {
     for (int f = 0; f < duel->frames; f++) {
-        double *value = counters;
-        const DipCounters *counted = &dip_cost_duel_sample(duel, subject, f)->counters;
-#define ADD_COUNTER(name, text) *value++ += (double)counted->name;
-        DIP_COUNTER_LIST(ADD_COUNTER)
-#undef ADD_COUNTER
+        dip_counters_add(&dip_cost_duel_sample(duel, subject, f)->counters, counters);
     }
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] /= duel->frames;

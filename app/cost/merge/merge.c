@@ -3,7 +3,7 @@
 
 #include "app/cost/command.h"
 #include "app/cost/context.h"
-#include "app/report/format/analysis.h"
+#include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/cost/merge/merge_machines.h"

@@ -78,13 +78,8 @@ static bool list_combinations(DipCostElsewherePrediction *p, const char *name, D
 // --- predicting ----------------------------------------------------------------------------------
 
 static const DipCostPrediction *find_baseline(const DipCostReport *report) {
-    for (int i = 0; i < report->predicted.count; i++) {
-        if (memcmp(&report->predicted.list[i].quality, &report->options.baseline,
-                   sizeof(DipQuality)) == 0) {
-            return &report->predicted.list[i];
-        }
-    }
-    return &report->predicted.list[0];
+    const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);
+    return &report->predicted.list[found >= 0 ? found : 0];
 }
 
 // Frames that are counted are a few of those that are timed. The work of the baseline in all of

@@ -1,117 +1,33 @@
 // Printing predictions of times elsewhere, and writing them as JSON and CSV.
 #include "app/cost/predict/predict_elsewhere.h"
 
-#include "app/report/format/cost_fields.h"
-#include "app/report/verdict.h"
 #include "app/files/whole_file.h"
-#include "app/files/put.h"
+#include "app/report/format/sections.h"
+#include "app/report/verdict.h"
 
-// --- the table -----------------------------------------------------------------------------------
-
-static void print_place(const char *what, const DipCostReport *place, FILE *out) {
-    dip_put_text(out, "%-8s %dx%d pixels, path %s, %d thread%s, %s\n", what, place->width,
-                 place->height, place->paths[0], place->threads, dip_cost_plural(place->threads),
-                 place->isa);
-}
-
-static void print_misses(const char *what, const DipCostMisses *misses, FILE *out) {
-    dip_put_text(out, "         %-46s median %5.1f %%, 90 %% within %5.1f %%\n", what,
-                 100.0 * misses->median, 100.0 * misses->p90);
-}
-
-static void print_checks(const DipCostElsewherePrediction *p, FILE *out) {
-    static const char alone[] = "the report alone misses them by";
-    if (p->timed_count > 0) {
-        dip_put_text(
-            out,
-            "timed    %d combination%s there, beside the report's baseline: %s %.3f times as long "
-            "as the report alone predicts\n",
-            p->timed_count, dip_cost_plural(p->timed_count),
-            p->timed_count == 1 ? "it takes" : "they take", p->factor);
-        print_misses(alone, &p->timed_as_is, out);
-        print_misses("each predicted from the report and the others", &p->timed_left_out, out);
-    } else {
-        dip_put_text(out, "timed    nothing: the predictions come from the report alone\n");
-    }
-    if (p->checked_count > 0) {
-        dip_put_text(out, "checked  %d other combination%s there\n", p->checked_count,
-                     dip_cost_plural(p->checked_count));
-        print_misses(alone, &p->checked_as_is, out);
-        if (p->timed_count > 0) {
-            print_misses("the predictions miss them by", &p->checked_fitted, out);
-        }
-    }
-    if (p->wait > dip_cost_wait_limits.green) {
-        dip_put_text(out,
-                     "warning  the threads waited %.0f %% of their time for a core, which other "
-                     "programs held, so the times that were taken there are %s\n",
-                     100.0 * p->wait, p->wait > dip_cost_wait_limits.red ? "wrong" : "less sure");
-    }
-}
-
-static void print_combination(const DipCostElsewherePrediction *p, const DipCostPredictedThere *c,
-                              FILE *out) {
-    char text[DIP_COST_TEXT];
-    dip_cost_settings_text(&c->quality, text);
-    dip_put_text(out, "  %-34s %9.2f %9.2f", text, c->report_ms, c->ms);
-    if (c->timed >= 0) {
-        const DipEstimate *ms = &p->timed[c->timed].ms;
-        dip_put_text(out, " %9.2f %8.2f to %.2f", ms->value, ms->low, ms->high);
-    }
-    dip_put_text(out, "\n");
-}
-
-void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out) {
-    dip_put_text(out, "scene    %s\n", p->report.scene);
-    print_place("report", &p->report, out);
-    print_place("there", &p->there, out);
-    dip_put_text(out, "model    prices of work from %d row%s", p->report.row_count,
-                 dip_cost_plural(p->report.row_count));
-    if (p->report.smaller_count > 0) {
-        dip_put_text(out, " and %d at %dx%d", p->report.smaller_count, p->report.smaller_width,
-                     p->report.smaller_height);
-    }
-    dip_put_text(out, " of the report\n");
-    print_misses("each row predicted from the others", &p->fit, out);
-    print_checks(p, out);
-    const bool any_timed = p->timed_count + p->checked_count > 0;
-    dip_put_text(out, "\nMean times of a frame, in milliseconds of the report's run:\n");
-    dip_put_text(out, "  %-34s %9s %9s%s\n", "combination", "report", "predicted",
-                 any_timed ? "     timed 95 % interval" : "");
-    for (int i = 0; i < p->count; i++) {
-        print_combination(p, &p->list[i], out);
-    }
-}
-
-// --- files ---------------------------------------------------------------------------------------
+// --- fields --------------------------------------------------------------------------------------
 
 // The context of all items is the prediction.
 static const DipCostElsewherePrediction *prediction_of(const DipFieldAt *at) {
     return at->context;
 }
 
-static const void *derive_what(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)at;
-    (void)scratch;
-    return "diptych cost predict";
+static int timed_of(const DipFieldAt *at) {
+    return ((const DipCostPredictedThere *)at->item)->timed;
 }
 
-static const void *derive_there(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &prediction_of(at)->there;
-}
-
-static const void *derive_role(const DipFieldAt *at, DipFieldScratch *scratch) {
-    const int timed = ((const DipCostPredictedThere *)at->item)->timed;
-    (void)scratch;
-    return timed < 0 ? "predicted" : timed < prediction_of(at)->timed_count ? "timed" : "checked";
-}
-
-static const void *derive_timed(const DipFieldAt *at, DipFieldScratch *scratch) {
-    const int timed = ((const DipCostPredictedThere *)at->item)->timed;
-    (void)scratch;
-    return timed >= 0 ? &prediction_of(at)->timed[timed] : NULL;
-}
+#define DERIVE(name, value)                                                                        \
+    static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
+        (void)at;                                                                                  \
+        (void)scratch;                                                                             \
+        return value;                                                                              \
+    }
+DERIVE(derive_what, "diptych cost predict")
+DERIVE(derive_there, &prediction_of(at)->there)
+DERIVE(derive_role, timed_of(at) < 0                                ? "predicted"
+                    : timed_of(at) < prediction_of(at)->timed_count ? "timed"
+                                                                    : "checked")
+DERIVE(derive_timed, timed_of(at) >= 0 ? &prediction_of(at)->timed[timed_of(at)] : NULL)
 
 static const DipField place_fields[] = {
     {"width", NULL, "px", "Width of the pictures.", DIP_FACT(WHOLE, DipCostReport, width)},
@@ -185,6 +101,71 @@ static const DipField prediction_fields[] = {
 const DipRecord dip_cost_prediction_record =
     DIP_RECORD("prediction elsewhere", "What `diptych cost predict --json` writes.",
                prediction_fields, DipCostElsewherePrediction, NULL);
+
+// --- the terminal --------------------------------------------------------------------------------
+
+static void print_place(DipForm *form, const char *what, const DipCostReport *place) {
+    dip_form_fact(form, what, "%dx%d pixels, path %s, %d thread%s, %s", place->width, place->height,
+                  place->paths[0], place->threads, dip_cost_plural(place->threads), place->isa);
+}
+
+static void print_checks(DipForm *form, const DipCostElsewherePrediction *p) {
+    if (p->timed_count > 0) {
+        dip_form_fact(form, "Timed",
+                      "%d combination%s there, beside the report's baseline: %.3f times as long as "
+                      "the report alone predicts",
+                      p->timed_count, dip_cost_plural(p->timed_count), p->factor);
+        dip_section_misses(form, "by report", &p->timed_as_is);
+        dip_section_misses(form, "by the others", &p->timed_left_out);
+    } else {
+        dip_form_fact(form, "Timed", "nothing: the predictions come from the report alone");
+    }
+    if (p->checked_count > 0) {
+        dip_form_fact(form, "Checked", "%d other combination%s there", p->checked_count,
+                      dip_cost_plural(p->checked_count));
+        dip_section_misses(form, "by report", &p->checked_as_is);
+        if (p->timed_count > 0) {
+            dip_section_misses(form, "as predicted", &p->checked_fitted);
+        }
+    }
+    if (p->wait > dip_cost_wait_limits.green) {
+        dip_form_fact(form, "Warning",
+                      "The threads waited %.0f %% of their time for a core, which other programs "
+                      "held, so the times that were taken there are %s.",
+                      100.0 * p->wait, p->wait > dip_cost_wait_limits.red ? "wrong" : "less sure");
+    }
+}
+
+void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out) {
+    static const DipColumn columns[] = {
+        {"settings", NULL}, {"report_ms", NULL}, {"ms", NULL}, {"timed.ms", "timed"}};
+    const DipCostReport *report = &p->report;
+    DipForm form = {.out = out};
+    char smaller[64] = "";
+    if (report->smaller_count > 0) {
+        snprintf(smaller, sizeof smaller, " and %d at %dx%d", report->smaller_count,
+                 report->smaller_width, report->smaller_height);
+    }
+    dip_form_table(&form, &(DipTable){.caption = "Mean times of a frame, in milliseconds of the "
+                                                 "report's run.",
+                                      .record = &there_record,
+                                      .context = (void *)p,
+                                      .columns = columns,
+                                      .column_count = DIP_FIELD_COUNT_OF(columns),
+                                      .items = p->list,
+                                      .count = p->count});
+    dip_form_heading(&form, NULL, "How they were predicted");
+    dip_form_fact(&form, "Scene", "%s", report->scene);
+    print_place(&form, "Report", report);
+    print_place(&form, "There", &p->there);
+    dip_form_fact(&form, "Model", "prices of work from %d row%s%s of the report", report->row_count,
+                  dip_cost_plural(report->row_count), smaller);
+    dip_section_misses(&form, "by the others", &p->fit);
+    print_checks(&form, p);
+    dip_form_end(&form);
+}
+
+// --- files ---------------------------------------------------------------------------------------
 
 static bool print_json(const void *context, FILE *out) {
     dip_fields_print_json(&dip_cost_prediction_record,

@@ -3,7 +3,7 @@
 
 #include "app/measure/stats/estimate.h"
 #include "app/report/choice.h"
-#include "app/report/format/analysis.h"
+#include "app/report/analysis.h"
 #include "app/report/viewpoints.h"
 
 #include <limits.h>
@@ -66,6 +66,13 @@ typedef struct Region {
     DipMetrics metrics;
 } Region;
 
+// The share of all pixels. The owner of a class is an item of figures.
+static const void *derive_share(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const Region *all = at->owner->item;
+    scratch->numbers[0] = ((const Region *)at->item)->pixels / fmax(all->pixels, 1.0);
+    return scratch->numbers[0] > 0.0 ? scratch : NULL;
+}
+
 static const DipField region_fields[] = {
     {"pixels", NULL, NULL, "Number of pixels of this class, over all judged pictures.",
      DIP_FACT(NUMBER, Region, pixels)},
@@ -77,6 +84,8 @@ static const DipField region_fields[] = {
      .digits = 4},
     {"flip", "FLIP", NULL, "Mean FLIP of these pixels.", DIP_FACT(NUMBER, Region, metrics.flip),
      .digits = 4},
+    {"share", "of all pixels", "%", "Their share of all pixels.", .kind = DIP_FIELD_NUMBER,
+     .where = DIP_FIELD_DERIVED, .derive = derive_share, .digits = 1, .scale = 100.0},
 };
 static const DipRecord region_record =
     DIP_RECORD("class of pixels", "Metrics of a part of the picture.", region_fields, Region, NULL);
@@ -176,6 +185,16 @@ METRIC_FUNCTIONS(FLICKER)
         name, title, NULL, means, DIP_FACT(NUMBER, DipCostTail, flip.MEMBER), .most = MOST,        \
                                                                               .digits = DIGITS     \
     }
+static const void *derive_place(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipCostTail *tail = at->item;
+    const DipFlipTail *flip = &tail->flip;
+    snprintf(scratch->text, sizeof scratch->text,
+             "viewpoint %d, frame %.0f, %.0f x %.0f px at (%.0f, %.0f)", tail->worst_viewpoint + 1,
+             flip->worst_frame + 1.0, flip->worst_width, flip->worst_height, flip->worst_x,
+             flip->worst_y);
+    return scratch->text;
+}
+
 static const DipField tail_fields[] = {
     TAIL_FIELD("p50", p50, 1.0, "50 %", "Half of the pixels have at most this FLIP.", 4),
     TAIL_FIELD("p95", p95, 1.0, "95 %", "95 % of the pixels have at most this FLIP.", 4),
@@ -192,12 +211,14 @@ static const DipField tail_fields[] = {
     {"worst_viewpoint", "its viewpoint", NULL,
      "The viewpoint with the worst block, from 0 on; only of a row.", .kind = DIP_FIELD_WHOLE,
      .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .offset = offsetof(DipCostTail, worst_viewpoint)},
+    {"place", "where", NULL, "Where the worst block is; only of a row.", .kind = DIP_FIELD_TEXT,
+     .where = DIP_FIELD_DERIVED, .derive = derive_place},
 };
 static const DipRecord viewpoint_tail_record = {
     "distribution of FLIP",
     "How FLIP is distributed over the pixels of a viewpoint.",
     tail_fields,
-    DIP_FIELD_COUNT_OF(tail_fields) - 1,
+    DIP_FIELD_COUNT_OF(tail_fields) - 2,
     sizeof(DipFlipTail),
     NULL};
 static const DipRecord tail_record =
@@ -342,8 +363,9 @@ static const void *derive_at_floor(const DipFieldAt *at, DipFieldScratch *scratc
 #define COUNTERS_FIELD(TYPE, KNOWN)                                                                \
     {                                                                                              \
         "counters", NULL, NULL, "Work of a frame, as means over the timed frames; it is exact.",   \
-            DIP_FACT(NUMBERS, TYPE, counters), .names = dip_cost_counter_names,                    \
-                                               .most = DIP_COST_MOST_COUNT, .known = KNOWN         \
+            DIP_FACT(NUMBERS, TYPE, counters),                                                     \
+            .names = dip_cost_counter_names, .most = DIP_COST_MOST_COUNT, .known = KNOWN,          \
+            .scale = 1e-3, .digits = 4, .show = DIP_SHOW_FIGURES                                   \
     }
 #define OF_VIEWPOINTS(METRIC, NAME, title, unit, DIGITS)                                           \
     {NAME "_of_viewpoints",                                                                        \
@@ -776,17 +798,24 @@ static const DipRecord sweep_record =
 
 // --- same pictures, predictions, smaller pictures ------------------------------------------------
 
+static const void *derive_same_as(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &report_of(at)->rows[((const DipCostSame *)at->item)->row].quality;
+}
+
 static const DipField same_fields[] = {
     {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCostSame, quality)},
     {"row", NULL, NULL, "Index of the row that stands for the combination.",
      DIP_FACT(WHOLE, DipCostSame, row), .most = DIP_COST_MAX_ROWS - 1},
+    {"same_as", "draws the same as", NULL, "The settings of that row.", .kind = DIP_FIELD_SETTINGS,
+     .where = DIP_FIELD_DERIVED, .derive = derive_same_as},
 };
 
 static bool check_same(const DipFieldAt *at) {
     return is_row(report_of(at), ((const DipCostSame *)at->item)->row);
 }
 
-static const DipRecord same_record =
+const DipRecord dip_cost_same_record =
     DIP_RECORD("same pictures",
                "A combination that draws the same pictures as a row with fewer settings off their "
                "defaults.",
@@ -909,13 +938,13 @@ static const DipField interaction_fields[] = {
     {"flip", "FLIP", "difference",
      "FLIP of both settings together, less that of each alone, plus that of neither. Above 0, both "
      "together lower FLIP by less than the sum of what each lowers it.",
-     DIP_FACT(NUMBER, DipCostInteraction, flip), .digits = 5},
+     DIP_FACT(NUMBER, DipCostInteraction, flip), .digits = 5, .show = DIP_SHOW_SIGN},
     {"time", "time", "factor",
      "Time of both together times that of neither, divided by the times of each alone. Above 1, "
      "both together cost more than the product of their ratios; 0 without times.",
      DIP_FACT(NUMBER, DipCostInteraction, time), .digits = 3},
 };
-static const DipRecord interaction_record =
+const DipRecord dip_cost_interaction_record =
     DIP_RECORD("interaction", "Two settings at their last steps together, against each alone.",
                interaction_fields, DipCostInteraction, NULL);
 
@@ -929,7 +958,7 @@ static const void *get_interaction(const DipFieldAt *at, int index, DipFieldScra
 }
 
 static const DipFieldList interaction_list = {
-    .record = &interaction_record, .count = count_interactions, .item = get_interaction};
+    .record = &dip_cost_interaction_record, .count = count_interactions, .item = get_interaction};
 
 // The price of a kind of work: an index of the fit's terms.
 static const void *derive_stage(const DipFieldAt *at, DipFieldScratch *scratch) {
@@ -947,14 +976,14 @@ static const DipField price_fields[] = {
     {"work", "unit of work", NULL, "The kind of work; \"frame\" is what every frame takes.",
      DIP_DERIVED(TEXT, derive_work)},
     {"ns", "time", "ns", "Time of a unit of this work.", .kind = DIP_FIELD_NUMBER,
-     .where = DIP_FIELD_JSON, .digits = 3},
+     .where = DIP_FIELD_JSON, .digits = 3, .show = DIP_SHOW_FIGURES},
 };
-static const DipRecord price_record =
+const DipRecord dip_cost_price_record =
     DIP_RECORD("price of work", "What a unit of work takes.", price_fields, double, NULL);
 
 static const DipField fit_fields[] = {
     {"prices", NULL, NULL, "The price of each kind of work.", LIST,
-     ARRAY_OF(DipCostFit, ns, count, 0, &price_record)},
+     ARRAY_OF(DipCostFit, ns, count, 0, &dip_cost_price_record)},
     {"r2", NULL, NULL, "Share of the relative variance of the times that the fit explains.",
      DIP_FACT(NUMBER, DipCostFit, r2), .digits = 3},
     {"median_miss", NULL, NULL, "Median of |fitted / measured - 1|.",
@@ -1191,7 +1220,7 @@ static const DipField report_fields[] = {
                 "Every timed frame, from which all times are computed."),
     REPORT_LIST("floors", .list = &floor_list, "The truths' own noise."),
     REPORT_LIST("same_pictures",
-                OWNED(DipCostReport, same, same_count, DIP_COST_MAX_ROWS, &same_record),
+                OWNED(DipCostReport, same, same_count, DIP_COST_MAX_ROWS, &dip_cost_same_record),
                 "Combinations that another row stands for."),
     REPORT_LIST("sweeps",
                 ARRAY_OF(DipCostReport, sweeps, sweep_count, DIP_COST_MAX_SWEEPS, &sweep_record),

@@ -34,7 +34,10 @@ extern const DipRecord dip_cost_row_record;                  // DipCostRow
 extern const DipRecord dip_cost_metrics_record;              // DipMetrics
 extern const DipRecord dip_cost_prediction_of_report_record; // DipCostPrediction
 extern const DipRecord dip_cost_misses_record;               // DipCostMisses
-extern const DipRecord dip_cost_elsewhere_record;            // DipCostElsewhere
+extern const DipRecord dip_cost_interaction_record;          // DipCostInteraction
+extern const DipRecord dip_cost_price_record;     // double: the prices of a fit, in order
+extern const DipRecord dip_cost_same_record;      // DipCostSame
+extern const DipRecord dip_cost_elsewhere_record; // DipCostElsewhere
 
 // The format of all files that are written. It changes when a reader of the last format would
 // misread a file.

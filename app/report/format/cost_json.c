@@ -2,7 +2,6 @@
 #include "app/files/whole_file.h"
 #include "app/report/format/cost_fields.h"
 #include "app/report/format/formats.h"
-#include "app/report/format/json_memory.h"
 #include "renderer/base/file.h"
 
 #include <cjson/cJSON.h>
@@ -87,6 +86,22 @@ static void upgrade(cJSON *root) {
     add_missing(cJSON_GetObjectItemCaseSensitive(root, "machine"), "starts",
                 cJSON_CreateNumber(0.0));
     upgrade_lists(root);
+}
+
+// --- memory --------------------------------------------------------------------------------------
+
+// Most functions of cJSON do not say that memory ran out: an object then merely lacks a part. So
+// its allocator is replaced while a file is read, for the whole process: only one thread may read.
+static bool ran_out;
+
+static void *allocate(size_t size_bytes) {
+    void *memory = malloc(size_bytes);
+    ran_out = ran_out || !memory;
+    return memory;
+}
+
+static void release(void *memory) {
+    free(memory);
 }
 
 // --- reading -------------------------------------------------------------------------------------
@@ -198,18 +213,20 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) 
     if (!dip_file_read(file, "report", MAX_FILE_BYTES, &text, &size_bytes, err)) {
         return false;
     }
-    dip_json_memory_begin();
+    cJSON_Hooks hooks = {.malloc_fn = allocate, .free_fn = release};
+    ran_out = false;
+    cJSON_InitHooks(&hooks);
     cJSON *root = cJSON_ParseWithLength((const char *)text, size_bytes);
     const bool parsed =
-        root || (dip_json_memory_ran_out()
-                     ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
-                     : dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file"));
+        root ||
+        (ran_out ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
+                 : dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file"));
     bool read = parsed && read_report(root, size_bytes, report, file, err);
-    if (dip_json_memory_ran_out() && parsed) { // Then a member that was added may be missing.
+    if (ran_out && parsed) { // Then a member that was added may be missing.
         read = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
     cJSON_Delete(root);
-    dip_json_memory_end();
+    cJSON_InitHooks(NULL);
     free(text);
     if (!read) {
         dip_cost_report_free(report);

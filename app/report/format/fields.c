@@ -54,6 +54,11 @@ void dip_field_visit(const DipRecord *record, const DipFieldAt *at, const char *
         const void *value = dip_field_value(field, at, &scratch);
         if (!path[length]) {
             visit(context, field, value);
+        } else if (field->kind == DIP_FIELD_ESTIMATE) {
+            DipField number = *field;
+            DIP_ASSERT(strcmp(path + length, ".value") == 0);
+            number.kind = DIP_FIELD_NUMBER;
+            visit(context, &number, value ? &((const DipEstimate *)value)->value : NULL);
         } else {
             DIP_ASSERT(field->kind == DIP_FIELD_RECORD);
             const DipFieldAt within = {at->context, value, at->index, at};

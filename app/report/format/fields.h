@@ -29,9 +29,15 @@ typedef enum DipFieldKind {
 
 // How a field is written.
 enum {
-    DIP_FIELD_JSON = 1,    // It is a member of the object in JSON.
-    DIP_FIELD_DERIVED = 2, // It is computed, and not read.
-    DIP_FIELD_SIGNED = 4   // People read a plus sign before it: a change.
+    DIP_FIELD_JSON = 1,   // It is a member of the object in JSON.
+    DIP_FIELD_DERIVED = 2 // It is computed, and not read.
+};
+
+// How people read a field.
+enum {
+    DIP_SHOW_SIGN = 1,    // It is a change.
+    DIP_SHOW_FIGURES = 2, // `digits` are significant figures.
+    DIP_SHOW_CODE = 4     // People copy the text.
 };
 
 // An item of which a field is asked. Those of lists and records within others know their owner.
@@ -93,7 +99,9 @@ typedef struct DipField {
     const char *means; // A sentence for the documentation and the page's glossary.
     DipFieldKind kind;
     unsigned where;
+    unsigned show;
     int digits;         // After the point, for people.
+    double scale;       // People read the value times this; 0: the value. `unit` is what they read.
     double least, most; // Range of a fact.
     size_t offset, size;
     const char *const *names;
@@ -118,8 +126,9 @@ bool dip_field_has_interval(const DipEstimate *estimate);
 // Writes a number with as few digits as tell it from all others.
 void dip_field_format_exact(double value, char text[32]);
 
-// Finds the field with a path, "errors.flip", and visits it with its value, or NULL. `at->item` may
-// be NULL. Asserts that there is such a field.
+// Finds the field with a path, "errors.flip", and visits it with its value, or NULL. With ".value"
+// at its end, an estimate is visited as a number. `at->item` may be NULL. Asserts that there is
+// such a field.
 typedef void DipFieldVisit(void *context, const DipField *field, const void *value);
 void dip_field_visit(const DipRecord *record, const DipFieldAt *at, const char *path,
                      DipFieldVisit *visit, void *context);
@@ -147,5 +156,68 @@ typedef struct DipColumn {
 // three columns. What is not known is empty.
 void dip_fields_print_csv(const DipRecord *record, const DipFieldAt *at, const DipColumn *columns,
                           int count, FILE *out);
+
+// --- tables for people
+// -----------------------------------------------------------------------------
+
+enum { DIP_CELL_BYTES = 512, DIP_TABLE_MOST_CELLS = 64 };
+
+// Writes a value as people read it: with the field's digits, in its unit, with the sign of a
+// change; a flag that is true as its title. What is not known, and a flag that is false, is "". A
+// change whose interval holds 0 is marked with '?'.
+void dip_field_text(const DipField *field, const void *value, char text[DIP_CELL_BYTES]);
+
+// Writes an estimate's interval, "1.23 to 1.45", or "".
+void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
+                             char text[DIP_CELL_BYTES]);
+
+// A table of items of one record. Terminals and pages print the same columns, without those of
+// which no line knows anything, and without the numbers of an object that are the same in all
+// lines. All members are borrowed.
+typedef struct DipTable {
+    const char *id; // Of the table in a page, and the name of the file that its CSV is saved to.
+    const char *caption; // NULL or "": none.
+    const DipRecord *record;
+    const DipColumn *columns;
+    int column_count;
+    void *context;
+    const void *items;
+    int count;
+    bool (*shows)(const DipFieldAt *at); // NULL: all items are shown.
+    int (*row)(const DipFieldAt *at);    // Row of a report that an item shows, or -1. NULL: none.
+    const char *set;                     // Set of pictures of the rows; NULL: none.
+} DipTable;
+
+// A cell of the table's line with this index, or of its head (-1: titles and units).
+typedef struct DipCell {
+    const DipField *field;
+    const void *value; // NULL: not known.
+    const char *text;
+    const char *unit; // Of the head; NULL: none.
+    int index;        // In the line.
+    bool is_text;     // It is set to the left.
+} DipCell;
+
+// Visits all cells of a line. An estimate has a second cell for its interval.
+typedef void DipCellVisit(void *context, const DipCell *cell);
+void dip_table_visit(const DipTable *table, int line, DipCellVisit *visit, void *context);
+
+// Finds out which cells of the table's lines are shown, and how many characters they have at most.
+typedef struct DipTableLayout {
+    bool shown[DIP_TABLE_MOST_CELLS];
+    int width[DIP_TABLE_MOST_CELLS];
+    int last; // The last cell that is shown.
+} DipTableLayout;
+void dip_table_measure(const DipTable *table, DipTableLayout *layout);
+
+// Whether the line with this index is shown, and the row of the report that it shows, or -1.
+bool dip_table_shows(const DipTable *table, int line);
+int dip_table_row(const DipTable *table, int line);
+
+// Prints a table without its caption for a terminal, each line after two blanks.
+void dip_table_print_text(const DipTable *table, FILE *out);
+
+// Prints a table for a page, with its caption.
+void dip_table_print_html(const DipTable *table, FILE *out);
 
 #endif

@@ -42,14 +42,161 @@ static void write_scripts(const DipCostReport *report, FILE *out) {
     }
 }
 
+// --- tables that only pages have -----------------------------------------------------------------
+
+static bool has_tail(const DipFieldAt *at) {
+    const int row = ((const DipCostLine *)at->item)->row;
+    return dip_cost_row_tail(at->context, row).viewpoints > 0;
+}
+
+static bool has_tails(const DipCostReport *report) {
+    for (int r = 0; r < report->row_count; r++) {
+        if (dip_cost_row_tail(report, r).viewpoints > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void write_regions(DipForm *form, const DipCostReport *report) {
+#define SEEN_COLUMNS(NAME, name, text)                                                             \
+    {"row.figures." name ".flip", name}, {"row.figures." name ".share", NULL},
+    static const DipColumn columns[] = {
+        {"name", NULL}, {"row.figures.all.flip", "whole picture"}, DIP_SEEN_LIST(SEEN_COLUMNS)};
+    DipCostLine lines[DIP_COST_MAX_SWEEPS * DIP_COST_MAX_SWEEP_ROWS];
+    const int count = dip_cost_all_step_lines(report, lines);
+    if (count > 0) {
+        dip_form_heading(form, "parts", "Where the errors are");
+        dip_form_table(form, &(DipTable){.id = "picture-parts",
+                                         .caption = "Mean FLIP over the pixels of each part of the "
+                                                    "picture.",
+                                         DIP_COST_LINES(report, lines, count, columns)});
+    }
+}
+
+static void write_tails(DipForm *form, const DipCostReport *report) {
+    static const DipColumn columns[] = {{"settings", NULL},
+                                        {"title", NULL},
+                                        {"path", NULL},
+                                        {"row.figures.all.flip", NULL},
+                                        {"row.flip_tail.p50", NULL},
+                                        {"row.flip_tail.p95", NULL},
+                                        {"row.flip_tail.p99", NULL},
+                                        {"row.flip_tail.worst", NULL},
+                                        {"row.flip_tail.place", NULL}};
+    DipCostLine lines[DIP_COST_MAX_ROWS + DIP_COST_MAX_SWEEPS * DIP_COST_MAX_SWEEP_ROWS];
+    int count = dip_cost_all_step_lines(report, lines);
+    count += dip_cost_front_lines(report, lines + count);
+    if (!has_tails(report)) {
+        return;
+    }
+    dip_form_heading(form, "tails", "Small parts with large errors");
+    dip_form_paragraph(form, NULL,
+                       "A mean hides small parts of a picture that look bad. The percentiles are "
+                       "those of the pixels' FLIP at a viewpoint, as means over the viewpoints: "
+                       "99 %% of the pixels have at most the FLIP in the column 99 %%. The worst "
+                       "block is the part of at most %d x %d pixels with the greatest mean FLIP at "
+                       "any viewpoint.",
+                       DIP_FLIP_TAIL_BLOCK, DIP_FLIP_TAIL_BLOCK);
+    dip_form_table(form, &(DipTable){.id = "flip-tails",
+                                     .caption = "Distribution of FLIP over pixels, for each step "
+                                                "of each setting and for the Pareto front.",
+                                     .shows = has_tail,
+                                     DIP_COST_LINES(report, lines, count, columns)});
+}
+
+static void write_work(DipForm *form, const DipCostReport *report) {
+    static const DipColumn columns[] = {{"name", NULL}, {"row.counters", ""}};
+    DipCostLine lines[DIP_COST_MAX_SWEEPS * DIP_COST_MAX_SWEEP_ROWS];
+    if (report->rounds == 0) {
+        return;
+    }
+    dip_put_html(form->out, "<section class=\"%s\" aria-labelledby=\"work\">\n",
+                 report->sweep_count > 0 ? "wide" : "narrow");
+    dip_form_heading(form, "work", "Work");
+    dip_form_table(
+        form, &(DipTable){
+                  .id = "work-counters",
+                  .caption = "Work per frame, in thousands: means over the timed frames. "
+                             "The counters are exact, the same on every machine and "
+                             "with any number of threads. Those that are the same in "
+                             "all steps are left out.",
+                  DIP_COST_LINES(report, lines, dip_cost_all_step_lines(report, lines), columns)});
+    dip_put_html(form->out, "</section>\n");
+    dip_section_fit(form, report);
+}
+
+static void write_word(void *out, const DipField *field, const void *value) {
+    (void)value;
+    dip_put_html(out, "<dt>%s</dt><dd>%s</dd>\n", field->title, field->means);
+}
+
+// Explains fields by their own sentences.
+static void write_words(const DipCostReport *report, FILE *out) {
+    static const char *const paths[] = {"ratio",
+                                        "ms",
+                                        "p95_ms",
+                                        "figures.all.rmse_lin",
+                                        "figures.all.psnr_db",
+                                        "figures.all.ssim",
+                                        "figures.all.flip",
+                                        "over_time.flicker_rms_lin",
+                                        "over_time.two_frame_mean_rms_lin",
+                                        "at_floor"};
+    const DipFieldAt nothing = {NULL, NULL, 0, NULL};
+    dip_put_html(out,
+                 "<h2 id=\"words\">What the words mean</h2>\n<dl>\n"
+                 "<dt>truth</dt><dd>The converged picture: jittered supersampling in linear light. "
+                 "Every sample is shaded at its own position, and textures are read from their "
+                 "largest level.</dd>\n"
+                 "<dt>?</dt><dd>A change is marked with ? if its 95 %% interval holds 0, so that "
+                 "even its sign is not sure.</dd>\n");
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        dip_field_visit(&dip_cost_row_record, &nothing, paths[i], write_word, out);
+    }
+    dip_put_html(out, "</dl>\n<p>FLIP is that of %g pixels per degree.</p>\n",
+                 report->options.pixels_per_degree);
+}
+
+// --- title and contents --------------------------------------------------------------------------
+
+static void write_contents(const DipCostReport *report, FILE *out) {
+    const bool has_candidates = report->choice.candidates.count > 0;
+    const struct {
+        bool is_there;
+        const char *id, *title;
+    } parts[] = {
+        {has_candidates, "advice", "Best settings for a time budget"},
+        {report->choice.candidates.count > 1, "front", "Time against error"},
+        {report->predicted.count > 0, "predicted", "Predicted combinations"},
+        {true, "measured", "What was measured"},
+        {has_candidates && report->rounds > 0, "along", "Time and error along the path"},
+        {report->sweep_count > 0, "settings", "Each setting"},
+        {report->sweep_count > 0, "parts", "Where the errors are"},
+        {has_tails(report), "tails", "Small parts with large errors"},
+        {report->rounds > 0, "work", "Work"},
+        {true, "truth", "The truth"},
+        {true, "words", "What the words mean"},
+    };
+    dip_put_html(out, "<header>\n<h1>What accuracy costs: %s</h1>\n", report->scene);
+    dip_put_html(out, "<nav aria-label=\"Contents\"><ul>\n");
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        if (parts[i].is_there) {
+            dip_put_html(out, "<li><a href=\"#%s\">%s</a></li>\n", parts[i].id, parts[i].title);
+        }
+    }
+    dip_put_html(out, "</ul></nav>\n</header>\n");
+}
+
 // Names the rows of a set that have no whole frame. Returns the number of rows named so far.
 static int name_without_frame(const DipCostReport *report, const DipCostPictureSet *set, int named,
                               FILE *out) {
     for (int i = 0; i < set->count; i++) {
         if (!set->pictures[i].frame) {
-            dip_put_html(out, "%s", named++ ? "; " : "");
-            dip_html_settings(report, set->pictures[i].row, out);
-            dip_put_html(out, " on %s", report->paths[set->path]);
+            char settings[DIP_COST_TEXT];
+            dip_cost_settings_text(&report->rows[set->pictures[i].row].quality, settings);
+            dip_put_html(out, "%s%s on %s", named++ ? "; " : "", settings,
+                         report->paths[set->path]);
         }
     }
     return named;
@@ -80,35 +227,33 @@ static void write_left_out(const DipCostReport *report, const DipCostPictures *p
     }
 }
 
+// --- the page ------------------------------------------------------------------------------------
+
 // Returns false when memory runs out.
 static bool write_page(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
+    DipForm form = {.out = out, .is_page = true};
     write_begin(report, out);
-    dip_html_title(report, out);
+    write_contents(report, out);
     dip_put_html(out, "<main>\n");
-    dip_html_advice(report, out);
-    const bool has_front = dip_html_front(report, pictures, out);
-    dip_html_measured(report, out);
-    const bool has_paths = dip_html_path(report, out) && dip_html_predictions(report, out);
-    dip_html_interactions(report, out);
-    if (report->sweep_count) {
-        dip_html_sweeps(report, pictures, out);
-    }
+    dip_section_answer(&form, report);
+    const bool has_front = dip_html_front(&form, report, pictures);
+    dip_section_measured(&form, report);
+    const bool has_path = dip_html_path(&form, report);
+    dip_section_interactions(&form, report);
+    dip_html_sweeps(&form, report, pictures);
     if (pictures) {
         write_left_out(report, pictures, out);
     }
-    if (report->sweep_count) {
-        dip_html_regions(report, out);
-    }
-    dip_html_tails(report, out);
-    if (report->rounds > 0) {
-        dip_html_work(report, out);
-    }
-    dip_html_truth(report, out);
-    dip_html_words(report, out);
+    write_regions(&form, report);
+    write_tails(&form, report);
+    write_work(&form, report);
+    dip_section_truth(&form, report);
+    dip_form_end(&form);
+    write_words(report, out);
     dip_put_html(out, "</main>\n");
     write_scripts(report, out);
     dip_put_html(out, "</body>\n</html>\n");
-    return has_front && has_paths;
+    return has_front && has_path;
 }
 
 bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pictures,

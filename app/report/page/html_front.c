@@ -1,57 +1,140 @@
-// Time against error in the HTML page: the plot of all combinations, and their tables.
+// Time against error in the page: the plot of all combinations, and the tables of those that were
+// measured and of those that were predicted.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/page/html_points.h"
 #include "app/files/put.h"
-#include "app/report/words.h"
+#include "app/report/candidates.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-static bool add_candidate(const DipCostReport *report, DipHtmlPoints *points,
-                          const DipCandidate *candidate) {
-    char title[DIP_HTML_TITLE_ROOM];
-    dip_html_row_title(report, candidate->row, title);
-    return dip_html_points_add(points, candidate->row, candidate->time.value, candidate->flip,
-                               title);
+// --- points --------------------------------------------------------------------------------------
+
+enum { TITLE_ROOM = 512, LABEL_ROOM = 12 };
+
+// A series of the plot. All arrays are owned.
+typedef struct Points {
+    int count;
+    int *rows;                  // Rows of the report, or -1 for a combination without a row.
+    double *x;                  // Time of a frame, ms.
+    double *y;                  // FLIP.
+    char (*labels)[LABEL_ROOM]; // The numbers 1, 2, ...
+    char (*titles)[TITLE_ROOM];
+    const char **label_list;
+    const char **title_list;
+} Points;
+
+// Returns false when memory runs out.
+static bool alloc_points(Points *points, int room) {
+    const size_t count = (size_t)room + 1;
+    points->rows = calloc(count, sizeof *points->rows);
+    points->x = calloc(count, sizeof *points->x);
+    points->y = calloc(count, sizeof *points->y);
+    points->labels = calloc(count, sizeof *points->labels);
+    points->titles = calloc(count, sizeof *points->titles);
+    points->label_list = calloc(count, sizeof *points->label_list);
+    points->title_list = calloc(count, sizeof *points->title_list);
+    return points->rows && points->x && points->y && points->labels && points->titles &&
+           points->label_list && points->title_list;
 }
 
-static bool contains(const DipHtmlPoints *points, int row) {
-    for (int i = 0; i < points->count; i++) {
-        if (points->rows[i] == row) {
+static void free_points(Points *points) {
+    free(points->rows);
+    free(points->x);
+    free(points->y);
+    free(points->labels);
+    free(points->titles);
+    free(points->label_list);
+    free(points->title_list);
+}
+
+// Adds a point, and returns room for its title. The axes are logarithmic, so a FLIP of 0 is plotted
+// as the least that is told apart.
+static char *add_point(Points *points, int row, const DipCandidate *candidate) {
+    static const double least_flip = 1e-7;
+    const int i = points->count++;
+    points->rows[i] = row;
+    points->x[i] = candidate->time.value;
+    points->y[i] = fmax(candidate->flip, least_flip);
+    snprintf(points->labels[i], LABEL_ROOM, "%d", i + 1);
+    points->label_list[i] = points->labels[i];
+    points->title_list[i] = points->titles[i];
+    return points->titles[i];
+}
+
+static DipPlotSeries series_of(const Points *points, const char *name, const char *style) {
+    return (DipPlotSeries){.name = name,
+                           .x = points->x,
+                           .y = points->y,
+                           .count = points->count,
+                           .marks_only = true,
+                           .rows = points->rows,
+                           .titles = points->title_list,
+                           .style = style};
+}
+
+// --- the plot ------------------------------------------------------------------------------------
+
+// The series of the plot, and the predictions that the page lists.
+typedef struct Parts {
+    Points front;     // The thinned Pareto front of the measured combinations.
+    Points others;    // All other measured combinations.
+    Points predicted; // Combinations that were only predicted.
+    DipCandidates listed;
+} Parts;
+
+static void free_parts(Parts *parts) {
+    free_points(&parts->front);
+    free_points(&parts->others);
+    free_points(&parts->predicted);
+    dip_candidates_free(&parts->listed);
+}
+
+static bool is_on_front(const DipCostChoice *choice, int candidate) {
+    for (int i = 0; i < choice->front_count; i++) {
+        if (choice->front[i] == candidate) {
             return true;
         }
     }
     return false;
 }
 
-// The series of the plot.
-typedef struct Parts {
-    DipHtmlPoints front;     // The thinned Pareto front of the measured combinations.
-    DipHtmlPoints others;    // All other measured combinations.
-    DipHtmlPoints predicted; // Combinations that were only predicted.
-} Parts;
-
-static void free_parts(Parts *parts) {
-    dip_html_points_free(&parts->front);
-    dip_html_points_free(&parts->others);
-    dip_html_points_free(&parts->predicted);
+static void add_predicted(const DipCostReport *report, Parts *parts) {
+    for (int i = 0; i < parts->listed.count; i++) {
+        const DipCandidate *c = &parts->listed.list[i];
+        const DipCostPrediction *p = &report->predicted.list[c->row];
+        if (p->row < 0) {
+            char settings[DIP_COST_TEXT];
+            dip_cost_settings_text(&p->quality, settings);
+            snprintf(add_point(&parts->predicted, -1, c), TITLE_ROOM,
+                     "%s: predicted %.2f ms, 95th percentile %.2f ms; predicted FLIP %.4f",
+                     settings, p->ms, p->p95_ms, p->flip);
+        }
+    }
 }
 
 // Returns false when memory runs out.
 static bool split(const DipCostReport *report, Parts *parts) {
     const DipCostChoice *choice = &report->choice;
     const DipCandidates *all = &choice->candidates;
-    bool made = dip_html_points_alloc(&parts->front, choice->front_count) &&
-                dip_html_points_alloc(&parts->others, all->count) &&
-                dip_html_predicted_points(report, &parts->predicted);
-    for (int i = 0; made && i < choice->front_count; i++) {
-        made = add_candidate(report, &parts->front, &all->list[choice->front[i]]);
+    if (!dip_candidates_to_list(report, &parts->listed) ||
+        !alloc_points(&parts->front, choice->front_count) ||
+        !alloc_points(&parts->others, all->count) ||
+        !alloc_points(&parts->predicted, parts->listed.count)) {
+        return false;
     }
-    for (int i = 0; made && i < all->count; i++) {
-        made = contains(&parts->front, all->list[i].row) ||
-               add_candidate(report, &parts->others, &all->list[i]);
+    for (int i = 0; i < choice->front_count; i++) {
+        const DipCandidate *c = &all->list[choice->front[i]];
+        dip_html_row_title(report, c->row, add_point(&parts->front, c->row, c));
     }
-    return made;
+    for (int i = 0; i < all->count; i++) {
+        const DipCandidate *c = &all->list[i];
+        if (!is_on_front(choice, i)) {
+            dip_html_row_title(report, c->row, add_point(&parts->others, c->row, c));
+        }
+    }
+    add_predicted(report, parts);
+    return true;
 }
 
 static void write_plot(const DipCostReport *report, const Parts *parts, FILE *out) {
@@ -61,12 +144,12 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
              report->height, dip_time_kind_names[report->choice.candidates.kind],
              dip_cost_frame_count(report));
     DipPlotSeries series[] = {
-        dip_html_points_series(&parts->predicted, "predicted only", "series-predicted"),
-        dip_html_points_series(&parts->others, "other combinations", "series-others"),
-        dip_html_points_series(&parts->front, "Pareto front", "series-front"),
+        series_of(&parts->predicted, "predicted only", "series-predicted"),
+        series_of(&parts->others, "other combinations", "series-others"),
+        series_of(&parts->front, "Pareto front", "series-front"),
     };
     series[2].marks_only = false;
-    series[2].labels = parts->front.labels;
+    series[2].labels = parts->front.label_list;
     const int first = parts->predicted.count == 0;
     const DipPlot plot = {
         .title = "Time against error",
@@ -86,175 +169,92 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
     dip_put_html(out, "</div>\n");
 }
 
-// --- tables ------------------------------------------------------------------------------------
+// --- tables --------------------------------------------------------------------------------------
 
-static double flicker_of(const DipCostReport *report, int row) {
-    int viewpoints;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    return dip_flicker_metrics_of(&sums).flicker;
-}
-
-// Writes the changes from the candidate before, and what each 1 % of FLIP cost.
-static void write_changes(const DipCostReport *report, const DipCandidate *candidate,
-                          const DipCandidate *before, FILE *out) {
-    char ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES];
-    const double more_ms = candidate->time.value - before->time.value;
-    dip_number_text(more_ms, 2, true, "-", ms);
-    dip_number_text(candidate->flip - before->flip, 4, true, "-", flip);
-    dip_put_html(out, "<td>%s</td><td>%s</td>", ms, flip);
-    // Viewpoints differ more than settings do, so the interval is that of the viewpoints' changes.
-    const DipEstimate change = dip_cost_flip_change(report, candidate->row, before->row);
-    if (isfinite(change.low) && isfinite(change.high)) {
-        dip_put_html(out, "<td>%+.4f to %+.4f</td>", change.low, change.high);
-    } else {
-        dip_put_html(out, "<td></td>");
+static void write_all_table(DipForm *form, const DipCostReport *report) {
+    static const DipColumn columns[] = {{"settings", NULL},
+                                        {"row.ms", NULL},
+                                        {"row.p95_ms.value", NULL},
+                                        {"row.ratio", NULL},
+                                        {"row.figures.all.flip", NULL},
+                                        {"row.over_time.flicker_rms_lin", NULL},
+                                        {"row.figures.all.psnr_db", NULL},
+                                        {"row.figures.all.ssim", NULL},
+                                        {"row.figures.all.rmse_lin", NULL},
+                                        {"row.at_floor", "noise floor"}};
+    DipCostLine lines[DIP_COST_MAX_ROWS];
+    const int count = dip_cost_combination_lines(report, lines);
+    char caption[256];
+    snprintf(caption, sizeof caption,
+             "All combinations on path %s. A filter also makes the points of all other "
+             "combinations pale in the plot.",
+             report->paths[0]);
+    dip_put_html(form->out, "<details><summary>All %d combinations</summary>\n", count);
+    dip_form_table(form, &(DipTable){.id = "combinations",
+                                     .caption = caption,
+                                     .set = "front",
+                                     DIP_COST_LINES(report, lines, count, columns)});
+    dip_put_html(form->out, "</details>\n");
+    if (report->same_count > 0) {
+        dip_put_html(form->out,
+                     "<details><summary>%d more combinations with the same pictures</summary>\n",
+                     report->same_count);
+        dip_section_same(form, report);
+        dip_put_html(form->out, "</details>\n");
     }
-    if (candidate->loss > 0.0) {
-        dip_put_html(out, "<td>%.3f</td>", more_ms / (100.0 * log(before->loss / candidate->loss)));
-    } else {
-        dip_put_html(out, "<td></td>");
-    }
 }
 
-static void write_front_row(const DipCostReport *report, int index, FILE *out) {
-    const DipCostChoice *choice = &report->choice;
-    const DipCandidate *list = choice->candidates.list;
-    const DipCandidate *candidate = &list[choice->front[index]];
-    const int row = candidate->row;
-    dip_html_line_begin(out, row);
-    dip_put_html(out, "<th scope=\"row\">");
-    dip_html_settings(report, row, out);
-    dip_put_html(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1,
-                 index == choice->knee ? ", knee" : "", candidate->time.value);
-    const DipMetrics metrics = dip_cost_row_metrics(report, row, 0);
-    dip_put_html(out, "<td>%.4f</td><td>%.5f</td><td>%.5f</td>", metrics.flip,
-                 flicker_of(report, row), metrics.rmse_lin);
-    if (index > 0) {
-        write_changes(report, candidate, &list[choice->front[index - 1]], out);
-    } else {
-        dip_put_html(out, "<td></td><td></td><td></td><td></td>");
-    }
-    dip_put_html(out, "</tr>\n");
-}
-
-static void write_front_table(const DipCostReport *report, FILE *out) {
-    const DipCostChoice *choice = &report->choice;
-    dip_html_table_begin(out, "pareto-front", "front");
-    dip_put_html(
-        out, "The Pareto front. The changes are those from the line before, in order of time.%s",
-        choice->knee >= 0 ? " Beyond the knee, more time buys least." : "");
-    dip_html_columns_begin(out);
-    dip_html_text_column(out, "settings");
-    dip_html_column(out, "number", "in the plot");
-    dip_html_column(out, dip_time_kind_names[choice->candidates.kind], "ms");
-    dip_html_column(out, "FLIP", NULL);
-    dip_html_column(out, "flicker", "linear");
-    dip_html_column(out, "RMSE", "linear");
-    dip_html_column(out, "change of time", "ms");
-    dip_html_column(out, "change of FLIP", NULL);
-    dip_html_column(out, "95 % interval", "of the change");
-    dip_html_column(out, "price of 1 % less FLIP", "ms");
-    dip_html_columns_end(out);
-    for (int i = 0; i < choice->front_count; i++) {
-        write_front_row(report, i, out);
-    }
-    dip_html_table_end(out);
-}
-
-static void write_combination(const DipCostReport *report, int row, FILE *out) {
-    char all[256], of_mean[DIP_COST_INTERVAL], of_ratio[DIP_COST_INTERVAL];
-    const DipPathEstimate *time = &report->rows[row].time;
-    const DipMetrics f = dip_cost_row_metrics(report, row, 0);
-    dip_quality_format(&report->rows[row].quality, all, sizeof all);
-    dip_cost_interval_text(&time->mean_ms, 2, of_mean);
-    dip_cost_interval_text(&time->ratio, 3, of_ratio);
-    dip_put_html(out, "<tr data-row=\"%d\" data-settings=\"%s\"><th scope=\"row\">", row, all);
-    dip_html_settings(report, row, out);
-    dip_put_html(out,
-                 "</th><td>%.2f</td><td>%s</td><td>%.2f</td><td>%.3f</td><td>%s</td><td>%.4f</"
-                 "td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
-                 "class=\"l\">%s</td></tr>\n",
-                 time->mean_ms.value, of_mean, time->p95_ms.value, time->ratio.value, of_ratio,
-                 f.flip, flicker_of(report, row), f.psnr_db, f.ssim, f.rmse_lin,
-                 dip_cost_floor_mark(report, row));
-}
-
-static void write_all_table(const DipCostReport *report, FILE *out) {
-    const DipCandidates *all = &report->choice.candidates;
-    const int count = all->count;
-    dip_put_html(out, "<details><summary>All %d combinations</summary>\n", count);
-    dip_html_table_begin(out, "combinations", "front");
-    dip_put_html(out,
-                 "All combinations on path %s. A filter also makes the points of all other "
-                 "combinations pale in the plot.",
-                 report->paths[0]);
-    dip_html_columns_begin(out);
-    dip_html_text_column(out, "settings");
-    dip_html_column(out, "mean", "ms");
-    dip_html_column(out, "95 % interval of the mean", "ms");
-    dip_html_column(out, "p95", "ms");
-    dip_html_column(out, "ratio", NULL);
-    dip_html_column(out, "95 % interval of the ratio", NULL);
-    dip_html_column(out, "FLIP", NULL);
-    dip_html_column(out, "flicker", "linear");
-    dip_html_column(out, "PSNR", "dB");
-    dip_html_column(out, "SSIM", NULL);
-    dip_html_column(out, "RMSE", "linear");
-    dip_html_text_column(out, "noise floor");
-    dip_html_columns_end(out);
-    for (int i = 0; i < count; i++) {
-        write_combination(report, all->list[i].row, out);
-    }
-    dip_html_table_end(out);
-    dip_put_html(out, "</details>\n");
-}
-
-// Says which combinations are missing because another one draws the same pictures.
-static void write_same(const DipCostReport *report, FILE *out) {
-    if (report->same_count == 0) {
+static void write_predictions(DipForm *form, const DipCostReport *report,
+                              const DipCandidates *listed) {
+    static const DipColumn columns[] = {{"settings", NULL},
+                                        {"predicted.ms", NULL},
+                                        {"predicted.p95_ms", NULL},
+                                        {"predicted.flip", NULL},
+                                        {"row.ms.value", "measured mean"},
+                                        {"row.figures.all.flip", "measured FLIP"},
+                                        {"time_miss", NULL},
+                                        {"flip_miss", NULL}};
+    DipCostLine lines[DIP_CANDIDATES_LISTED];
+    char caption[300];
+    const bool is_part = listed->count < report->predicted.count;
+    if (report->predicted.count == 0) {
         return;
     }
-    dip_put_html(
-        out,
-        "<details><summary>%d more combinations with the same pictures</summary>\n"
-        "<p>Each of these combinations draws the same pictures as one with fewer settings off "
-        "their defaults, which stands for it.</p>\n",
-        report->same_count);
-    dip_html_table_begin(out, "same-pictures", NULL);
-    dip_put_html(out, "Combinations with the same pictures, by hash, at all viewpoints.");
-    dip_html_columns_begin(out);
-    dip_html_text_column(out, "settings");
-    dip_html_text_column(out, "draws the same as");
-    dip_html_columns_end(out);
-    for (int i = 0; i < report->same_count; i++) {
-        dip_html_line_begin(out, report->same[i].row);
-        dip_put_html(out, "<th scope=\"row\">");
-        dip_html_quality(&report->same[i].quality, out);
-        dip_put_html(out, "</th><td class=\"l name\">");
-        dip_html_settings(report, report->same[i].row, out);
-        dip_put_html(out, "</td></tr>\n");
+    for (int i = 0; i < listed->count; i++) {
+        lines[i] = dip_cost_prediction_line(report, listed->list[i].row);
     }
-    dip_html_table_end(out);
-    dip_put_html(out, "</details>\n");
+    snprintf(caption, sizeof caption,
+             "%d of %d predicted combinations on path %s, in order of the predicted time.%s",
+             listed->count, report->predicted.count, report->paths[0],
+             is_part ? " The others are beaten in both predicted time and predicted FLIP, and were "
+                       "not measured."
+                     : "");
+    dip_section_predictions(form, report);
+    dip_put_html(form->out, "<details><summary>%d predicted combinations</summary>\n",
+                 listed->count);
+    dip_form_table(form, &(DipTable){.id = "predictions",
+                                     .caption = caption,
+                                     DIP_COST_LINES(report, lines, listed->count, columns)});
+    dip_put_html(form->out, "</details>\n");
 }
 
-bool dip_html_front(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
+bool dip_html_front(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures) {
     Parts parts = {0};
     const bool made = split(report, &parts);
-    if (made && parts.front.count + parts.others.count > 1) {
-        dip_put_html(
-            out, "<h2 id=\"front\">Time against error</h2>\n"
-                 "<p>Both axes are logarithmic. The Pareto front consists of the combinations that "
-                 "no other combination beats in both time and error. The FLIP of each numbered "
-                 "combination is at least 1 %% below that of the combination with the number "
-                 "before.</p>\n");
-        write_plot(report, &parts, out);
-        write_front_table(report, out);
+    if (made && report->choice.candidates.count > 1) {
+        dip_form_heading(form, "front", "Time against error");
+        dip_form_paragraph(form, NULL,
+                           "Both axes are logarithmic. The Pareto front consists of the "
+                           "combinations that no other combination beats in both time and error.");
+        write_plot(report, &parts, form->out);
+        dip_section_front(form, report);
         if (pictures) {
-            dip_html_pictures(report, &pictures->front, "front", NULL, out);
+            dip_html_pictures(report, &pictures->front, "front", NULL, form->out);
         }
-        write_all_table(report, out);
-        write_same(report, out);
+        write_all_table(form, report);
+    }
+    if (made) {
+        write_predictions(form, report, &parts.listed);
     }
     free_parts(&parts);
     return made;

@@ -175,7 +175,7 @@ static void write_errors(const Lines *lines, FILE *out) {
                out);
 }
 
-bool dip_html_path(const DipCostReport *report, FILE *out) {
+bool dip_html_path(DipForm *form, const DipCostReport *report) {
     Lines lines = {.report = report, .frames = dip_cost_frame_count(report)};
     if (report->rounds == 0 || report->combined_first == report->row_count) {
         return true;
@@ -184,17 +184,12 @@ bool dip_html_path(const DipCostReport *report, FILE *out) {
     const bool made = alloc_lines(&lines);
     if (made) {
         fill_times(&lines);
-    }
-    if (made) {
-        dip_put_html(
-            out,
-            "<h2 id=\"along\">Time and error along the path</h2>\n"
-            "<p>The plots show the times of the baseline and of the advised settings at every "
-            "timed frame, and their mean FLIP at every viewpoint. Where the lines of the times "
-            "lie far apart but those of the errors do not, settings of their own for a segment "
-            "of the path save time: <code>diptych cost advise</code> chooses them.</p>\n");
-        write_times(&lines, out);
-        write_errors(&lines, out);
+        dip_form_heading(form, "along", "Time and error along the path");
+        dip_form_paragraph(form, NULL,
+                           "The plots show the times of the baseline and of the advised settings "
+                           "at every timed frame, and their mean FLIP at every viewpoint.");
+        write_times(&lines, form->out);
+        write_errors(&lines, form->out);
     }
     free_lines(&lines);
     return made;

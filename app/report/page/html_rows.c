@@ -1,39 +1,19 @@
-// What the HTML page says about a row of the report: a line of text, and pictures.
+// What the page says about a row of the report: a line of text for plots and scripts, and pictures.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
-
-void dip_html_quality_text(const DipQuality *quality, char text[DIP_HTML_TITLE_ROOM]) {
-    char settings[DIP_COST_TEXT];
-    dip_cost_settings_text(quality, settings);
-    for (const char *from = settings; *from; from++) {
-        *text++ = *from;
-        if (*from == ',') {
-            *text++ = ' ';
-        }
-    }
-    *text = '\0';
-}
-
-void dip_html_quality(const DipQuality *quality, FILE *out) {
-    char settings[DIP_HTML_TITLE_ROOM];
-    dip_html_quality_text(quality, settings);
-    dip_put_html(out, "%s", settings);
-}
-
-void dip_html_settings(const DipCostReport *report, int row, FILE *out) {
-    dip_html_quality(&report->rows[row].quality, out);
-}
 
 // Formats the times of a row, or "" if it was not timed.
 static void format_time(const DipCostReport *report, int row, char text[DIP_COST_TEXT]) {
     const DipPathEstimate *time = &report->rows[row].time;
     text[0] = '\0';
     if (dip_cost_is_timed(report, row)) {
-        char interval[DIP_COST_INTERVAL];
-        dip_cost_interval_text(&time->mean_ms, 2, interval);
-        snprintf(text, DIP_COST_TEXT, "%.2f ms%s%s%s, 95th percentile %.2f ms", time->mean_ms.value,
-                 interval[0] ? " (" : "", interval, interval[0] ? ")" : "", time->p95_ms.value);
+        const DipField digits = {.digits = 2};
+        char interval[DIP_CELL_BYTES];
+        dip_field_interval_text(&digits, &time->mean_ms, interval);
+        snprintf(text, DIP_COST_TEXT, "%.2f ms%s%.64s%s, 95th percentile %.2f ms",
+                 time->mean_ms.value, *interval ? " (" : "", interval, *interval ? ")" : "",
+                 time->p95_ms.value);
     }
 }
 
@@ -42,15 +22,13 @@ static void format_errors(const DipMetrics *f, char text[DIP_COST_TEXT]) {
              f->psnr_db, f->ssim, f->rmse_lin);
 }
 
-void dip_html_row_title(const DipCostReport *report, int row, char text[DIP_HTML_TITLE_ROOM]) {
+void dip_html_row_title(const DipCostReport *report, int row, char text[DIP_HTML_TITLE_BYTES]) {
     const DipMetrics f = dip_cost_row_metrics(report, row, 0);
-    char settings[DIP_HTML_TITLE_ROOM];
-    char time[DIP_COST_TEXT];
-    char errors[DIP_COST_TEXT];
-    dip_html_quality_text(&report->rows[row].quality, settings);
+    char settings[DIP_COST_TEXT], time[DIP_COST_TEXT], errors[DIP_COST_TEXT];
+    dip_cost_settings_text(&report->rows[row].quality, settings);
     format_time(report, row, time);
     format_errors(&f, errors);
-    snprintf(text, DIP_HTML_TITLE_ROOM, "%.160s on path %s: %.150s%s%.120s", settings,
+    snprintf(text, DIP_HTML_TITLE_BYTES, "%.160s on path %s: %.150s%s%.120s", settings,
              report->paths[report->rows[row].path], time, *time ? "; " : "", errors);
 }
 
@@ -60,10 +38,8 @@ void dip_html_measurements(const DipCostReport *report, FILE *out) {
         int viewpoints;
         const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
         const DipMetrics f = dip_metrics_of(&sums, 0);
-        char settings[DIP_HTML_TITLE_ROOM];
-        char time[DIP_COST_TEXT];
-        char errors[DIP_COST_TEXT] = "";
-        dip_html_quality_text(&report->rows[r].quality, settings);
+        char settings[DIP_COST_TEXT], time[DIP_COST_TEXT], errors[DIP_COST_TEXT] = "";
+        dip_cost_settings_text(&report->rows[r].quality, settings);
         format_time(report, r, time);
         if (viewpoints > 0) {
             format_errors(&f, errors);

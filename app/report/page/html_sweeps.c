@@ -1,8 +1,6 @@
-// Writing the sweeps of the HTML page. A sweep is all steps of one setting. The bars are SVG, the
-// tables are HTML, the pictures are data URIs.
+// Each setting in the page: bars of time and error, a table of its steps, and pictures.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/order.h"
 #include "app/files/put.h"
 
 #include <math.h>
@@ -70,7 +68,7 @@ static void write_bars_of(const DipCostReport *report, const DipCostSweep *sweep
     const double width = (BAR_ROOM - 40.0) * flip / scale->most_flip;
     char step[DIP_COST_TEXT];
     dip_cost_step_text(report, sweep, row, step);
-    char title[DIP_HTML_TITLE_ROOM];
+    char title[DIP_HTML_TITLE_BYTES];
     dip_html_row_title(report, row, title);
     dip_put_html(out,
                  "<g class=\"point\" data-row=\"%d\"><title>%s</title>\n<rect class=\"bar-back\" "
@@ -105,114 +103,50 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, i
     dip_put_html(out, "</svg>\n</div>\n");
 }
 
-// --- tables ------------------------------------------------------------------------------------
+// --- sweeps --------------------------------------------------------------------------------------
 
-static void write_step_line(const DipCostReport *report, const DipCostSweep *sweep, int index,
-                            FILE *out) {
-    const int row = sweep->rows[index];
-    int viewpoints;
-    char step[DIP_COST_TEXT];
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    const DipMetrics f = dip_metrics_of(&sums, 0);
-    const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
-    dip_cost_step_text(report, sweep, row, step);
-    dip_html_line_begin(out, row);
-    dip_put_html(out, "<th scope=\"row\">%s%s</th>", step, row == sweep->base ? " (baseline)" : "");
-    if (dip_cost_is_timed(report, row)) {
-        const DipEstimate ratio = sweep->ratios[index];
-        char interval[DIP_COST_INTERVAL];
-        dip_cost_interval_text(&ratio, 3, interval);
-        dip_put_html(out, "<td>%.2f</td><td>%.2f</td><td>%.3f</td><td>%s</td>",
-                     dip_cost_ms(report, row), report->rows[row].time.p95_ms.value, ratio.value,
-                     interval);
-    } else {
-        dip_put_html(out, "<td></td><td></td><td></td><td></td>");
-    }
-    dip_put_html(out,
-                 "<td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.4f</td><td>%.5f</td><td>%.5f</td>"
-                 "<td class=\"l\">%s</td></tr>\n",
-                 f.rmse_lin, f.psnr_db, f.ssim, f.flip, flicker.flicker, flicker.two_mean,
-                 dip_cost_floor_mark(report, row));
-}
-
-static void write_steps(const DipCostReport *report, const DipCostSweep *sweep, int number,
-                        FILE *out) {
-    char id[32];
-    char set[32];
-    char title[DIP_COST_TEXT];
-    snprintf(id, sizeof id, "steps-%d", number);
-    snprintf(set, sizeof set, "sweep-%d", number);
-    dip_cost_sweep_title(report, sweep, title);
-    dip_html_table_begin(out, id, set);
-    dip_put_html(out, "%s on path %s: times and errors of each step.", title,
-                 report->paths[sweep->path]);
-    dip_html_columns_begin(out);
-    dip_html_text_column(out, "step");
-    dip_html_column(out, "mean", "ms");
-    dip_html_column(out, "p95", "ms");
-    dip_html_column(out, "ratio", NULL);
-    dip_html_column(out, "95 % interval", NULL);
-    dip_html_column(out, "RMSE", "linear");
-    dip_html_column(out, "PSNR", "dB");
-    dip_html_column(out, "SSIM", NULL);
-    dip_html_column(out, "FLIP", NULL);
-    dip_html_column(out, "flicker", "linear");
-    dip_html_column(out, "two-frame mean", "linear");
-    dip_html_text_column(out, "noise floor");
-    dip_html_columns_end(out);
-    for (int i = 0; i < sweep->row_count; i++) {
-        write_step_line(report, sweep, i, out);
-    }
-    dip_html_table_end(out);
-}
-
-// --- sweeps ------------------------------------------------------------------------------------
-
-static void write_sweep(const DipCostReport *report, const DipCostPictures *pictures, int number,
-                        FILE *out) {
+static void write_sweep(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures,
+                        int number) {
     const DipCostSweep *sweep = &report->sweeps[number];
-    char order[2 * DIP_COST_TEXT];
-    char title[DIP_COST_TEXT];
+    char title[DIP_COST_TEXT], set[32];
     dip_cost_sweep_title(report, sweep, title);
-    dip_put_html(out,
-                 "<section aria-labelledby=\"sweep-%d\">\n<h3 id=\"sweep-%d\">%s <small>on path "
+    snprintf(set, sizeof set, "sweep-%d", number);
+    dip_put_html(form->out,
+                 "<section aria-labelledby=\"%s\">\n<h3 id=\"%s\">%s <small>on path "
                  "%s</small></h3>\n",
-                 number, number, title, report->paths[sweep->path]);
-    write_bars(report, sweep, number, out);
-    write_steps(report, sweep, number, out);
-    if (dip_cost_order_text(report, sweep, order, sizeof order)) {
-        dip_put_html(out, "<p class=\"note\">");
-        dip_put_html(out, "%s", order);
-        dip_put_html(out, "</p>\n");
-    }
+                 set, set, title, report->paths[sweep->path]);
+    write_bars(report, sweep, number, form->out);
+    dip_section_sweep(form, report, number);
     if (pictures) {
-        char set[32];
-        snprintf(set, sizeof set, "sweep-%d", number);
-        dip_html_pictures(report, &pictures->sweeps[number], set, sweep, out);
+        dip_html_pictures(report, &pictures->sweeps[number], set, sweep, form->out);
     }
-    dip_put_html(out, "</section>\n");
+    dip_put_html(form->out, "</section>\n");
 }
 
-void dip_html_sweeps(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
-    dip_put_html(out,
-                 "<h2 id=\"settings\">Each setting, on the path made for it</h2>\n"
-                 "<p>Errors compare with the truth, the converged picture. Lower is better; for "
-                 "PSNR and SSIM, higher is better. The lines on the bars of time are 95 %% "
-                 "intervals.</p>\n");
-    if (pictures && report->options.pictures != DIP_COST_PICTURES_NONE) {
-        dip_put_html(
-            out, "<p>Each crop is the part of the picture in which the steps differ most. Below "
-                 "it is its FLIP map: black means no visible difference, yellow means the "
-                 "greatest possible difference.</p>\n");
+void dip_html_sweeps(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures) {
+    const bool full = report->options.pictures == DIP_COST_PICTURES_FULL;
+    if (report->sweep_count == 0) {
+        return;
     }
-    if (pictures && report->options.pictures == DIP_COST_PICTURES_FULL) {
-        dip_put_html(
-            out,
-            "<p>Whole frames are JPEG files of quality %d. Differences of a few codes between "
-            "them may come from the compression. Crops are without loss.</p>\n",
-            DIP_COST_FRAME_QUALITY);
+    dip_form_heading(form, "settings", "Each setting, on the path made for it");
+    dip_form_paragraph(form, NULL,
+                       "Errors compare with the truth, the converged picture. Lower is better; for "
+                       "PSNR and SSIM, higher is better. The lines on the bars of time are 95 %% "
+                       "intervals.");
+    if (pictures && report->options.pictures != DIP_COST_PICTURES_NONE) {
+        dip_form_paragraph(
+            form, NULL,
+            "Each crop is the part of the picture in which the steps differ most. Below it is its "
+            "FLIP map: black means no visible difference, yellow means the greatest possible "
+            "difference.");
+    }
+    if (pictures && full) {
+        dip_form_paragraph(form, NULL,
+                           "Whole frames are JPEG files of quality %d. Differences of a few codes "
+                           "between them may come from the compression. Crops are without loss.",
+                           DIP_COST_FRAME_QUALITY);
     }
     for (int s = 0; s < report->sweep_count; s++) {
-        write_sweep(report, pictures, s, out);
+        write_sweep(form, report, pictures, s);
     }
 }

@@ -70,4 +70,8 @@ bool dip_cost_picture_set_make(DipCostPictureSet *set, DipCostCutter *cutter, bo
                                DipError *err);
 void dip_cost_picture_set_free(DipCostPictureSet *set);
 
+// Returns "data:TYPE;base64,..." for a file's bytes (RFC 4648). The caller frees it. Returns NULL
+// when memory runs out.
+char *dip_cost_data_uri(const char *type, const unsigned char *bytes, size_t size_bytes);
+
 #endif

@@ -1,7 +1,6 @@
 // Writes the page of a made-up report with made-up pictures, for page.py, and the report itself,
 // for hostile.py: make_page FILE [JSON].
-#include "app/report/page/data_uri.h"
-#include "app/report/format/analysis.h"
+#include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/files/jpeg.h"

@@ -79,16 +79,16 @@ PYTHON
 
 # --- from the report alone: exact, and the same each time
 predict 0 report/cost.json --model "$square" --size 192x128 --time 0 --csv a.csv --json a.json
-has "^there    192x128 pixels, path DEFAULT, "
-has "^model    prices of work from [0-9]+ rows and 4 at 48x32 of the report$"
-has "^timed    nothing: the predictions come from the report alone$"
+has "^  There +192x128 pixels, path DEFAULT, "
+has "^  Model +prices of work from [0-9]+ rows and 4 at 48x32 of the report$"
+has "^  Timed +nothing: the predictions come from the report alone$"
 predict 0 report --model "$square" --size 192x128 --time 0 --csv b.csv
 cmp a.csv b.csv || fail "two predictions from the same report differ"
 predict 0 report --model "$square" --size 192x128 --time 3 --check 4 --csv c.csv --json c.json
-has "^timed    3 combinations there, "
-has "^checked  4 other combinations there$"
+has "^  Timed +3 combinations there, "
+has "^  Checked +4 other combinations there$"
 predict 0 tiny --model "$square" --threads 1 --time 1
-has "^there    48x36 pixels, path DEFAULT, 1 thread, "
+has "^  There +48x36 pixels, path DEFAULT, 1 thread, "
 python3 - <<'PYTHON' || fail "the files are not as expected"
 import csv, json
 alone, both = json.load(open("a.json")), json.load(open("c.json"))
@@ -116,7 +116,7 @@ PYTHON
 # --- another camera path of the courtyard, and a scene of the gallery
 measure court --config "$courtyard" --size 96x72 --starts 1 --rounds 2 --timed 1 --combine af
 predict 0 court --config "$courtyard" --category AAA --time 2
-has "^there    96x72 pixels, path AAA, "
+has "^  There +96x72 pixels, path AAA, "
 measure blend --scene blend --size 96x72 --starts 1 --rounds 2 --timed 1 --combine aa
 predict 0 blend --scene blend --size 64x64 --time 2
 refuses "blend: is of another scene " blend --scene toon

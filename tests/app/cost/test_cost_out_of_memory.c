@@ -1,8 +1,7 @@
 // Tests what the writers and readers of reports do when memory runs out: a file is written whole or
 // stays as it was, and a journal never loses a measurement.
 #include "app/bench/enlarge.h"
-#include "app/cost/advise/advise_output.h"
-#include "app/report/page/data_uri.h"
+#include "app/cost/advise/common_advice.h"
 #include "app/cost/diff/diff.h"
 #include "app/cost/diff/diff_cause.h"
 #include "app/report/format/formats.h"

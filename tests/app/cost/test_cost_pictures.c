@@ -1,5 +1,4 @@
 // Tests of the pictures in the cost report's page, and of the files that truths are saved to.
-#include "app/report/page/data_uri.h"
 #include "app/report/page/report_pictures.h"
 #include "app/files/jpeg.h"
 #include "app/files/pfm.h"

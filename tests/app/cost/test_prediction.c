@@ -2,7 +2,7 @@
 // choice of what to measure.
 #include "app/report/combinations.h"
 #include "app/report/fit.h"
-#include "app/report/interaction.h"
+#include "app/report/analysis.h"
 #include "app/cost/predict.h"
 #include "app/cost/predict/predict_elsewhere.h"
 #include "app/report/same_pictures.h"

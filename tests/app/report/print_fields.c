@@ -1,4 +1,5 @@
 // Prints the fields of all files of a report as Markdown: docs/cost-fields.md.
+#include "app/cost/advise/common_advice.h"
 #include "app/cost/diff/diff.h"
 #include "app/cost/predict/predict_elsewhere.h"
 #include "app/report/format/cost_fields.h"
@@ -38,7 +39,10 @@ static void print_kind(const DipField *field) {
         printf(": %s", record->name);
         add(record);
     } else if (field->list) {
-        printf(" of %s", field->list->element->kind == DIP_FIELD_TEXT ? "texts" : "numbers");
+        const DipFieldKind kind = field->list->element->kind;
+        printf(" of %s", kind == DIP_FIELD_TEXT       ? "texts"
+                         : kind == DIP_FIELD_SETTINGS ? "settings as text"
+                                                      : "numbers");
     }
     printf("%s", field->known ? ", or null" : "");
 }
@@ -59,7 +63,8 @@ static void print_record(const DipRecord *record) {
             const bool derived = field->where & DIP_FIELD_DERIVED || field->derive;
             printf("| `%s`%s | ", field->name, derived ? "" : " *");
             print_kind(field);
-            printf(" | %s | ", field->unit ? field->unit : "");
+            // A unit that people read may not be that of the number.
+            printf(" | %s | ", field->unit && field->scale == 0.0 ? field->unit : "");
             print_text(field->means);
             printf(" |\n");
         }
@@ -72,6 +77,7 @@ int main(void) {
         const DipRecord *record;
     } files[] = {{"cost.json", &dip_cost_report_record},
                  {"The file of `cost diff --json`", &dip_cost_diff_record},
+                 {"The file of `cost advise --json`", &dip_cost_common_record},
                  {"The file of `cost predict --json`", &dip_cost_prediction_record}};
     printf(
         "# Fields of the files of a report\n\n"

@@ -1,6 +1,6 @@
 // Reports that the last release wrote are read, and what is written is read back to the byte.
 // Usage: test_fields ROOT
-#include "app/report/format/analysis.h"
+#include "app/report/analysis.h"
 #include "app/report/format/cost_fields.h"
 #include "app/report/format/formats.h"
 #include "renderer/base/file.h"

@@ -1,8 +1,9 @@
-// Interactions: whether two settings together do more or less than the sum of what each does alone.
-#ifndef DIP_APP_REPORT_INTERACTION_H
-#define DIP_APP_REPORT_INTERACTION_H
+// What is computed from a whole report for its readers, once, before it is written: how times
+// follow from work, and which settings do more or less together than alone. Forms only read it.
+#ifndef DIP_APP_REPORT_ANALYSIS_H
+#define DIP_APP_REPORT_ANALYSIS_H
 
-#include "app/report/report.h"
+#include "app/report/fit.h"
 
 enum { DIP_COST_MAX_INTERACTIONS = DIP_SETTING_COUNT * (DIP_SETTING_COUNT - 1) / 2 };
 
@@ -24,5 +25,17 @@ typedef struct DipCostInteraction {
 // Computes the interactions of all pairs of combined settings. Returns their number.
 int dip_cost_interactions(const DipCostReport *report,
                           DipCostInteraction list[DIP_COST_MAX_INTERACTIONS]);
+
+typedef struct DipCostAnalysis {
+    DipCostFit fit;
+    // None if combinations were predicted: those that are measured are good ones, so means over
+    // them mislead.
+    DipCostInteraction interactions[DIP_COST_MAX_INTERACTIONS];
+    int interaction_count;
+} DipCostAnalysis;
+
+// Fills in report->analysis. Call it once nothing is measured any more. Fails with
+// DIP_ERROR_MEMORY.
+bool dip_cost_analyse(DipCostReport *report, DipError *err);
 
 #endif

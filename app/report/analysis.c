@@ -1,23 +1,8 @@
-// Interactions of settings, from the combinations of a report.
-#include "app/report/interaction.h"
+// Analyses a whole report: the interactions of its settings, and the fit of its times.
+#include "app/report/analysis.h"
 
 #include <math.h>
-#include <string.h>
-
-// Returns the combination with these settings, or the row that stands for it, or -1.
-static int find(const DipCostReport *report, const DipQuality *quality) {
-    for (int r = report->combined_first; r < report->row_count; r++) {
-        if (memcmp(&report->rows[r].quality, quality, sizeof *quality) == 0) {
-            return r;
-        }
-    }
-    for (int i = 0; i < report->same_count; i++) {
-        if (memcmp(&report->same[i].quality, quality, sizeof *quality) == 0) {
-            return report->same[i].row;
-        }
-    }
-    return -1;
-}
+#include <stdlib.h>
 
 static DipQuality with_step(const DipQuality *quality, DipSetting setting, int step) {
     DipQuality changed = *quality;
@@ -40,8 +25,10 @@ static void add_context(const DipCostReport *report, const DipQuality *neither,
     const DipQuality a = with_step(neither, to->a, last_step(to->a));
     const DipQuality b = with_step(neither, to->b, last_step(to->b));
     const DipQuality both = with_step(&a, to->b, last_step(to->b));
-    const int rows[4] = {find(report, neither), find(report, &a), find(report, &b),
-                         find(report, &both)};
+    const int rows[4] = {dip_report_find_same(report, neither, report->combined_first),
+                         dip_report_find_same(report, &a, report->combined_first),
+                         dip_report_find_same(report, &b, report->combined_first),
+                         dip_report_find_same(report, &both, report->combined_first)};
     if (rows[0] < 0 || rows[1] < 0 || rows[2] < 0 || rows[3] < 0) {
         return;
     }
@@ -81,4 +68,18 @@ int dip_cost_interactions(const DipCostReport *report,
         }
     }
     return count;
+}
+
+bool dip_cost_analyse(DipCostReport *report, DipError *err) {
+    DipCostAnalysis *analysis = calloc(1, sizeof *analysis);
+    free(report->analysis);
+    report->analysis = analysis;
+    if (!analysis) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    }
+    analysis->fit = dip_cost_fit(report);
+    if (report->predicted.count == 0) {
+        analysis->interaction_count = dip_cost_interactions(report, analysis->interactions);
+    }
+    return true;
 }

@@ -1,0 +1,375 @@
+// Printing common advice for a terminal, and writing it as JSON.
+#include "app/cost/advise/common_advice.h"
+
+#include "app/files/whole_file.h"
+#include "app/report/candidates.h"
+#include "app/report/format/sections.h"
+#include "app/report/words.h"
+
+#include <math.h>
+
+// The context of all fields.
+typedef struct Advised {
+    const DipCostCommon *common;
+    const DipCostCommonAdvice *list; // One for each budget.
+    int count;
+} Advised;
+
+static const Advised *advised_of(const DipFieldAt *at) {
+    return at->context;
+}
+
+// --- reports -------------------------------------------------------------------------------------
+
+static const void *derive_number(const DipFieldAt *at, DipFieldScratch *scratch) {
+    *(int *)scratch = at->index + 1;
+    return scratch;
+}
+
+static const void *derive_name(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return advised_of(at)->common->names[at->index];
+}
+
+#define SHOWN(KIND, MEMBER) DIP_FACT(KIND, DipCostReport, MEMBER)
+static const DipField report_fields[] = {
+    {"number", "report", NULL, "Its number.", .kind = DIP_FIELD_WHOLE, .derive = derive_number},
+    {"name", NULL, NULL, "The file or folder.", DIP_DERIVED(TEXT, derive_name)},
+    {"scene", NULL, NULL, "Name of the scene.", SHOWN(TEXT, scene)},
+    {"path", NULL, NULL, "The camera path.", SHOWN(TEXT, paths[0])},
+    {"width", NULL, "px", "Width of the pictures.", SHOWN(WHOLE, width)},
+    {"height", NULL, "px", "Height of the pictures.", SHOWN(WHOLE, height)},
+    {"processor", NULL, NULL, "The processor.", SHOWN(TEXT, processor)},
+    {"threads", NULL, NULL, "Number of threads.", SHOWN(WHOLE, threads)},
+    {"verdict", "machine", NULL, "How quiet the machine was.", SHOWN(NAMED, verdict),
+     .names = dip_cost_verdict_names},
+    {"combinations", NULL, NULL, "Number of its combinations with times and errors.",
+     SHOWN(WHOLE, choice.candidates.count)},
+};
+static const DipRecord report_record =
+    DIP_RECORD("advised report", "A report that was given.", report_fields, DipCostReport, NULL);
+
+static const void *get_report(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &advised_of(at)->common->reports[index];
+}
+
+static int count_reports(const DipFieldAt *at) {
+    return advised_of(at)->common->report_count;
+}
+
+// --- what a report says about a choice -----------------------------------------------------------
+
+typedef struct Said {
+    DipQuality quality;
+    DipEstimate ms;
+    double flip;
+} Said;
+
+// A report's line of a budget. What is not known is NAN.
+typedef struct Line {
+    Said chosen;
+    Said alone; // What this report alone would choose.
+    bool has_alone;
+    bool same; // It is what was chosen.
+    double loss;
+} Line;
+
+double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostCommonAdvice *advice,
+                                  int report) {
+    const DipCostReport *r = &common->reports[report];
+    const int alone = advice->alone[report];
+    if (advice->all.chosen < 0 || alone < 0) {
+        return NAN;
+    }
+    const int row = common->rows[advice->all.chosen * common->report_count + report];
+    return dip_cost_ranking_flip(r, row) / dip_cost_ranking_flip(r, alone) - 1.0;
+}
+
+static Said said_of(const DipCandidate *c) {
+    return (Said){c->quality, dip_estimate_widen(&c->time, c->common_error), c->flip};
+}
+
+static Line line_of(const DipCostCommon *common, const DipCostCommonAdvice *advice, int report) {
+    const int chosen = advice->all.chosen, alone = advice->alone[report];
+    Line line = {.chosen = {.ms = dip_estimate_unknown(NAN), .flip = NAN},
+                 .has_alone = alone >= 0,
+                 .loss = dip_cost_common_share_lost(common, advice, report)};
+    if (chosen >= 0) {
+        const DipCandidate c = dip_cost_common_candidate(common, chosen, report);
+        line.chosen = said_of(&c);
+        line.same = common->rows[chosen * common->report_count + report] == alone;
+    }
+    if (alone >= 0) {
+        const DipCandidate c =
+            dip_candidate_of_row(&common->reports[report], alone, common->candidates.kind);
+        line.alone = said_of(&c);
+    }
+    return line;
+}
+
+static bool has_alone(const DipFieldAt *at) {
+    return ((const Line *)at->item)->has_alone;
+}
+
+static const void *derive_alone(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const Line *line = at->item;
+    dip_cost_settings_text(&line->alone.quality, scratch->text);
+    return line->same ? "the same" : line->has_alone ? scratch->text : NULL;
+}
+
+static const DipField alone_fields[] = {
+    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, Said, quality)},
+    {"ms", NULL, "ms", "Their time, of the kind that the budget is meant for.",
+     DIP_FACT(ESTIMATE, Said, ms)},
+    {"flip", NULL, NULL, "Their mean FLIP in this report.", DIP_FACT(NUMBER, Said, flip)},
+};
+static const DipRecord alone_record =
+    DIP_RECORD("choice alone", "What a report alone would choose.", alone_fields, Said, NULL);
+
+static const DipField line_fields[] = {
+    {"number", "report", NULL, "Its number.", .kind = DIP_FIELD_WHOLE, .derive = derive_number},
+    {"ms", "time", "ms", "Time of the chosen settings, of the kind that the budget is meant for.",
+     DIP_FACT(ESTIMATE, Line, chosen.ms), .digits = 2},
+    {"flip", "FLIP", NULL, "FLIP of the chosen settings.", DIP_FACT(NUMBER, Line, chosen.flip),
+     .digits = 4},
+    {"alone", NULL, NULL, "What this report alone would choose.", DIP_FACT(RECORD, Line, alone),
+     .record = &alone_record, .known = has_alone},
+    {"loss", NULL, "%", "Share by which the chosen settings have more FLIP than that.",
+     DIP_FACT(NUMBER, Line, loss), .digits = 1, .scale = 100.0},
+    {"other", "this report alone would choose", NULL, "The same for people.",
+     .kind = DIP_FIELD_TEXT, .derive = derive_alone},
+};
+static const DipRecord line_record =
+    DIP_RECORD("choice in a report", "What a report says about a budget.", line_fields, Line, NULL);
+
+static const void *get_line(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    *(Line *)scratch = line_of(advised_of(at)->common, at->item, index);
+    return scratch;
+}
+
+// --- budgets -------------------------------------------------------------------------------------
+
+typedef struct Choice {
+    DipQuality quality;
+    double flip;
+    double fits;
+    int report;
+} Choice;
+
+static const DipField choice_fields[] = {
+    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, Choice, quality)},
+    {"mean_flip", NULL, NULL, "FLIP, as a mean over the reports.", DIP_FACT(NUMBER, Choice, flip)},
+    {"fits", NULL, NULL, "Probability of being within the budget in every report.",
+     DIP_FACT(NUMBER, Choice, fits)},
+    {"limited_by_report", NULL, NULL, "Index of the report in which it may take longest.",
+     DIP_FACT(WHOLE, Choice, report)},
+};
+static const DipRecord choice_record =
+    DIP_RECORD("common choice", "Settings for all reports.", choice_fields, Choice, NULL);
+
+static const void *derive_choice(const DipFieldAt *at, int index, double fits,
+                                 DipFieldScratch *scratch) {
+    if (index < 0) {
+        return NULL;
+    }
+    const DipCandidate *c = &advised_of(at)->common->candidates.list[index];
+    *(Choice *)scratch = (Choice){c->quality, c->flip, fits, c->report};
+    return scratch;
+}
+
+static const void *derive_chosen(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipAdvice *all = &((const DipCostCommonAdvice *)at->item)->all;
+    return derive_choice(at, all->chosen, all->fits, scratch);
+}
+
+static const void *derive_next(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipAdvice *all = &((const DipCostCommonAdvice *)at->item)->all;
+    return derive_choice(at, all->next, all->next_fits, scratch);
+}
+
+static bool has_next(const DipFieldAt *at) {
+    return ((const DipCostCommonAdvice *)at->item)->all.next >= 0;
+}
+
+static int count_ties(const DipFieldAt *at) {
+    const int count = ((const DipCostCommonAdvice *)at->item)->all.tie_count;
+    return count < DIP_ADVICE_TIES ? count : DIP_ADVICE_TIES;
+}
+
+static const void *get_tie(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &advised_of(at)
+                ->common->qualities[((const DipCostCommonAdvice *)at->item)->all.ties[index]];
+}
+
+#define LIST(RECORD, COUNT, ITEM)                                                                  \
+    .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON, .list = &(const DipFieldList) {               \
+        .record = &(RECORD), .count = COUNT, .item = ITEM                                          \
+    }
+static const DipField tie_element = {.kind = DIP_FIELD_SETTINGS};
+static const DipField budget_fields[] = {
+    {"budget_ms", NULL, "ms", "The time that a frame may take.",
+     DIP_FACT(NUMBER, DipCostCommonAdvice, all.budget_ms)},
+    {"chosen", NULL, NULL, "What to choose; null if nothing surely fits.",
+     DIP_DERIVED(RECORD, derive_chosen), .record = &choice_record},
+    {"ties", NULL, NULL, "Up to eight others that are as good.", .kind = DIP_FIELD_LIST,
+     .where = DIP_FIELD_JSON,
+     .list = &(const DipFieldList){.element = &tie_element, .count = count_ties, .item = get_tie}},
+    {"tie_count", NULL, NULL, "Number of all that are as good.",
+     DIP_FACT(WHOLE, DipCostCommonAdvice, all.tie_count)},
+    {"next_better", NULL, NULL,
+     "What is clearly better, or the fastest if nothing is chosen; null if there is none.",
+     DIP_DERIVED(RECORD, derive_next), .record = &choice_record},
+    {"next_ms", NULL, "ms", "How much longer that takes than the chosen one, or than the budget.",
+     DIP_FACT(NUMBER, DipCostCommonAdvice, all.next_ms), .known = has_next},
+    {"reports", NULL, NULL, "What each report says.", LIST(line_record, count_reports, get_line)},
+};
+static const DipRecord budget_record = DIP_RECORD("budget", "What to choose for one time budget.",
+                                                  budget_fields, DipCostCommonAdvice, NULL);
+
+static const void *derive_budget_of(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return dip_time_kind_names[advised_of(at)->common->candidates.kind];
+}
+
+static const void *derive_combinations(const DipFieldAt *at, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &advised_of(at)->common->count;
+}
+
+static int count_budgets(const DipFieldAt *at) {
+    return advised_of(at)->count;
+}
+
+static const void *get_budget(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
+    (void)scratch;
+    return &advised_of(at)->list[index];
+}
+
+static const DipField advised_fields[] = {
+    {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
+    {"budget_of", NULL, NULL, "The time that budgets are meant for: p95, mean or worst.",
+     DIP_DERIVED(TEXT, derive_budget_of)},
+    {"combinations", NULL, NULL, "Number of combinations that are in every report.",
+     DIP_DERIVED(WHOLE, derive_combinations)},
+    {"reports", NULL, NULL, "The reports.", LIST(report_record, count_reports, get_report)},
+    {"advice", NULL, NULL, "The budgets.", LIST(budget_record, count_budgets, get_budget)},
+};
+const DipRecord dip_cost_common_record = DIP_RECORD(
+    "common advice", "What `diptych cost advise --json` writes.", advised_fields, Advised, NULL);
+
+static bool print_json(const void *advised, FILE *out) {
+    dip_fields_print_json(&dip_cost_common_record, &(DipFieldAt){(void *)advised, advised, 0, NULL},
+                          out);
+    return true;
+}
+
+bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommonAdvice *advice,
+                                int count, const char *file, DipError *err) {
+    return dip_whole_file_print(file, print_json, &(Advised){common, advice, count}, err);
+}
+
+// --- the terminal --------------------------------------------------------------------------------
+
+static void print_reports(DipForm *form, const Advised *advised) {
+    static const DipColumn columns[] = {
+        {"number", NULL},  {"name", NULL},    {"scene", NULL},
+        {"path", NULL},    {"width", NULL},   {"height", NULL},
+        {"threads", NULL}, {"verdict", NULL}, {"combinations", NULL}};
+    const DipCostCommon *common = advised->common;
+    dip_form_table(form, &(DipTable){.caption = "The reports.",
+                                     .record = &report_record,
+                                     .context = (void *)advised,
+                                     .columns = columns,
+                                     .column_count = DIP_FIELD_COUNT_OF(columns),
+                                     .items = common->reports,
+                                     .count = common->report_count});
+    dip_form_paragraph(
+        form, NULL,
+        "%d combination%s of settings %s in every report. Times are %s times with their intervals "
+        "of 95 %%. Mean FLIP is the mean over the reports. Loss is how much more FLIP the common "
+        "choice has than the settings that the report alone would choose.",
+        common->count, dip_cost_plural(common->count), common->count == 1 ? "is" : "are",
+        dip_time_kind_names[common->candidates.kind]);
+}
+
+// Says what stands in the way of better settings.
+static void print_next(DipForm *form, const DipCostCommon *common, const DipAdvice *advice) {
+    char settings[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES];
+    char fits[DIP_NUMBER_BYTES];
+    if (advice->next < 0) {
+        dip_form_fact(form, "Next better", "nothing that was measured");
+        return;
+    }
+    const DipCandidate *next = &common->candidates.list[advice->next];
+    dip_cost_settings_text(&next->quality, settings);
+    dip_number_text(advice->next_ms, 2, true, "-", ms);
+    dip_number_text(100.0 * (next->flip / common->candidates.list[advice->chosen].flip - 1.0), 1,
+                    true, "-", flip);
+    dip_fits_text(advice->next_fits, fits);
+    dip_form_fact(form, "Next better",
+                  "%s (mean FLIP %s %%), for %s ms in report %d, where it takes longest; fits with "
+                  "%s",
+                  settings, flip, ms, next->report + 1, fits);
+}
+
+static void print_chosen(DipForm *form, const Advised *advised, const DipCostCommonAdvice *advice) {
+    static const DipColumn columns[] = {
+        {"number", NULL}, {"ms", NULL}, {"flip", NULL}, {"loss", NULL}, {"other", NULL}};
+    const DipCostCommon *common = advised->common;
+    const DipCandidate *chosen = &common->candidates.list[advice->all.chosen];
+    Line lines[DIP_COST_MAX_COMMON_REPORTS];
+    char settings[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES];
+    for (int i = 0; i < common->report_count; i++) {
+        lines[i] = line_of(common, advice, i);
+    }
+    dip_cost_settings_text(&chosen->quality, settings);
+    dip_fits_text(advice->all.fits, fits);
+    dip_form_paragraph(form, NULL, "%s", settings);
+    dip_form_fact(form, "Fits", "with %s", fits);
+    dip_form_fact(form, "Error", "mean FLIP %.4f", chosen->flip);
+    dip_section_ties(form, &common->candidates, &advice->all);
+    print_next(form, common, &advice->all);
+    dip_section_ini(form, &chosen->quality);
+    dip_form_table(form, &(DipTable){.record = &line_record,
+                                     .context = (void *)advised,
+                                     .columns = columns,
+                                     .column_count = DIP_FIELD_COUNT_OF(columns),
+                                     .items = lines,
+                                     .count = common->report_count});
+}
+
+static void print_nothing(DipForm *form, const DipCostCommon *common, const DipAdvice *advice) {
+    char settings[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES];
+    const DipCandidate *fastest = &common->candidates.list[advice->next];
+    dip_cost_settings_text(&fastest->quality, settings);
+    dip_fits_text(advice->next_fits, fits);
+    dip_form_paragraph(
+        form, NULL,
+        "No common combination surely fits. The fastest, %s, takes %.2f ms in report "
+        "%d and fits with %s.",
+        settings, fastest->time.value, fastest->report + 1, fits);
+}
+
+void dip_cost_common_print(const DipCostCommon *common, const DipCostCommonAdvice *advice,
+                           int count, FILE *out) {
+    const Advised advised = {common, advice, count};
+    DipForm form = {.out = out};
+    DipCostTier tiers[DIP_COST_MAX_BUDGETS];
+    for (int i = 0; i < count; i++) {
+        const int chosen = advice[i].all.chosen;
+        char budget[DIP_BUDGET_BYTES];
+        dip_budget_text(advice[i].all.budget_ms, budget);
+        dip_form_heading(&form, NULL, "%s in every report", budget);
+        if (chosen >= 0) {
+            print_chosen(&form, &advised, &advice[i]);
+        } else {
+            print_nothing(&form, common, &advice[i].all);
+        }
+        tiers[i] = (DipCostTier){advice[i].all.budget_ms,
+                                 chosen >= 0 ? &common->qualities[chosen] : NULL, -1};
+    }
+    dip_section_tiers(&form, tiers, count);
+    print_reports(&form, &advised);
+}
