@@ -21,16 +21,8 @@ static const Advised *advised_of(const DipFieldAt *at) {
 
 // --- reports -------------------------------------------------------------------------------------
 
-static const void *derive_number(const DipFieldAt *at, DipFieldScratch *scratch) {
-    *(int *)scratch = at->index + 1;
-    return scratch;
-}
-
-static const void *derive_name(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return advised_of(at)->common->names[at->index];
-}
-
+DIP_DERIVE(derive_number, DIP_MADE(int, (at->index + 1)))
+DIP_DERIVE(derive_name, advised_of(at)->common->names[at->index])
 #define SHOWN(KIND, MEMBER) DIP_FACT(KIND, DipCostReport, MEMBER)
 static const DipField report_fields[] = {
     {"number", "report", NULL, "Its number.", .kind = DIP_FIELD_WHOLE, .derive = derive_number},
@@ -49,11 +41,7 @@ static const DipField report_fields[] = {
 static const DipRecord report_record =
     DIP_RECORD("advised report", "A report that was given.", report_fields, DipCostReport, NULL);
 
-static const void *get_report(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &advised_of(at)->common->reports[index];
-}
-
+DIP_GET_ITEM(get_report, &advised_of(at)->common->reports[index])
 static int count_reports(const DipFieldAt *at) {
     return advised_of(at)->common->report_count;
 }
@@ -143,11 +131,7 @@ static const DipField line_fields[] = {
 static const DipRecord line_record =
     DIP_RECORD("choice in a report", "What a report says about a budget.", line_fields, Line, NULL);
 
-static const void *get_line(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
-    *(Line *)scratch = line_of(advised_of(at)->common, at->item, index);
-    return scratch;
-}
-
+DIP_GET_ITEM(get_line, DIP_MADE(Line, (line_of(advised_of(at)->common, at->item, index))))
 // --- budgets -------------------------------------------------------------------------------------
 
 typedef struct Choice {
@@ -197,12 +181,9 @@ static int count_ties(const DipFieldAt *at) {
     return count < DIP_ADVICE_TIES ? count : DIP_ADVICE_TIES;
 }
 
-static const void *get_tie(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &advised_of(at)
-                ->common->qualities[((const DipCostCommonAdvice *)at->item)->all.ties[index]];
-}
-
+DIP_GET_ITEM(
+    get_tie,
+    &advised_of(at)->common->qualities[((const DipCostCommonAdvice *)at->item)->all.ties[index]])
 #define LIST(RECORD, COUNT, ITEM)                                                                  \
     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON, .list = &(const DipFieldList) {               \
         .record = &(RECORD), .count = COUNT, .item = ITEM                                          \
@@ -228,25 +209,13 @@ static const DipField budget_fields[] = {
 static const DipRecord budget_record = DIP_RECORD("budget", "What to choose for one time budget.",
                                                   budget_fields, DipCostCommonAdvice, NULL);
 
-static const void *derive_budget_of(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return dip_time_kind_names[advised_of(at)->common->candidates.kind];
-}
-
-static const void *derive_combinations(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &advised_of(at)->common->count;
-}
-
+DIP_DERIVE(derive_budget_of, dip_time_kind_names[advised_of(at)->common->candidates.kind])
+DIP_DERIVE(derive_combinations, &advised_of(at)->common->count)
 static int count_budgets(const DipFieldAt *at) {
     return advised_of(at)->count;
 }
 
-static const void *get_budget(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &advised_of(at)->list[index];
-}
-
+DIP_GET_ITEM(get_budget, &advised_of(at)->list[index])
 static const DipField advised_fields[] = {
     {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
     {"budget_of", NULL, NULL, "The time that budgets are meant for: p95, mean or worst.",

@@ -16,18 +16,12 @@ static int timed_of(const DipFieldAt *at) {
     return ((const DipCostPredictedThere *)at->item)->timed;
 }
 
-#define DERIVE(name, value)                                                                        \
-    static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
-        (void)at;                                                                                  \
-        (void)scratch;                                                                             \
-        return value;                                                                              \
-    }
-DERIVE(derive_what, "diptych cost predict")
-DERIVE(derive_there, &prediction_of(at)->there)
-DERIVE(derive_role, timed_of(at) < 0                                ? "predicted"
-                    : timed_of(at) < prediction_of(at)->timed_count ? "timed"
-                                                                    : "checked")
-DERIVE(derive_timed, timed_of(at) >= 0 ? &prediction_of(at)->timed[timed_of(at)] : NULL)
+DIP_DERIVE(derive_what, "diptych cost predict")
+DIP_DERIVE(derive_there, &prediction_of(at)->there)
+DIP_DERIVE(derive_role, timed_of(at) < 0                                ? "predicted"
+                        : timed_of(at) < prediction_of(at)->timed_count ? "timed"
+                                                                        : "checked")
+DIP_DERIVE(derive_timed, timed_of(at) >= 0 ? &prediction_of(at)->timed[timed_of(at)] : NULL)
 
 static const DipField place_fields[] = {
     {"width", NULL, "px", "Width of the pictures.", DIP_FACT(WHOLE, DipCostReport, width)},

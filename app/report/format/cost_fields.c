@@ -595,11 +595,7 @@ typedef struct Path {
     int same_row;
 } Path;
 
-static const void *derive_floor(const DipFieldAt *at, DipFieldScratch *scratch) {
-    *(DipMetrics *)scratch = dip_cost_floor_metrics(report_of(at), at->index);
-    return scratch;
-}
-
+DIP_DERIVE(derive_floor, DIP_MADE(DipMetrics, (dip_cost_floor_metrics(report_of(at), at->index))))
 static const DipField path_fields[] = {
     {"name", "path", NULL, "\"DEFAULT\", \"AA\" and so on: the key of the path in the ini.",
      DIP_FACT(TEXT, Path, name)},
@@ -729,16 +725,8 @@ static bool is_step_timed(const DipFieldAt *at) {
     return dip_cost_is_timed(report_of(at), *(const int *)at->item);
 }
 
-static const void *derive_ratio(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &sweep_of(at)->ratios[at->index];
-}
-
-static const void *derive_row(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &report_of(at)->rows[*(const int *)at->item];
-}
-
+DIP_DERIVE(derive_ratio, &sweep_of(at)->ratios[at->index])
+DIP_DERIVE(derive_row, &report_of(at)->rows[*(const int *)at->item])
 static const void *derive_step(const DipFieldAt *at, DipFieldScratch *scratch) {
     dip_cost_step_text(report_of(at), sweep_of(at), *(const int *)at->item, scratch->text);
     return scratch->text;
@@ -798,11 +786,7 @@ static const DipRecord sweep_record =
 
 // --- same pictures, predictions, smaller pictures ------------------------------------------------
 
-static const void *derive_same_as(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &report_of(at)->rows[((const DipCostSame *)at->item)->row].quality;
-}
-
+DIP_DERIVE(derive_same_as, &report_of(at)->rows[((const DipCostSame *)at->item)->row].quality)
 static const DipField same_fields[] = {
     {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCostSame, quality)},
     {"row", NULL, NULL, "Index of the row that stands for the combination.",
@@ -952,25 +936,13 @@ static int count_interactions(const DipFieldAt *at) {
     return report_of(at)->analysis ? report_of(at)->analysis->interaction_count : 0;
 }
 
-static const void *get_interaction(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &report_of(at)->analysis->interactions[index];
-}
-
+DIP_GET_ITEM(get_interaction, &report_of(at)->analysis->interactions[index])
 static const DipFieldList interaction_list = {
     .record = &dip_cost_interaction_record, .count = count_interactions, .item = get_interaction};
 
 // The price of a kind of work: an index of the fit's terms.
-static const void *derive_stage(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return report_of(at)->analysis->fit.stages[at->index];
-}
-
-static const void *derive_work(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return report_of(at)->analysis->fit.names[at->index];
-}
-
+DIP_DERIVE(derive_stage, report_of(at)->analysis->fit.stages[at->index])
+DIP_DERIVE(derive_work, report_of(at)->analysis->fit.names[at->index])
 static const DipField price_fields[] = {
     {"stage", "stage", NULL, "Stage of the pipeline.", DIP_DERIVED(TEXT, derive_stage)},
     {"work", "unit of work", NULL, "The kind of work; \"frame\" is what every frame takes.",
@@ -1045,11 +1017,7 @@ static int count_ties(const DipFieldAt *at) {
     return count < DIP_ADVICE_TIES ? count : DIP_ADVICE_TIES;
 }
 
-static const void *get_tie(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &candidate_of(at, ((const DipAdvice *)at->item)->ties[index])->row;
-}
-
+DIP_GET_ITEM(get_tie, &candidate_of(at, ((const DipAdvice *)at->item)->ties[index])->row)
 static bool has_next(const DipFieldAt *at) {
     return ((const DipAdvice *)at->item)->next >= 0;
 }
@@ -1088,11 +1056,7 @@ static int count_advice(const DipFieldAt *at) {
     return report_of(at)->choice.advice_count;
 }
 
-static const void *get_advice(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
-    (void)scratch;
-    return &report_of(at)->choice.advice[index];
-}
-
+DIP_GET_ITEM(get_advice, &report_of(at)->choice.advice[index])
 static DipErrorCode open_advice(const DipFieldAt *at, int count) {
     const bool fits = count <= DIP_COST_MAX_BUDGETS;
     report_of(at)->options.budget_count = fits ? count : 0;
@@ -1112,11 +1076,7 @@ static const DipFieldList advice_list = {.record = &advice_record,
 
 // --- the machine ---------------------------------------------------------------------------------
 
-static const void *derive_reason(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return report_of(at)->verdict_reason;
-}
-
+DIP_DERIVE(derive_reason, report_of(at)->verdict_reason)
 static const DipField machine_fields[] = {
     {"verdict", "machine", NULL, "How quiet the machine was: green, amber or red.",
      DIP_COMPUTED(NAMED, DipCostReport, verdict), .names = dip_cost_verdict_names},

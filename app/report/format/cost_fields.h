@@ -25,6 +25,22 @@
     .offset = offsetof(TYPE, member), .size = sizeof(((TYPE *)0)->member)
 #define DIP_DERIVED(KIND, function)                                                                \
     .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .derive = function
+// Defines a function that derives a field, and one that gets an item of a list.
+#define DIP_DERIVE(name, value)                                                                    \
+    static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
+        (void)at;                                                                                  \
+        (void)scratch;                                                                             \
+        return value;                                                                              \
+    }
+#define DIP_GET_ITEM(name, value)                                                                  \
+    static const void *name(const DipFieldAt *at, int index, DipFieldScratch *scratch) {           \
+        (void)at;                                                                                  \
+        (void)index;                                                                               \
+        (void)scratch;                                                                             \
+        return value;                                                                              \
+    }
+// A value that a derived field makes up.
+#define DIP_MADE(TYPE, value) (*(TYPE *)scratch = (value), scratch)
 #define DIP_RECORD(NAME, MEANS, fields, TYPE, CHECK)                                               \
     { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), sizeof(TYPE), CHECK }
 #define DIP_FIELD_COUNT_OF(fields) (int)(sizeof(fields) / sizeof *(fields))

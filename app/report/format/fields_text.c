@@ -18,6 +18,9 @@ static void format_number(const DipField *field, double value, char text[DIP_NUM
         const int before = value != 0.0 ? (int)floor(log10(fabs(value))) + 1 : 1;
         const int after = field->digits - before > 0 ? field->digits - before : 0;
         dip_number_text(value, after, field->show & DIP_SHOW_SIGN, "-", text);
+        for (size_t end = strlen(text); strchr(text, '.') && strchr("0.", text[end - 1]); end--) {
+            text[end - 1] = '\0';
+        }
     } else {
         dip_number_text(value, field->digits, field->show & DIP_SHOW_SIGN, "-", text);
     }

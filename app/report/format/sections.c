@@ -90,11 +90,7 @@ static void write_nothing(DipForm *form, const DipCandidates *candidates, const 
 
 static const char *const tier_names[DIP_COST_TIER_COUNT] = {"low", "medium", "high", "ultra"};
 
-static const void *derive_tier(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return tier_names[at->index];
-}
-
+DIP_DERIVE(derive_tier, tier_names[at->index])
 static const void *derive_line(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipQuality *quality = ((const DipCostTier *)at->item)->quality;
     strcpy(scratch->text, quality ? "REQUESTED: " : "nothing surely fits");

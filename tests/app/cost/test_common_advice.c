@@ -335,8 +335,8 @@ static void the_table_names_everything(void **state) {
                 "Within 3 ms a frame in every report:\nNo common combination surely fits. The "
                 "fastest, defaults, takes 4.00 ms in report 2 and fits with\n0 %.");
     expect_text(text,
-                "\n  low     3       nothing surely fits\n  medium  5       REQUESTED: aa=none,");
-    expect_text(text, "\n  ultra   10      REQUESTED: aa=none,taa=off,aaa=off,asd=1,af=4,");
+                "\n  low          3  nothing surely fits\n  medium       5  REQUESTED: aa=none,");
+    expect_text(text, "\n  ultra       10  REQUESTED: aa=none,taa=off,aaa=off,asd=1,af=4,");
     free(text);
     dip_cost_common_free(&common);
 }

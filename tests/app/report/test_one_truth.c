@@ -11,6 +11,7 @@
 #include "app/report/candidates.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
+#include "app/report/analysis.h"
 #include "app/report/words.h"
 #include "tests/app/cost/made_report.h"
 
@@ -151,6 +152,59 @@ static void fronts_agree(void **state) {
         free(text);
         free(page);
         close_window(&window);
+        dip_cost_report_free(&report);
+    }
+}
+
+// Returns what a writer of files writes. The caller frees it.
+static char *file_of(bool (*write)(const DipCostReport *report, const char *file, DipError *err),
+                     const DipCostReport *report) {
+    enum { ROOM = 16 << 20 };
+    char *text = calloc(1, ROOM);
+    assert_non_null(text);
+    assert_true(write(report, "one_truth.file", NULL));
+    FILE *in = fopen("one_truth.file", "rb");
+    assert_non_null(in);
+    assert_true(fread(text, 1, ROOM - 1, in) > 0);
+    fclose(in);
+    remove("one_truth.file");
+    return text;
+}
+
+// Text, CSV, JSON and page list the same combinations, steps and interactions.
+static void lists_are_equal_in_all_forms(void **state) {
+    (void)state;
+    for (int i = 0; i < REPORTS; i++) {
+        DipCostReport report;
+        char file[512];
+        read(i, &report, file);
+        assert_true(dip_cost_analyse(&report, NULL));
+        char *text = print(&report), *page = page_of(&report);
+        char *csv = file_of(dip_cost_write_csv, &report);
+        char *json = file_of(dip_cost_write_json, &report);
+        const int combinations = report.row_count - report.combined_first;
+        const int interactions = report.analysis->interaction_count;
+        assert_true(combinations > 10);
+        assert_int_equal(count_of(csv, "\n\"combination\","), combinations);
+        assert_int_equal(count_of(json, "\n{\"settings\":\""),
+                         report.row_count + report.same_count + report.predicted.count +
+                             report.smaller_count);
+        assert_int_equal(count_of(json, "{\"a\":\""), interactions);
+        assert_int_equal(strstr(text, "\nTwo settings together") != NULL, interactions > 0);
+        if (interactions > 0) {
+            const char *list = cut(text, "\nTwo settings together", "\n\n");
+            assert_int_equal(count_of(list, "\n  "), interactions + 2);
+            list = cut(page, "id=\"interaction-table\"", "</table>");
+            assert_int_equal(count_of(list, "<tr>"), interactions + 1);
+        }
+        free(page);
+        page = page_of(&report);
+        assert_int_equal(count_of(cut(page, "id=\"combinations\"", "</table>"), "<tr data-row="),
+                         combinations);
+        free(text);
+        free(page);
+        free(csv);
+        free(json);
         dip_cost_report_free(&report);
     }
 }
@@ -386,6 +440,7 @@ static void no_change_has_no_sign_in_the_panel(void **state) {
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fronts_agree),
+        cmocka_unit_test(lists_are_equal_in_all_forms),
         cmocka_unit_test(next_better_is_one),
         cmocka_unit_test(red_report_advises_nothing_anywhere),
         cmocka_unit_test(advice_of_a_live_report_is_dip_advise),
