@@ -155,8 +155,9 @@ static bool keep_round(void *context, const DipTimed *timed, int count, DipError
 // Hands the rounds of the journal to the driver. It skips those that are not the next.
 static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     const DipCostJournal *journal = t->cost->journal;
+    const int rounds = dip_cost_journal_round_count(journal);
     const int seed = t->cost->report->options.seed;
-    for (int i = 0; i < dip_cost_journal_round_count(journal); i++) {
+    for (int i = 0; i < rounds; i++) {
         int count;
         DipTimed *timed = dip_cost_journal_round(journal, i, seed, &count);
         if (!timed) {
