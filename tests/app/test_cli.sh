@@ -381,7 +381,7 @@ expect 2 'else.json: is not a part of the same report' \
 expect 2 "\[cost diff\] there is nothing to compare; give two reports or programs" "$diptych" cost diff once
 expect 2 "\[c\] is one argument too many" "$diptych" cost diff a b c
 expect 2 "\[--fail-over\] '3' is not a share from 0.1% to 1000%" "$diptych" cost diff once part0 --fail-over 3
-expect 2 'none.json: \[cost diff\] cannot be opened' "$diptych" cost diff once none.json
+expect 2 'none.json: cannot open report' "$diptych" cost diff once none.json
 expect 2 'empty.json: \[version\] is missing' "$diptych" cost diff once empty.json
 head -c 3000 once/cost.json >broken.json
 expect 2 'broken.json: is not a JSON file' "$diptych" cost diff broken.json once

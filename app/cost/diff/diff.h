@@ -7,6 +7,7 @@
 #ifndef DIP_APP_COST_DIFF_DIFF_H
 #define DIP_APP_COST_DIFF_DIFF_H
 
+#include "app/cost/diff/diff_options.h"
 #include "app/measure/timing/sample.h"
 #include "app/report/format/fields.h"
 #include "app/report/report.h"
@@ -132,6 +133,20 @@ bool dip_cost_diff_is_busy(const DipCostDiff *diff);
 // with DIP_ERROR_MEMORY. On success the caller frees the comparison.
 bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCostDiff *diff,
                            DipError *err);
+
+// Draws the settings of `arguments` with both programs in turn, at every frame, and fills in the
+// comparison. Fails if a program does not answer, if the user presses Ctrl-C or if memory runs out.
+// On success the caller frees the comparison.
+bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *const programs[2],
+                            DipCostDiff *diff, DipError *err);
+
+// Measures the rows of a report again with another program, as a report that has only these rows:
+// the rows of the report's first path whose settings `arguments` lists. Each row's ratio is that to
+// the report's baseline. The new report has no errors. Fails with DIP_ERROR_MISSING if the report
+// has none of the rows or no times. On success the caller frees the new report.
+bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const char *program,
+                                  const DipCostReport *report, DipCostReport *measured,
+                                  DipError *err);
 
 // Prints the comparison for a terminal. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_diff_print(const DipCostDiff *diff, FILE *out, DipError *err);

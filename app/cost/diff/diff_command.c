@@ -1,8 +1,6 @@
 // The command `diptych cost diff`: finds out what A and B are, compares them and judges the result.
 #include "app/cost/command.h"
 #include "app/cost/diff/diff.h"
-#include "app/cost/diff/diff_options.h"
-#include "app/cost/diff/diff_programs.h"
 #include "app/report/format/formats.h"
 #include "renderer/base/assert.h"
 

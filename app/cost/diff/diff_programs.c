@@ -1,5 +1,5 @@
 // Comparing two programs that took turns at every frame, and measuring the rows of a report again.
-#include "app/cost/diff/diff_programs.h"
+#include "app/cost/diff/diff.h"
 
 #include "app/cli/machine.h"
 #include "app/cost/diff/diff_cause.h"

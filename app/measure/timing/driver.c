@@ -107,8 +107,7 @@ static bool is_disturbed(const DipDriver *d, double wait, double base_wait) {
     return d->def.most_wait > 0.0 && (wait > d->def.most_wait || base_wait > d->def.most_wait);
 }
 
-// --- plans
-// -----------------------------------------------------------------------------------------
+// --- plans ---------------------------------------------------------------------------------------
 
 static bool add_draw(DipDriver *d, DipDriverPhase phase, int subject, int block, int frame,
                      bool begins_visit) {
@@ -268,8 +267,7 @@ static bool plan_round(DipDriver *d) {
     return done;
 }
 
-// --- complete rounds
-// -------------------------------------------------------------------------------
+// --- complete rounds -----------------------------------------------------------------------------
 
 static bool add_to_log(DipDriver *d, const DipTimed *timed, double base_wait) {
     if (d->log_count == d->log_room) {
@@ -423,8 +421,7 @@ bool dip_driver_resume(DipDriver *d, const DipTimed *known, int count) {
     return true;
 }
 
-// --- drawing
-// ---------------------------------------------------------------------------------------
+// --- drawing -------------------------------------------------------------------------------------
 
 static int64_t now_ns(const DipDriver *d) {
     return d->calls.clock_ns ? d->calls.clock_ns(d->calls.context) : dip_clock_ns();
@@ -519,8 +516,7 @@ static bool draw_settling(DipDriver *d, DipError *err) {
     return true;
 }
 
-// --- steps
-// -----------------------------------------------------------------------------------------
+// --- steps ---------------------------------------------------------------------------------------
 
 // Plans the next round that has frames to draw. Begins a start if the round needs another.
 static bool begin_round(DipDriver *d, DipError *err) {
@@ -608,8 +604,7 @@ void dip_driver_drop_round(DipDriver *d) {
     }
 }
 
-// --- the whole
-// -------------------------------------------------------------------------------------
+// --- the whole -----------------------------------------------------------------------------------
 
 static bool open_driver(DipDriver *d, const DipDriverDef *def) {
     const size_t subjects = (size_t)def->subjects;

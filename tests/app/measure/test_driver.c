@@ -185,8 +185,7 @@ static int round_of(const DipTimed *timed) {
     return timed->start * ROUNDS + timed->round;
 }
 
-// --- a path
-// ----------------------------------------------------------------------------------------
+// --- a path --------------------------------------------------------------------------------------
 
 static void every_frame_is_timed_once_beside_its_base(void **state) {
     (void)state;
@@ -338,8 +337,7 @@ static void settling_ends_when_two_medians_agree(void **state) {
     assert_true(dip_driver_machine(driver, 1).settled);
 }
 
-// --- disturbed frames
-// ------------------------------------------------------------------------------
+// --- disturbed frames ----------------------------------------------------------------------------
 
 static void a_few_disturbed_frames_are_left(void **state) {
     (void)state;
@@ -458,8 +456,7 @@ static void without_a_limit_nothing_is_disturbed(void **state) {
     assert_true(dip_driver_machine(driver, 4).wait > 0.7); // One processor of four worked.
 }
 
-// --- resuming
-// --------------------------------------------------------------------------------------
+// --- resuming ------------------------------------------------------------------------------------
 
 // Compares everything but the moments.
 static void check_same(const DipTimes *a, const DipTimed *list, int count) {
@@ -563,8 +560,7 @@ static void what_does_not_fit_is_drawn(void **state) {
     }
 }
 
-// --- the preview
-// -----------------------------------------------------------------------------------
+// --- the preview ---------------------------------------------------------------------------------
 
 static DipDriverDef block_def(void) {
     return (DipDriverDef){.subjects = 5,
@@ -629,8 +625,7 @@ static void progress_tells_how_long_it_takes(void **state) {
     assert_true(fabs(seconds / (1e-9 * (double)(m.now_ns - begin_ns)) - 1.0) < 0.2);
 }
 
-// --- two programs, and no base
-// ---------------------------------------------------------------------
+// --- two programs, and no base -------------------------------------------------------------------
 
 static void subjects_in_turn_alternate_at_every_frame(void **state) {
     (void)state;
@@ -703,8 +698,7 @@ static void subjects_without_a_base_are_visited_in_seeded_order(void **state) {
     }
 }
 
-// --- long starts
-// -----------------------------------------------------------------------------------
+// --- long starts ---------------------------------------------------------------------------------
 
 // 6 starts of 4 rounds. A round takes about 1.1 s, so a tenth of a start's rounds is .44 s.
 static void check_starts(double start_ms, int starts) {
@@ -752,8 +746,7 @@ static void long_starts_are_fewer(void **state) {
     check_starts(2000.0, 2);
 }
 
-// --- failures
-// --------------------------------------------------------------------------------------
+// --- failures ------------------------------------------------------------------------------------
 
 static bool start_fails(void *context, int index, DipError *err) {
     (void)context;
