@@ -20,8 +20,8 @@
 #ifndef DIP_APP_UI_UI_H
 #define DIP_APP_UI_UI_H
 
-#include "app/canvas/draw_list.h"
-#include "app/display/display.h"
+#include "app/ui/draw_list.h"
+#include "app/ui/event.h"
 
 // Names a control from one pass to the next. Ids are unique within a pass and are not 0. Code that
 // declares controls takes them from its own range, which DIP_UI_ID makes from the enumerator of a
@@ -149,6 +149,10 @@ void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour);
 
 // Draws the outline of a rectangle with rounded corners, `width` pixels wide, inside the rectangle.
 void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour colour);
+
+// Outlines a rectangle from outside with a colour on a dark border, so that the outline shows over
+// any picture.
+void dip_ui_mark(DipUi *ui, DipRect rect, DipColour colour);
 
 // Draws the ring that shows the keyboard's focus around a rectangle, if the control has the focus.
 void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input);

@@ -37,7 +37,7 @@ static int body_rows(const DipTextView *view, const DipPreviewState *state, int 
     if (wanted + least_pane_rows <= pane_rows) {
         return wanted;
     }
-    return asked && pane_rows / 2 > 1 ? dip_style_min(wanted, pane_rows / 2) : 0;
+    return asked && pane_rows / 2 > 1 ? dip_min(wanted, pane_rows / 2) : 0;
 }
 
 DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewState *state, int width,
@@ -56,9 +56,9 @@ DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewStat
     }
     const int pane_columns = width > 2 ? (width - 1) / 2 : 1;
     layout.panes[DIP_PANE_CURRENT] =
-        (DipTextArea){0, label_rows, pane_columns, dip_style_max(1, pane_rows)};
+        (DipTextArea){0, label_rows, pane_columns, dip_max(1, pane_rows)};
     layout.panes[DIP_PANE_REQUESTED] = layout.panes[DIP_PANE_CURRENT];
-    layout.panes[DIP_PANE_REQUESTED].column = dip_style_max(0, width - pane_columns);
+    layout.panes[DIP_PANE_REQUESTED].column = dip_max(0, width - pane_columns);
     return layout;
 }
 
@@ -154,9 +154,8 @@ static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     int column = 1;
     dip_text_screen_fill(&view->screen, (DipTextArea){0, row, columns, 1}, bar.paper);
     format_place(state, place, sizeof place);
-    const int end = dip_text_put_right(&view->screen, row, dip_style_min(columns / 3, 30), columns,
-                                       bar, place) -
-                    1;
+    const int end =
+        dip_text_put_right(&view->screen, row, dip_min(columns / 3, 30), columns, bar, place) - 1;
     const struct {
         const char *text;
         DipTextColours colours;

@@ -3,7 +3,7 @@
 #ifndef DIP_APP_PREVIEW_LOOP_SCREENSHOT_H
 #define DIP_APP_PREVIEW_LOOP_SCREENSHOT_H
 
-#include "app/canvas/pixels.h"
+#include "app/ui/pixels.h"
 #include "app/session/session.h"
 
 // All pointers are borrowed for the call.

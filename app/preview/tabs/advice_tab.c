@@ -156,7 +156,7 @@ static void declare_advised(DipUi *ui, DipWindow *window, DipRect room) {
         write_why_not(ui, window, room, &y);
     }
     const int width = (room.width - gap) / 2;
-    y = dip_style_min(y + gap / 2, room.y + room.height - height);
+    y = dip_min(y + gap / 2, room.y + room.height - height);
     declare_try(ui, window, advised, (DipRect){room.x, y, width, height});
     if (dip_ui_button(ui, id_of(ID_TABLE), (DipRect){room.x + width + gap, y, width, height},
                       "All steps", DIP_UI_PLAIN,
@@ -282,7 +282,7 @@ void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body) {
     const int margin = dip_ui_px(ui, MARGIN), gap = dip_ui_px(ui, GAP);
     const DipRect room = {body.x + margin, body.y + margin / 2, body.width - 2 * margin,
                           body.height - margin};
-    const int left = dip_style_min(dip_ui_px(ui, LEFT_WIDTH), room.width);
+    const int left = dip_min(dip_ui_px(ui, LEFT_WIDTH), room.width);
     const int right = dip_ui_px(ui, RIGHT_WIDTH);
     const DipPreviewChoice *choice = window->state->choice;
     if (!choice) {

@@ -3,7 +3,6 @@
 #include "app/preview/tools/strip.h"
 #include "app/ui/style.h"
 #include "app/preview/tabs/tabs.h"
-#include "app/preview/tools/tool_colours.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -108,7 +107,7 @@ static void declare_left(Flow *flow, DipWindow *window) {
         snprintf(text, sizeof text, "The converged picture is %.0f %% drawn%s.",
                  100.0 * errors->drawn, errors->waits ? ", waiting for a free processor" : "");
     }
-    flow_text(flow, dip_tool_soft, text);
+    flow_text(flow, dip_style_soft, text);
 }
 
 static void declare_wipe(Flow *flow, DipWindow *window) {
@@ -126,23 +125,23 @@ static void declare_wipe(Flow *flow, DipWindow *window) {
         const int radius = dip_ui_px(ui, 7);
         const int track = rect.width - 2 * radius;
         if (input.began || (input.held && input.moved)) {
-            const double at = (double)(input.x - rect.x - radius) / dip_style_max(1, track);
+            const double at = (double)(input.x - rect.x - radius) / dip_max(1, track);
             tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
         }
         dip_compare_adjust(tools, input.steps);
         const int y = rect.y + rect.height / 2;
         const int x = rect.x + radius + (int)(tools->divider * track + 0.5);
-        dip_ui_fill_round(ui, (DipRect){rect.x, y - 2, rect.width, 4}, 2, dip_tool_line);
+        dip_ui_fill_round(ui, (DipRect){rect.x, y - 2, rect.width, 4}, 2, dip_style_line);
         dip_ui_fill_round(ui, (DipRect){x - radius, y - radius, 2 * radius, 2 * radius}, radius,
-                          dip_tool_accent);
+                          dip_style_accent);
         if (input.focused) {
-            dip_ui_outline(ui, rect, dip_ui_px(ui, 4), dip_ui_px(ui, 2), dip_tool_soft);
+            dip_ui_outline(ui, rect, dip_ui_px(ui, 4), dip_ui_px(ui, 2), dip_style_soft);
         }
     }
     if (flow_button(flow, ID_OPTION, "Middle", false, "Puts the line in the middle.")) {
         tools->divider = 0.5;
     }
-    flow_text(flow, dip_tool_dim,
+    flow_text(flow, dip_style_dim,
               window->state->tools.against_truth
                   ? "Left of the line: truth. Right of it: requested. Drag it."
                   : "Left of the line: current. Right of it: requested. Drag it.");
@@ -158,7 +157,7 @@ static void declare_blink(Flow *flow, DipWindow *window) {
                     "Shows the other picture. The key ; does so while you hold it.")) {
         tools->blinked = !tools->blinked;
     }
-    flow_text(flow, dip_tool_dim, "Hold ; to see the other picture.");
+    flow_text(flow, dip_style_dim, "Hold ; to see the other picture.");
 }
 
 static void say_difference(Flow *flow, const DipWindow *window) {
@@ -171,15 +170,15 @@ static void say_difference(Flow *flow, const DipWindow *window) {
         return;
     }
     if (!found->differing) {
-        flow_text(flow, dip_tool_soft, "Both pictures are the same to the bit.");
+        flow_text(flow, dip_style_soft, "Both pictures are the same to the bit.");
         return;
     }
     snprintf(text, sizeof text, "%lld of %lld pixels differ (%.1f %%), at most by %d of 255",
              (long long)found->differing, (long long)found->pixels,
              100.0 * (double)found->differing / (double)found->pixels, found->greatest);
-    flow_text(flow, dip_tool_white, text);
+    flow_text(flow, dip_style_white, text);
     snprintf(text, sizeof text, "at pixel %d, %d", found->x, found->y);
-    flow_text(flow, dip_tool_dim, text);
+    flow_text(flow, dip_style_dim, text);
 }
 
 static void declare_difference(Flow *flow, DipWindow *window) {
@@ -188,7 +187,7 @@ static void declare_difference(Flow *flow, DipWindow *window) {
     for (int gain = 1; gain <= DIP_COMPARE_MAX_GAIN; gain *= 2) {
         char text[8];
         snprintf(text, sizeof text, "x%d", gain);
-        if (flow_button(flow, id++, text, dip_style_max(1, tools->gain) == gain,
+        if (flow_button(flow, id++, text, dip_max(1, tools->gain) == gain,
                         "Multiplies the difference. [ and ] change it as well.")) {
             tools->gain = gain;
         }
@@ -212,7 +211,7 @@ static void declare_alone(Flow *flow, DipWindow *window) {
 }
 
 static void declare_truth(Flow *flow, const DipWindow *window) {
-    flow_text(flow, window->truth ? dip_tool_soft : dip_tool_dim,
+    flow_text(flow, window->truth ? dip_style_soft : dip_style_dim,
               window->truth ? "Left: the converged picture. Right: the requested pane."
                             : "The converged picture is drawn while errors are measured at rest.");
 }
@@ -238,7 +237,7 @@ static void declare_options(Flow *flow, DipWindow *window) {
         declare_truth(flow, window);
         break;
     default:
-        flow_text(flow, dip_tool_dim, "Current on the left, requested on the right.");
+        flow_text(flow, dip_style_dim, "Current on the left, requested on the right.");
         break;
     }
 }
@@ -263,14 +262,14 @@ static void declare_thumbnail(DipUi *ui, DipWindow *window, int index, DipRect r
     }
     const int line = dip_ui_line_height(ui, TINY);
     const DipRect picture = {rect.x, rect.y, rect.width, rect.height - line};
-    dip_ui_fill(ui, picture, dip_tool_well);
+    dip_ui_fill(ui, picture, dip_style_well);
     if (thumbnail.picture.width) {
         dip_ui_picture(ui, picture, &thumbnail.picture, thumbnail.version);
     }
     if (input.hovered || input.focused) {
-        dip_ui_outline(ui, picture, 0, dip_ui_px(ui, 2), dip_tool_soft);
+        dip_ui_outline(ui, picture, 0, dip_ui_px(ui, 2), dip_style_soft);
     }
-    dip_ui_text(ui, TINY, dip_tool_dim, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
+    dip_ui_text(ui, TINY, dip_style_dim, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
                 rect.y + rect.height - line, rect.width, text);
 }
 
@@ -279,7 +278,7 @@ static void declare_strip(DipUi *ui, DipWindow *window, DipRect rest) {
     const DipRect *pane = &window->layout->panes[DIP_PANE_CURRENT];
     const int line = dip_ui_line_height(ui, TINY);
     const int gap = dip_ui_px(ui, 4);
-    int height = dip_style_min(rest.height - line, dip_ui_px(ui, STRIP_MOST));
+    int height = dip_min(rest.height - line, dip_ui_px(ui, STRIP_MOST));
     if (rest.height < dip_ui_px(ui, STRIP_LEAST) || pane->height < 1 ||
         window->state->shows_gallery) {
         return;
@@ -290,7 +289,7 @@ static void declare_strip(DipUi *ui, DipWindow *window, DipRect rest) {
         width = all;
         height = (int)((int64_t)width * pane->height / pane->width);
     }
-    const int fit = (rest.width + gap) / (dip_style_max(1, width) + gap);
+    const int fit = (rest.width + gap) / (dip_max(1, width) + gap);
     const int step = fit >= DIP_STRIP_COUNT ? 1 : fit >= 5 ? 2 : fit >= 2 ? 5 : DIP_STRIP_COUNT;
     if (width < 1 || height < 1 || width > rest.width) {
         return;

@@ -33,11 +33,10 @@ DipRect dip_sheet_draw(DipDrawList *list, int width, int height) {
 static void measure_titles(CostsLayout *l, DipFont *font, const DipCosts *costs, int gap) {
     for (int r = 0; r < costs->row_count; ++r) {
         const DipCostsRow *row = &costs->rows[r];
-        l->title_width =
-            dip_style_max(l->title_width, dip_font_width(font, l->size, row->title) + gap);
+        l->title_width = dip_max(l->title_width, dip_font_width(font, l->size, row->title) + gap);
         for (int s = 0; s < row->step_count; ++s) {
-            l->name_width[s] = dip_style_max(
-                l->name_width[s], dip_font_width(font, l->size, row->steps[s].name) + gap / 2);
+            l->name_width[s] = dip_max(l->name_width[s],
+                                       dip_font_width(font, l->size, row->steps[s].name) + gap / 2);
         }
     }
 }
@@ -51,7 +50,7 @@ static int measure_column(const CostsLayout *l, DipFont *font, const DipCosts *c
         const DipCostsRow *row = &costs->rows[r];
         if (step < row->step_count) {
             const int figures = dip_font_width(font, l->size, row->steps[step].figures);
-            width = dip_style_max(width, l->name_width[step] + figures + gap);
+            width = dip_max(width, l->name_width[step] + figures + gap);
         }
     }
     return width;
@@ -59,14 +58,14 @@ static int measure_column(const CostsLayout *l, DipFont *font, const DipCosts *c
 
 static CostsLayout measure_costs(DipFont *font, const DipCosts *costs, int size) {
     CostsLayout l = {.size = size, .line = dip_font_line_height(font, size) + 1};
-    const int gap = dip_style_max(4, size * 2 / 3);
+    const int gap = dip_max(4, size * 2 / 3);
     measure_titles(&l, font, costs, gap);
     l.width = l.title_width;
     for (int s = 0; s < DIP_COST_MAX_SWEEP_ROWS; ++s) {
         l.column_width[s] = measure_column(&l, font, costs, s, gap);
         l.width += l.column_width[s];
     }
-    l.width = dip_style_max(l.width, dip_font_width(font, size, costs_note)) + 2 * size;
+    l.width = dip_max(l.width, dip_font_width(font, size, costs_note)) + 2 * size;
     l.height = (costs->row_count + 3) * l.line + 2 * size;
     return l;
 }
@@ -93,7 +92,7 @@ static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double 
     DipFont *font = dip_draw_list_font(list);
     const int least = dip_style_scaled(10, scale);
     const int most = dip_style_scaled(LARGEST_LETTERS, scale);
-    const int size = dip_style_max(least, dip_style_min(most, dip_draw_list_width(list) / 60));
+    const int size = dip_max(least, dip_min(most, dip_draw_list_width(list) / 60));
     const int line = dip_font_line_height(font, size) + 2;
     char lines[LINES][LINE_BYTES] = {"There is no cost report yet. This makes one in some minutes:",
                                      "", "Then start the preview with it:", ""};
@@ -101,7 +100,7 @@ static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double 
     snprintf(lines[3], LINE_BYTES, "    diptych%s --cost DIR/cost.json", state->scene_words);
     int width = 0;
     for (int i = 0; i < LINES; ++i) {
-        width = dip_style_max(width, dip_font_width(font, size, lines[i]));
+        width = dip_max(width, dip_font_width(font, size, lines[i]));
     }
     const DipRect sheet = dip_sheet_draw(list, width + 2 * size, LINES * line + 2 * size);
     for (int i = 0; i < LINES; ++i) {

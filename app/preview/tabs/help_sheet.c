@@ -77,9 +77,9 @@ static void measure_columns(HelpLayout *l, DipFont *font, const HelpRow *rows, i
         const int first = c * l->rows_per_column;
         for (int i = first; i < first + l->rows_per_column && i < count; ++i) {
             l->label_width[c] =
-                dip_style_max(l->label_width[c], dip_font_width(font, l->size, rows[i].label));
+                dip_max(l->label_width[c], dip_font_width(font, l->size, rows[i].label));
             l->text_width[c] =
-                dip_style_max(l->text_width[c], dip_font_width(font, l->size, rows[i].text));
+                dip_max(l->text_width[c], dip_font_width(font, l->size, rows[i].text));
         }
     }
 }
@@ -87,14 +87,14 @@ static void measure_columns(HelpLayout *l, DipFont *font, const HelpRow *rows, i
 static HelpLayout measure_help(DipFont *font, const HelpRow *rows, int count, int size,
                                int columns) {
     HelpLayout l = {.size = size, .columns = columns, .gap = size};
-    l.line = dip_font_line_height(font, size) + dip_style_max(1, size / 6);
+    l.line = dip_font_line_height(font, size) + dip_max(1, size / 6);
     l.rows_per_column = (count + columns - 1) / columns;
     measure_columns(&l, font, rows, count);
     int rows_width = (columns - 1) * 2 * l.gap;
     for (int c = 0; c < columns && c < MAX_HELP_COLUMNS; ++c) {
         rows_width += l.label_width[c] + l.gap + l.text_width[c];
     }
-    l.width = dip_style_max(rows_width, dip_font_width(font, size, help_note)) + 2 * size;
+    l.width = dip_max(rows_width, dip_font_width(font, size, help_note)) + 2 * size;
     l.height = (l.rows_per_column + 3) * l.line + 2 * size;
     return l;
 }
@@ -106,7 +106,7 @@ static HelpLayout squeeze(HelpLayout l, int room) {
     for (int c = 0; excess > 0 && c < l.columns; ++c) {
         l.text_width[c] -= (excess + l.columns - 1) / l.columns;
     }
-    l.width = dip_style_min(l.width, room);
+    l.width = dip_min(l.width, room);
     return l;
 }
 

@@ -72,8 +72,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
                                                                       : DIP_ROUGH_MARK "88.8 ms");
     const bool time_fits = title_width + dip_ui_text_width(ui, LABEL_SIZE, label.time) <= room;
     // The settings stay where they are while the time has a digit more or less.
-    const int time_width =
-        dip_style_max(dip_ui_text_width(ui, LABEL_SIZE, label.time), usual) + pad;
+    const int time_width = dip_max(dip_ui_text_width(ui, LABEL_SIZE, label.time), usual) + pad;
     int width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
     if (width > room) {
         dip_preview_describe(&window->state->quality[pane], true, label.settings,
@@ -93,7 +92,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     if (!settings_fit) {
         width = time_height + settings_height > 0 ? room : title_width + time_width - pad;
     }
-    const DipRect strip = {rect.x + margin, rect.y + margin, dip_style_min(width, room) + 2 * pad,
+    const DipRect strip = {rect.x + margin, rect.y + margin, dip_min(width, room) + 2 * pad,
                            dip_ui_px(ui, LABEL_HEIGHT) + time_height + settings_height};
     const int x = strip.x + pad;
     int y = strip.y + (dip_ui_px(ui, LABEL_HEIGHT) - line) / 2;
@@ -136,7 +135,7 @@ void dip_labels_draw_notice(DipUi *ui, DipWindow *window) {
     const DipLayout *layout = window->layout;
     const int pad = dip_ui_px(ui, LABEL_PAD), margin = dip_ui_px(ui, LABEL_MARGIN);
     const int room = layout->width - 2 * margin - 2 * pad;
-    const int width = dip_style_min(room, dip_ui_text_width(ui, LABEL_SIZE, notice) + 1);
+    const int width = dip_min(room, dip_ui_text_width(ui, LABEL_SIZE, notice) + 1);
     const int text_height = dip_ui_text_block_height(ui, LABEL_SIZE, width, notice);
     const int height =
         text_height + dip_ui_px(ui, LABEL_HEIGHT) - dip_ui_line_height(ui, LABEL_SIZE);

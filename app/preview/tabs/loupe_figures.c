@@ -1,7 +1,6 @@
 // The figures of the loupe's pixel: its colour, its samples and the truth.
 #include "app/preview/tabs/loupe_tab_private.h"
 #include "app/ui/style.h"
-#include "app/preview/tools/tool_colours.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -36,7 +35,7 @@ static const char *without_zero(double value, char text[16]) {
 
 static void say_linear(DipLoupePart *part, int size) {
     char red[16], green[16], blue[16];
-    say(part, size, dip_tool_white, "%s %s %s",
+    say(part, size, dip_style_white, "%s %s %s",
         without_zero(dip_loupe_linear(part->loupe, part->pixel.red), red),
         without_zero(dip_loupe_linear(part->loupe, part->pixel.green), green),
         without_zero(dip_loupe_linear(part->loupe, part->pixel.blue), blue));
@@ -44,9 +43,9 @@ static void say_linear(DipLoupePart *part, int size) {
 
 static void say_pixel(DipLoupePart *part) {
     const DipColour *c = &part->pixel;
-    say(part, DIP_LOUPE_SMALL, dip_tool_white, "#%02X%02X%02X", c->red, c->green, c->blue);
-    say(part, DIP_LOUPE_SMALL, dip_tool_white, "%d %d %d", c->red, c->green, c->blue);
-    say(part, DIP_LOUPE_TINY, dip_tool_dim, "linear");
+    say(part, DIP_LOUPE_SMALL, dip_style_white, "#%02X%02X%02X", c->red, c->green, c->blue);
+    say(part, DIP_LOUPE_SMALL, dip_style_white, "%d %d %d", c->red, c->green, c->blue);
+    say(part, DIP_LOUPE_TINY, dip_style_dim, "linear");
     say_linear(part, DIP_LOUPE_SMALL);
 }
 
@@ -58,7 +57,7 @@ static void say_samples(DipLoupePart *part, int bottom) {
     if (count < 2 || part->y + line * (rows + 1) > bottom) {
         return;
     }
-    say(part, DIP_LOUPE_TINY, dip_tool_dim, "samples");
+    say(part, DIP_LOUPE_TINY, dip_style_dim, "samples");
     const int top = part->y;
     const int half = dip_ui_px(part->ui, 60);
     for (int s = 0; s < count; ++s) {
@@ -66,7 +65,7 @@ static void say_samples(DipLoupePart *part, int bottom) {
         char text[32];
         snprintf(text, sizeof text, "%d  %02X%02X%02X", s, dip_loupe_code(part->loupe, light[0]),
                  dip_loupe_code(part->loupe, light[1]), dip_loupe_code(part->loupe, light[2]));
-        dip_ui_text(part->ui, DIP_LOUPE_TINY, dip_tool_white, DIP_ALIGN_LEFT,
+        dip_ui_text(part->ui, DIP_LOUPE_TINY, dip_style_white, DIP_ALIGN_LEFT,
                     part->x + s / rows * half, top + s % rows * line, half, text);
     }
     part->y = top + rows * line;
@@ -78,7 +77,7 @@ static void say_fitting(DipLoupePart *part, const char *const *texts, int count)
     while (i < count - 1 && dip_ui_text_width(part->ui, DIP_LOUPE_SMALL, texts[i]) > part->width) {
         ++i;
     }
-    say(part, DIP_LOUPE_SMALL, dip_tool_soft, "%s", texts[i]);
+    say(part, DIP_LOUPE_SMALL, dip_style_soft, "%s", texts[i]);
 }
 
 // Says how many samples the pixel has and what they show.
@@ -114,7 +113,7 @@ static int distance(DipColour a, DipColour b) {
     const int red = abs(a.red - b.red);
     const int green = abs(a.green - b.green);
     const int blue = abs(a.blue - b.blue);
-    return dip_style_max(red, dip_style_max(green, blue));
+    return dip_max(red, dip_max(green, blue));
 }
 
 // Compares the pixel with the converged picture, if that is known.
@@ -133,14 +132,14 @@ static void say_truth(DipLoupePart *part) {
     snprintf(text, sizeof text, "truth %d %d %d  ", true_pixel.red, true_pixel.green,
              true_pixel.blue);
     const int width = dip_ui_text_width(part->ui, DIP_LOUPE_SMALL, text);
-    dip_ui_text(part->ui, DIP_LOUPE_SMALL, dip_tool_white, DIP_ALIGN_LEFT, part->x, part->y,
+    dip_ui_text(part->ui, DIP_LOUPE_SMALL, dip_style_white, DIP_ALIGN_LEFT, part->x, part->y,
                 part->width, text);
     part->x += width;
     part->width -= width;
     say(part, DIP_LOUPE_SMALL,
-        off < other_off   ? dip_tool_gain
-        : off > other_off ? dip_tool_worse
-                          : dip_tool_soft,
+        off < other_off   ? dip_style_gain
+        : off > other_off ? dip_style_worse
+                          : dip_style_soft,
         "off by %d", off);
     part->x -= width;
     part->width += width;
@@ -165,7 +164,7 @@ static void draw_box(DipLoupePart *part, DipRect rect) {
         char number[16];
         dip_loupe_box_position(part->pattern, rect.width, s, &x, &y);
         snprintf(number, sizeof number, "%d", s);
-        dip_ui_text(part->ui, DIP_LOUPE_TINY, dip_tool_contrast(ground), DIP_ALIGN_CENTRE,
+        dip_ui_text(part->ui, DIP_LOUPE_TINY, dip_style_contrast(ground), DIP_ALIGN_CENTRE,
                     rect.x + x, rect.y + y - height / 2, rect.width, number);
     }
 }
@@ -176,7 +175,7 @@ void dip_loupe_show_details(DipLoupePart *part, DipRect rect) {
     const int gap = dip_ui_px(ui, 8);
     const int small = dip_ui_line_height(ui, DIP_LOUPE_SMALL);
     const int side = dip_ui_px(ui, BOX_SIDE);
-    const DipColour name = part->pane == DIP_PANE_REQUESTED ? dip_tool_accent : dip_tool_white;
+    const DipColour name = part->pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white;
     const int bottom = rect.y + rect.height;
     part->x = rect.x + gap;
     part->y = rect.y;
@@ -196,7 +195,7 @@ void dip_loupe_show_details(DipLoupePart *part, DipRect rect) {
         say_samples(part, bottom);
     } else if (top + small <= bottom) {
         const DipColour *c = &part->pixel;
-        say(part, DIP_LOUPE_SMALL, dip_tool_white, "#%02X%02X%02X", c->red, c->green, c->blue);
+        say(part, DIP_LOUPE_SMALL, dip_style_white, "#%02X%02X%02X", c->red, c->green, c->blue);
     }
     if (box) {
         part->x = rect.x + gap;
@@ -214,7 +213,7 @@ void dip_loupe_show_details(DipLoupePart *part, DipRect rect) {
 void dip_loupe_show_brief(DipLoupePart *part, DipRect rect) {
     const DipToolState *tools = &part->window->state->tools;
     const DipColour *c = &part->pixel;
-    const DipColour name = part->pane == DIP_PANE_REQUESTED ? dip_tool_accent : dip_tool_white;
+    const DipColour name = part->pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white;
     const int gap = dip_ui_px(part->ui, 4);
     char pixel[48], rgb[48];
     part->x = rect.x + gap;
@@ -228,11 +227,11 @@ void dip_loupe_show_brief(DipLoupePart *part, DipRect rect) {
         part->width) {
         rgb[7] = '\0'; // The hexadecimal code alone.
     }
-    dip_ui_text(part->ui, DIP_LOUPE_SMALL, dip_tool_white, DIP_ALIGN_RIGHT,
+    dip_ui_text(part->ui, DIP_LOUPE_SMALL, dip_style_white, DIP_ALIGN_RIGHT,
                 rect.x + rect.width - gap, part->y, part->width, rgb);
     say(part, DIP_LOUPE_SMALL, name, "%s", pixel);
     char red[16], green[16], blue[16];
-    say(part, DIP_LOUPE_SMALL, dip_tool_white, "linear %s %s %s",
+    say(part, DIP_LOUPE_SMALL, dip_style_white, "linear %s %s %s",
         without_zero(dip_loupe_linear(part->loupe, c->red), red),
         without_zero(dip_loupe_linear(part->loupe, c->green), green),
         without_zero(dip_loupe_linear(part->loupe, c->blue), blue));
@@ -244,7 +243,7 @@ int dip_loupe_brief_height(const DipLoupePart *part, DipRect rect) {
     int most = 0;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipQuality *quality = &part->window->state->quality[p];
-        most = dip_style_max(most, dip_loupe_pattern(part->loupe, quality)->count);
+        most = dip_max(most, dip_loupe_pattern(part->loupe, quality)->count);
     }
     const int lines = 3 * dip_ui_line_height(part->ui, DIP_LOUPE_SMALL);
     const int samples =

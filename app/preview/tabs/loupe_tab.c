@@ -1,7 +1,6 @@
 // The loupe's tab.
 #include "app/preview/tabs/loupe_tab_private.h"
 #include "app/ui/style.h"
-#include "app/preview/tools/tool_colours.h"
 
 #include <stdio.h>
 
@@ -33,7 +32,7 @@ static void handle_crop(DipLoupePart *part, const DipLoupeCrop *crop) {
     const DipUiInput input = dip_ui_control(part->ui, &control);
     if (dip_ui_is_drawing(part->ui)) {
         if (input.focused) {
-            dip_ui_outline(part->ui, crop->frame, 0, dip_ui_px(part->ui, 2), dip_tool_soft);
+            dip_ui_outline(part->ui, crop->frame, 0, dip_ui_px(part->ui, 2), dip_style_soft);
         }
         return;
     }
@@ -78,8 +77,8 @@ static void draw_crop(DipLoupePart *part, DipRect area) {
         if (dip_loupe_crop_picture(part->loupe, part->pane, &content, &picture, &version)) {
             dip_ui_picture(part->ui, content.crop.frame, &picture, version);
         }
-        dip_tool_outline(part->ui, content.crop.pixel,
-                         part->pane == DIP_PANE_REQUESTED ? dip_tool_accent : dip_tool_white);
+        dip_ui_mark(part->ui, content.crop.pixel,
+                    part->pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white);
     }
     handle_crop(part, &content.crop);
 }
@@ -163,7 +162,7 @@ static void declare_head(DipUi *ui, DipWindow *window, DipRect row) {
     const int room = row.x + row.width - x - dip_ui_px(ui, 8);
     if (room >= dip_ui_text_width(ui, DIP_LOUPE_SMALL, note)) {
         const int height = dip_ui_line_height(ui, DIP_LOUPE_SMALL);
-        dip_ui_text(ui, DIP_LOUPE_SMALL, dip_tool_dim, DIP_ALIGN_RIGHT, row.x + row.width,
+        dip_ui_text(ui, DIP_LOUPE_SMALL, dip_style_dim, DIP_ALIGN_RIGHT, row.x + row.width,
                     row.y + (row.height - height) / 2, room, note);
     }
 }
@@ -174,7 +173,7 @@ static DipRect half_of(const DipLayout *layout, DipRect body, int pane) {
     if (layout->side == DIP_DOCK_BELOW) {
         const DipRect *under = &layout->panes[pane];
         half.x = under->x > body.x ? under->x : body.x;
-        half.width = dip_style_min(under->x + under->width, body.x + body.width) - half.x;
+        half.width = dip_min(under->x + under->width, body.x + body.width) - half.x;
     } else if (body.height >= body.width / 2) {
         half.height = body.height / 2 - 2;
         half.y += pane == DIP_PANE_REQUESTED ? body.height - half.height : 0;

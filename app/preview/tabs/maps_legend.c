@@ -16,13 +16,13 @@ static bool count_values(const Tab *tab, int pane, double end, double counts[CHA
     if (tab->tools->map == DIP_MAP_FLIP) {
         for (int i = 0; errors && errors->flip[pane] && i < DIP_ERROR_BINS; i++) {
             const int bin = (int)((i + 0.5) / DIP_ERROR_BINS / end * CHART_BINS);
-            counts[smaller(bin, CHART_BINS - 1)] += errors->spread[pane].bins[i];
+            counts[dip_min(bin, CHART_BINS - 1)] += errors->spread[pane].bins[i];
         }
         return errors && errors->flip[pane];
     }
     for (int t = 0; work->draws && t < work->across * work->down; t++) {
         const int bin = (int)(dip_map_value(work, tab->tools->map, t) / end * CHART_BINS);
-        counts[smaller(bin, CHART_BINS - 1)] += 1.0;
+        counts[dip_min(bin, CHART_BINS - 1)] += 1.0;
     }
     return work->draws > 0;
 }
@@ -42,12 +42,12 @@ static void draw_outline(const Tab *tab, DipRect area, int pane, const double co
         const int right = area.x + area.width * (i + 1) / CHART_BINS;
         const int rise = (int)(chart_height(tab, counts[i], most) * (area.height - 2 * thick));
         const int y = area.y + area.height - thick - rise;
-        const int top = smaller(y, before), height = (y > before ? y : before) - top;
-        dip_ui_fill(tab->ui, (DipRect){left, top, thick, height}, pane_colour(pane));
+        const int top = dip_min(y, before), height = (y > before ? y : before) - top;
+        dip_ui_fill(tab->ui, (DipRect){left, top, thick, height}, dip_style_of_pane(pane));
         const int step = pane == DIP_PANE_CURRENT ? right - left + 1 : dash + hole;
         for (int x = left; x < right + (pane == DIP_PANE_CURRENT); x += step) {
-            const int end = pane == DIP_PANE_CURRENT ? right + thick : smaller(x + dash, right);
-            dip_ui_fill(tab->ui, (DipRect){x, y, end - x, thick}, pane_colour(pane));
+            const int end = pane == DIP_PANE_CURRENT ? right + thick : dip_min(x + dash, right);
+            dip_ui_fill(tab->ui, (DipRect){x, y, end - x, thick}, dip_style_of_pane(pane));
         }
         before = y;
     }
@@ -57,7 +57,7 @@ static void draw_chart(const Tab *tab, DipRect area, double end) {
     double counts[DIP_PANE_COUNT][CHART_BINS];
     bool known[DIP_PANE_COUNT];
     double most = 1.0;
-    dip_ui_fill(tab->ui, area, well);
+    dip_ui_fill(tab->ui, area, dip_style_well);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         known[p] = count_values(tab, p, end, counts[p]);
         for (int i = 0; i < CHART_BINS; i++) {
@@ -107,7 +107,7 @@ static void draw_scale_marks(const Tab *tab, DipRect area, double end) {
             dip_ui_fill(tab->ui,
                         (DipRect){area.x + (int)(share * area.width) - px(tab, 1),
                                   area.y - px(tab, 3), px(tab, 2), area.height + px(tab, 6)},
-                        pane_colour(p));
+                        dip_style_of_pane(p));
         }
     }
 }
@@ -120,7 +120,7 @@ static void draw_ticks(const Tab *tab, DipRect area, double end) {
         if (i == TICKS && tab->tools->brightness > 1.0) {
             strcat(text, " +");
         }
-        dip_ui_text(tab->ui, NOTE, soft,
+        dip_ui_text(tab->ui, NOTE, dip_style_soft,
                     i == 0       ? DIP_ALIGN_LEFT
                     : i == TICKS ? DIP_ALIGN_RIGHT
                                  : DIP_ALIGN_CENTRE,
@@ -131,7 +131,7 @@ static void draw_ticks(const Tab *tab, DipRect area, double end) {
 static void brightness_buttons(const Tab *tab, int x, int y) {
     static const int steps[BRIGHTNESS_COUNT] = {1, 2, 4, 8};
     const int width = px(tab, 30), gap = px(tab, 4);
-    x += put(tab, NOTE, soft, x, y + px(tab, 4), px(tab, 100), "Brightness") + px(tab, 8);
+    x += put(tab, NOTE, dip_style_soft, x, y + px(tab, 4), px(tab, 100), "Brightness") + px(tab, 8);
     for (int i = 0; i < BRIGHTNESS_COUNT; i++, x += width + gap) {
         char text[8];
         snprintf(text, sizeof text, "%dx", steps[i]);
@@ -163,10 +163,10 @@ static const char *legend_title(DipMap map) {
 static void scale_legend(const Tab *tab, DipRect area) {
     const bool flip = tab->tools->map == DIP_MAP_FLIP;
     const double end = dip_maps_end(tab->maps, tab->tools);
-    const int width = smaller(area.width, px(tab, 320));
+    const int width = dip_min(area.width, px(tab, 320));
     int y = area.y;
-    put(tab, TEXT, white, area.x, y, width, legend_title(tab->tools->map));
-    put_right(tab, NOTE, soft, area.x + width, y + px(tab, 2),
+    put(tab, TEXT, dip_style_white, area.x, y, width, legend_title(tab->tools->map));
+    put_right(tab, NOTE, dip_style_soft, area.x + width, y + px(tab, 2),
               flip ? "pixels, log scale" : "tiles");
     y += px(tab, ROW);
     draw_chart(tab, (DipRect){area.x, y, width, px(tab, CHART)}, end);
@@ -177,8 +177,8 @@ static void scale_legend(const Tab *tab, DipRect area) {
     y += px(tab, BAR + 4);
     draw_ticks(tab, (DipRect){area.x, y, width, px(tab, NOTE_ROW)}, end);
     y += px(tab, 20);
-    const int named = put(tab, NOTE, white, area.x, y, width, "— Current");
-    put(tab, NOTE, amber, area.x + named + px(tab, 14), y, width, "- - Requested");
+    const int named = put(tab, NOTE, dip_style_white, area.x, y, width, "— Current");
+    put(tab, NOTE, dip_style_accent, area.x + named + px(tab, 14), y, width, "- - Requested");
     brightness_buttons(tab, area.x, y + px(tab, 20));
 }
 
@@ -187,12 +187,13 @@ static void draw_key(const Tab *tab, int x, int y, int room, DipColour colour, c
     const int side = px(tab, 14);
     const DipRect square = {x, y + px(tab, 2), side, side};
     dip_ui_fill(tab->ui, square, colour);
-    dip_ui_outline(tab->ui, square, 0, px(tab, 1), line);
-    put(tab, NOTE, soft, x + side + px(tab, 8), y + px(tab, 2), room - side - px(tab, 8), text);
+    dip_ui_outline(tab->ui, square, 0, px(tab, 1), dip_style_line);
+    put(tab, NOTE, dip_style_soft, x + side + px(tab, 8), y + px(tab, 2), room - side - px(tab, 8),
+        text);
 }
 
 static void mip_legend(const Tab *tab, DipRect area) {
-    put(tab, TEXT, white, area.x, area.y, area.width, "Mip level, by its size in texels");
+    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "Mip level, by its size in texels");
     for (int i = 0; i < DIP_MIP_DEBUG_LEVELS; i++) {
         char text[32];
         snprintf(text, sizeof text, "%d%s", 1024 >> i,
@@ -202,9 +203,9 @@ static void mip_legend(const Tab *tab, DipRect area) {
         draw_key(tab, area.x + i / 4 * area.width / 2, area.y + px(tab, ROW * (i % 4 + 1)),
                  area.width / 2, dip_map_mip_colour(i), text);
     }
-    put(tab, NOTE, soft, area.x, area.y + px(tab, 5 * ROW + 4), area.width,
+    put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, 5 * ROW + 4), area.width,
         "Where levels are blended, their colours mix.");
-    put(tab, NOTE, soft, area.x, area.y + px(tab, 5 * ROW + 4 + NOTE_ROW), area.width,
+    put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, 5 * ROW + 4 + NOTE_ROW), area.width,
         "Blurred: the level is too small. Shimmering: too large.");
 }
 
@@ -212,22 +213,22 @@ static void samples_legend(const Tab *tab, DipRect area) {
     uint8_t first[3], last[3];
     dip_cividis(0.0f, first);
     dip_cividis(1.0f, last);
-    put(tab, TEXT, white, area.x, area.y, area.width, "Samples of a pixel, per pixel");
+    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "Samples of a pixel, per pixel");
     draw_key(tab, area.x, area.y + px(tab, ROW), area.width,
              (DipColour){last[0], last[1], last[2], 255}, "They show more than one surface.");
     draw_key(tab, area.x, area.y + px(tab, 2 * ROW), area.width,
              (DipColour){first[0], first[1], first[2], 255}, "They all show one.");
-    put(tab, NOTE, soft, area.x, area.y + px(tab, 3 * ROW + 4), area.width,
+    put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, 3 * ROW + 4), area.width,
         "Without antialiasing a pixel has one sample, so none differ.");
 }
 
 void dip_maps_legend_block(const Tab *tab, DipRect area) {
     switch (tab->tools->map) {
     case DIP_MAP_NONE:
-        put(tab, TEXT, white, area.x, area.y, area.width, "Where does it go?");
-        put(tab, NOTE, soft, area.x, area.y + px(tab, ROW), area.width,
+        put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "Where does it go?");
+        put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, ROW), area.width,
             "A map shows over each pane where its error lies");
-        put(tab, NOTE, soft, area.x, area.y + px(tab, ROW + NOTE_ROW), area.width,
+        put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, ROW + NOTE_ROW), area.width,
             "and where its work is done.");
         return;
     case DIP_MAP_MIPS:

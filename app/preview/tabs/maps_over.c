@@ -25,8 +25,8 @@ static DipRect tile_rect(const Tab *tab, int pane, const DipMapWork *work, int t
     const int x = tile % work->across * DIP_TARGET_TILE;
     const int y = tile / work->across * DIP_TARGET_TILE;
     return shown_rect(tab, pane,
-                      (DipRect){x, y, smaller(DIP_TARGET_TILE, work->width - x),
-                                smaller(DIP_TARGET_TILE, work->height - y)});
+                      (DipRect){x, y, dip_min(DIP_TARGET_TILE, work->width - x),
+                                dip_min(DIP_TARGET_TILE, work->height - y)});
 }
 
 // Writes each tile's value into its lower right corner, if it fits.
@@ -43,9 +43,11 @@ static void draw_numbers(const Tab *tab, int pane) {
         }
         const int x = rect.x + rect.width - px(tab, 4);
         const int y = rect.y + rect.height - height - px(tab, 3);
-        dip_ui_text(tab->ui, NOTE, shadow, DIP_ALIGN_RIGHT, x + one, y + one, rect.width, text);
-        dip_ui_text(tab->ui, NOTE, shadow, DIP_ALIGN_RIGHT, x - one, y - one, rect.width, text);
-        dip_ui_text(tab->ui, NOTE, white, DIP_ALIGN_RIGHT, x, y, rect.width, text);
+        dip_ui_text(tab->ui, NOTE, dip_style_shadow, DIP_ALIGN_RIGHT, x + one, y + one, rect.width,
+                    text);
+        dip_ui_text(tab->ui, NOTE, dip_style_shadow, DIP_ALIGN_RIGHT, x - one, y - one, rect.width,
+                    text);
+        dip_ui_text(tab->ui, NOTE, dip_style_white, DIP_ALIGN_RIGHT, x, y, rect.width, text);
     }
 }
 
@@ -57,7 +59,7 @@ static void draw_cross(const Tab *tab, int pane, int x, int y) {
     for (int pass = 0; pass < 2; pass++) {
         const int edge = pass ? 0 : px(tab, 1);
         const int wide = thick + 2 * edge, half = thick / 2 + edge, tall = arm + 2 * edge;
-        const DipColour colour = pass ? pane_colour(pane) : shadow;
+        const DipColour colour = pass ? dip_style_of_pane(pane) : dip_style_shadow;
         dip_ui_fill(tab->ui, (DipRect){cx - half, cy - hole - arm - edge, wide, tall}, colour);
         dip_ui_fill(tab->ui, (DipRect){cx - half, cy + hole - edge, wide, tall}, colour);
         dip_ui_fill(tab->ui, (DipRect){cx - hole - arm - edge, cy - half, tall, wide}, colour);
@@ -74,22 +76,22 @@ static void draw_worst_block(const Tab *tab, int pane) {
     const DipFlipTail *tail = &errors->spread[pane].tail;
     const DipRect rect = shown_rect(tab, pane,
                                     (DipRect){(int)tail->worst_x, (int)tail->worst_y,
-                                              smaller(WORST_BLOCK, errors->width),
-                                              smaller(WORST_BLOCK, errors->height)});
+                                              dip_min(WORST_BLOCK, errors->width),
+                                              dip_min(WORST_BLOCK, errors->height)});
     const int edge = px(tab, 1);
     char value[16], text[32];
     dip_map_format(tail->worst, value, sizeof value);
     snprintf(text, sizeof text, "worst block: %s", value);
-    dip_ui_outline(tab->ui, rect, 0, 3 * edge, shadow);
-    dip_ui_outline(tab->ui, rect, 0, edge, pane_colour(pane));
+    dip_ui_outline(tab->ui, rect, 0, 3 * edge, dip_style_shadow);
+    dip_ui_outline(tab->ui, rect, 0, edge, dip_style_of_pane(pane));
     const DipRect *shown = &tab->window->layout->panes[pane];
     const int width = dip_ui_text_width(tab->ui, NOTE, text) + px(tab, 8);
     const int height = dip_ui_line_height(tab->ui, NOTE) + px(tab, 2);
     const bool above = rect.y - height >= shown->y;
-    const DipRect strip = {smaller(rect.x, shown->x + shown->width - width),
+    const DipRect strip = {dip_min(rect.x, shown->x + shown->width - width),
                            above ? rect.y - height : rect.y + rect.height, width, height};
-    dip_ui_fill(tab->ui, strip, glass);
-    put(tab, NOTE, white, strip.x + px(tab, 4), strip.y + edge, width, text);
+    dip_ui_fill(tab->ui, strip, dip_style_glass);
+    put(tab, NOTE, dip_style_white, strip.x + px(tab, 4), strip.y + edge, width, text);
 }
 
 static void draw_pointed(const Tab *tab, int pane) {
@@ -103,11 +105,11 @@ static void draw_pointed(const Tab *tab, int pane) {
         return;
     }
     const DipRect rect = tile_rect(tab, pane, work, dip_map_tile(work, x, y));
-    dip_ui_outline(tab->ui, rect, 0, px(tab, 5), shadow);
+    dip_ui_outline(tab->ui, rect, 0, px(tab, 5), dip_style_shadow);
     dip_ui_outline(tab->ui,
                    (DipRect){rect.x + px(tab, 1), rect.y + px(tab, 1), rect.width - px(tab, 2),
                              rect.height - px(tab, 2)},
-                   0, px(tab, 3), pane_colour(pane));
+                   0, px(tab, 3), dip_style_of_pane(pane));
 }
 
 // Says at the foot of a pane which map shows, and what it waits for.
@@ -126,11 +128,11 @@ static void draw_words(const Tab *tab, int pane) {
     if (dip_ui_text_width(tab->ui, TEXT, text) > most) {
         shown = status;
     }
-    const int width = smaller(dip_ui_text_width(tab->ui, TEXT, shown), most);
+    const int width = dip_min(dip_ui_text_width(tab->ui, TEXT, shown), most);
     const DipRect strip = {rect->x + px(tab, 8), rect->y + rect->height - px(tab, 32),
                            width + px(tab, 18), px(tab, 24)};
-    dip_ui_fill_round(tab->ui, strip, px(tab, 4), glass);
-    put(tab, TEXT, soft, strip.x + px(tab, 9), strip.y + px(tab, 4), most, shown);
+    dip_ui_fill_round(tab->ui, strip, px(tab, 4), dip_style_glass);
+    put(tab, TEXT, dip_style_soft, strip.x + px(tab, 9), strip.y + px(tab, 4), most, shown);
 }
 
 static void draw_pane(const Tab *tab, int pane) {

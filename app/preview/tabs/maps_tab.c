@@ -45,7 +45,7 @@ static void over_buttons(const Tab *tab, int x, int y, int right) {
     DipMapView *view = dip_maps_view(tab->maps);
     const bool narrow = right - x < px(tab, 220);
     const char *const *names = narrow ? short_names : long_names;
-    x += put(tab, TEXT, soft, x, y + px(tab, 4), right - x, "over") + px(tab, BUTTON_GAP);
+    x += put(tab, TEXT, dip_style_soft, x, y + px(tab, 4), right - x, "over") + px(tab, BUTTON_GAP);
     for (int i = 0; i < 3; i++) {
         const int width = dip_ui_text_width(tab->ui, TEXT, names[i]) + px(tab, 16);
         if (x + width > right) {
@@ -81,7 +81,7 @@ static void buttons_block(const Tab *tab, DipRect area) {
     }
     y += px(tab, SMALL_BUTTON + BUTTON_GAP);
     if (y + px(tab, 2 * NOTE_ROW) <= area.y + area.height) {
-        dip_ui_text_block(tab->ui, NOTE, soft,
+        dip_ui_text_block(tab->ui, NOTE, dip_style_soft,
                           (DipRect){area.x, y, area.width, area.y + area.height - y},
                           "Both panes have one scale, so that colours compare. N shows the next "
                           "map.");
@@ -120,15 +120,15 @@ void dip_maps_declare_tab(DipUi *ui, DipWindow *window, DipMaps *maps, DipRect b
         .left = {body.x + margin, body.y + margin, body.width - 2 * margin, body.height - margin}};
     flow.x = flow.left.x;
     DipRect area;
-    const int buttons = smaller(px(&tab, BUTTONS_WIDTH), flow.left.width);
-    if (take(&tab, &flow, buttons, smaller(px(&tab, 190), flow.left.height), &area)) {
+    const int buttons = dip_min(px(&tab, BUTTONS_WIDTH), flow.left.width);
+    if (take(&tab, &flow, buttons, dip_min(px(&tab, 190), flow.left.height), &area)) {
         buttons_block(&tab, area);
     }
-    const int legend = smaller(px(&tab, LEGEND_WIDTH), flow.left.width);
+    const int legend = dip_min(px(&tab, LEGEND_WIDTH), flow.left.width);
     if (take(&tab, &flow, legend, px(&tab, 172), &area)) {
         dip_maps_legend_block(&tab, area);
     }
-    const int table = smaller(px(&tab, TABLE_WIDTH), flow.left.width);
+    const int table = dip_min(px(&tab, TABLE_WIDTH), flow.left.width);
     if (take(&tab, &flow, table, px(&tab, 130), &area)) {
         dip_maps_mouse_block(&tab, area);
     }

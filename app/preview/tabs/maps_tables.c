@@ -17,15 +17,16 @@ typedef struct Row {
 
 static void put_row(const Tab *tab, DipRect area, int index, const Row *row) {
     const int y = area.y + px(tab, ROW * (index + 1));
-    put(tab, TEXT, soft, area.x, y, px(tab, 90), row->name);
-    put_right(tab, TEXT, white, area.x + px(tab, 152), y, row->values[DIP_PANE_CURRENT]);
-    put_right(tab, TEXT, amber, area.x + px(tab, 216), y, row->values[DIP_PANE_REQUESTED]);
+    put(tab, TEXT, dip_style_soft, area.x, y, px(tab, 90), row->name);
+    put_right(tab, TEXT, dip_style_white, area.x + px(tab, 152), y, row->values[DIP_PANE_CURRENT]);
+    put_right(tab, TEXT, dip_style_accent, area.x + px(tab, 216), y,
+              row->values[DIP_PANE_REQUESTED]);
     put(tab, TEXT, row->colour, area.x + px(tab, 226), y, area.width - px(tab, 226), row->compared);
 }
 
 // Compares two numbers as a factor.
 static Row factor_row(const char *name, const char *format, const double values[DIP_PANE_COUNT]) {
-    Row row = {.name = name, .colour = soft};
+    Row row = {.name = name, .colour = dip_style_soft};
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         if (values[p] >= 0.0) {
             snprintf(row.values[p], sizeof row.values[p], format, values[p]);
@@ -39,7 +40,7 @@ static Row factor_row(const char *name, const char *format, const double values[
 
 // Compares two errors in per cent.
 static Row error_row(const char *name, const double values[DIP_PANE_COUNT]) {
-    Row row = {.name = name, .colour = soft};
+    Row row = {.name = name, .colour = dip_style_soft};
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         if (values[p] >= 0.0) {
             snprintf(row.values[p], sizeof row.values[p], "%.4f", values[p]);
@@ -47,7 +48,9 @@ static Row error_row(const char *name, const double values[DIP_PANE_COUNT]) {
     }
     if (values[0] > 0.0 && values[1] >= 0.0) {
         const double change = 100.0 * (values[1] / values[0] - 1.0);
-        row.colour = change < -0.5 ? gain : change > 0.5 ? worse : soft;
+        row.colour = change < -0.5  ? dip_style_gain
+                     : change > 0.5 ? dip_style_worse
+                                    : dip_style_soft;
         snprintf(row.compared, sizeof row.compared, "%s%.0f %%",
                  change < -0.5  ? "\u2212"
                  : change > 0.5 ? "+"
@@ -62,7 +65,7 @@ static void flip_table(const Tab *tab, DipRect area) {
     double values[5][DIP_PANE_COUNT];
     static const char *const names[5] = {"FLIP, mean", "95 % below", "99 % below", "worst block",
                                          "RMSE"};
-    put(tab, TEXT, white, area.x, area.y, area.width, "This frame, all pixels");
+    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "This frame, all pixels");
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         const bool known = errors && errors->flip[p];
         values[0][p] = known ? errors->result.panes[p].flip : -1.0;
@@ -79,7 +82,7 @@ static void flip_table(const Tab *tab, DipRect area) {
         char text[80];
         snprintf(text, sizeof text, "Truth: 2 x %d samples, noise %.4f", errors->result.samples / 2,
                  errors->result.floor_rmse);
-        put(tab, NOTE, dim, area.x, area.y + px(tab, 6 * ROW + 4), area.width, text);
+        put(tab, NOTE, dip_style_dim, area.x, area.y + px(tab, 6 * ROW + 4), area.width, text);
     }
 }
 
@@ -98,7 +101,7 @@ static void work_table(const Tab *tab, DipRect area) {
     static const char *const names[] = {"tiles, 1 core", "fragments", "probes", "mixed pixels"};
     static const char *const formats[] = {"%.1f ms", "%.0f", "%.0f", "%.0f"};
     double geometry_ms[DIP_PANE_COUNT], mirrored_ms = 0.0;
-    put(tab, TEXT, white, area.x, area.y, area.width, "Whole frame");
+    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "Whole frame");
     for (int i = 0; i < 4; i++) {
         double values[DIP_PANE_COUNT];
         for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -118,7 +121,7 @@ static void work_table(const Tab *tab, DipRect area) {
              mirrored_ms > 0.0 ? "Not in tiles: geometry, %.1f ms of reflection"
                                : "Not in the tiles: geometry.",
              mirrored_ms);
-    put(tab, NOTE, dim, area.x, area.y + px(tab, 6 * ROW + 4), area.width, text);
+    put(tab, NOTE, dip_style_dim, area.x, area.y + px(tab, 6 * ROW + 4), area.width, text);
 }
 
 void dip_maps_frame_block(const Tab *tab, DipRect area) {
@@ -141,13 +144,13 @@ static void put_swatch(const Tab *tab, int pane, int x, int y, DipColour colour,
                        const char *value) {
     static const char *const names[DIP_PANE_COUNT] = {"current", "requested"};
     const int side = px(tab, 22);
-    dip_ui_fill(tab->ui, (DipRect){x, y, side, side}, pane_colour(pane));
+    dip_ui_fill(tab->ui, (DipRect){x, y, side, side}, dip_style_of_pane(pane));
     dip_ui_fill(tab->ui,
                 (DipRect){x + px(tab, 1), y + px(tab, 1), side - px(tab, 2), side - px(tab, 2)},
                 colour);
     x += side + px(tab, 8);
-    x += put(tab, 15, pane_colour(pane), x, y + px(tab, 2), px(tab, 120), value) + px(tab, 8);
-    put(tab, NOTE, soft, x, y + px(tab, 5), px(tab, 100), names[pane]);
+    x += put(tab, 15, dip_style_of_pane(pane), x, y + px(tab, 2), px(tab, 120), value) + px(tab, 8);
+    put(tab, NOTE, dip_style_soft, x, y + px(tab, 5), px(tab, 100), names[pane]);
 }
 
 static void pixel_values(const Tab *tab, DipRect area, int x, int y) {
@@ -164,7 +167,7 @@ static void pixel_values(const Tab *tab, DipRect area, int x, int y) {
             snprintf(text, sizeof text, "about %d texels", mip);
             put_swatch(tab, p, area.x, top, dip_map_mip_colour(index), text);
         } else if (tab->tools->map == DIP_MAP_MIPS) {
-            put_swatch(tab, p, area.x, top, well, "no mip colour");
+            put_swatch(tab, p, area.x, top, dip_style_well, "no mip colour");
         } else if (tab->tools->map == DIP_MAP_SAMPLES && work->draws && x < work->width &&
                    y < work->height) {
             const bool mixed = work->mixed[(size_t)y * (size_t)work->width + (size_t)x];
@@ -217,19 +220,20 @@ void dip_maps_mouse_block(const Tab *tab, DipRect area) {
                             ? "Under the mouse"
                             : "At the pinned pixel";
     if (!pointed_pixel(tab, &x, &y)) {
-        put(tab, TEXT, white, area.x, area.y, area.width, title);
-        put(tab, NOTE, soft, area.x, area.y + px(tab, ROW), area.width, "Point at a pane.");
+        put(tab, TEXT, dip_style_white, area.x, area.y, area.width, title);
+        put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, ROW), area.width,
+            "Point at a pane.");
         return;
     }
     if (tiles) {
         snprintf(text, sizeof text, "%s: tile %d, %d", title, x / DIP_TARGET_TILE,
                  y / DIP_TARGET_TILE);
-        put(tab, TEXT, white, area.x, area.y, area.width, text);
+        put(tab, TEXT, dip_style_white, area.x, area.y, area.width, text);
         tile_values(tab, area, x, y);
         return;
     }
-    put(tab, TEXT, white, area.x, area.y, area.width, title);
+    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, title);
     snprintf(text, sizeof text, "pixel %d, %d", x, y);
-    put(tab, NOTE, soft, area.x, area.y + px(tab, ROW), area.width, text);
+    put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, ROW), area.width, text);
     pixel_values(tab, area, x, y);
 }

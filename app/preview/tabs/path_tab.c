@@ -81,7 +81,7 @@ static void flow_text(Flow *flow, DipColour colour, const char *text) {
         return;
     }
     const int width = dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, 8);
-    const DipRect rect = flow_next(flow, dip_style_min(width, flow->body.width));
+    const DipRect rect = flow_next(flow, dip_min(width, flow->body.width));
     if (!dip_rect_is_empty(rect)) {
         dip_ui_text(flow->ui, TEXT, colour, DIP_ALIGN_LEFT, rect.x,
                     rect.y + (rect.height - dip_ui_line_height(flow->ui, TEXT)) / 2, rect.width,
@@ -230,10 +230,10 @@ static void declare_keys(Flow *flow) {
     const DipPathEditor *editor = flow->state->editor;
     const int count = (int)dip_path_editor_count(editor);
     const int step = dip_ui_px(flow->ui, KEY_WIDTH) + flow->gap;
-    const int room = flow->body.width / dip_style_max(1, step) - 2; // Two arrows take room, too.
-    const int shown = dip_style_max(1, dip_style_min(room, MAX_SHOWN_KEYS));
+    const int room = flow->body.width / dip_max(1, step) - 2; // Two arrows take room, too.
+    const int shown = dip_max(1, dip_min(room, MAX_SHOWN_KEYS));
     const int middle = (int)dip_path_editor_chosen(editor) - shown / 2;
-    const int first = dip_style_max(0, dip_style_min(middle, count - shown));
+    const int first = dip_max(0, dip_min(middle, count - shown));
     edit_button(flow, DIP_PATH_EDIT_BEFORE, "<", DIP_UI_PLAIN, "The key before (Ctrl+Left).");
     edit_button(flow, DIP_PATH_EDIT_NEXT, ">", DIP_UI_PLAIN, "The next key (Ctrl+Right).");
     if (count == 0) {

@@ -36,8 +36,8 @@ int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns)
     const int rows = (DIP_PRESET_COUNT + columns - 1) / columns;
     const bool inert = presets_wait(window);
     const int width = (rect.width - (columns - 1) * gap) / columns;
-    const int height = dip_style_max(
-        1, dip_style_min(dip_ui_px(ui, 28), (rect.height - (rows - 1) * row_gap) / rows));
+    const int height =
+        dip_max(1, dip_min(dip_ui_px(ui, 28), (rect.height - (rows - 1) * row_gap) / rows));
     for (int p = 0; p < DIP_PRESET_COUNT; ++p) {
         const DipRect button = {rect.x + p % columns * (width + gap),
                                 rect.y + p / columns * (height + row_gap), width, height};
@@ -217,7 +217,7 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
     }
     if (rest_ms > 0.0) {
         const int from = rect.x + (int)(at_ms * per_ms);
-        const int width = dip_style_max(1, (int)(rest_ms * per_ms));
+        const int width = dip_max(1, (int)(rest_ms * per_ms));
         fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_accent);
     }
     if (rest_ms < 0.0) { // The parts take less time together: what they save is struck out.
@@ -477,7 +477,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     }
     y = legend_y + dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3);
     const int height = dip_ui_px(ui, 28);
-    y = dip_style_min(y, bottom - height);
+    y = dip_min(y, bottom - height);
     dip_setting_buttons_declare(ui, window, (DipRect){rect.x, y, rect.width, height});
     y += height + dip_ui_px(ui, 4);
     if (dip_ui_is_drawing(ui)) {

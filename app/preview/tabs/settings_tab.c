@@ -46,7 +46,7 @@ static void declare_columns(DipUi *ui, DipWindow *window, DipRect body) {
     const int margin = dip_ui_px(ui, MARGIN), gap = dip_ui_px(ui, COLUMN_GAP);
     const int least_sum = dip_ui_px(ui, SUM_WIDTH);
     const int room = body.width - 2 * margin - 3 * gap - least_sum;
-    const int width = dip_style_min(dip_ui_px(ui, COLUMN_WIDTH), room / COLUMNS);
+    const int width = dip_min(dip_ui_px(ui, COLUMN_WIDTH), room / COLUMNS);
     const DipRect top = {body.x + margin, body.y + dip_ui_px(ui, 5), width,
                          body.height - dip_ui_px(ui, 8)};
     for (int c = 0; c < COLUMNS; ++c) {
@@ -54,7 +54,7 @@ static void declare_columns(DipUi *ui, DipWindow *window, DipRect body) {
         column.x += c * (width + gap);
         const int used = declare_group(ui, window, c, column);
         if (c == GROUP_SCENE) {
-            const int height = dip_style_min(dip_ui_px(ui, PRESETS_HEIGHT), top.height - used);
+            const int height = dip_min(dip_ui_px(ui, PRESETS_HEIGHT), top.height - used);
             dip_presets_declare(ui, window,
                                 (DipRect){column.x,
                                           column.y + top.height - height - dip_ui_px(ui, 3), width,
@@ -152,10 +152,9 @@ static void declare_more(DipUi *ui, DipWindow *window, DipRect room) {
 
 static void declare_drawer(DipUi *ui, DipWindow *window, DipRect body) {
     const bool more = window->state->settings_group == GROUP_PRESETS;
-    const int foot = dip_style_min(dip_ui_px(ui, FOOT_HEIGHT), body.height / 6);
+    const int foot = dip_min(dip_ui_px(ui, FOOT_HEIGHT), body.height / 6);
     const int room = body.height - foot;
-    const int line =
-        dip_style_max(1, dip_style_min(dip_ui_px(ui, LINE_HEIGHT), room / DIP_SETTING_COUNT));
+    const int line = dip_max(1, dip_min(dip_ui_px(ui, LINE_HEIGHT), room / DIP_SETTING_COUNT));
     if (more) {
         declare_more(ui, window, (DipRect){body.x, body.y, body.width, room});
     } else {

@@ -2,7 +2,7 @@
 #ifndef DIP_APP_PREVIEW_TABS_SHEET_H
 #define DIP_APP_PREVIEW_TABS_SHEET_H
 
-#include "app/canvas/draw_list.h"
+#include "app/ui/draw_list.h"
 #include "app/preview/state/state.h"
 
 // Darkens the window and draws an empty sheet of the given size in the middle of the window.

@@ -73,7 +73,7 @@ void dip_loupe_zoom(DipToolState *tools, int steps) {
 }
 
 static int clamped(int value, int count) {
-    return dip_style_max(0, dip_style_min(value, count - 1));
+    return dip_max(0, dip_min(value, count - 1));
 }
 
 void dip_loupe_move(DipToolState *tools, int dx, int dy, int width, int height) {

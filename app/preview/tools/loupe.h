@@ -6,7 +6,7 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_LOUPE_H
 #define DIP_APP_PREVIEW_TOOLS_LOUPE_H
 
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 #include "app/preview/tools/tools.h"
 #include "app/session/session.h"
 #include "renderer/pipeline/pattern.h"

@@ -3,7 +3,6 @@
 #include "app/preview/tools/loupe.h"
 #include "app/ui/style.h"
 #include "app/preview/tools/window.h"
-#include "app/preview/tools/tool_colours.h"
 
 #include <stdlib.h>
 
@@ -20,7 +19,7 @@ static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
     const DipRect mark = dip_loupe_mark(shown, frame->width, frame->height, crop.source);
     const DipRect inside = dip_rect_intersect(mark, dip_compare_visible(window, pane));
     if (!dip_rect_is_empty(inside)) {
-        dip_tool_outline(ui, inside, pane == DIP_PANE_REQUESTED ? dip_tool_accent : dip_tool_white);
+        dip_ui_mark(ui, inside, pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white);
     }
 }
 
@@ -82,14 +81,14 @@ static void draw_mip_legend(DipUi *ui, DipRect shown) {
         const DipRect rect = {shown.x + margin + i % across * cell, top + i / across * height, cell,
                               height};
         dip_ui_fill(ui, rect, ground);
-        dip_ui_text(ui, TINY, dip_tool_contrast(ground), DIP_ALIGN_CENTRE, rect.x + cell / 2,
+        dip_ui_text(ui, TINY, dip_style_contrast(ground), DIP_ALIGN_CENTRE, rect.x + cell / 2,
                     rect.y + dip_ui_px(ui, 2), cell, mip_colours[i].name);
     }
     if (top - height >= shown.y + dip_ui_px(ui, 40)) {
         const char *title = "Side of the mip level, texels";
         const int width = dip_ui_text_width(ui, TINY, title) + dip_ui_px(ui, 8);
-        dip_ui_fill(ui, (DipRect){shown.x + margin, top - height, width, height}, dip_tool_glass);
-        dip_ui_text(ui, TINY, dip_tool_white, DIP_ALIGN_LEFT, shown.x + margin + dip_ui_px(ui, 4),
+        dip_ui_fill(ui, (DipRect){shown.x + margin, top - height, width, height}, dip_style_glass);
+        dip_ui_text(ui, TINY, dip_style_white, DIP_ALIGN_LEFT, shown.x + margin + dip_ui_px(ui, 4),
                     top - height + dip_ui_px(ui, 2), width, title);
     }
 }

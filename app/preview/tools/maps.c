@@ -309,14 +309,10 @@ int dip_map_tile(const DipMapWork *work, int x, int y) {
     return y / DIP_TARGET_TILE * work->across + x / DIP_TARGET_TILE;
 }
 
-static int smaller(int a, int b) {
-    return a < b ? a : b;
-}
-
 int dip_map_tile_pixels(const DipMapWork *work, int tile) {
     const int x = tile % work->across * DIP_TARGET_TILE;
     const int y = tile / work->across * DIP_TARGET_TILE;
-    return smaller(work->width - x, DIP_TARGET_TILE) * smaller(work->height - y, DIP_TARGET_TILE);
+    return dip_min(work->width - x, DIP_TARGET_TILE) * dip_min(work->height - y, DIP_TARGET_TILE);
 }
 
 double dip_map_value(const DipMapWork *work, DipMap map, int tile) {

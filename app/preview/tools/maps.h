@@ -6,7 +6,7 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_MAPS_H
 #define DIP_APP_PREVIEW_TOOLS_MAPS_H
 
-#include "app/canvas/pixels.h"
+#include "app/ui/pixels.h"
 #include "app/preview/live/error_thread.h"
 #include "app/preview/tools/tools.h"
 #include "app/session/session.h"

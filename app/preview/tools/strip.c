@@ -1,7 +1,7 @@
 // Draws the thumbnails of a path with a renderer of their own, which exists while they are drawn.
 #include "app/preview/tools/strip.h"
 
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 #include "app/session/painter.h"
 #include "campaths/campath.h"
 

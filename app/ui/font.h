@@ -3,12 +3,16 @@
 // Each glyph is drawn once per size and kept in a cache, so that a line of text costs one blend per
 // letter. Lines are UTF-8; a byte that is not valid UTF-8 shows as U+FFFD. Two threads must not use
 // one font at the same time.
-#ifndef DIP_APP_CANVAS_FONT_H
-#define DIP_APP_CANVAS_FONT_H
+#ifndef DIP_APP_UI_FONT_H
+#define DIP_APP_UI_FONT_H
 
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 
 typedef struct DipFont DipFont;
+
+// Reads one character of a UTF-8 text and moves *text behind it. A byte that is not valid is read
+// as U+FFFD.
+uint32_t dip_utf8_next(const char **text);
 
 enum { DIP_FONT_MIN_SIZE = 8, DIP_FONT_MAX_SIZE = 128 }; // Em size in pixels.
 
