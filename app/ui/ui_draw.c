@@ -303,6 +303,7 @@ bool dip_ui_end(DipUi *ui) {
         ui->tip_seen = ui->tip_hidden = false;
     }
     drop_lost_focus(ui);
+    ui->typing = ui->focus_shows && ui->typing == ui->focus ? ui->typing : 0;
     if (event && event->kind == DIP_EVENT_MOUSE_UP && event->button == ui->held_button) {
         ui->held = 0;
     }

@@ -33,6 +33,7 @@ static void follow_track(DipSession *session, DipPreviewState *state, const DipC
 void dip_handover(DipReload *reload, DipSession *session, DipPreviewState *state,
                   DipQuality first_quality[DIP_PANE_COUNT], bool dropped) {
     const DipCamTrack before = session->track;
+    const double fps_before = session->config.target_fps;
     char scene_before[DIP_COST_TEXT];
     char scene[DIP_COST_TEXT];
     dip_cost_scene_name(session, scene_before);
@@ -40,6 +41,10 @@ void dip_handover(DipReload *reload, DipSession *session, DipPreviewState *state
     dip_cost_scene_name(session, scene);
     if (strcmp(scene, scene_before) != 0) {
         state->costs = NULL; // The report is about the other scene.
+    }
+    if (session->config.target_fps != fps_before) { // The user has changed the ini.
+        const double fps = session->config.target_fps;
+        dip_preview_set_budget(state, fps > 0.0 ? 1000.0 / fps : 0.0);
     }
     follow_settings(session, state, first_quality);
     follow_track(session, state, &before, dropped);

@@ -59,6 +59,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->figures.outdated = true;
     preview->turn_ns = dip_loop_clock_ns(preview);
     follow_refresh(preview);
+    if (def->session->config.target_fps > 0.0) {
+        dip_preview_set_budget(&preview->state, 1000.0 / def->session->config.target_fps);
+    }
     if (def->notice) {
         dip_preview_notice(&preview->state, preview->turn_ns, "%s", def->notice);
     }

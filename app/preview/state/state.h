@@ -99,6 +99,7 @@ typedef struct DipPreviewState {
     // chosen another time.
     double budget_ms;
     bool has_budget;    // The user has chosen it.
+    double refresh_ms;  // Time of one refresh of the display.
     double advised_ms;  // The budget for which the user took advice last, or 0.
     bool wants_errors;  // Another program has asked for the errors, shown or not.
     bool wants_prices;  // Another program has asked for the prices, shown or not.
@@ -162,8 +163,11 @@ const char *dip_preview_preset_name(DipPreset preset);
 // and 30 frames a second. Returns their number.
 int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_BUDGETS]);
 
-// Chooses another budget.
+// Chooses another budget, from 1 to 1000 ms; 0: one refresh of the display.
 void dip_preview_set_budget(DipPreviewState *state, double budget_ms);
+
+// Goes through the usual frame rates, from 24 to 240 frames a second; each step takes the next one.
+void dip_preview_step_frame_rate(DipPreviewState *state, int steps);
 
 // Takes the time between two refreshes of the display as the budget, unless the user has chosen
 // one.

@@ -237,14 +237,31 @@ int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_B
 }
 
 void dip_preview_set_budget(DipPreviewState *state, double budget_ms) {
-    state->has_budget = true;
-    state->budget_ms = budget_ms;
+    state->has_budget = budget_ms > 0.0;
+    state->budget_ms = state->has_budget ? fmin(fmax(budget_ms, 1.0), 1000.0) : state->refresh_ms;
     if (state->choice) {
-        dip_preview_choice_set_budget(state->choice, budget_ms);
+        dip_preview_choice_set_budget(state->choice, state->budget_ms);
+    }
+}
+
+void dip_preview_step_frame_rate(DipPreviewState *state, int steps) {
+    static const int rates[] = {24, 25, 30, 50, 60, 72, 90, 120, 144, 165, 240};
+    const int count = (int)DIP_ARRAY_COUNT(rates);
+    for (; steps != 0; steps += steps > 0 ? -1 : 1) {
+        const double now = 1000.0 / state->budget_ms;
+        int next = steps > 0 ? 0 : count - 1;
+        while (next >= 0 && next < count &&
+               (steps > 0 ? rates[next] <= now * 1.001 : rates[next] >= now * 0.999)) {
+            next += steps > 0 ? 1 : -1;
+        }
+        if (next >= 0 && next < count) {
+            dip_preview_set_budget(state, 1000.0 / rates[next]);
+        }
     }
 }
 
 void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms) {
+    state->refresh_ms = refresh_ms;
     if (!state->has_budget) {
         state->budget_ms = refresh_ms;
     }

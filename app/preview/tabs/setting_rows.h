@@ -15,7 +15,9 @@ enum {
     DIP_ID_PAUSE,
     DIP_ID_MEASURE_HERE,
     DIP_ID_MORE,
-    DIP_ID_FLIP
+    DIP_ID_FLIP,
+    DIP_ID_FRAME_RATE,
+    DIP_ID_BUDGET
 };
 
 // Declares a setting as a slider or a switch at the top of `rect`. Returns the height that it
@@ -31,6 +33,10 @@ int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns)
 // Declares Apply, Undo and Copy in a row.
 void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect);
 void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect);
+
+// Declares the target, by which settings are advised: frames a second, and the budget of a frame,
+// which says the same.
+void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
 // Draws the price of the requested settings: the sum, its parts against the budget, and where the
 // prices come from. The buttons stand between. Leaves out what does not fit.

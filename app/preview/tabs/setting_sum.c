@@ -122,6 +122,48 @@ void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     declare_copy(ui, window, copy);
 }
 
+// --- the target ----------------------------------------------------------------------------------
+
+// Declares a field and the word behind it at *x. Returns what the user did.
+static DipUiInput declare_field(DipUi *ui, int id, int *x, DipRect room, int width,
+                                const char *text, const char *word, double *typed) {
+    static const char tip[] =
+        "The target: settings are advised that draw this many frames a second, each of them within "
+        "this time. Type a number and press Enter, or step by the wheel or the arrow keys. A right "
+        "click takes the display's refresh.";
+    const DipRect rect = {*x, room.y, dip_ui_px(ui, width), room.height};
+    const DipUiInput input =
+        dip_ui_number_field(ui, DIP_UI_ID(DIP_UI_SETTINGS, id), rect, text, tip, typed);
+    *x += rect.width + dip_ui_px(ui, 5);
+    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, *x,
+                room.y + (room.height - dip_ui_line_height(ui, NOTE_SIZE)) / 2,
+                room.x + room.width - *x, word);
+    *x += dip_ui_text_width(ui, NOTE_SIZE, word) + dip_ui_px(ui, 5);
+    return input;
+}
+
+void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect) {
+    DipPreviewState *state = window->state;
+    char fps[DIP_NUMBER_BYTES], ms[DIP_NUMBER_BYTES];
+    const double rate = 1000.0 / state->budget_ms;
+    int x = rect.x;
+    double typed_fps, typed_ms;
+    snprintf(fps, sizeof fps, fabs(rate - round(rate)) < 0.05 ? "%.0f" : "%.1f", rate);
+    dip_budget_ms_text(state->budget_ms, ms);
+    const DipUiInput by_rate =
+        declare_field(ui, DIP_ID_FRAME_RATE, &x, rect, 44, fps, "fps  =", &typed_fps);
+    const DipUiInput by_time = declare_field(ui, DIP_ID_BUDGET, &x, rect, 52, ms, "ms", &typed_ms);
+    dip_preview_step_frame_rate(state, by_rate.steps - by_time.steps);
+    if (by_rate.right || by_time.right) {
+        dip_preview_set_budget(state, 0.0);
+    }
+    if (typed_fps > 0.0) {
+        dip_preview_set_budget(state, 1000.0 / typed_fps);
+    } else if (typed_ms > 0.0) {
+        dip_preview_set_budget(state, typed_ms);
+    }
+}
+
 // --- the sum -------------------------------------------------------------------------------------
 
 // One part of the sum: its name in the legend, its time and its colour.
@@ -235,13 +277,6 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
                 (DipRect){budget_x, rect.y - dip_ui_px(ui, 4), dip_ui_px(ui, 2),
                           rect.height + 2 * dip_ui_px(ui, 4)},
                 dip_style_white);
-    char text[DIP_NUMBER_BYTES + 4];
-    dip_budget_ms_text(budget_ms, text);
-    strcat(text, " ms");
-    const bool left = budget_x - rect.x < dip_ui_text_width(ui, NOTE_SIZE, text);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_white, left ? DIP_ALIGN_LEFT : DIP_ALIGN_RIGHT,
-                left ? rect.x : budget_x - dip_ui_px(ui, 2),
-                rect.y - dip_ui_line_height(ui, NOTE_SIZE) - dip_ui_px(ui, 3), rect.width, text);
 }
 
 // Draws an entry of the legend at *x, *y, or at the start of the next line if it does not fit.
@@ -465,7 +500,10 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     if (dip_ui_is_drawing(ui)) {
         draw_comparison(ui, window, &now, &sum, (DipRect){rect.x, y, rect.width, 0});
     }
-    y += 2 * dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 5);
+    const int target_y = y + dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 2);
+    y += 2 * dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 9);
+    dip_target_declare(ui, window,
+                       (DipRect){rect.x, target_y, rect.width, y - target_y - dip_ui_px(ui, 3)});
     const int legend_y = y + dip_ui_px(ui, BUDGET_HEIGHT + 6);
     if (dip_ui_is_drawing(ui)) {
         const bool doubtful = dip_price_sum_trust(&sum) == DIP_PRICE_TRUST_DOUBTFUL;

@@ -142,8 +142,10 @@ static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) 
 
 static void declare_more(DipUi *ui, DipWindow *window, DipRect room) {
     const int pad = dip_ui_px(ui, 6), height = dip_ui_px(ui, 24);
-    const DipRect presets = {room.x + pad, room.y + pad, room.width - 2 * pad,
-                             room.height - height - 3 * pad};
+    const int target = dip_ui_px(ui, 20);
+    const DipRect presets = {room.x + pad, room.y + target + 2 * pad, room.width - 2 * pad,
+                             room.height - height - target - 4 * pad};
+    dip_target_declare(ui, window, (DipRect){presets.x, room.y + pad, presets.width, target});
     dip_presets_declare(ui, window, presets, 2);
     dip_setting_buttons_declare(
         ui, window,
