@@ -90,7 +90,6 @@ typedef enum DipEventKind {
     DIP_EVENT_NONE, // An event of no other kind. The preview ignores it.
     DIP_EVENT_KEY_DOWN,
     DIP_EVENT_KEY_UP, // Also sent for every held key when the display loses the keyboard focus.
-    DIP_EVENT_TEXT,
     DIP_EVENT_MOUSE_MOVE,
     DIP_EVENT_MOUSE_DOWN,
     DIP_EVENT_MOUSE_UP,
@@ -125,7 +124,7 @@ typedef struct DipEvent {
     double wheel_x;        // MOUSE_WHEEL: steps to the right.
     double wheel_y;        // MOUSE_WHEEL: steps away from the user.
 
-    char text[32];    // TEXT: UTF-8. CONTROLLER_ADDED: the controller's name, cut to fit.
+    char text[32];    // CONTROLLER_ADDED: the controller's name in UTF-8, cut to fit.
     const char *file; // DROP: the file's name. Borrowed until next_event is called again.
 
     // CONTROLLER events.
