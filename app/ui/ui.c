@@ -221,7 +221,8 @@ static double type_number(DipUi *ui, DipUiId id, const DipUiInput *input) {
         ui->typed[length] = (char)input->typed;
         ui->typed[length + 1] = '\0';
     }
-    if (!input->pressed || input->hovered || !ui->typed[0]) { // A click enters nothing.
+    const bool by_key = ui->pass.event && ui->pass.event->kind == DIP_EVENT_KEY_DOWN;
+    if (!input->pressed || !by_key || !ui->typed[0]) { // A click enters nothing.
         return -1.0;
     }
     ui->typing = 0;
