@@ -49,12 +49,10 @@ void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextL
 
 // --- costs -------------------------------------------------------------------------------------
 
-static void draw_how_to(DipTextScreen *screen, DipTextArea body) {
-    static const char *const lines[] = {
-        "There is no cost report yet. This makes one in some minutes:",
-        "    diptych cost --out DIR",
-        "Then start the preview with it:", "    diptych --cost DIR/cost.json"};
-    for (int i = 0; i < (int)DIP_ARRAY_COUNT(lines) && i < body.rows; ++i) {
+static void draw_how_to(DipTextScreen *screen, DipTextArea body, const DipPreviewState *state) {
+    DipHowTo lines;
+    dip_preview_how_to(state, lines);
+    for (int i = 0; i < DIP_HOW_TO_LINES && i < body.rows; ++i) {
         dip_text_put(screen, body.row + i, body.column + 1, body.column + body.columns,
                      i % 2 ? accent : white, lines[i]);
     }
@@ -64,7 +62,7 @@ void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPrevi
     const DipCosts *costs = state->costs;
     const int end = body.column + body.columns;
     if (!costs) {
-        draw_how_to(screen, body);
+        draw_how_to(screen, body, state);
         return;
     }
     dip_text_put(screen, body.row, body.column + 1, end, white, costs->heading);

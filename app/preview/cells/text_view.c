@@ -71,14 +71,6 @@ void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, 
     }
 }
 
-bool dip_text_view_follow(DipTextView *view, const DipPreviewState *state, int width, int height) {
-    DipRect panes[DIP_PANE_COUNT];
-    dip_text_view_panes(view, state, width, height, panes);
-    const bool changed = !dip_rect_equals(panes[0], view->last_pane);
-    view->last_pane = panes[0];
-    return changed;
-}
-
 // --- labels, bar and keys ----------------------------------------------------------------------
 
 // Writes a pane's name, its frame time and its settings.
@@ -226,7 +218,7 @@ static int edited_pane(const DipPreviewState *state) {
     return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
 }
 
-// Moves the focused setting by one position in the order of dip_text_step_at.
+// Moves the focused setting by one position in the order of dip_setting_step_at.
 static void move_step(const DipTextView *view, DipPreviewState *state, int by, int64_t now_ns) {
     const int count = dip_setting_info(view->focus)->step_count;
     const int now = state->quality[edited_pane(state)].step[view->focus];

@@ -156,6 +156,12 @@ void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 // measured or nothing fits.
 bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality);
 
+// Says in four lines how to make a cost report of this scene; the second and the fourth one are
+// commands.
+enum { DIP_HOW_TO_LINES = 4 };
+typedef char DipHowTo[DIP_HOW_TO_LINES][DIP_SCENE_WORDS_BYTES + 64];
+void dip_preview_how_to(const DipPreviewState *state, DipHowTo lines);
+
 // Returns a preset's name for a button ("Balanced").
 const char *dip_preview_preset_name(DipPreset preset);
 
@@ -178,6 +184,9 @@ void dip_preview_follow_dock(DipPreviewState *state);
 
 // Goes to a play time.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
+
+// Returns the path that plays: that of the active category or of category 0.
+const DipCamPath *dip_preview_playing_path(const DipPreviewState *state);
 
 // Returns whether all poses of the playing path are the same.
 bool dip_preview_path_stands(const DipPreviewState *state);

@@ -2,8 +2,7 @@
 //
 // If the bar is narrow, it first leaves out words: tabs become symbols. Then it leaves out what
 // keys do as well: the steps by one frame, the time line, the name of the path, and playback.
-#include "app/preview/tabs/icons.h"
-#include "app/preview/tabs/labels.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/ui/style.h"
 
 #include <stdio.h>

@@ -1,10 +1,9 @@
-// What the parts of the maps' tab share: maps_tab.c (buttons, and where the parts lie),
-// maps_legend.c, maps_tables.c, and maps_over.c (what shows over the panes).
+// What the parts of the maps' tab share: maps_tab.c and maps_legend.c.
 #ifndef DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
 #define DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
 
 #include "app/preview/tools/maps.h"
-#include "app/preview/tabs/maps_tab.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/ui/style.h"
 
 // Lengths at scale 1.
@@ -60,7 +59,7 @@ static inline bool is_work_map(DipMap map) {
 
 // Returns the pixel that the tab describes: the one under the pointer, or else the pinned one.
 static inline bool pointed_pixel(const Tab *tab, int *x, int *y) {
-    const DipMapView *view = dip_maps_view(tab->maps);
+    const DipMapView *view = &tab->maps->view;
     const DipPixels *frame = &tab->window->frames[DIP_PANE_CURRENT];
     *x = view->pointed ? view->x : tab->tools->x;
     *y = view->pointed ? view->y : tab->tools->y;

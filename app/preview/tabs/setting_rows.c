@@ -1,5 +1,5 @@
 // Rows of settings: sliders of steps with prices, switches, and lines of a list.
-#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/tabs/tabs.h"
 
 #include "app/preview/prices/price_text.h"
 #include "app/ui/style.h"

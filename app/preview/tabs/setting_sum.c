@@ -1,7 +1,6 @@
 // The price of the requested settings, and the buttons that act on all settings.
 #include "app/preview/prices/price_text.h"
-#include "app/preview/tabs/pane_time.h"
-#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/ui/style.h"
 #include "app/report/words.h"
 

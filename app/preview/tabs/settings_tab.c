@@ -1,8 +1,7 @@
 // The tab of the settings, laid out by the room that it has: three columns of settings, one column
 // at a time, or a list.
 #include "app/preview/prices/price_text.h"
-#include "app/preview/tabs/pane_time.h"
-#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/ui/style.h"
 #include "app/report/words.h"
 

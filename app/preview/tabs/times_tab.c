@@ -1,7 +1,6 @@
 // The tab of times: frame times of the last seconds, stages, errors and work of each pane.
-#include "app/preview/tabs/setting_rows.h"
-#include "app/ui/style.h"
 #include "app/preview/tabs/tabs.h"
+#include "app/ui/style.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,8 @@
 // Declares the whole window, from the back to the front.
-#include "app/preview/tabs/labels.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/loupe.h"
 #include "app/preview/state/pilot.h"
-#include "app/preview/tabs/sheet.h"
 #include "app/ui/style.h"
-#include "app/preview/tabs/tabs.h"
 
 enum { WAY_BACK = 100 }; // Number of a control, beside those of the bar.
 

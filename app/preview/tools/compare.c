@@ -241,7 +241,7 @@ DipComparer *dip_compare_create(DipError *err) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
         return NULL;
     }
-    compare->version = UINT64_C(5) << 60;
+    compare->version = DIP_DIFFERENCE_VERSION;
     return compare;
 }
 

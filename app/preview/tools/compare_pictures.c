@@ -51,7 +51,7 @@ static void draw_one(DipUi *ui, const DipWindow *window, int pane) {
 static void draw_difference(DipUi *ui, const DipWindow *window) {
     DipPixels picture;
     uint64_t version;
-    if (dip_compare_make_difference(dip_tools_compare(window->tools), window, &picture, &version)) {
+    if (dip_compare_make_difference(window->tools->compare, window, &picture, &version)) {
         dip_ui_picture(ui, dip_compare_shown(window, DIP_PANE_CURRENT), &picture, version);
     }
 }

@@ -1,5 +1,5 @@
 // Draws the loupe's pictures: magnified pixels, and one pixel with its samples.
-#include "app/preview/tools/loupe_memory.h"
+#include "app/preview/tools/loupe.h"
 #include "app/ui/style.h"
 
 #include <math.h>
@@ -32,9 +32,7 @@ static void mark_sample(const DipLoupe *loupe, DipCanvas *canvas, int x, int y, 
     const int left = x + pattern->x[s] * zoom / 256 - core / 2;
     const int top = y + pattern->y[s] * zoom / 256 - core / 2;
     const bool coloured = core >= 4;
-    const DipColour own = {dip_loupe_code(loupe, sample->linear16[0]),
-                           dip_loupe_code(loupe, sample->linear16[1]),
-                           dip_loupe_code(loupe, sample->linear16[2]), 255};
+    const DipColour own = dip_loupe_colour(loupe, sample);
     dip_canvas_fill(canvas, (DipRect){left - 1, top - 1, core + 2, core + 2}, dip_style_white);
     dip_canvas_fill(canvas, (DipRect){left, top, core, core}, coloured ? own : dip_style_dark);
 }
@@ -161,12 +159,6 @@ static void draw_grid(DipCanvas *canvas, DipColour ground, int side, int cells) 
     }
 }
 
-static DipColour sample_colour(const DipLoupe *loupe, const DipSampleValue *sample) {
-    return (DipColour){dip_loupe_code(loupe, sample->linear16[0]),
-                       dip_loupe_code(loupe, sample->linear16[1]),
-                       dip_loupe_code(loupe, sample->linear16[2]), 255};
-}
-
 static void draw_sample(const DipLoupe *loupe, DipCanvas *canvas, const DipBoxContent *content,
                         int s) {
     const int count = content->pattern->count;
@@ -176,7 +168,7 @@ static void draw_sample(const DipLoupe *loupe, DipCanvas *canvas, const DipBoxCo
     int x, y;
     dip_loupe_box_position(content->pattern, content->side, s, &x, &y);
     const DipColour fill =
-        content->samples ? sample_colour(loupe, &content->samples[s]) : content->pixel;
+        content->samples ? dip_loupe_colour(loupe, &content->samples[s]) : content->pixel;
     draw_disc(canvas, x, y, radius + 1.0, 0.0, 0, dip_style_dark);
     draw_disc(canvas, x, y, radius, 0.0, 0, front ? dip_style_white : dip_style_dark);
     draw_disc(canvas, x, y, radius - ring, 0.0, 0, fill);

@@ -1,6 +1,6 @@
 // Draws the maps' pictures.
 #include "app/measure/metrics/magma.h"
-#include "app/preview/tools/maps_memory.h"
+#include "app/preview/tools/maps.h"
 
 #include <math.h>
 #include <stdio.h>

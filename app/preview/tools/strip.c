@@ -38,7 +38,7 @@ DipStrip *dip_strip_create(DipError *err) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
         return NULL;
     }
-    strip->version = UINT64_C(6) << 60;
+    strip->version = DIP_STRIP_VERSION;
     return strip;
 }
 

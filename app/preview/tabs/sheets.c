@@ -1,18 +1,149 @@
-// Draws the help: the table of keys in columns.
+// Draws the sheets over the window: the table of costs, and the list of keys.
 #include "app/preview/state/keys.h"
-#include "app/preview/tabs/sheet.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/ui/style.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
+enum { LARGEST_LETTERS = 15, TOP_EDGE_PX = 2 };
+
+static const char costs_note[] =
+    "1x: the baseline and its FLIP. Other steps: relative time and change of FLIP";
+
+typedef struct CostsLayout {
+    int size;
+    int line;
+    int title_width;
+    int name_width[DIP_COST_MAX_SWEEP_ROWS]; // Width of the longest name in each column of steps.
+    int column_width[DIP_COST_MAX_SWEEP_ROWS];
+    int width;
+    int height;
+} CostsLayout;
+
+// Darkens the window and draws an empty sheet of the given size in the middle of the window.
+// Returns the sheet's rectangle.
+static DipRect draw_sheet(DipDrawList *list, int width, int height) {
+    const DipRect window = {0, 0, dip_draw_list_width(list), dip_draw_list_height(list)};
+    const DipRect sheet = {(window.width - width) / 2, (window.height - height) / 2, width, height};
+    dip_draw_list_fill(list, window, dip_style_shade);
+    dip_draw_list_fill(list, sheet, dip_style_sheet);
+    dip_draw_list_fill(list, (DipRect){sheet.x, sheet.y, sheet.width, TOP_EDGE_PX},
+                       dip_style_accent);
+    return sheet;
+}
+
+static void measure_titles(CostsLayout *l, DipFont *font, const DipCosts *costs, int gap) {
+    for (int r = 0; r < costs->row_count; ++r) {
+        const DipCostsRow *row = &costs->rows[r];
+        l->title_width = dip_max(l->title_width, dip_font_width(font, l->size, row->title) + gap);
+        for (int s = 0; s < row->step_count; ++s) {
+            l->name_width[s] = dip_max(l->name_width[s],
+                                       dip_font_width(font, l->size, row->steps[s].name) + gap / 2);
+        }
+    }
+}
+
+// Returns the width of a column of steps. The column shows the steps' names one below the other,
+// and their figures to the right of the names.
+static int measure_column(const CostsLayout *l, DipFont *font, const DipCosts *costs, int step,
+                          int gap) {
+    int width = 0;
+    for (int r = 0; r < costs->row_count; ++r) {
+        const DipCostsRow *row = &costs->rows[r];
+        if (step < row->step_count) {
+            const int figures = dip_font_width(font, l->size, row->steps[step].figures);
+            width = dip_max(width, l->name_width[step] + figures + gap);
+        }
+    }
+    return width;
+}
+
+static CostsLayout measure_costs(DipFont *font, const DipCosts *costs, int size) {
+    CostsLayout l = {.size = size, .line = dip_font_line_height(font, size) + 1};
+    const int gap = dip_max(4, size * 2 / 3);
+    measure_titles(&l, font, costs, gap);
+    l.width = l.title_width;
+    for (int s = 0; s < DIP_COST_MAX_SWEEP_ROWS; ++s) {
+        l.column_width[s] = measure_column(&l, font, costs, s, gap);
+        l.width += l.column_width[s];
+    }
+    l.width = dip_max(l.width, dip_font_width(font, size, costs_note)) + 2 * size;
+    l.height = (costs->row_count + 3) * l.line + 2 * size;
+    return l;
+}
+
+static void draw_row(DipDrawList *list, const CostsLayout *l, const DipCostsRow *row,
+                     const DipQuality *quality, int x, int y) {
+    dip_draw_list_text(list, l->size, dip_style_white, DIP_ALIGN_LEFT, x, y, l->title_width,
+                       row->title);
+    x += l->title_width;
+    for (int s = 0; s < row->step_count; ++s) {
+        const bool at = dip_costs_is_at(row, s, quality);
+        dip_draw_list_text(list, l->size, at ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
+                           x, y, l->name_width[s], row->steps[s].name);
+        dip_draw_list_text(list, l->size, at ? dip_style_accent : dip_style_soft, DIP_ALIGN_LEFT,
+                           x + l->name_width[s], y, l->column_width[s] - l->name_width[s],
+                           row->steps[s].figures);
+        x += l->column_width[s];
+    }
+}
+
+// Says how to make a report of this scene. Lines with a command are marked.
+static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double scale) {
+    DipFont *font = dip_draw_list_font(list);
+    const int least = dip_style_scaled(10, scale);
+    const int most = dip_style_scaled(LARGEST_LETTERS, scale);
+    const int size = dip_max(least, dip_min(most, dip_draw_list_width(list) / 60));
+    const int line = dip_font_line_height(font, size) + 2;
+    DipHowTo lines;
+    dip_preview_how_to(state, lines);
+    int width = 0;
+    for (int i = 0; i < DIP_HOW_TO_LINES; ++i) {
+        width = dip_max(width, dip_font_width(font, size, lines[i]));
+    }
+    const DipRect sheet = draw_sheet(list, width + 2 * size, DIP_HOW_TO_LINES * line + 2 * size);
+    for (int i = 0; i < DIP_HOW_TO_LINES; ++i) {
+        dip_draw_list_text(list, size, i % 2 ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
+                           sheet.x + size, sheet.y + size + i * line, width, lines[i]);
+    }
+}
+
+static void draw_table(DipDrawList *list, const DipCosts *costs, const DipQuality *quality,
+                       double scale) {
+    CostsLayout l;
+    int size = dip_style_scaled(LARGEST_LETTERS, scale);
+    do {
+        l = measure_costs(dip_draw_list_font(list), costs, size);
+    } while ((l.width > dip_draw_list_width(list) || l.height > dip_draw_list_height(list)) &&
+             size-- > DIP_FONT_MIN_SIZE);
+    const DipRect sheet = draw_sheet(list, l.width, l.height);
+    const int x = sheet.x + l.size, y = sheet.y + l.size, room = sheet.width - 2 * l.size;
+    dip_draw_list_text(list, l.size, dip_style_white, DIP_ALIGN_LEFT, x, y, room, costs->heading);
+    for (int r = 0; r < costs->row_count; ++r) {
+        draw_row(list, &l, &costs->rows[r], quality, x, y + (r + 1) * l.line + l.line / 2);
+    }
+    dip_draw_list_text(list, l.size, dip_style_soft, DIP_ALIGN_LEFT, x,
+                       y + (costs->row_count + 2) * l.line, room, costs_note);
+}
+
+void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, double scale) {
+    if (state->costs) {
+        draw_table(list, state->costs, &state->quality[DIP_PANE_REQUESTED], scale);
+    } else {
+        draw_how_to(list, state, scale);
+    }
+}
+
 static const char help_title[] = "Keys";
 static const char help_shift[] = "With Shift: backwards";
 static const char help_note[] =
     "While time runs, a change of a setting also chooses the path that shows it best";
 
-enum { MAX_HELP_ROWS = 56, MAX_HELP_COLUMNS = 3, LARGEST_LETTERS = 17, EDGE_PX = 8 };
+// --- help ----------------------------------------------------------------------------------------
+
+enum { MAX_HELP_ROWS = 56, MAX_HELP_COLUMNS = 3, LARGEST_HELP_LETTERS = 17, EDGE_PX = 8 };
 
 typedef struct HelpRow {
     const char *label;
@@ -118,7 +249,8 @@ static HelpLayout choose_layout(const DipDrawList *list, const HelpRow *rows, in
     const int room = dip_draw_list_width(list) - EDGE_PX;
     const int height = dip_draw_list_height(list) - EDGE_PX;
     HelpLayout l = {0};
-    for (int size = dip_style_scaled(LARGEST_LETTERS, scale); size >= DIP_FONT_MIN_SIZE; --size) {
+    for (int size = dip_style_scaled(LARGEST_HELP_LETTERS, scale); size >= DIP_FONT_MIN_SIZE;
+         --size) {
         for (int columns = 1; columns <= MAX_HELP_COLUMNS; ++columns) {
             l = measure_help(font, rows, count, size, columns);
             if (l.width <= room && l.height <= height) {
@@ -156,7 +288,7 @@ void dip_sheet_draw_help(DipDrawList *list, double scale, const char *words) {
     int count = help_rows(rows);
     const HelpLayout l =
         choose_layout(list, rows, count, scale); // It stands still while one types.
-    const DipRect sheet = dip_sheet_draw(list, l.width, l.height);
+    const DipRect sheet = draw_sheet(list, l.width, l.height);
     const int x = sheet.x + l.size, y = sheet.y + l.size;
     const int room = sheet.width - 2 * l.size;
     char title[64];
