@@ -208,7 +208,8 @@ static const Glyph *find_glyph(DipFont *font, int size, uint32_t code_point) {
 
 // --- lines -------------------------------------------------------------------------------------
 
-uint32_t dip_utf8_next(const char **line) {
+// Reads one character and moves *line behind it. Invalid bytes are read one at a time.
+static uint32_t next_code_point(const char **line) {
     const unsigned char *bytes = (const unsigned char *)*line;
     const int more = bytes[0] < 0x80                        ? 0
                      : bytes[0] >= 0xc2 && bytes[0] <= 0xdf ? 1
@@ -235,7 +236,7 @@ int dip_font_width(DipFont *font, int size, const char *line) {
     int width = 0;
     size = clamp_size(size);
     while (*line) {
-        width += find_glyph(font, size, dip_utf8_next(&line))->advance;
+        width += find_glyph(font, size, next_code_point(&line))->advance;
     }
     return width;
 }
@@ -247,7 +248,7 @@ static ptrdiff_t fitting_bytes(DipFont *font, int size, int room, const char *li
     ptrdiff_t bytes = room >= 0 ? 0 : -1;
     int width = 0;
     while (*at && bytes >= 0) {
-        width += find_glyph(font, size, dip_utf8_next(&at))->advance;
+        width += find_glyph(font, size, next_code_point(&at))->advance;
         if (width > room) {
             break;
         }
@@ -281,7 +282,7 @@ void dip_font_draw(DipFont *font, DipCanvas *canvas, int size, DipColour colour,
     }
     const int baseline = y + font->ascent[size];
     while (*line) {
-        const Glyph *glyph = find_glyph(font, size, dip_utf8_next(&line));
+        const Glyph *glyph = find_glyph(font, size, next_code_point(&line));
         if (glyph->mask) {
             dip_canvas_mask(canvas, x + glyph->left, baseline - glyph->top, glyph->width,
                             glyph->height, glyph->mask, colour);

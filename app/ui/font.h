@@ -10,10 +10,6 @@
 
 typedef struct DipFont DipFont;
 
-// Reads one character of a UTF-8 text and moves *text behind it. A byte that is not valid is read
-// as U+FFFD.
-uint32_t dip_utf8_next(const char **text);
-
 enum { DIP_FONT_MIN_SIZE = 8, DIP_FONT_MAX_SIZE = 128 }; // Em size in pixels.
 
 // Fails with MISSING if the system has no usable font.

@@ -1,8 +1,6 @@
 // Decodes UTF-8 into cells.
 #include "app/preview/cells/text_screen.h"
 
-#include "app/ui/font.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,11 +42,27 @@ void dip_text_screen_fill(DipTextScreen *screen, DipTextArea area, DipColour pap
     }
 }
 
-// Reads the next character. The texts of the preview hold no control characters, but a scene's name
-// may hold anything; such a character becomes U+FFFD.
+// Reads the next character and moves on to the one after it. The texts of the preview are valid
+// UTF-8, but a scene's name may hold anything; a byte that is not valid becomes U+FFFD.
 static uint32_t next_code(const char **text) {
-    const uint32_t code = dip_utf8_next(text);
-    return code < ' ' || (code >= 0x7f && code < 0xa0) ? 0xfffd : code;
+    const unsigned char *bytes = (const unsigned char *)*text;
+    const int length = bytes[0] < 0x80   ? 1
+                       : bytes[0] < 0xc2 ? 0
+                       : bytes[0] < 0xe0 ? 2
+                       : bytes[0] < 0xf0 ? 3
+                       : bytes[0] < 0xf5 ? 4
+                                         : 0;
+    uint32_t code = length > 1 ? bytes[0] & (0x7fu >> length) : bytes[0];
+    for (int i = 1; i < length; ++i) {
+        if ((bytes[i] & 0xc0) != 0x80) {
+            ++*text;
+            return 0xfffd;
+        }
+        code = code << 6 | (bytes[i] & 0x3fu);
+    }
+    *text += length > 0 ? length : 1;
+    const bool control = code < ' ' || (code >= 0x7f && code < 0xa0);
+    return length == 0 || control ? 0xfffd : code;
 }
 
 int dip_text_length(const char *text) {
