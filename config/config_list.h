@@ -68,6 +68,8 @@
     KEY(CURRENT, current, SETTINGS, "", 0, 0, "settings of the current (left) pane at the start")  \
     KEY(REQUESTED, requested, SETTINGS, "", 0, 0,                                                  \
         "settings of the requested (right) pane at the start")                                     \
+    KEY(TARGET_FPS, target_fps, NUMBER, "", 0, 1000,                                               \
+        "frames a second for which the preview advises settings; 0: those of the display")         \
     KEY(THREADS, threads, INTEGER, "0", 0, 256, "worker threads; 0: one per processor")            \
     KEY(ISA, isa, ISA, "auto", 0, 0, "instruction set of the kernels")                             \
     KEY(NEAR, near_m, NUMBER, "0.1", 0.001, 100, "distance of the near plane, metres")             \

@@ -2,15 +2,12 @@
 #ifndef DIP_APP_UI_STYLE_H
 #define DIP_APP_UI_STYLE_H
 
-#include "app/canvas/pixels.h"
+#include "app/ui/pixels.h"
 
 static const DipColour dip_style_background = {10, 11, 14, 255};
 static const DipColour dip_style_white = {255, 255, 255, 255}; // Text: titles and values.
 static const DipColour dip_style_soft = {196, 202, 210, 255};  // Text: names and notes.
 static const DipColour dip_style_accent = {255, 190, 92, 255}; // Highlights and the edited pane.
-static const DipColour dip_style_strip = {12, 14, 18, 168};    // Background of labels.
-static const DipColour dip_style_status = {12, 14, 18, 150};   // Background of the status line.
-static const DipColour dip_style_panel = {12, 14, 18, 190};    // Background of the panel.
 static const DipColour dip_style_sheet = {14, 16, 21, 252};    // Background of the sheets.
 static const DipColour dip_style_shade = {0, 0, 0, 90};        // Darkens the window around a sheet.
 
@@ -27,14 +24,19 @@ static const DipColour dip_style_over = {74, 42, 42, 255};     // What is over a
 static const DipColour dip_style_gain = {95, 214, 189, 255};   // Less error.
 static const DipColour dip_style_worse = {255, 154, 139, 255}; // More error.
 static const DipColour dip_style_focus = {109, 184, 255, 255}; // Ring of the control with focus.
+static const DipColour dip_style_dark = {0, 0, 0, 255};        // Borders of marks over pictures.
+static const DipColour dip_style_shadow = {10, 12, 15, 255};   // Edges of letters over pictures.
 static const DipColour dip_style_on_accent = {26, 18, 6, 255}; // Text on the accent.
 
-static inline int dip_style_min(int a, int b) {
-    return a < b ? a : b;
+// The colours of both panes, wherever their figures stand beside each other.
+static inline DipColour dip_style_of_pane(int pane) {
+    return pane ? dip_style_accent : dip_style_white;
 }
 
-static inline int dip_style_max(int a, int b) {
-    return a > b ? a : b;
+// Returns black or white, whichever stands out from a colour.
+static inline DipColour dip_style_contrast(DipColour ground) {
+    const int luma = 2 * ground.red + 5 * ground.green + ground.blue; // 0..2040
+    return luma > 1000 ? dip_style_dark : dip_style_white;
 }
 
 // Converts a length in pixels of a display with scale 1 to whole pixels of a display with the given

@@ -58,7 +58,7 @@ static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *inpu
     ui->held = control->id;
     ui->held_button = event->button;
     ui->focus = control->skips_focus ? ui->focus : control->id;
-    ui->focus_shows = false;
+    ui->focus_shows = control->takes_digits;
     input->held = true;
     input->button = event->button;
     input->began = event->button == DIP_MOUSE_LEFT;
@@ -133,6 +133,10 @@ static void take_key(DipUi *ui, const DipUiControl *control, DipUiInput *input) 
         input->to_first = true;
     } else if (control->takes_arrows && event->key == DIP_KEYCODE_END) {
         input->to_last = true;
+    } else if (control->takes_digits &&
+               ((event->key >= (DipKeycode)'0' && event->key <= (DipKeycode)'9') ||
+                event->key == (DipKeycode)'.' || event->key == DIP_KEYCODE_BACKSPACE)) {
+        input->typed = (int)event->key;
     } else {
         taken = false;
     }
@@ -199,4 +203,52 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
                 rect.y + (rect.height - dip_ui_line_height(ui, size)) / 2, rect.width, text);
     dip_ui_focus_ring(ui, rect, radius, &input);
     return input.pressed;
+}
+
+// Changes what the user has typed. Returns the number when Enter ends it, otherwise -1.
+static double type_number(DipUi *ui, DipUiId id, const DipUiInput *input) {
+    if (ui->typing != id) {
+        ui->typing = input->typed ? id : ui->typing;
+        ui->typed[0] = ui->typing == id ? '\0' : ui->typed[0];
+    }
+    if (ui->typing != id) {
+        return -1.0;
+    }
+    const size_t length = strlen(ui->typed);
+    if (input->typed == DIP_KEYCODE_BACKSPACE) {
+        ui->typed[length > 0 ? length - 1 : 0] = '\0';
+    } else if (input->typed && length + 1 < sizeof ui->typed) {
+        ui->typed[length] = (char)input->typed;
+        ui->typed[length + 1] = '\0';
+    }
+    const bool by_key = ui->pass.event && ui->pass.event->kind == DIP_EVENT_KEY_DOWN;
+    if (!input->pressed || !by_key || !ui->typed[0]) { // A click enters nothing.
+        return -1.0;
+    }
+    ui->typing = 0;
+    return strtod(ui->typed, NULL);
+}
+
+DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *text,
+                               const char *tip, double *typed) {
+    const DipUiInput input = dip_ui_control(ui, &(DipUiControl){.id = id,
+                                                                .rect = rect,
+                                                                .tip = tip,
+                                                                .takes_arrows = true,
+                                                                .takes_wheel = true,
+                                                                .takes_digits = true});
+    enum { SIZE = 12 };
+    const int radius = dip_ui_px(ui, 3);
+    *typed = type_number(ui, id, &input);
+    char shown[sizeof ui->typed + 4];
+    snprintf(shown, sizeof shown, "%s\u2009|", ui->typed);
+    dip_ui_fill_round(ui, rect, radius, dip_style_well);
+    dip_ui_outline(ui, rect, radius, dip_ui_px(ui, 1),
+                   input.focused   ? dip_style_focus
+                   : input.hovered ? dip_style_white
+                                   : dip_style_line);
+    dip_ui_text(ui, SIZE, dip_style_white, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
+                rect.y + (rect.height - dip_ui_line_height(ui, SIZE)) / 2, rect.width,
+                ui->typing == id ? shown : text);
+    return input;
 }

@@ -20,8 +20,8 @@
 #ifndef DIP_APP_UI_UI_H
 #define DIP_APP_UI_UI_H
 
-#include "app/canvas/draw_list.h"
-#include "app/display/display.h"
+#include "app/ui/draw_list.h"
+#include "app/ui/event.h"
 
 // Names a control from one pass to the next. Ids are unique within a pass and are not 0. Code that
 // declares controls takes them from its own range, which DIP_UI_ID makes from the enumerator of a
@@ -84,6 +84,8 @@ typedef struct DipUiControl {
     bool skips_focus;  // Tab passes the control over.
     bool takes_arrows; // Left and Right change the control while it has the focus.
     bool takes_wheel;
+    bool takes_digits; // Digits, the point and Backspace go to the control while it has the focus,
+                       // which a click shows, too.
 } DipUiControl;
 
 // What the user did with a control in this event pass, and how to draw it in a drawing pass.
@@ -102,6 +104,7 @@ typedef struct DipUiInput {
     int steps;     // Steps by wheel (away from the user is +1) or by arrow keys (right is +1).
     bool to_first; // Home was pressed.
     bool to_last;  // End was pressed.
+    int typed;     // With takes_digits: the key, a digit, '.' or DIP_KEYCODE_BACKSPACE; or 0.
     int x;         // Where the pointer is.
     int y;
     unsigned modifiers; // DIP_MODIFIER_... bits of the event.
@@ -120,6 +123,12 @@ typedef enum DipUiLook {
 // A button with a text in its middle. Returns true when it is pressed.
 bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiLook look,
                    const char *tip);
+
+// A field that shows a number as a text. The user types another one and presses Enter, or steps by
+// the wheel or the arrow keys. Returns what the user did; if a number was typed, *typed is that
+// number, otherwise it is below 0.
+DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *text,
+                               const char *tip, double *typed);
 
 // Keeps the tips of all controls in a rectangle out of it, so that they cover none of its rows.
 // Holds until the end of the pass.
@@ -149,6 +158,10 @@ void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour);
 
 // Draws the outline of a rectangle with rounded corners, `width` pixels wide, inside the rectangle.
 void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour colour);
+
+// Outlines a rectangle from outside with a colour on a dark border, so that the outline shows over
+// any picture.
+void dip_ui_mark(DipUi *ui, DipRect rect, DipColour colour);
 
 // Draws the ring that shows the keyboard's focus around a rectangle, if the control has the focus.
 void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input);

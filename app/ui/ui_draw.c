@@ -9,7 +9,6 @@
 
 enum { TIP_SIZE = 12, TIP_PAD = 8, TIP_WIDTH = 340, TIP_MAX_LINES = 10 };
 static const int64_t tip_delay_ns = 400000000;
-static const DipColour tip_ground = {32, 36, 43, 255};
 static const DipColour tip_line = {98, 108, 122, 255};
 
 bool dip_ui_is_drawing(const DipUi *ui) {
@@ -59,18 +58,24 @@ void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour) {
 
 void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour colour) {
     if (ui->pass.list) {
-        dip_draw_list_round(ui->pass.list, rect, radius, dip_style_max(1, width), colour);
+        dip_draw_list_round(ui->pass.list, rect, radius, dip_max(1, width), colour);
     }
+}
+
+static DipRect grown(DipRect rect, int by) {
+    return (DipRect){rect.x - by, rect.y - by, rect.width + 2 * by, rect.height + 2 * by};
+}
+
+void dip_ui_mark(DipUi *ui, DipRect rect, DipColour colour) {
+    const int thin = dip_ui_px(ui, 1);
+    dip_ui_outline(ui, grown(rect, 3 * thin), 0, thin, dip_style_dark);
+    dip_ui_outline(ui, grown(rect, 2 * thin), 0, 2 * thin, colour);
 }
 
 void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input) {
     const int width = dip_ui_px(ui, 2);
-    const int away = 2 * width;
     if (input->focused) {
-        dip_ui_outline(
-            ui,
-            (DipRect){rect.x - away, rect.y - away, rect.width + 2 * away, rect.height + 2 * away},
-            radius + away, width, dip_style_focus);
+        dip_ui_outline(ui, grown(rect, 2 * width), radius + 2 * width, width, dip_style_focus);
     }
 }
 
@@ -128,9 +133,9 @@ static int break_lines(const DipUi *ui, int size, const char *text, int width,
 int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
     const int line_height = dip_ui_line_height(ui, size);
-    const int fitting = dip_style_min(TIP_MAX_LINES, room.height / line_height);
+    const int fitting = dip_min(TIP_MAX_LINES, room.height / line_height);
     int count = break_lines(ui, size, text, room.width, lines);
-    count = dip_style_min(count, fitting);
+    count = dip_min(count, fitting);
     for (int i = 0; i < count; ++i) {
         dip_ui_text(ui, size, colour, DIP_ALIGN_LEFT, room.x, room.y + i * line_height, room.width,
                     lines[i]);
@@ -154,7 +159,7 @@ static bool shows_tip(const DipUi *ui) {
 
 // Moves a box into the window along one axis.
 static int moved_inside(int at, int size, int room) {
-    return dip_style_max(0, dip_style_min(at, room - size));
+    return dip_max(0, dip_min(at, room - size));
 }
 
 // Finds a place for a box outside of `off`: above it, right or left of it, or below it. Returns
@@ -186,13 +191,12 @@ static void draw_tip(DipUi *ui) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
     const int count = break_lines(
         ui, TIP_SIZE, ui->tip,
-        dip_style_min(dip_ui_px(ui, TIP_WIDTH), dip_draw_list_width(ui->pass.list) - 2 * TIP_PAD),
-        lines);
+        dip_min(dip_ui_px(ui, TIP_WIDTH), dip_draw_list_width(ui->pass.list) - 2 * TIP_PAD), lines);
     const int pad = dip_ui_px(ui, TIP_PAD);
     const int line_height = dip_ui_line_height(ui, TIP_SIZE);
     int width = 0;
     for (int i = 0; i < count; i++) {
-        width = dip_style_max(width, dip_ui_text_width(ui, TIP_SIZE, lines[i]));
+        width = dip_max(width, dip_ui_text_width(ui, TIP_SIZE, lines[i]));
     }
     DipRect box = {0, 0, width + 2 * pad, count * line_height + 2 * pad};
     const bool in_rows = dip_rect_holds(ui->tip_off, ui->pointer_x, ui->pointer_y);
@@ -200,7 +204,7 @@ static void draw_tip(DipUi *ui) {
         !place_beside(ui, ui->tip_rect, &box)) {
         box.x = moved_inside(ui->tip_rect.x, box.width, dip_draw_list_width(ui->pass.list));
     }
-    dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), tip_ground);
+    dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), dip_style_raised);
     dip_ui_outline(ui, box, dip_ui_px(ui, 4), 1, tip_line);
     for (int i = 0; i < count; i++) {
         dip_ui_text(ui, TIP_SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad,
@@ -299,6 +303,7 @@ bool dip_ui_end(DipUi *ui) {
         ui->tip_seen = ui->tip_hidden = false;
     }
     drop_lost_focus(ui);
+    ui->typing = ui->focus_shows && ui->typing == ui->focus ? ui->typing : 0;
     if (event && event->kind == DIP_EVENT_MOUSE_UP && event->button == ui->held_button) {
         ui->held = 0;
     }

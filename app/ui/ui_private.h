@@ -31,7 +31,9 @@ struct DipUi {
     DipMouseButton held_button;
     double wheel_rest; // Part of a wheel's step that has not counted yet.
     DipUiId focus;
-    bool focus_shows; // The focus came by keyboard.
+    bool focus_shows; // The focus came by keyboard, or keys go to the control.
+    DipUiId typing;   // The field of numbers that `typed` belongs to.
+    char typed[8];    // What the user has typed and not entered.
     bool taken;       // A control took the event of this pass.
     bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
     bool tip_seen;    // The tip has been drawn.

@@ -1,7 +1,7 @@
 // Implements the display for tests with a queue of events and a picture in memory.
 #include "app/display/fake/fake_display.h"
 
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 #include "renderer/base/assert.h"
 
 #include <stdio.h>

@@ -1,10 +1,7 @@
 // The window: opens and closes it, gives its size, and copies pixels to the screen.
 #include "app/display/sdl/sdl_display.h"
 
-#include "app/display/sdl/sdl_controller.h"
-#include "app/display/sdl/sdl_event.h"
-#include "app/display/sdl/sdl_host.h"
-#include "app/display/sdl/sdl_x_errors.h"
+#include "app/display/sdl/sdl_private.h"
 #include "renderer/base/clock.h"
 
 #include <SDL2/SDL.h>
@@ -305,14 +302,6 @@ static void set_size(void *context, int width, int height) {
     SDL_SetWindowSize(sdl->window, width, height);
 }
 
-static SdlDisplay *create(DipError *err) {
-    SdlDisplay *sdl = calloc(1, sizeof *sdl);
-    if (!sdl) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
-    }
-    return sdl;
-}
-
 static DipDisplay display_of(SdlDisplay *sdl) {
     return (DipDisplay){
         .context = sdl,
@@ -333,13 +322,15 @@ static DipDisplay display_of(SdlDisplay *sdl) {
     };
 }
 
-bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err) {
-    SdlDisplay *sdl = create(err);
+// Opens a window of its own, or in the host's window if that is not 0.
+static bool open_display(DipDisplay *display, unsigned long window_id, int width, int height,
+                         DipError *err) {
+    SdlDisplay *sdl = calloc(1, sizeof *sdl);
     if (!sdl) {
-        return false;
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
     }
-    if (!open_sdl(sdl, false, err) || !has_enough_colours(err) ||
-        !open_window(sdl, width, height, err)) {
+    if (!open_sdl(sdl, window_id != 0, err) || !has_enough_colours(err) ||
+        !(window_id ? open_in_host(sdl, window_id, err) : open_window(sdl, width, height, err))) {
         close_display(sdl);
         return false;
     }
@@ -347,18 +338,12 @@ bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *
     return true;
 }
 
+bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err) {
+    return open_display(display, 0, width, height, err);
+}
+
 bool dip_sdl_display_open_in(DipDisplay *display, unsigned long window_id, DipError *err) {
-    SdlDisplay *sdl = create(err);
-    if (!sdl) {
-        return false;
-    }
-    if (!open_sdl(sdl, true, err) || !has_enough_colours(err) ||
-        !open_in_host(sdl, window_id, err)) {
-        close_display(sdl);
-        return false;
-    }
-    *display = display_of(sdl);
-    return true;
+    return open_display(display, window_id, 0, 0, err);
 }
 
 bool dip_sdl_display_has_lost_host(const DipDisplay *display) {

@@ -1,7 +1,5 @@
 // Translates keys, buttons and the fields of events.
-#include "app/display/sdl/sdl_event.h"
-
-#include <stdio.h>
+#include "app/display/sdl/sdl_private.h"
 
 typedef struct KeyName {
     SDL_Keycode sdl;
@@ -119,12 +117,6 @@ static DipEvent wheel_event(const SDL_MouseWheelEvent *sdl) {
     };
 }
 
-static DipEvent text_event(const SDL_TextInputEvent *sdl) {
-    DipEvent event = {.kind = DIP_EVENT_TEXT};
-    snprintf(event.text, sizeof event.text, "%s", sdl->text);
-    return event;
-}
-
 static DipEvent window_event(const SDL_WindowEvent *sdl) {
     switch (sdl->event) {
     case SDL_WINDOWEVENT_SIZE_CHANGED:
@@ -144,8 +136,6 @@ DipEvent dip_sdl_event_translate(const SDL_Event *sdl) {
     case SDL_KEYDOWN:
     case SDL_KEYUP:
         return key_event(&sdl->key);
-    case SDL_TEXTINPUT:
-        return text_event(&sdl->text);
     case SDL_MOUSEMOTION:
         return move_event(&sdl->motion);
     case SDL_MOUSEBUTTONDOWN:

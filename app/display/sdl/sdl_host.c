@@ -1,5 +1,5 @@
 // Follows the host's window with Xlib.
-#include "app/display/sdl/sdl_host.h"
+#include "app/display/sdl/sdl_private.h"
 
 #include <SDL2/SDL_syswm.h>
 #include <X11/Xlib.h>

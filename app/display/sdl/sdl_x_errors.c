@@ -1,5 +1,5 @@
 // Handles errors of the X server.
-#include "app/display/sdl/sdl_x_errors.h"
+#include "app/display/sdl/sdl_private.h"
 
 #include <SDL2/SDL_syswm.h>
 #include <X11/Xlib.h>

@@ -17,7 +17,7 @@
 
 enum {
     INPUT_BYTES = 256,
-    MAX_QUEUED = 16, // One key gives at most four events.
+    MAX_QUEUED = 16, // One key gives at most two events.
     MAX_HELD = 8,
     DEFAULT_COLUMNS = 80, // Size of a terminal that does not tell its size.
     DEFAULT_ROWS = 24,
@@ -137,20 +137,13 @@ static HeldKey *find_held(Terminal *terminal, DipKeycode key) {
     return free_entry;
 }
 
-// Queues the press of a key and the character that the key types.
-static void queue_press(Terminal *terminal, DipEvent event, const uint8_t *bytes, int length,
-                        int64_t now_ns) {
+// Queues the press of a key.
+static void queue_press(Terminal *terminal, DipEvent event, int64_t now_ns) {
     HeldKey *held = find_held(terminal, event.key);
     event.repeat = held->key == event.key && now_ns - held->seen_ns < repeat_ns;
     held->key = event.key;
     held->seen_ns = now_ns;
     queue_event(terminal, &event);
-    const bool typed = bytes[0] >= ' ' && bytes[0] != 0x7f;
-    if (typed && (size_t)length < sizeof event.text) {
-        DipEvent text = {.kind = DIP_EVENT_TEXT};
-        memcpy(text.text, bytes, (size_t)length);
-        queue_event(terminal, &text);
-    }
 }
 
 static void queue_click(Terminal *terminal, DipEvent event, int64_t now_ns) {
@@ -189,7 +182,7 @@ static bool translate_input(Terminal *terminal, int64_t now_ns) {
         return false;
     }
     if (event.kind == DIP_EVENT_KEY_DOWN) {
-        queue_press(terminal, event, terminal->bytes, taken, now_ns);
+        queue_press(terminal, event, now_ns);
     } else if (event.kind == DIP_EVENT_MOUSE_DOWN) {
         queue_click(terminal, event, now_ns);
     } else if (event.kind != DIP_EVENT_NONE) {

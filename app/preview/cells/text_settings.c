@@ -160,7 +160,7 @@ static void draw_block(DipTextView *view, const DipPreviewState *state, DipSetti
         draw_steps(view, state, setting, row, end - 10, 5);
         return;
     }
-    const int width = dip_style_min(8, (end - column - 6) / info->step_count);
+    const int width = dip_min(8, (end - column - 6) / info->step_count);
     draw_title(view, state, setting, row, column, end);
     draw_steps(view, state, setting, row + 1, column + 6, width);
     if (state->costs) {
@@ -210,8 +210,8 @@ static void draw_row(DipTextView *view, const DipPreviewState *state, DipSetting
                  is_focused(view, setting) ? name_focused : title,
                  dip_setting_info(setting)->title);
     const int count = dip_setting_info(setting)->step_count;
-    const int width = dip_style_min(8, (ROW_COLUMNS - NAME_COLUMNS) / count);
-    draw_steps(view, state, setting, row, column + NAME_COLUMNS, dip_style_max(width, 6));
+    const int width = dip_min(8, (ROW_COLUMNS - NAME_COLUMNS) / count);
+    draw_steps(view, state, setting, row, column + NAME_COLUMNS, dip_max(width, 6));
     if (columns < ROW_COLUMNS + FIGURE_COLUMNS) {
         return;
     }
@@ -228,7 +228,7 @@ static bool is_wide(int columns) {
 }
 
 static int columns_of_rows(int columns) {
-    return dip_style_max(1, dip_style_min(2, columns / (ROW_COLUMNS + 2)));
+    return dip_max(1, dip_min(2, columns / (ROW_COLUMNS + 2)));
 }
 
 int dip_text_settings_rows(int columns, bool has_costs) {
@@ -242,7 +242,7 @@ int dip_text_settings_rows(int columns, bool has_costs) {
         for (int i = 0; i < 5 && block_columns[c][i] >= 0; ++i) {
             rows += block_rows((DipSetting)block_columns[c][i], has_costs);
         }
-        most = dip_style_max(most, rows);
+        most = dip_max(most, rows);
     }
     return most;
 }
@@ -258,7 +258,7 @@ void dip_text_draw_settings(DipTextView *view, const DipPreviewState *state, Dip
     const int rows = (DIP_SETTING_COUNT + column_count - 1) / column_count;
     // If there are fewer rows than settings, the rows around the focused setting show.
     const int focus_row = view->focused ? (int)view->focus % rows : 0;
-    const int first = dip_style_max(0, dip_style_min(focus_row - body.rows / 2, rows - body.rows));
+    const int first = dip_max(0, dip_min(focus_row - body.rows / 2, rows - body.rows));
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         const int row = s % rows - first;
         if (row >= 0 && row < body.rows) {

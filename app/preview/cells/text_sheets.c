@@ -23,8 +23,8 @@ static const DipTextColours accent = {{255, 190, 92, 255}, {10, 11, 14, 255}};
 // Draws a pane's lines below the pane, in as many columns as fit.
 static void draw_pane_times(DipTextScreen *screen, DipTextArea area, const DipPanelLine *lines,
                             int count) {
-    const int columns = dip_style_max(1, area.columns / LINE_COLUMNS);
-    const int width = dip_style_min(LINE_COLUMNS, area.columns);
+    const int columns = dip_max(1, area.columns / LINE_COLUMNS);
+    const int width = dip_min(LINE_COLUMNS, area.columns);
     for (int i = 0; i < count && i < columns * area.rows; ++i) {
         const int row = area.row + i % area.rows;
         const int column = area.column + 1 + i / area.rows * width;
@@ -49,12 +49,10 @@ void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextL
 
 // --- costs -------------------------------------------------------------------------------------
 
-static void draw_how_to(DipTextScreen *screen, DipTextArea body) {
-    static const char *const lines[] = {
-        "There is no cost report yet. This makes one in some minutes:",
-        "    diptych cost --out DIR",
-        "Then start the preview with it:", "    diptych --cost DIR/cost.json"};
-    for (int i = 0; i < (int)DIP_ARRAY_COUNT(lines) && i < body.rows; ++i) {
+static void draw_how_to(DipTextScreen *screen, DipTextArea body, const DipPreviewState *state) {
+    DipHowTo lines;
+    dip_preview_how_to(state, lines);
+    for (int i = 0; i < DIP_HOW_TO_LINES && i < body.rows; ++i) {
         dip_text_put(screen, body.row + i, body.column + 1, body.column + body.columns,
                      i % 2 ? accent : white, lines[i]);
     }
@@ -64,7 +62,7 @@ void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPrevi
     const DipCosts *costs = state->costs;
     const int end = body.column + body.columns;
     if (!costs) {
-        draw_how_to(screen, body);
+        draw_how_to(screen, body, state);
         return;
     }
     dip_text_put(screen, body.row, body.column + 1, end, white, costs->heading);
@@ -78,8 +76,8 @@ void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPrevi
             const bool at = dip_costs_is_at(row, s, &state->quality[DIP_PANE_REQUESTED]);
             char text[64];
             snprintf(text, sizeof text, "%s %s", row->steps[s].name, row->steps[s].figures);
-            dip_text_put(screen, body.row + 1 + r, column,
-                         dip_style_min(end, column + STEP_COLUMNS - 1), at ? accent : soft, text);
+            dip_text_put(screen, body.row + 1 + r, column, dip_min(end, column + STEP_COLUMNS - 1),
+                         at ? accent : soft, text);
             column += STEP_COLUMNS;
         }
     }
@@ -92,7 +90,7 @@ static void draw_key(DipTextScreen *screen, DipTextArea area, int rows, int inde
                      const char *label, const char *text) {
     const int row = area.row + 2 + index % rows;
     const int column = area.column + 2 + index / rows * KEY_COLUMNS;
-    const int end = dip_style_min(area.column + area.columns, column + KEY_COLUMNS - 1);
+    const int end = dip_min(area.column + area.columns, column + KEY_COLUMNS - 1);
     dip_text_put(screen, row, column, column + LABEL_COLUMNS - 1, accent, label);
     dip_text_put(screen, row, column + LABEL_COLUMNS, end, white, text);
 }
@@ -103,7 +101,7 @@ void dip_text_draw_help(DipTextScreen *screen, DipTextArea area) {
         {"Left Right", "Change the chosen setting"},
         {"Ctrl+Z Ctrl+C", "Suspend and end; Alt stands for Ctrl"},
     };
-    const int rows = dip_style_max(1, area.rows - 2);
+    const int rows = dip_max(1, area.rows - 2);
     int index = 0;
     dip_text_screen_fill(screen, area, white.paper);
     dip_text_put(screen, area.row, area.column + 2, area.column + area.columns, white,

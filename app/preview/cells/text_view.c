@@ -37,7 +37,7 @@ static int body_rows(const DipTextView *view, const DipPreviewState *state, int 
     if (wanted + least_pane_rows <= pane_rows) {
         return wanted;
     }
-    return asked && pane_rows / 2 > 1 ? dip_style_min(wanted, pane_rows / 2) : 0;
+    return asked && pane_rows / 2 > 1 ? dip_min(wanted, pane_rows / 2) : 0;
 }
 
 DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewState *state, int width,
@@ -56,9 +56,9 @@ DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewStat
     }
     const int pane_columns = width > 2 ? (width - 1) / 2 : 1;
     layout.panes[DIP_PANE_CURRENT] =
-        (DipTextArea){0, label_rows, pane_columns, dip_style_max(1, pane_rows)};
+        (DipTextArea){0, label_rows, pane_columns, dip_max(1, pane_rows)};
     layout.panes[DIP_PANE_REQUESTED] = layout.panes[DIP_PANE_CURRENT];
-    layout.panes[DIP_PANE_REQUESTED].column = dip_style_max(0, width - pane_columns);
+    layout.panes[DIP_PANE_REQUESTED].column = dip_max(0, width - pane_columns);
     return layout;
 }
 
@@ -69,14 +69,6 @@ void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, 
         const DipTextArea area = layout.panes[p];
         panes[p] = (DipRect){area.column, 2 * area.row, area.columns, 2 * area.rows};
     }
-}
-
-bool dip_text_view_follow(DipTextView *view, const DipPreviewState *state, int width, int height) {
-    DipRect panes[DIP_PANE_COUNT];
-    dip_text_view_panes(view, state, width, height, panes);
-    const bool changed = !dip_rect_equals(panes[0], view->last_pane);
-    view->last_pane = panes[0];
-    return changed;
 }
 
 // --- labels, bar and keys ----------------------------------------------------------------------
@@ -154,9 +146,8 @@ static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     int column = 1;
     dip_text_screen_fill(&view->screen, (DipTextArea){0, row, columns, 1}, bar.paper);
     format_place(state, place, sizeof place);
-    const int end = dip_text_put_right(&view->screen, row, dip_style_min(columns / 3, 30), columns,
-                                       bar, place) -
-                    1;
+    const int end =
+        dip_text_put_right(&view->screen, row, dip_min(columns / 3, 30), columns, bar, place) - 1;
     const struct {
         const char *text;
         DipTextColours colours;
@@ -227,7 +218,7 @@ static int edited_pane(const DipPreviewState *state) {
     return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
 }
 
-// Moves the focused setting by one position in the order of dip_text_step_at.
+// Moves the focused setting by one position in the order of dip_setting_step_at.
 static void move_step(const DipTextView *view, DipPreviewState *state, int by, int64_t now_ns) {
     const int count = dip_setting_info(view->focus)->step_count;
     const int now = state->quality[edited_pane(state)].step[view->focus];

@@ -34,9 +34,8 @@ typedef struct DipTextView {
     DipTextScreen screen;
     DipTextTarget targets[DIP_TEXT_MAX_TARGETS]; // Of the last drawing.
     int target_count;
-    bool focused;      // The arrow keys act on the settings.
-    DipSetting focus;  // The setting that they act on.
-    DipRect last_pane; // Used by dip_text_view_follow.
+    bool focused;     // The arrow keys act on the settings.
+    DipSetting focus; // The setting that they act on.
 } DipTextView;
 
 void dip_text_view_free(DipTextView *view);
@@ -48,9 +47,6 @@ DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewStat
 // Fills in the rectangles of the panes, in pixels of the picture.
 void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, int width,
                          int height, DipRect panes[DIP_PANE_COUNT]);
-
-// Returns whether the size of the panes differs from that of the previous call.
-bool dip_text_view_follow(DipTextView *view, const DipPreviewState *state, int width, int height);
 
 // Writes all texts. Fails with MEMORY.
 bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int width, int height,

@@ -2,7 +2,6 @@
 #include "app/preview/control/control_private.h"
 
 #include "app/files/png.h"
-#include "app/preview/control/control_reply.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -167,36 +166,29 @@ static bool save(const DipPreviewMoment *moment, const char *file, cJSON *reply,
 
 // --- all requests --------------------------------------------------------------------------------
 
-static cJSON *add_part(cJSON *reply, unsigned parts, DipControlPart part) {
-    return parts >> part & 1 ? cJSON_AddObjectToObject(reply, dip_control_part_name((int)part))
-                             : NULL;
-}
-
+// Adds the parts that a request asks for: each in an object of its name, but lists by themselves.
 static void get(const DipPreviewMoment *moment, unsigned parts, cJSON *reply) {
-    cJSON *object;
-    if ((object = add_part(reply, parts, DIP_CONTROL_PART_STATE))) {
-        dip_reply_state(object, moment);
-    }
-    if ((object = add_part(reply, parts, DIP_CONTROL_PART_SETTINGS))) {
-        dip_reply_settings(object, moment->state);
-    }
-    if ((object = add_part(reply, parts, DIP_CONTROL_PART_TIMES))) {
-        dip_reply_times(object, moment);
-    }
-    if ((object = add_part(reply, parts, DIP_CONTROL_PART_ERRORS))) {
-        dip_reply_errors(object, moment);
-    }
-    if ((object = add_part(reply, parts, DIP_CONTROL_PART_PRICES))) {
-        dip_reply_prices(object, moment);
-    }
-    if (parts >> DIP_CONTROL_PART_PATHS & 1) {
-        dip_reply_paths(reply, moment->state);
-    }
-    if (parts >> DIP_CONTROL_PART_SCENES & 1) {
-        dip_reply_scenes(reply, moment->session);
-    }
-    if (parts >> DIP_CONTROL_PART_STEPS & 1) {
-        dip_reply_steps(reply);
+    static const struct {
+        void (*add)(cJSON *object, const DipPreviewMoment *moment);
+        bool is_list;
+    } rows[DIP_CONTROL_PART_COUNT] = {
+        [DIP_CONTROL_PART_STATE] = {dip_reply_state, false},
+        [DIP_CONTROL_PART_SETTINGS] = {dip_reply_settings, false},
+        [DIP_CONTROL_PART_TIMES] = {dip_reply_times, false},
+        [DIP_CONTROL_PART_ERRORS] = {dip_reply_errors, false},
+        [DIP_CONTROL_PART_PRICES] = {dip_reply_prices, false},
+        [DIP_CONTROL_PART_PATHS] = {dip_reply_paths, true},
+        [DIP_CONTROL_PART_SCENES] = {dip_reply_scenes, true},
+        [DIP_CONTROL_PART_STEPS] = {dip_reply_steps, true},
+    };
+    for (int p = 0; p < DIP_CONTROL_PART_COUNT; ++p) {
+        cJSON *object = !(parts >> p & 1) ? NULL
+                        : rows[p].is_list
+                            ? reply
+                            : cJSON_AddObjectToObject(reply, dip_control_part_name(p));
+        if (object) {
+            rows[p].add(object, moment);
+        }
     }
 }
 

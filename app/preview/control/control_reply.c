@@ -1,7 +1,6 @@
-// Writes the preview's state, times and errors as JSON.
-#include "app/preview/control/control_reply.h"
+// Writes the preview's state, times, errors and prices as JSON.
+#include "app/preview/control/control_private.h"
 
-#include "app/preview/loop/view.h"
 #include "config/config.h"
 
 #include <cjson/cJSON.h>
@@ -12,9 +11,17 @@ static void add_time(cJSON *object, const char *name, double time) {
     cJSON_AddNumberToObject(object, name, floor(1e6 * time + 0.5) / 1e6);
 }
 
+// Appends an item to an array, or deletes it if memory runs out.
+static void append(cJSON *array, cJSON *item) {
+    if (!cJSON_AddItemToArray(array, item)) {
+        cJSON_Delete(item);
+    }
+}
+
 // --- state and settings --------------------------------------------------------------------------
 
-double dip_reply_path_time_s(const DipPreviewState *state) {
+// Returns the time on the camera path, within the path's duration.
+static double path_time_s(const DipPreviewState *state) {
     const DipCamTrack *track = state->track;
     const bool has_path = track->categories[track->active].path || track->categories[0].path;
     const int64_t time_ns =
@@ -22,7 +29,8 @@ double dip_reply_path_time_s(const DipPreviewState *state) {
     return 1e-9 * (double)time_ns;
 }
 
-const char *dip_reply_scene_name(const DipSession *session) {
+// Returns the name that the request `scene` takes for what the session shows.
+static const char *scene_name(const DipSession *session) {
     if (!session->shows_gallery) {
         return "models";
     }
@@ -39,17 +47,17 @@ static void add_size(cJSON *object, const DipPreviewMoment *moment) {
 void dip_reply_state(cJSON *object, const DipPreviewMoment *moment) {
     const DipPreviewState *state = moment->state;
     cJSON_AddBoolToObject(object, "paused", state->paused);
-    add_time(object, "time_s", dip_reply_path_time_s(state));
+    add_time(object, "time_s", path_time_s(state));
     cJSON_AddStringToObject(object, "category", dip_preview_path_name(state, state->track->active));
     cJSON_AddBoolToObject(object, "free_camera", state->manual);
-    cJSON_AddStringToObject(object, "scene", dip_reply_scene_name(moment->session));
+    cJSON_AddStringToObject(object, "scene", scene_name(moment->session));
     add_size(object, moment);
 }
 
-void dip_reply_settings(cJSON *object, const DipPreviewState *state) {
+void dip_reply_settings(cJSON *object, const DipPreviewMoment *moment) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         char text[256];
-        dip_quality_format(&state->quality[p], text, sizeof text);
+        dip_quality_format(&moment->state->quality[p], text, sizeof text);
         cJSON_AddStringToObject(object, dip_pane_names[p], text);
     }
 }
@@ -74,7 +82,7 @@ static void add_pane_times(cJSON *object, const char *name, const DipPaneFigures
 }
 
 void dip_reply_times(cJSON *object, const DipPreviewMoment *moment) {
-    add_time(object, "time_s", dip_reply_path_time_s(moment->state));
+    add_time(object, "time_s", path_time_s(moment->state));
     add_size(object, moment);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         add_pane_times(object, dip_pane_names[p], &moment->figures[p]);
@@ -108,7 +116,8 @@ void dip_reply_errors(cJSON *object, const DipPreviewMoment *moment) {
 
 // --- lists ---------------------------------------------------------------------------------------
 
-void dip_reply_paths(cJSON *object, const DipPreviewState *state) {
+void dip_reply_paths(cJSON *object, const DipPreviewMoment *moment) {
+    const DipPreviewState *state = moment->state;
     cJSON *paths = cJSON_AddArrayToObject(object, "paths");
     for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
         if (c >= DIP_CATEGORY_COUNT && !state->track->categories[c].path) {
@@ -118,25 +127,20 @@ void dip_reply_paths(cJSON *object, const DipPreviewState *state) {
         cJSON_AddStringToObject(path, "category", dip_preview_path_name(state, c));
         cJSON_AddStringToObject(path, "title", dip_preview_path_title(state, c));
         cJSON_AddBoolToObject(path, "available", state->track->categories[c].path != NULL);
-        if (!cJSON_AddItemToArray(paths, path)) {
-            cJSON_Delete(path);
-        }
+        append(paths, path);
     }
 }
 
 static void add_name(cJSON *array, const char *name) {
-    cJSON *item = cJSON_CreateStringReference(name);
-    if (!cJSON_AddItemToArray(array, item)) {
-        cJSON_Delete(item);
-    }
+    append(array, cJSON_CreateStringReference(name));
 }
 
-void dip_reply_scenes(cJSON *object, const DipSession *session) {
+void dip_reply_scenes(cJSON *object, const DipPreviewMoment *moment) {
     cJSON *scenes = cJSON_AddArrayToObject(object, "scenes");
     for (int s = 0; s < dip_gallery_scene_count(); ++s) {
         add_name(scenes, dip_gallery_info(s)->name);
     }
-    if (session->scene) {
+    if (moment->session->scene) {
         add_name(scenes, "models");
     }
 }
@@ -159,13 +163,11 @@ static cJSON *describe_setting(DipSetting setting) {
     return object;
 }
 
-void dip_reply_steps(cJSON *object) {
+void dip_reply_steps(cJSON *object, const DipPreviewMoment *moment) {
+    (void)moment;
     cJSON *settings = cJSON_AddArrayToObject(object, "steps");
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
-        cJSON *setting = describe_setting((DipSetting)s);
-        if (!cJSON_AddItemToArray(settings, setting)) {
-            cJSON_Delete(setting);
-        }
+        append(settings, describe_setting((DipSetting)s));
     }
 }
 
@@ -179,6 +181,85 @@ void dip_reply_pick(cJSON *object, const DipPreviewMoment *moment, int x, int y)
         cJSON *array = cJSON_CreateIntArray(colour, 3);
         if (!cJSON_AddItemToObject(object, dip_pane_names[p], array)) {
             cJSON_Delete(array);
+        }
+    }
+}
+
+// --- prices --------------------------------------------------------------------------------------
+
+static const char *state_name(DipPriceState state) {
+    static const char *const names[] = {
+        [DIP_PRICE_UNKNOWN] = "unknown",   [DIP_PRICE_BASE] = "base",
+        [DIP_PRICE_MEASURED] = "measured", [DIP_PRICE_PREDICTED] = "predicted",
+        [DIP_PRICE_ROUGH] = "rough",
+    };
+    return names[state];
+}
+
+static const char *trust_name(DipPriceTrust trust) {
+    static const char *const names[] = {
+        [DIP_PRICE_TRUST_UNKNOWN] = "unknown",
+        [DIP_PRICE_TRUST_DOUBTFUL] = "doubtful",
+        [DIP_PRICE_TRUST_ZERO] = "zero",
+        [DIP_PRICE_TRUST_KNOWN] = "known",
+    };
+    return names[trust];
+}
+
+static void add_price(cJSON *object, DipPriceState state, DipPriceTrust trust, double ms,
+                      double low, double high) {
+    cJSON_AddStringToObject(object, "state", state_name(state));
+    cJSON_AddStringToObject(object, "trust", trust_name(trust));
+    if (state != DIP_PRICE_UNKNOWN) {
+        cJSON_AddNumberToObject(object, "ms", ms);
+        cJSON_AddNumberToObject(object, "ms_low", low);
+        cJSON_AddNumberToObject(object, "ms_high", high);
+    }
+}
+
+static void add_pane(cJSON *object, const char *name, const DipPriceSum *sum) {
+    cJSON *pane = cJSON_AddObjectToObject(object, name);
+    add_price(pane, sum->state, dip_price_sum_trust(sum), sum->ms, sum->ms_low, sum->ms_high);
+    if (sum->has_flip) {
+        cJSON_AddNumberToObject(pane, "flip", sum->flip);
+    }
+}
+
+static void add_step(cJSON *steps, const char *name, const DipPrice *price) {
+    cJSON *step = cJSON_CreateObject();
+    cJSON_AddStringToObject(step, "step", name);
+    add_price(step, price->state, dip_price_trust(price), price->ms, price->ms_low, price->ms_high);
+    if (price->has_flip) {
+        cJSON_AddNumberToObject(step, "flip", price->flip);
+    }
+    if (price->beside[0]) {
+        cJSON_AddStringToObject(step, "beside", price->beside);
+    }
+    append(steps, step);
+}
+
+static const char *source_name(const DipPrices *prices, const DipPriceSum *requested) {
+    return dip_prices_has_report(prices) && !dip_prices_are_rough(prices) ? "report"
+           : requested->state == DIP_PRICE_UNKNOWN                        ? "none"
+                                                                          : "rough";
+}
+
+void dip_reply_prices(cJSON *object, const DipPreviewMoment *moment) {
+    const DipQuality *quality = moment->state->quality;
+    const DipPriceSum requested = dip_prices_sum(moment->prices, &quality[DIP_PANE_REQUESTED]);
+    const DipPriceSum current = dip_prices_sum(moment->prices, &quality[DIP_PANE_CURRENT]);
+    cJSON_AddStringToObject(object, "source", source_name(moment->prices, &requested));
+    cJSON_AddStringToObject(object, "progress", dip_prices_progress(moment->prices));
+    add_pane(object, dip_pane_names[DIP_PANE_CURRENT], &current);
+    add_pane(object, dip_pane_names[DIP_PANE_REQUESTED], &requested);
+    cJSON *settings = cJSON_AddObjectToObject(object, "settings");
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+        cJSON *steps = cJSON_AddArrayToObject(settings, info->key);
+        for (int i = 0; i < info->step_count; ++i) {
+            const DipPrice price =
+                dip_prices_step(moment->prices, (DipSetting)s, i, &quality[DIP_PANE_REQUESTED]);
+            add_step(steps, info->steps[i], &price);
         }
     }
 }

@@ -59,6 +59,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->figures.outdated = true;
     preview->turn_ns = dip_loop_clock_ns(preview);
     follow_refresh(preview);
+    if (def->session->config.target_fps > 0.0) {
+        dip_preview_set_budget(&preview->state, 1000.0 / def->session->config.target_fps);
+    }
     if (def->notice) {
         dip_preview_notice(&preview->state, preview->turn_ns, "%s", def->notice);
     }
@@ -123,17 +126,6 @@ void dip_loop_report(DipPreview *preview, const DipError *err, int64_t now_ns) {
     dip_preview_notice(&preview->state, now_ns, "%.120s", line);
 }
 
-// Notices that settings which show or hide in characters leave the panes another size.
-static void follow_text(DipPreview *preview) {
-    const DipDisplay *display = &preview->def.display;
-    int width, height;
-    if (display->set_text) {
-        display->size(display->context, &width, &height);
-        preview->resized = dip_text_view_follow(&preview->text, &preview->state, width, height) ||
-                           preview->resized;
-    }
-}
-
 static void follow_full_screen(DipPreview *preview) {
     const DipDisplay *display = &preview->def.display;
     if (preview->state.full_screen == preview->full_screen) {
@@ -145,7 +137,8 @@ static void follow_full_screen(DipPreview *preview) {
     }
 }
 
-// Notices whether the panes have another size, because the dock was opened or folded.
+// Notices whether the panes have another size, because the dock was opened or folded, or because
+// settings in characters show or hide.
 static void follow_layout(DipPreview *preview) {
     const DipLayout layout = dip_preview_layout(preview);
     int width, height;
@@ -186,10 +179,7 @@ static void follow_title(DipPreview *preview) {
 // Finds out whether anything moves, when another path or scene plays.
 static void follow_motion(DipPreview *preview) {
     const DipSession *session = preview->def.session;
-    const DipCamTrack *track = &session->track;
-    const DipCamPath *path = track->categories[track->active].path
-                                 ? track->categories[track->active].path
-                                 : track->categories[0].path;
+    const DipCamPath *path = dip_preview_playing_path(&preview->state);
     if (path != preview->judged_path || session->scene != preview->judged_scene) {
         preview->judged_path = path;
         preview->judged_scene = session->scene;
@@ -218,7 +208,6 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     dip_loop_follow_reload(preview, now_ns);
     preview->redraw |= choose(preview);
     follow_layout(preview);
-    follow_text(preview);
     if (preview->resized) {
         follow_refresh(preview);
     }

@@ -70,11 +70,6 @@ static void release_key(DipPreview *preview, const DipEvent *event) {
 }
 
 static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
-    if (preview->def.display.set_text &&
-        dip_text_view_event(&preview->text, &preview->state, event, now_ns)) {
-        preview->redraw = true;
-        return;
-    }
     switch (event->kind) {
     case DIP_EVENT_QUIT:
         preview->state.quit = true;

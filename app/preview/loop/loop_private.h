@@ -12,10 +12,22 @@
 #include "app/preview/live/live_prices.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/state/pilot.h"
-#include "app/preview/loop/prefetch.h"
 #include "app/preview/live/taa_pace.h"
 #include "app/preview/loop/view.h"
 #include "app/session/session.h"
+
+#include <pthread.h>
+
+// Makes compressed textures on a thread of its own, before a change of settings needs them.
+//
+// The settings opt=standard and opt=advanced need compressed textures. This thread makes the
+// textures after the first picture shows, while further frames are drawn, so that a change to these
+// settings delays no frame. A frame that needs the textures earlier waits for them.
+typedef struct DipPrefetch {
+    const DipScene *scene; // Borrowed; NULL before the thread starts.
+    pthread_t thread;
+    bool running;
+} DipPrefetch;
 
 // Everything that decides what the pictures show. There is one exception: the sample pattern that
 // temporal antialiasing uses in this frame.
@@ -122,6 +134,8 @@ void dip_loop_paste_settings(DipPreview *preview, int64_t now_ns);
 void dip_loop_copy_settings(DipPreview *preview, int64_t now_ns);
 // Draws the window and presents it; saves a screenshot if the user asked for one.
 bool dip_loop_show(DipPreview *preview, int64_t now_ns, DipError *err);
+// Waits until the thread that prepares textures has ended.
+void dip_prefetch_end(DipPrefetch *prefetch);
 
 // --- loop.c --------------------------------------------------------------------------------------
 

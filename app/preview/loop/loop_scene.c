@@ -2,8 +2,11 @@
 // changed.
 #include "app/preview/loop/loop_private.h"
 
-#include "app/preview/loop/handover.h"
+#include "app/cost/plan.h"
+#include "app/preview/loop/reload.h"
 #include "app/preview/state/speed.h"
+
+#include <string.h>
 
 void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     DipSession *session = preview->def.session;
@@ -41,6 +44,60 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     ++state->scene_changes;
 }
 
+static void follow_settings_of(const DipSession *session, DipPreviewState *state,
+                               DipQuality first_quality[DIP_PANE_COUNT]) {
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipQuality begun = dip_painter_quality(session->renderers[p]);
+        if (memcmp(&begun, &first_quality[p], sizeof begun) != 0) {
+            state->quality[p] = begun;
+        }
+        first_quality[p] = begun;
+    }
+}
+
+static void follow_track(DipSession *session, DipPreviewState *state, const DipCamTrack *before,
+                         bool dropped) {
+    DipCamTrack *track = &session->track;
+    if (dropped) {
+        state->manual = false;
+        dip_camtrack_restart(track, state->play_ns);
+        return;
+    }
+    if (track->categories[before->active].path) {
+        track->active = before->active;
+    }
+    dip_camtrack_restart(track, before->start_ns);
+}
+
+// Puts the reload's new session in the place of the old one and updates the state.
+//
+// The settings that the user has chosen stay, unless the new session begins with others than the
+// old one: then the user has changed the ini. dropped: the user has dropped the file. Then the
+// camera begins the new path. Otherwise it stays where it is, on the same path at the same time.
+static void hand_over(DipPreview *preview, bool dropped) {
+    DipSession *session = preview->def.session;
+    DipPreviewState *state = &preview->state;
+    const DipCamTrack before = session->track;
+    const double fps_before = session->config.target_fps;
+    char scene_before[DIP_COST_TEXT];
+    char scene[DIP_COST_TEXT];
+    dip_cost_scene_name(session, scene_before);
+    dip_reload_take(preview->def.reload);
+    dip_cost_scene_name(session, scene);
+    if (strcmp(scene, scene_before) != 0) {
+        state->costs = NULL; // The report is about the other scene.
+    }
+    if (session->config.target_fps != fps_before) { // The user has changed the ini.
+        const double fps = session->config.target_fps;
+        dip_preview_set_budget(state, fps > 0.0 ? 1000.0 / fps : 0.0);
+    }
+    follow_settings_of(session, state, preview->first_quality);
+    follow_track(session, state, &before, dropped);
+    state->shows_gallery = session->shows_gallery;
+    state->look = session->shows_gallery ? session->options->look : 0;
+    ++state->scene_changes;
+}
+
 // Replaces the session by the new one. The threads that read the old scene end first.
 static void use_new_session(DipPreview *preview, bool dropped) {
     const DipErrorReading nothing = {.status = DIP_ERROR_STATUS_PAUSED};
@@ -54,7 +111,7 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     if (preview->live_prices) {
         dip_live_prices_leave_scene(preview->live_prices);
     }
-    dip_handover(preview->def.reload, session, &preview->state, preview->first_quality, dropped);
+    hand_over(preview, dropped);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->drawn_quality[p] = dip_painter_quality(session->renderers[p]);
         dip_figures_forget(&preview->figures, p);

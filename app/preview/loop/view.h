@@ -3,7 +3,7 @@
 #ifndef DIP_APP_PREVIEW_LOOP_VIEW_H
 #define DIP_APP_PREVIEW_LOOP_VIEW_H
 
-#include "app/canvas/draw_list.h"
+#include "app/ui/draw_list.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/cells/text_view.h"
 

@@ -5,88 +5,97 @@
 
 #include <string.h>
 
-#define SETTING_KEY(key, other, NAME, label)                                                       \
-    { key, other, DIP_ACTION_SETTING, DIP_SETTING_##NAME, false, label, NULL }
-#define PATH_KEY(digit)                                                                            \
-    { '0' + digit, DIP_KEYCODE_NONE, DIP_ACTION_PATH, digit, false, NULL, NULL }
+// Keys without modifiers; `other` does the same.
+#define KEY(key, other, action, argument, label, text)                                             \
+    { key, other, DIP_ACTION_##action, argument, false, false, false, label, text }
+// Keys that go on acting while they are held.
+#define HELD(key, action, argument, reverse, label, text)                                          \
+    { key, 0, DIP_ACTION_##action, argument, false, reverse, true, label, text }
+// Keys with Ctrl. A key that is held edits a path once.
+#define CTRL(key, action, argument, reverse, label, text)                                          \
+    { key, 0, DIP_ACTION_##action, argument, true, reverse, true, label, text }
+#define EDIT(key, edit, label, text)                                                               \
+    { key, 0, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_##edit, true, false, false, label, text }
+// Rows of the help alone. What the action needs decides where the row shows.
+#define HELP(action, label, text)        KEY(0, 0, action, 0, label, text)
+#define SETTING(key, other, NAME, label) KEY(key, other, SETTING, DIP_SETTING_##NAME, label, NULL)
+#define PATH(digit)                      KEY('0' + digit, 0, PATH, digit, NULL, NULL)
 
 // W, A, S, D, Q and E fly the camera.
 const DipKeyRow dip_key_rows[] = {
-    SETTING_KEY('x', DIP_KEYCODE_F2, AA, "X  F2"),
-    SETTING_KEY('t', DIP_KEYCODE_F3, TAA, "T  F3"),
-    SETTING_KEY('v', DIP_KEYCODE_F4, AAA, "V  F4"),
-    SETTING_KEY('b', DIP_KEYCODE_F5, ASD, "B  F5"),
-    SETTING_KEY('f', DIP_KEYCODE_F6, AF, "F  F6"),
-    SETTING_KEY('g', DIP_KEYCODE_F7, AAF, "G  F7"),
-    SETTING_KEY('o', DIP_KEYCODE_F8, OPT, "O  F8"),
-    SETTING_KEY('l', DIP_KEYCODE_F9, MIPLOD, "L  F9"),
-    SETTING_KEY('i', DIP_KEYCODE_F10, GI, "I  F10"),
-    SETTING_KEY('m', DIP_KEYCODE_NONE, MIPDEBUG, "M"),
-    {'`', DIP_KEYCODE_INSERT, DIP_ACTION_NEXT_PANE, 0, false, "`  Insert  Click",
-     "Choose the pane"},
-    {DIP_KEYCODE_ENTER, DIP_KEYCODE_NONE, DIP_ACTION_APPLY, 0, false, "Enter",
-     "Copy requested to current"},
-    {'y', DIP_KEYCODE_NONE, DIP_ACTION_DOCK, 0, false, "Y", "Open or fold the panel"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_DOCK, 0, false, "Tab  Arrows",
-     "Controls of the panel"},
-    {DIP_KEYCODE_SPACE, DIP_KEYCODE_NONE, DIP_ACTION_PAUSE, 0, false, "Space", "Pause or play"},
-    {'.', DIP_KEYCODE_NONE, DIP_ACTION_STEP, 0, true, ".  ,", "Step one frame"},
-    {',', DIP_KEYCODE_NONE, DIP_ACTION_STEP_BACK, 0, true, NULL, NULL},
-    {'p', DIP_KEYCODE_RIGHT, DIP_ACTION_NEXT_PATH, 0, false, "P", "Next path"},
-    {DIP_KEYCODE_LEFT, DIP_KEYCODE_NONE, DIP_ACTION_PREVIOUS_PATH, 0, false, NULL, NULL},
-    PATH_KEY(0),
-    PATH_KEY(1),
-    PATH_KEY(2),
-    PATH_KEY(3),
-    PATH_KEY(4),
-    PATH_KEY(5),
-    PATH_KEY(6),
-    PATH_KEY(7),
-    PATH_KEY(8),
-    {'9', DIP_KEYCODE_NONE, DIP_ACTION_PATH, 9, false, "0 .. 9", "Path made for a setting"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_PATH_END, 1, false, "Ctrl+E",
-     "Loop, play once, there and back"},
-    {DIP_KEYCODE_PAGE_DOWN, DIP_KEYCODE_NONE, DIP_ACTION_SEEK, 5000, true, "PageUp  PageDown",
-     "5 s back or on"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_NEXT_SCENE, 0, false, "Ctrl+PageDown",
-     "Next scene of the gallery"},
-    {'\'', DIP_KEYCODE_NONE, DIP_ACTION_LOOK, 0, false, "'", "The scene's next variant"},
-    {'z', DIP_KEYCODE_NONE, DIP_ACTION_LOUPE, 0, false, "Z", "Loupe"},
-    {'=', DIP_KEYCODE_NONE, DIP_ACTION_ZOOM, 0, true, "=  -  Wheel", "Loupe: zoom"},
-    {'j', DIP_KEYCODE_NONE, DIP_ACTION_COMPARISON, 0, false, "J", "Next comparison"},
-    {'n', DIP_KEYCODE_NONE, DIP_ACTION_MAP, 0, false, "N", "Next map of error or work"},
-    {']', DIP_KEYCODE_NONE, DIP_ACTION_ADJUST, 0, true, "[  ]  Drag", "Divider, gain, brightness"},
-    {';', DIP_KEYCODE_NONE, DIP_ACTION_BLINK, 0, false, ";", "Blink"},
-    {'/', DIP_KEYCODE_NONE, DIP_ACTION_BARE, 0, false, "/", "Panes only"},
-    {'c', DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "C", "Free camera"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "W A S D Q E",
-     "Move it (with Shift: turn)"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "Drag  Wheel",
-     "Turn it; speed or distance"},
-    {'\\', DIP_KEYCODE_NONE, DIP_ACTION_ORBIT, 0, false, "\\", "Orbit, or turn on the spot"},
-    {DIP_KEYCODE_HOME, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA_BACK, 0, false, "Home",
-     "The path's pose again"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_TAB, DIP_TAB_PATH, false, "Ctrl+P",
-     "Make a path from poses"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_PATH_EDIT, 0, false, "Ctrl+N  R  Delete",
-     "Add, replace, delete a key"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_PATH_EDIT, 0, false, "Ctrl+Left  Right",
-     "Choose a key"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_PATH_EDIT, 0, false, "Ctrl+F  W  O",
-     "Fly it, save it, edit this path"},
-    {'r', DIP_KEYCODE_NONE, DIP_ACTION_PANEL, 0, false, "R", "Times, errors and work"},
-    {'u', DIP_KEYCODE_NONE, DIP_ACTION_COSTS, 0, false, "U", "What each setting costs"},
-    {'k', DIP_KEYCODE_NONE, DIP_ACTION_ADVICE, 0, false, "K", "Best settings for a time budget"},
-    {DIP_KEYCODE_F1, 'h', DIP_ACTION_HELP, 0, false, "F1  H", "This help"},
-    {DIP_KEYCODE_F11, DIP_KEYCODE_NONE, DIP_ACTION_FULL_SCREEN, 0, false, "F11  Double click",
-     "Full screen"},
-    {DIP_KEYCODE_F12, DIP_KEYCODE_NONE, DIP_ACTION_SCREENSHOT, 0, false, "F12",
-     "Screenshot (with Shift: panes only)"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_SAVE_POSE, 0, false, "Ctrl+S",
-     "Save the camera's pose to poses.pth"},
-    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "Controller",
-     "Sticks fly; Y frees, A presses, X applies"},
-    {DIP_KEYCODE_ESCAPE, DIP_KEYCODE_NONE, DIP_ACTION_QUIT, 0, false, "Esc  Ctrl+Q", "Quit"},
+    SETTING('x', DIP_KEYCODE_F2, AA, "X  F2"),
+    SETTING('t', DIP_KEYCODE_F3, TAA, "T  F3"),
+    SETTING('v', DIP_KEYCODE_F4, AAA, "V  F4"),
+    SETTING('b', DIP_KEYCODE_F5, ASD, "B  F5"),
+    SETTING('f', DIP_KEYCODE_F6, AF, "F  F6"),
+    SETTING('g', DIP_KEYCODE_F7, AAF, "G  F7"),
+    SETTING('o', DIP_KEYCODE_F8, OPT, "O  F8"),
+    SETTING('l', DIP_KEYCODE_F9, MIPLOD, "L  F9"),
+    SETTING('i', DIP_KEYCODE_F10, GI, "I  F10"),
+    SETTING('m', 0, MIPDEBUG, "M"),
+    KEY('`', DIP_KEYCODE_INSERT, NEXT_PANE, 0, "`  Insert  Click", "Choose the pane"),
+    KEY(DIP_KEYCODE_ENTER, 0, APPLY, 0, "Enter", "Copy requested to current"),
+    CTRL(DIP_KEYCODE_ENTER, APPLY, 0, false, NULL, NULL),
+    CTRL('z', UNDO, 0, false, NULL, NULL),
+    CTRL('y', UNDO, 0, true, NULL, NULL),
+    KEY('y', 0, DOCK, 0, "Y", "Open or fold the panel"),
+    HELP(DOCK, "Tab  Arrows", "Controls of the panel"),
+    KEY(DIP_KEYCODE_SPACE, 0, PAUSE, 0, "Space", "Pause or play"),
+    HELD('.', STEP, 0, false, ".  ,", "Step one frame"),
+    HELD(',', STEP_BACK, 0, false, NULL, NULL),
+    KEY('p', DIP_KEYCODE_RIGHT, NEXT_PATH, 0, "P", "Next path"),
+    KEY(DIP_KEYCODE_LEFT, 0, PREVIOUS_PATH, 0, NULL, NULL),
+    PATH(0),
+    PATH(1),
+    PATH(2),
+    PATH(3),
+    PATH(4),
+    PATH(5),
+    PATH(6),
+    PATH(7),
+    PATH(8),
+    KEY('9', 0, PATH, 9, "0 .. 9", "Path made for a setting"),
+    CTRL('e', PATH_END, 1, false, "Ctrl+E", "Loop, play once, there and back"),
+    HELD(DIP_KEYCODE_PAGE_DOWN, SEEK, 5000, false, "PageUp  PageDown", "5 s back or on"),
+    HELD(DIP_KEYCODE_PAGE_UP, SEEK, 5000, true, NULL, NULL),
+    CTRL(DIP_KEYCODE_PAGE_DOWN, NEXT_SCENE, 0, false, "Ctrl+PageDown", "Next scene of the gallery"),
+    CTRL(DIP_KEYCODE_PAGE_UP, NEXT_SCENE, 0, true, NULL, NULL),
+    KEY('\'', 0, LOOK, 0, "'", "The scene's next variant"),
+    KEY('z', 0, LOUPE, 0, "Z", "Loupe"),
+    HELD('=', ZOOM, 0, false, "=  -  Wheel", "Loupe: zoom"),
+    HELD('-', ZOOM, 0, true, NULL, NULL),
+    KEY('j', 0, COMPARISON, 0, "J", "Next comparison"),
+    KEY('n', 0, MAP, 0, "N", "Next map of error or work"),
+    HELD(']', ADJUST, 0, false, "[  ]  Drag", "Divider, gain, brightness"),
+    HELD('[', ADJUST, 0, true, NULL, NULL),
+    KEY(';', 0, BLINK, 0, ";", "Blink"),
+    KEY('/', 0, BARE, 0, "/", "Panes only"),
+    KEY('c', 0, CAMERA, 0, "C", "Free camera"),
+    HELP(CAMERA, "W A S D Q E", "Move it (with Shift: turn)"),
+    HELP(CAMERA, "Drag  Wheel", "Turn it; speed or distance"),
+    KEY('\\', 0, ORBIT, 0, "\\", "Orbit, or turn on the spot"),
+    KEY(DIP_KEYCODE_HOME, 0, CAMERA_BACK, 0, "Home", "The path's pose again"),
+    CTRL('p', TAB, DIP_TAB_PATH, false, "Ctrl+P", "Make a path from poses"),
+    EDIT('n', ADD, "Ctrl+N  R  Delete", "Add, replace, delete a key"),
+    EDIT('r', REPLACE, NULL, NULL),
+    EDIT(DIP_KEYCODE_DELETE, DELETE, NULL, NULL),
+    EDIT(DIP_KEYCODE_LEFT, BEFORE, "Ctrl+Left  Right", "Choose a key"),
+    EDIT(DIP_KEYCODE_RIGHT, NEXT, NULL, NULL),
+    EDIT('f', FLY, "Ctrl+F  W  O", "Fly it, save it, edit this path"),
+    EDIT('w', SAVE, NULL, NULL),
+    EDIT('o', TAKE, NULL, NULL),
+    EDIT(DIP_KEYCODE_UP, SLOWER, NULL, NULL),
+    EDIT(DIP_KEYCODE_DOWN, FASTER, NULL, NULL),
+    KEY('r', 0, PANEL, 0, "R", "Times, errors and work"),
+    KEY('u', 0, COSTS, 0, "U", "What each setting costs"),
+    KEY('k', 0, ADVICE, 0, "K", "Best settings for a time budget"),
+    KEY(DIP_KEYCODE_F1, 'h', HELP, 0, "F1  H", "This help"),
+    KEY(DIP_KEYCODE_F11, 0, FULL_SCREEN, 0, "F11  Double click", "Full screen"),
+    KEY(DIP_KEYCODE_F12, 0, SCREENSHOT, 0, "F12", "Screenshot (with Shift: panes only)"),
+    CTRL('s', SAVE_POSE, 0, false, "Ctrl+S", "Save the camera's pose to poses.pth"),
+    HELP(CAMERA, "Controller", "Sticks fly; Y frees, A presses, X applies"),
+    KEY(DIP_KEYCODE_ESCAPE, 0, QUIT, 0, "Esc  Ctrl+Q", "Quit"),
+    CTRL('q', QUIT, 0, false, NULL, NULL),
 };
 
 const int dip_key_row_count = (int)DIP_ARRAY_COUNT(dip_key_rows);
@@ -97,50 +106,15 @@ static bool stands_for(const DipKeyRow *row, DipKeycode key) {
     return row->key != DIP_KEYCODE_NONE && (row->key == (int)key || row->other == (int)key);
 }
 
-// Keys that act while Ctrl is held, and keys that act backwards without Shift.
-typedef struct OtherKey {
-    int key;
-    DipAction action;
-    int argument;
-    bool reverse;
-} OtherKey;
-
-static const OtherKey ctrl_keys[] = {
-    {'q', DIP_ACTION_QUIT, 0, false},
-    {'z', DIP_ACTION_UNDO, 0, false},
-    {'y', DIP_ACTION_UNDO, 0, true},
-    {DIP_KEYCODE_ENTER, DIP_ACTION_APPLY, 0, false},
-    {'s', DIP_ACTION_SAVE_POSE, 0, false},
-    {'e', DIP_ACTION_PATH_END, 1, false},
-    {'p', DIP_ACTION_TAB, DIP_TAB_PATH, false},
-    {'n', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_ADD, false},
-    {'r', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_REPLACE, false},
-    {DIP_KEYCODE_DELETE, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_DELETE, false},
-    {DIP_KEYCODE_RIGHT, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_NEXT, false},
-    {DIP_KEYCODE_LEFT, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_BEFORE, false},
-    {'f', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_FLY, false},
-    {'w', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_SAVE, false},
-    {'o', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_TAKE, false},
-    {DIP_KEYCODE_UP, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_SLOWER, false},
-    {DIP_KEYCODE_DOWN, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_FASTER, false},
-    {DIP_KEYCODE_PAGE_DOWN, DIP_ACTION_NEXT_SCENE, 0, false},
-    {DIP_KEYCODE_PAGE_UP, DIP_ACTION_NEXT_SCENE, 0, true},
-};
-
-static const OtherKey backward_keys[] = {
-    {DIP_KEYCODE_PAGE_UP, DIP_ACTION_SEEK, 5000, true},
-    {'-', DIP_ACTION_ZOOM, 0, true},
-    {'[', DIP_ACTION_ADJUST, 0, true},
-};
-
-static bool press_other(DipPreviewState *state, const OtherKey *keys, int count,
-                        const DipEvent *event, int64_t now_ns) {
-    for (int i = 0; i < count; ++i) {
-        if (keys[i].key == (int)event->key) {
-            if (event->repeat && keys[i].action == DIP_ACTION_PATH_EDIT) {
-                return true; // A key that is held adds or saves once.
+// Carries out the row of a key. Returns whether there is one.
+static bool press_row(DipPreviewState *state, const DipEvent *event, bool ctrl, int64_t now_ns) {
+    for (int i = 0; i < dip_key_row_count; ++i) {
+        const DipKeyRow *row = &dip_key_rows[i];
+        if (row->ctrl == ctrl && stands_for(row, event->key)) {
+            const bool shift = !ctrl && (event->modifiers & DIP_MODIFIER_SHIFT);
+            if (!event->repeat || row->repeats) {
+                dip_preview_act(state, row->action, row->argument, row->reverse || shift, now_ns);
             }
-            dip_preview_act(state, keys[i].action, keys[i].argument, keys[i].reverse, now_ns);
             return true;
         }
     }
@@ -168,7 +142,7 @@ static bool press_with_modifier(DipPreviewState *state, const DipEvent *event, i
     default:
         break;
     }
-    return press_other(state, ctrl_keys, (int)DIP_ARRAY_COUNT(ctrl_keys), event, now_ns);
+    return press_row(state, event, true, now_ns);
 }
 
 // Leaves the tool that shows, as Escape does. Returns false if none shows.
@@ -226,20 +200,7 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
         state->full_screen = false;
         return true;
     }
-    if (press_other(state, backward_keys, (int)DIP_ARRAY_COUNT(backward_keys), event, now_ns)) {
-        return true;
-    }
-    for (int i = 0; i < dip_key_row_count; ++i) {
-        const DipKeyRow *row = &dip_key_rows[i];
-        if (stands_for(row, event->key)) {
-            if (!event->repeat || row->repeats) {
-                const bool reverse = (event->modifiers & DIP_MODIFIER_SHIFT) != 0;
-                dip_preview_act(state, row->action, row->argument, reverse, now_ns);
-            }
-            return true;
-        }
-    }
-    return false;
+    return press_row(state, event, false, now_ns);
 }
 
 void dip_keys_hold(DipHeldKeys *held, const DipEvent *event) {

@@ -9,27 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_FILES = 9999, FILE_BYTES = 32 };
+enum { MAX_FILES = 9999 };
 
 // The times from key to key that the user steps through.
 static const int64_t periods_ns[] = {100000000,  250000000,  500000000,  1000000000, 1500000000,
                                      2000000000, 3000000000, 5000000000, 10000000000};
-
-struct DipPathEditor {
-    DipCamKey *keys;
-    size_t count;
-    size_t capacity;
-    size_t chosen;
-    int64_t period_ns;
-    DipCamKey seen;  // The camera's pose.
-    bool has_seen;   // `seen` is known.
-    bool jumps;      // The camera goes to the chosen key in the next turn.
-    DipCamPath *fly; // The path while it is flown; otherwise NULL.
-    DipCamPathEnd end;
-    int64_t at_ns; // Time since the path's beginning while it is flown.
-    bool unsaved;
-    char file[FILE_BYTES];
-};
 
 DipPathEditor *dip_path_editor_create(DipError *err) {
     DipPathEditor *editor = calloc(1, sizeof *editor);
@@ -201,7 +185,7 @@ static bool free_name(char *file, size_t size_bytes) {
 static bool save(DipPathEditor *editor, char *text, size_t size_bytes) {
     DipCamPath *path;
     DipError err;
-    char file[FILE_BYTES], what[64];
+    char file[DIP_PATH_EDITOR_FILE_BYTES], what[64];
     if (!free_name(file, sizeof file)) {
         return say(text, size_bytes, false, "No name from path-0001.pth to path-9999.pth is free");
     }
@@ -284,37 +268,6 @@ bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *po
     return true;
 }
 
-// --- looking -------------------------------------------------------------------------------------
-
-size_t dip_path_editor_count(const DipPathEditor *editor) {
-    return editor->count;
-}
-
-size_t dip_path_editor_chosen(const DipPathEditor *editor) {
-    return editor->chosen;
-}
-
-DipCamKey dip_path_editor_key(const DipPathEditor *editor, size_t index) {
-    DIP_ASSERT(index < editor->count);
-    return editor->keys[index];
-}
-
-int64_t dip_path_editor_period_ns(const DipPathEditor *editor) {
-    return editor->period_ns;
-}
-
-bool dip_path_editor_flies(const DipPathEditor *editor) {
-    return editor->fly != NULL;
-}
-
 int64_t dip_path_editor_time_ns(const DipPathEditor *editor) {
     return editor->fly ? dip_campath_time_at_end(editor->fly, editor->end, editor->at_ns) : 0;
-}
-
-bool dip_path_editor_is_unsaved(const DipPathEditor *editor) {
-    return editor->unsaved;
-}
-
-const char *dip_path_editor_file(const DipPathEditor *editor) {
-    return editor->file;
 }

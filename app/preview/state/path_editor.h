@@ -12,9 +12,25 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef struct DipPathEditor DipPathEditor;
+enum { DIP_PATH_EDITOR_MAX_KEYS = 10000, DIP_PATH_EDITOR_FILE_BYTES = 32 };
 
-enum { DIP_PATH_EDITOR_MAX_KEYS = 10000 };
+// Others only read the members.
+typedef struct DipPathEditor {
+    DipCamKey *keys;
+    size_t count;
+    size_t capacity;
+    size_t chosen;     // 0 if there are no keys.
+    int64_t period_ns; // From key to key.
+    DipCamKey seen;    // The camera's pose.
+    bool has_seen;     // `seen` is known.
+    bool jumps;        // The camera goes to the chosen key in the next turn.
+    DipCamPath *fly;   // The path while it is flown; otherwise NULL.
+    DipCamPathEnd end;
+    int64_t at_ns; // Time since the path's beginning while it is flown.
+    bool unsaved;  // There are changes that have not been saved.
+    // The file that was saved last, or "".
+    char file[DIP_PATH_EDITOR_FILE_BYTES];
+} DipPathEditor;
 
 typedef enum DipPathEdit {
     DIP_PATH_EDIT_ADD,     // Inserts the camera's pose behind the chosen key, and chooses it.
@@ -52,19 +68,7 @@ bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *po
 // Stops flying the path.
 void dip_path_editor_stop(DipPathEditor *editor);
 
-size_t dip_path_editor_count(const DipPathEditor *editor);
-size_t dip_path_editor_chosen(const DipPathEditor *editor); // 0 if there are no keys.
-DipCamKey dip_path_editor_key(const DipPathEditor *editor, size_t index);
-int64_t dip_path_editor_period_ns(const DipPathEditor *editor);
-bool dip_path_editor_flies(const DipPathEditor *editor);
-
 // Time on the path that the editor flies.
 int64_t dip_path_editor_time_ns(const DipPathEditor *editor);
-
-// Returns whether there are changes that have not been saved.
-bool dip_path_editor_is_unsaved(const DipPathEditor *editor);
-
-// Returns the name of the file that was saved last, or "".
-const char *dip_path_editor_file(const DipPathEditor *editor);
 
 #endif

@@ -2,6 +2,7 @@
 #include "app/preview/state/pilot.h"
 
 #include "app/preview/state/speed.h"
+#include "app/preview/state/state_private.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -64,18 +65,12 @@ static void choose_end(DipPreviewState *state, int step, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-static const DipCamPath *playing_path(const DipPreviewState *state) {
-    const DipCamCategory *categories = state->track->categories;
-    const DipCamPath *path = categories[state->track->active].path;
-    return path ? path : categories[0].path;
-}
-
 static void edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) {
     char text[DIP_NOTICE_SIZE];
     if (!state->editor) {
         return;
     }
-    const bool done = dip_path_editor_edit(state->editor, edit, playing_path(state),
+    const bool done = dip_path_editor_edit(state->editor, edit, dip_preview_playing_path(state),
                                            state->track->end, text, sizeof text);
     const bool moves =
         edit == DIP_PATH_EDIT_NEXT || edit == DIP_PATH_EDIT_BEFORE || edit == DIP_PATH_EDIT_FLY;
@@ -88,8 +83,7 @@ static void edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) 
 void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns) {
     dip_pilot_make_free(state, now_ns);
     dip_path_editor_choose(state->editor, index);
-    dip_preview_notice(state, now_ns, "Key %zu of %zu", index + 1,
-                       dip_path_editor_count(state->editor));
+    dip_preview_notice(state, now_ns, "Key %zu of %zu", index + 1, state->editor->count);
 }
 
 void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_ns) {

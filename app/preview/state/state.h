@@ -99,6 +99,7 @@ typedef struct DipPreviewState {
     // chosen another time.
     double budget_ms;
     bool has_budget;    // The user has chosen it.
+    double refresh_ms;  // Time of one refresh of the display.
     double advised_ms;  // The budget for which the user took advice last, or 0.
     bool wants_errors;  // Another program has asked for the errors, shown or not.
     bool wants_prices;  // Another program has asked for the prices, shown or not.
@@ -155,6 +156,12 @@ void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 // measured or nothing fits.
 bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality);
 
+// Says in four lines how to make a cost report of this scene; the second and the fourth one are
+// commands.
+enum { DIP_HOW_TO_LINES = 4 };
+typedef char DipHowTo[DIP_HOW_TO_LINES][DIP_SCENE_WORDS_BYTES + 64];
+void dip_preview_how_to(const DipPreviewState *state, DipHowTo lines);
+
 // Returns a preset's name for a button ("Balanced").
 const char *dip_preview_preset_name(DipPreset preset);
 
@@ -162,8 +169,11 @@ const char *dip_preview_preset_name(DipPreset preset);
 // and 30 frames a second. Returns their number.
 int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_BUDGETS]);
 
-// Chooses another budget.
+// Chooses another budget, from 1 to 1000 ms; 0: one refresh of the display.
 void dip_preview_set_budget(DipPreviewState *state, double budget_ms);
+
+// Goes through the usual frame rates, from 24 to 240 frames a second; each step takes the next one.
+void dip_preview_step_frame_rate(DipPreviewState *state, int steps);
 
 // Takes the time between two refreshes of the display as the budget, unless the user has chosen
 // one.
@@ -174,6 +184,9 @@ void dip_preview_follow_dock(DipPreviewState *state);
 
 // Goes to a play time.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
+
+// Returns the path that plays: that of the active category or of category 0.
+const DipCamPath *dip_preview_playing_path(const DipPreviewState *state);
 
 // Returns whether all poses of the playing path are the same.
 bool dip_preview_path_stands(const DipPreviewState *state);

@@ -35,13 +35,13 @@ const char *dip_preview_path_title(const DipPreviewState *state, int category) {
     return name ? name : dip_preview_category_title(category);
 }
 
-const DipCamPath *dip_state_playing_path(const DipPreviewState *state) {
+const DipCamPath *dip_preview_playing_path(const DipPreviewState *state) {
     const DipCamPath *path = state->track->categories[state->track->active].path;
     return path ? path : state->track->categories[0].path;
 }
 
 bool dip_preview_path_stands(const DipPreviewState *state) {
-    const DipCamPath *path = dip_state_playing_path(state);
+    const DipCamPath *path = dip_preview_playing_path(state);
     const size_t count = path ? dip_campath_info(path).key_count : 0;
     bool stands = count > 0;
     for (size_t i = 1; stands && i < count; ++i) {
@@ -88,7 +88,7 @@ void dip_state_next_path(DipPreviewState *state, int direction, int64_t now_ns) 
 }
 
 int64_t dip_preview_path_length_ns(const DipPreviewState *state) {
-    const DipCamPath *path = dip_state_playing_path(state);
+    const DipCamPath *path = dip_preview_playing_path(state);
     if (!path) {
         return 0;
     }
@@ -101,7 +101,7 @@ int64_t dip_preview_path_ns(const DipPreviewState *state) {
 }
 
 void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
-    const DipCamPath *path = dip_state_playing_path(state);
+    const DipCamPath *path = dip_preview_playing_path(state);
     const int64_t span_ns = path ? dip_campath_span_ns(path, state->track->end) : 0;
     const int64_t at_ns = dip_camtrack_time(state->track, state->play_ns);
     const bool once = state->track->end == DIP_CAMPATH_END_once;

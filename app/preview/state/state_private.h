@@ -27,8 +27,6 @@ void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns)
 
 // --- state_paths.c -------------------------------------------------------------------------------
 
-// Returns the path that plays: that of the active category or of category 0.
-const DipCamPath *dip_state_playing_path(const DipPreviewState *state);
 // Plays the path of a category, or says that it has none.
 void dip_state_choose_path(DipPreviewState *state, int category, int64_t now_ns);
 // Chooses the next category, in the given direction, whose path is not the current one. Several

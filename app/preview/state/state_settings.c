@@ -9,27 +9,14 @@
 #include <string.h>
 
 int dip_preview_category_of(DipSetting setting) {
-    switch (setting) {
-    case DIP_SETTING_AA:
-        return DIP_CATEGORY_AA;
-    case DIP_SETTING_TAA:
-        return DIP_CATEGORY_TAA;
-    case DIP_SETTING_AAA:
-    case DIP_SETTING_ASD:
-        return DIP_CATEGORY_AAA;
-    case DIP_SETTING_AF:
-        return DIP_CATEGORY_AF;
-    case DIP_SETTING_AAF:
-        return DIP_CATEGORY_AAF;
-    case DIP_SETTING_OPT:
-        return DIP_CATEGORY_CAI;
-    case DIP_SETTING_MIPLOD:
-        return DIP_CATEGORY_MIPLOD;
-    case DIP_SETTING_GI:
-        return DIP_CATEGORY_GI;
-    default:
-        return -1; // Mip colours show on any path.
-    }
+    static const int categories[DIP_SETTING_COUNT] = {
+        [DIP_SETTING_AA] = DIP_CATEGORY_AA,   [DIP_SETTING_TAA] = DIP_CATEGORY_TAA,
+        [DIP_SETTING_AAA] = DIP_CATEGORY_AAA, [DIP_SETTING_ASD] = DIP_CATEGORY_AAA,
+        [DIP_SETTING_AF] = DIP_CATEGORY_AF,   [DIP_SETTING_AAF] = DIP_CATEGORY_AAF,
+        [DIP_SETTING_OPT] = DIP_CATEGORY_CAI, [DIP_SETTING_MIPLOD] = DIP_CATEGORY_MIPLOD,
+        [DIP_SETTING_GI] = DIP_CATEGORY_GI,   [DIP_SETTING_MIPDEBUG] = -1, // On any path.
+    };
+    return categories[setting];
 }
 
 static int undo_slot(const DipPreviewState *state, int index) {
@@ -77,15 +64,25 @@ void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
 static void follow_setting(DipPreviewState *state, DipSetting setting, const char *step,
                            int64_t now_ns) {
     const int category = dip_preview_category_of(setting);
-    const DipCamPath *before = dip_state_playing_path(state);
+    const DipCamPath *before = dip_preview_playing_path(state);
     if (category >= 0 && !state->manual && !state->paused) {
         dip_camtrack_switch(state->track, category, state->play_ns);
     }
-    const bool moved = dip_state_playing_path(state) != before;
+    const bool moved = dip_preview_playing_path(state) != before;
     dip_preview_notice(state, now_ns, "%s: %s%s%s", dip_setting_info(setting)->title, step,
                        moved ? ", on the path " : "",
                        moved ? dip_preview_path_title(state, state->track->active) : "");
     ++state->scene_changes;
+}
+
+// Gives a setting a step. If a new number of samples does not fit the group size of adaptive AA,
+// resets the group size to its default. Returns whether the settings are valid.
+static bool take_step(DipQuality *quality, DipSetting setting, int step, DipError *err) {
+    quality->step[setting] = (uint8_t)step;
+    if (setting == DIP_SETTING_AA && !dip_quality_check(quality, NULL)) {
+        quality->step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
+    }
+    return dip_quality_check(quality, err);
 }
 
 void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns) {
@@ -96,11 +93,7 @@ void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, 
         if (!state->edited[pane]) {
             continue;
         }
-        wanted[pane].step[setting] = (uint8_t)step;
-        if (setting == DIP_SETTING_AA && !dip_quality_check(&wanted[pane], NULL)) {
-            wanted[pane].step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
-        }
-        if (!dip_quality_check(&wanted[pane], &err)) {
+        if (!take_step(&wanted[pane], setting, step, &err)) {
             dip_preview_notice(state, now_ns, "%s", err.message);
             return;
         }
@@ -162,9 +155,8 @@ void dip_state_choose_preset(DipPreviewState *state, DipPreset preset, int64_t n
     dip_preview_notice(state, now_ns, "Requested: %s", dip_preview_preset_name(preset));
 }
 
-// Sets a setting to its next step that is valid with the other settings. If a new number of samples
-// does not fit the group size of adaptive AA, resets the group size to its default. Returns false
-// if no other step is valid.
+// Sets a setting to its next step that is valid with the other settings. Returns false if no other
+// step is valid.
 static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     const DipSettingInfo *info = dip_setting_info(setting);
     DipQuality candidate;
@@ -172,11 +164,7 @@ static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
         const int offset = reverse ? info->step_count - i : i;
         const int step = (quality->step[setting] + offset) % info->step_count;
         candidate = *quality;
-        candidate.step[setting] = (uint8_t)step;
-        if (setting == DIP_SETTING_AA && !dip_quality_check(&candidate, NULL)) {
-            candidate.step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
-        }
-        if (dip_quality_check(&candidate, NULL)) {
+        if (take_step(&candidate, setting, step, NULL)) {
             *quality = candidate;
             return true;
         }
@@ -189,23 +177,20 @@ void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool r
     const DipSettingInfo *info = dip_setting_info(setting);
     bool changed = false;
     const char *step = "";
-    DipQuality before[DIP_PANE_COUNT];
-    memcpy(before, state->quality, sizeof before);
+    DipQuality wanted[DIP_PANE_COUNT];
+    memcpy(wanted, state->quality, sizeof wanted);
     for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
-        if (state->edited[pane] && cycle(&state->quality[pane], setting, reverse)) {
+        if (state->edited[pane] && cycle(&wanted[pane], setting, reverse)) {
             changed = true;
-            step = info->steps[state->quality[pane].step[setting]];
+            step = info->steps[wanted[pane].step[setting]];
         }
     }
     if (!changed) {
         dip_preview_notice(state, now_ns, "%s: no other step fits the other settings", info->title);
         return;
     }
-    DipQuality after[DIP_PANE_COUNT];
-    memcpy(after, state->quality, sizeof after);
-    memcpy(state->quality, before, sizeof before);
     remember(state);
-    memcpy(state->quality, after, sizeof after);
+    memcpy(state->quality, wanted, sizeof wanted);
     follow_setting(state, setting, step, now_ns);
 }
 
@@ -237,14 +222,31 @@ int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_B
 }
 
 void dip_preview_set_budget(DipPreviewState *state, double budget_ms) {
-    state->has_budget = true;
-    state->budget_ms = budget_ms;
+    state->has_budget = budget_ms > 0.0;
+    state->budget_ms = state->has_budget ? fmin(fmax(budget_ms, 1.0), 1000.0) : state->refresh_ms;
     if (state->choice) {
-        dip_preview_choice_set_budget(state->choice, budget_ms);
+        dip_preview_choice_set_budget(state->choice, state->budget_ms);
+    }
+}
+
+void dip_preview_step_frame_rate(DipPreviewState *state, int steps) {
+    static const int rates[] = {24, 25, 30, 50, 60, 72, 90, 120, 144, 165, 240};
+    const int count = (int)DIP_ARRAY_COUNT(rates);
+    for (; steps != 0; steps += steps > 0 ? -1 : 1) {
+        const double now = 1000.0 / state->budget_ms;
+        int next = steps > 0 ? 0 : count - 1;
+        while (next >= 0 && next < count &&
+               (steps > 0 ? rates[next] <= now * 1.001 : rates[next] >= now * 0.999)) {
+            next += steps > 0 ? 1 : -1;
+        }
+        if (next >= 0 && next < count) {
+            dip_preview_set_budget(state, 1000.0 / rates[next]);
+        }
     }
 }
 
 void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms) {
+    state->refresh_ms = refresh_ms;
     if (!state->has_budget) {
         state->budget_ms = refresh_ms;
     }
@@ -292,36 +294,19 @@ void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns)
 
 // --- texts ---------------------------------------------------------------------------------------
 
-// Returns the short form of a setting, in which %s stands for the step. A setting that is either on
-// or off has a short form without a step; if the setting is off, "no" precedes the short form.
-static const char *brief_form(DipSetting setting) {
-    switch (setting) {
-    case DIP_SETTING_AA:
-        return "AA %sx";
-    case DIP_SETTING_TAA:
-        return "temporal AA";
-    case DIP_SETTING_AAA:
-        return "adaptive AA";
-    case DIP_SETTING_ASD:
-        return "groups of %s";
-    case DIP_SETTING_AF:
-        return "AF %sx";
-    case DIP_SETTING_AAF:
-        return "advanced AF";
-    case DIP_SETTING_OPT:
-        return "%s textures";
-    case DIP_SETTING_MIPLOD:
-        return "mip detail %s";
-    case DIP_SETTING_GI:
-        return "instancing";
-    default:
-        return "mip colours";
-    }
-}
+// The short forms of settings, in which %s stands for the step. A setting that is either on or off
+// has a short form without a step; if the setting is off, "no" precedes the short form.
+static const char *const brief_forms[DIP_SETTING_COUNT] = {
+    [DIP_SETTING_AA] = "AA %sx",       [DIP_SETTING_TAA] = "temporal AA",
+    [DIP_SETTING_AAA] = "adaptive AA", [DIP_SETTING_ASD] = "groups of %s",
+    [DIP_SETTING_AF] = "AF %sx",       [DIP_SETTING_AAF] = "advanced AF",
+    [DIP_SETTING_OPT] = "%s textures", [DIP_SETTING_MIPLOD] = "mip detail %s",
+    [DIP_SETTING_GI] = "instancing",   [DIP_SETTING_MIPDEBUG] = "mip colours",
+};
 
 // Writes a setting in its short form: "AA 4x", "no instancing".
 static void describe_briefly(DipSetting setting, const char *step, char *text, size_t size_bytes) {
-    const char *form = brief_form(setting);
+    const char *form = brief_forms[setting];
     const char *mark = strstr(form, "%s");
     if (mark) {
         snprintf(text, size_bytes, "%.*s%s%s", (int)(mark - form), form, step, mark + 2);
@@ -337,6 +322,14 @@ static void describe_fully(DipSetting setting, const char *step, char *text, siz
     const bool number = isdigit((unsigned char)step[0]) != 0;
     snprintf(text, size_bytes, "%s%s%s%s", dip_setting_info(setting)->title, on ? "" : " ",
              on ? "" : step, times && number ? "x" : "");
+}
+
+void dip_preview_how_to(const DipPreviewState *state, DipHowTo lines) {
+    const size_t size_bytes = sizeof lines[0];
+    snprintf(lines[0], size_bytes, "There is no cost report yet. This makes one in some minutes:");
+    snprintf(lines[1], size_bytes, "    diptych cost%s --out DIR", state->scene_words);
+    snprintf(lines[2], size_bytes, "Then start the preview with it:");
+    snprintf(lines[3], size_bytes, "    diptych%s --cost DIR/cost.json", state->scene_words);
 }
 
 void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes) {

@@ -2,8 +2,7 @@
 //
 // If the bar is narrow, it first leaves out words: tabs become symbols. Then it leaves out what
 // keys do as well: the steps by one frame, the time line, the name of the path, and playback.
-#include "app/preview/tabs/icons.h"
-#include "app/preview/tabs/labels.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/ui/style.h"
 
 #include <stdio.h>
@@ -118,7 +117,7 @@ static int widest_place(const DipUi *ui, const DipPreviewState *state, bool brie
         for (char *letter = text; *letter; ++letter) {
             *letter = *letter >= '0' && *letter <= '9' ? '0' : *letter;
         }
-        widest = dip_style_max(widest, dip_ui_text_width(ui, TAB_SIZE, text));
+        widest = dip_max(widest, dip_ui_text_width(ui, TAB_SIZE, text));
     }
     return widest;
 }
@@ -135,9 +134,8 @@ static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, 
     bar->place_width = room >= place_width ? place_width : 0;
     room -= bar->place_width;
     const bool has_line = dip_preview_path_length_ns(state) > 0; // The free camera keeps its room.
-    bar->line = has_line && room >= dip_ui_px(ui, LEAST_LINE)
-                    ? dip_style_min(room, dip_ui_px(ui, MOST_LINE))
-                    : 0;
+    bar->line =
+        has_line && room >= dip_ui_px(ui, LEAST_LINE) ? dip_min(room, dip_ui_px(ui, MOST_LINE)) : 0;
 }
 
 static Bar measure(const DipUi *ui, const DipWindow *window) {
@@ -158,9 +156,9 @@ static Bar measure(const DipUi *ui, const DipWindow *window) {
     }
     if (bar.tabs_width + 3 * bar.button > bar.rect.width) { // Symbols come closer together.
         bar.tail = TAIL_FOLD;
-        const int narrow = dip_style_max(1, (bar.rect.width - bar.button) / DIP_TAB_COUNT);
+        const int narrow = dip_max(1, (bar.rect.width - bar.button) / DIP_TAB_COUNT);
         for (int t = 0; t < DIP_TAB_COUNT; ++t) {
-            bar.tab_width[t] = dip_style_min(bar.tab_width[t], narrow);
+            bar.tab_width[t] = dip_min(bar.tab_width[t], narrow);
         }
         bar.tabs_width = DIP_TAB_COUNT * bar.tab_width[0];
         share_room(ui, state, &bar, true);

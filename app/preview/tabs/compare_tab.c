@@ -3,92 +3,26 @@
 #include "app/preview/tools/strip.h"
 #include "app/ui/style.h"
 #include "app/preview/tabs/tabs.h"
-#include "app/preview/tools/tool_colours.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 enum {
-    TEXT = 12, // Sizes of letters.
-    SMALL = 11,
+    SMALL = 11, // Sizes of letters.
     TINY = 10,
-    BUTTON_HEIGHT = 26,
     STRIP_LEAST = 44, // Height of a body's rest from which it shows thumbnails.
     STRIP_MOST = 96,  // Greatest height of a thumbnail.
 };
 
 enum { ID_COMPARISON, ID_LEFT = 10, ID_OPTION = 16, ID_DIVIDER = 32, ID_THUMBNAIL = 40 };
 
-// Where the next control of the tab lies: rows are filled from the left, and begin anew below.
-typedef struct Flow {
-    DipUi *ui;
-    DipRect body;
-    int x;
-    int y;
-    int row;
-} Flow;
-
-static Flow flow_make(DipUi *ui, DipRect body) {
-    const int margin = dip_ui_px(ui, 8);
-    const DipRect inside = {body.x + margin, body.y + dip_ui_px(ui, 6), body.width - 2 * margin,
-                            body.height - dip_ui_px(ui, 10)};
-    return (Flow){ui, inside, inside.x, inside.y, dip_ui_px(ui, BUTTON_HEIGHT)};
-}
-
-static void next_row(Flow *flow) {
-    if (flow->x > flow->body.x) {
-        flow->x = flow->body.x;
-        flow->y += flow->row + dip_ui_px(flow->ui, 6);
-    }
-}
-
-// Returns a rectangle of the given width in this row or the next one; empty if the tab is full.
-static DipRect flow_next(Flow *flow, int width) {
-    if (flow->x + width > flow->body.x + flow->body.width) {
-        next_row(flow);
-    }
-    if (flow->y + flow->row > flow->body.y + flow->body.height || width > flow->body.width) {
-        return (DipRect){flow->x, flow->y, 0, 0};
-    }
-    const DipRect rect = {flow->x, flow->y, width, flow->row};
-    flow->x += width + dip_ui_px(flow->ui, 6);
-    return rect;
-}
-
-static bool flow_button(Flow *flow, unsigned id, const char *text, bool chosen, const char *tip) {
-    const int width = dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, 20);
-    const DipRect rect = flow_next(flow, width);
-    return !dip_rect_is_empty(rect) &&
-           dip_ui_button(flow->ui, DIP_UI_ID(DIP_UI_COMPARE, id), rect, text,
-                         chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip);
-}
-
-// Writes a text in lines of its own.
-static void flow_lines(Flow *flow, DipColour colour, const char *text) {
-    next_row(flow);
-    const DipRect room = {flow->x, flow->y, flow->body.width,
-                          flow->body.y + flow->body.height - flow->y};
-    if (room.height > 0) {
-        flow->y += dip_ui_text_block(flow->ui, SMALL, colour, room, text) + dip_ui_px(flow->ui, 6);
-    }
-}
-
-static void flow_text(Flow *flow, DipColour colour, const char *text) {
-    const int width = dip_ui_text_width(flow->ui, SMALL, text) + dip_ui_px(flow->ui, 4);
-    const int height = dip_ui_line_height(flow->ui, SMALL);
-    if (width > flow->body.width) {
-        flow_lines(flow, colour, text);
-        return;
-    }
-    const DipRect rect = flow_next(flow, width);
-    if (!dip_rect_is_empty(rect)) {
-        dip_ui_text(flow->ui, SMALL, colour, DIP_ALIGN_LEFT, rect.x,
-                    rect.y + (rect.height - height) / 2, rect.width, text);
-    }
+static bool flow_button(DipFlow *flow, unsigned id, const char *text, bool chosen,
+                        const char *tip) {
+    return dip_flow_button(flow, id, text, chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip);
 }
 
 // Declares the choice of what the requested pane is compared with.
-static void declare_left(Flow *flow, DipWindow *window) {
+static void declare_left(DipFlow *flow, DipWindow *window) {
     DipToolState *tools = &window->state->tools;
     const DipErrorReading *errors = &window->figures[DIP_PANE_CURRENT].errors;
     char text[80];
@@ -108,13 +42,13 @@ static void declare_left(Flow *flow, DipWindow *window) {
         snprintf(text, sizeof text, "The converged picture is %.0f %% drawn%s.",
                  100.0 * errors->drawn, errors->waits ? ", waiting for a free processor" : "");
     }
-    flow_text(flow, dip_tool_soft, text);
+    dip_flow_text(flow, dip_style_soft, text);
 }
 
-static void declare_wipe(Flow *flow, DipWindow *window) {
+static void declare_wipe(DipFlow *flow, DipWindow *window) {
     DipToolState *tools = &window->state->tools;
     DipUi *ui = flow->ui;
-    const DipRect rect = flow_next(flow, dip_ui_px(ui, 180));
+    const DipRect rect = dip_flow_next(flow, dip_ui_px(ui, 180));
     if (!dip_rect_is_empty(rect)) {
         const DipUiControl control = {
             .id = DIP_UI_ID(DIP_UI_COMPARE, ID_DIVIDER),
@@ -126,29 +60,29 @@ static void declare_wipe(Flow *flow, DipWindow *window) {
         const int radius = dip_ui_px(ui, 7);
         const int track = rect.width - 2 * radius;
         if (input.began || (input.held && input.moved)) {
-            const double at = (double)(input.x - rect.x - radius) / dip_style_max(1, track);
+            const double at = (double)(input.x - rect.x - radius) / dip_max(1, track);
             tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
         }
         dip_compare_adjust(tools, input.steps);
         const int y = rect.y + rect.height / 2;
         const int x = rect.x + radius + (int)(tools->divider * track + 0.5);
-        dip_ui_fill_round(ui, (DipRect){rect.x, y - 2, rect.width, 4}, 2, dip_tool_line);
+        dip_ui_fill_round(ui, (DipRect){rect.x, y - 2, rect.width, 4}, 2, dip_style_line);
         dip_ui_fill_round(ui, (DipRect){x - radius, y - radius, 2 * radius, 2 * radius}, radius,
-                          dip_tool_accent);
+                          dip_style_accent);
         if (input.focused) {
-            dip_ui_outline(ui, rect, dip_ui_px(ui, 4), dip_ui_px(ui, 2), dip_tool_soft);
+            dip_ui_outline(ui, rect, dip_ui_px(ui, 4), dip_ui_px(ui, 2), dip_style_soft);
         }
     }
     if (flow_button(flow, ID_OPTION, "Middle", false, "Puts the line in the middle.")) {
         tools->divider = 0.5;
     }
-    flow_text(flow, dip_tool_dim,
-              window->state->tools.against_truth
-                  ? "Left of the line: truth. Right of it: requested. Drag it."
-                  : "Left of the line: current. Right of it: requested. Drag it.");
+    dip_flow_text(flow, dip_style_dim,
+                  window->state->tools.against_truth
+                      ? "Left of the line: truth. Right of it: requested. Drag it."
+                      : "Left of the line: current. Right of it: requested. Drag it.");
 }
 
-static void declare_blink(Flow *flow, DipWindow *window) {
+static void declare_blink(DipFlow *flow, DipWindow *window) {
     DipToolState *tools = &window->state->tools;
     if (flow_button(flow, ID_OPTION, "By itself", tools->blinks,
                     "Changes between both pictures twice a second.")) {
@@ -158,37 +92,37 @@ static void declare_blink(Flow *flow, DipWindow *window) {
                     "Shows the other picture. The key ; does so while you hold it.")) {
         tools->blinked = !tools->blinked;
     }
-    flow_text(flow, dip_tool_dim, "Hold ; to see the other picture.");
+    dip_flow_text(flow, dip_style_dim, "Hold ; to see the other picture.");
 }
 
-static void say_difference(Flow *flow, const DipWindow *window) {
+static void say_difference(DipFlow *flow, const DipWindow *window) {
     DipPixels picture;
     uint64_t version;
     const DipDifference *found =
-        dip_compare_make_difference(dip_tools_compare(window->tools), window, &picture, &version);
+        dip_compare_make_difference(window->tools->compare, window, &picture, &version);
     char text[160];
     if (!found) {
         return;
     }
     if (!found->differing) {
-        flow_text(flow, dip_tool_soft, "Both pictures are the same to the bit.");
+        dip_flow_text(flow, dip_style_soft, "Both pictures are the same to the bit.");
         return;
     }
     snprintf(text, sizeof text, "%lld of %lld pixels differ (%.1f %%), at most by %d of 255",
              (long long)found->differing, (long long)found->pixels,
              100.0 * (double)found->differing / (double)found->pixels, found->greatest);
-    flow_text(flow, dip_tool_white, text);
+    dip_flow_text(flow, dip_style_white, text);
     snprintf(text, sizeof text, "at pixel %d, %d", found->x, found->y);
-    flow_text(flow, dip_tool_dim, text);
+    dip_flow_text(flow, dip_style_dim, text);
 }
 
-static void declare_difference(Flow *flow, DipWindow *window) {
+static void declare_difference(DipFlow *flow, DipWindow *window) {
     DipToolState *tools = &window->state->tools;
     unsigned id = ID_OPTION;
     for (int gain = 1; gain <= DIP_COMPARE_MAX_GAIN; gain *= 2) {
         char text[8];
         snprintf(text, sizeof text, "x%d", gain);
-        if (flow_button(flow, id++, text, dip_style_max(1, tools->gain) == gain,
+        if (flow_button(flow, id++, text, dip_max(1, tools->gain) == gain,
                         "Multiplies the difference. [ and ] change it as well.")) {
             tools->gain = gain;
         }
@@ -198,7 +132,7 @@ static void declare_difference(Flow *flow, DipWindow *window) {
     }
 }
 
-static void declare_alone(Flow *flow, DipWindow *window) {
+static void declare_alone(DipFlow *flow, DipWindow *window) {
     static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
     DipPreviewState *state = window->state;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -211,13 +145,14 @@ static void declare_alone(Flow *flow, DipWindow *window) {
     }
 }
 
-static void declare_truth(Flow *flow, const DipWindow *window) {
-    flow_text(flow, window->truth ? dip_tool_soft : dip_tool_dim,
-              window->truth ? "Left: the converged picture. Right: the requested pane."
-                            : "The converged picture is drawn while errors are measured at rest.");
+static void declare_truth(DipFlow *flow, const DipWindow *window) {
+    dip_flow_text(flow, window->truth ? dip_style_soft : dip_style_dim,
+                  window->truth
+                      ? "Left: the converged picture. Right: the requested pane."
+                      : "The converged picture is drawn while errors are measured at rest.");
 }
 
-static void declare_options(Flow *flow, DipWindow *window) {
+static void declare_options(DipFlow *flow, DipWindow *window) {
     switch (window->state->tools.comparison) {
     case DIP_COMPARE_WIPE:
         declare_left(flow, window);
@@ -238,7 +173,7 @@ static void declare_options(Flow *flow, DipWindow *window) {
         declare_truth(flow, window);
         break;
     default:
-        flow_text(flow, dip_tool_dim, "Current on the left, requested on the right.");
+        dip_flow_text(flow, dip_style_dim, "Current on the left, requested on the right.");
         break;
     }
 }
@@ -248,7 +183,7 @@ static void declare_options(Flow *flow, DipWindow *window) {
 // Declares one thumbnail. A click moves the time to it.
 static void declare_thumbnail(DipUi *ui, DipWindow *window, int index, DipRect rect) {
     DipPreviewState *state = window->state;
-    const DipStrip *strip = dip_tools_strip(window->tools);
+    const DipStrip *strip = window->tools->strip;
     const DipThumbnail thumbnail = dip_strip_thumbnail(strip, index);
     const int64_t duration_ns = dip_strip_duration_ns(strip);
     char text[32];
@@ -263,14 +198,14 @@ static void declare_thumbnail(DipUi *ui, DipWindow *window, int index, DipRect r
     }
     const int line = dip_ui_line_height(ui, TINY);
     const DipRect picture = {rect.x, rect.y, rect.width, rect.height - line};
-    dip_ui_fill(ui, picture, dip_tool_well);
+    dip_ui_fill(ui, picture, dip_style_well);
     if (thumbnail.picture.width) {
         dip_ui_picture(ui, picture, &thumbnail.picture, thumbnail.version);
     }
     if (input.hovered || input.focused) {
-        dip_ui_outline(ui, picture, 0, dip_ui_px(ui, 2), dip_tool_soft);
+        dip_ui_outline(ui, picture, 0, dip_ui_px(ui, 2), dip_style_soft);
     }
-    dip_ui_text(ui, TINY, dip_tool_dim, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
+    dip_ui_text(ui, TINY, dip_style_dim, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
                 rect.y + rect.height - line, rect.width, text);
 }
 
@@ -279,7 +214,7 @@ static void declare_strip(DipUi *ui, DipWindow *window, DipRect rest) {
     const DipRect *pane = &window->layout->panes[DIP_PANE_CURRENT];
     const int line = dip_ui_line_height(ui, TINY);
     const int gap = dip_ui_px(ui, 4);
-    int height = dip_style_min(rest.height - line, dip_ui_px(ui, STRIP_MOST));
+    int height = dip_min(rest.height - line, dip_ui_px(ui, STRIP_MOST));
     if (rest.height < dip_ui_px(ui, STRIP_LEAST) || pane->height < 1 ||
         window->state->shows_gallery) {
         return;
@@ -290,13 +225,13 @@ static void declare_strip(DipUi *ui, DipWindow *window, DipRect rest) {
         width = all;
         height = (int)((int64_t)width * pane->height / pane->width);
     }
-    const int fit = (rest.width + gap) / (dip_style_max(1, width) + gap);
+    const int fit = (rest.width + gap) / (dip_max(1, width) + gap);
     const int step = fit >= DIP_STRIP_COUNT ? 1 : fit >= 5 ? 2 : fit >= 2 ? 5 : DIP_STRIP_COUNT;
     if (width < 1 || height < 1 || width > rest.width) {
         return;
     }
     if (dip_ui_is_drawing(ui)) {
-        dip_strip_want(dip_tools_strip(window->tools), width, height);
+        dip_strip_want(window->tools->strip, width, height);
     }
     int x = rest.x;
     for (int i = 0; i < DIP_STRIP_COUNT; i += step) {
@@ -314,16 +249,16 @@ void dip_tab_compare(DipUi *ui, DipWindow *window, DipRect body) {
         [DIP_COMPARE_ALONE] = "Shows one pane alone in the room of both.",
         [DIP_COMPARE_TRUTH] = "Shows the converged picture in place of the current pane.",
     };
-    Flow flow = flow_make(ui, body);
+    DipFlow flow = dip_flow_make(ui, DIP_UI_COMPARE, body, SMALL);
     for (int c = 0; c < DIP_COMPARISON_COUNT; ++c) {
         if (flow_button(&flow, ID_COMPARISON + (unsigned)c, dip_compare_name((DipComparison)c),
                         window->state->tools.comparison == (DipComparison)c, tips[c])) {
             window->state->tools.comparison = (DipComparison)c;
         }
     }
-    next_row(&flow);
+    dip_flow_next_row(&flow);
     declare_options(&flow, window);
-    next_row(&flow);
+    dip_flow_next_row(&flow);
     const DipRect rest = {flow.body.x, flow.y, flow.body.width,
                           flow.body.y + flow.body.height - flow.y};
     declare_strip(ui, window, rest);

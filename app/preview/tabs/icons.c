@@ -1,5 +1,5 @@
 // Draws symbols on a grid of 16x16 units.
-#include "app/preview/tabs/icons.h"
+#include "app/preview/tabs/tabs.h"
 
 #include <math.h>
 

@@ -1,13 +1,60 @@
-// The labels over the panes, and notices.
-#include "app/preview/tabs/labels.h"
-
+// The labels over the panes, the time of a pane, and notices.
 #include "app/preview/prices/price_text.h"
-#include "app/preview/tabs/pane_time.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
 #include "app/ui/style.h"
 
 #include <stdio.h>
 #include <string.h>
+
+// --- a pane's time -------------------------------------------------------------------------------
+
+// Returns the price of a pane's settings that was measured at rest, or one that is unknown.
+static DipPriceSum measured_here(const DipWindow *window, int pane) {
+    const DipPriceSum nothing = {.state = DIP_PRICE_UNKNOWN};
+    const bool here = window->still && window->prices && dip_prices_are_rough(window->prices);
+    return here ? dip_prices_sum(window->prices, &window->state->quality[pane]) : nothing;
+}
+
+DipPaneTime dip_pane_time(const DipWindow *window, int pane) {
+    const DipPriceSum sum = measured_here(window, pane);
+    const DipPaneFigures *figures = &window->figures[window->figures[pane].copied ? 0 : pane];
+    if (dip_price_sum_trust(&sum) != DIP_PRICE_TRUST_UNKNOWN) {
+        return (DipPaneTime){
+            .ms = sum.ms, .trust = dip_price_sum_trust(&sum), .measured_here = true};
+    }
+    return (DipPaneTime){.ms = figures->ms,
+                         .trust =
+                             figures->frames > 0 ? DIP_PRICE_TRUST_KNOWN : DIP_PRICE_TRUST_UNKNOWN,
+                         .single = figures->frames == 1};
+}
+
+void dip_pane_time_text(const DipPaneTime *time, char text[DIP_PANE_TIME_BYTES]) {
+    char digits[DIP_STEP_NAME_BYTES];
+    dip_ms_text(time->ms, time->trust, digits);
+    if (time->trust == DIP_PRICE_TRUST_UNKNOWN) {
+        snprintf(text, DIP_PANE_TIME_BYTES, "\u00b7 \u00b7 \u00b7 ms");
+    } else {
+        const bool rough = time->measured_here && time->trust != DIP_PRICE_TRUST_DOUBTFUL;
+        snprintf(text, DIP_PANE_TIME_BYTES, "%s%s%.20s ms", time->single ? "one frame: " : "",
+                 rough ? DIP_ROUGH_MARK : "", digits);
+    }
+}
+
+DipPriceSum dip_pane_sum(const DipWindow *window, int pane) {
+    const DipPaneTime time = dip_pane_time(window, pane);
+    if (!dip_prices_are_rough(window->prices)) {
+        const DipPriceSum sum = dip_prices_sum(window->prices, &window->state->quality[pane]);
+        if (sum.state != DIP_PRICE_UNKNOWN) {
+            return sum;
+        }
+    } else if (time.measured_here) {
+        return measured_here(window, pane);
+    }
+    return (DipPriceSum){.ms = time.ms, .base_ms = time.ms};
+}
+
+// --- labels --------------------------------------------------------------------------------------
 
 enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
 
@@ -72,8 +119,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
                                                                       : DIP_ROUGH_MARK "88.8 ms");
     const bool time_fits = title_width + dip_ui_text_width(ui, LABEL_SIZE, label.time) <= room;
     // The settings stay where they are while the time has a digit more or less.
-    const int time_width =
-        dip_style_max(dip_ui_text_width(ui, LABEL_SIZE, label.time), usual) + pad;
+    const int time_width = dip_max(dip_ui_text_width(ui, LABEL_SIZE, label.time), usual) + pad;
     int width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
     if (width > room) {
         dip_preview_describe(&window->state->quality[pane], true, label.settings,
@@ -93,7 +139,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     if (!settings_fit) {
         width = time_height + settings_height > 0 ? room : title_width + time_width - pad;
     }
-    const DipRect strip = {rect.x + margin, rect.y + margin, dip_style_min(width, room) + 2 * pad,
+    const DipRect strip = {rect.x + margin, rect.y + margin, dip_min(width, room) + 2 * pad,
                            dip_ui_px(ui, LABEL_HEIGHT) + time_height + settings_height};
     const int x = strip.x + pad;
     int y = strip.y + (dip_ui_px(ui, LABEL_HEIGHT) - line) / 2;
@@ -136,7 +182,7 @@ void dip_labels_draw_notice(DipUi *ui, DipWindow *window) {
     const DipLayout *layout = window->layout;
     const int pad = dip_ui_px(ui, LABEL_PAD), margin = dip_ui_px(ui, LABEL_MARGIN);
     const int room = layout->width - 2 * margin - 2 * pad;
-    const int width = dip_style_min(room, dip_ui_text_width(ui, LABEL_SIZE, notice) + 1);
+    const int width = dip_min(room, dip_ui_text_width(ui, LABEL_SIZE, notice) + 1);
     const int text_height = dip_ui_text_block_height(ui, LABEL_SIZE, width, notice);
     const int height =
         text_height + dip_ui_px(ui, LABEL_HEIGHT) - dip_ui_line_height(ui, LABEL_SIZE);

@@ -1,21 +1,10 @@
-// What the parts of the maps' tab share: maps_tab.c (buttons, and where the parts lie),
-// maps_legend.c, maps_tables.c, and maps_over.c (what shows over the panes).
+// What the parts of the maps' tab share: maps_tab.c and maps_legend.c.
 #ifndef DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
 #define DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
 
 #include "app/preview/tools/maps.h"
-#include "app/preview/tabs/maps_tab.h"
-
-static const DipColour white = {255, 255, 255, 255}; // The current pane, and values.
-static const DipColour soft = {196, 202, 210, 255};  // Words.
-static const DipColour dim = {152, 162, 174, 255};   // Notes.
-static const DipColour amber = {255, 190, 92, 255};  // The requested pane.
-static const DipColour gain = {95, 214, 189, 255};   // Less error.
-static const DipColour worse = {255, 154, 139, 255}; // More error.
-static const DipColour line = {51, 58, 68, 255};
-static const DipColour well = {12, 14, 17, 255};   // Ground of the chart.
-static const DipColour glass = {10, 12, 15, 199};  // Ground of words over a picture.
-static const DipColour shadow = {10, 12, 15, 255}; // Edges of marks over a picture.
+#include "app/preview/tabs/tabs.h"
+#include "app/ui/style.h"
 
 // Lengths at scale 1.
 enum {
@@ -52,14 +41,6 @@ static inline int px(const Tab *tab, int length) {
     return dip_ui_px(tab->ui, length);
 }
 
-static inline int smaller(int a, int b) {
-    return a < b ? a : b;
-}
-
-static inline DipColour pane_colour(int pane) {
-    return pane == DIP_PANE_CURRENT ? white : amber;
-}
-
 // Writes a line of text at scale-independent size, and returns its width.
 static inline int put(const Tab *tab, int size, DipColour colour, int x, int y, int room,
                       const char *text) {
@@ -78,7 +59,7 @@ static inline bool is_work_map(DipMap map) {
 
 // Returns the pixel that the tab describes: the one under the pointer, or else the pinned one.
 static inline bool pointed_pixel(const Tab *tab, int *x, int *y) {
-    const DipMapView *view = dip_maps_view(tab->maps);
+    const DipMapView *view = &tab->maps->view;
     const DipPixels *frame = &tab->window->frames[DIP_PANE_CURRENT];
     *x = view->pointed ? view->x : tab->tools->x;
     *y = view->pointed ? view->y : tab->tools->y;

@@ -6,86 +6,32 @@
 
 #include <stdio.h>
 
-enum { TEXT = 12, KEY_WIDTH = 34 };
-enum { BUTTON_HEIGHT = 26, GAP = 6 };         // Sizes of the rows,
-enum { LOW_BUTTON_HEIGHT = 21, LOW_GAP = 3 }; // and in a narrow tab, which has no notes.
-enum { NARROW = 400 };
+enum { KEY_WIDTH = 34, NARROW = 400 };
 enum { ID_EDIT, ID_CAMERA = 16, ID_END = 32, ID_KEYS = 64, MAX_SHOWN_KEYS = 64, ID_PATHS = 256 };
 
-// Where the next control of the tab lies: rows are filled from the left, and begin anew below.
+// What the tab's rows are declared with. A narrow tab has low, full rows and no notes.
 typedef struct Flow {
+    DipFlow row;
     DipUi *ui;
     DipPreviewState *state;
-    DipRect body;
-    int x;
-    int y;
-    int row;
-    int gap;
-    bool narrow; // Rows are low and full, and notes are left out.
 } Flow;
-
-static Flow flow_make(DipUi *ui, DipPreviewState *state, DipRect body) {
-    const int margin = dip_ui_px(ui, 8);
-    const DipRect inside = {body.x + margin, body.y + dip_ui_px(ui, 6), body.width - 2 * margin,
-                            body.height - dip_ui_px(ui, 8)};
-    const bool narrow = body.width < dip_ui_px(ui, NARROW);
-    return (Flow){.ui = ui,
-                  .state = state,
-                  .body = inside,
-                  .x = inside.x,
-                  .y = inside.y,
-                  .row = dip_ui_px(ui, narrow ? LOW_BUTTON_HEIGHT : BUTTON_HEIGHT),
-                  .gap = dip_ui_px(ui, narrow ? LOW_GAP : GAP),
-                  .narrow = narrow};
-}
-
-static void next_row(Flow *flow) {
-    if (flow->x > flow->body.x) {
-        flow->x = flow->body.x;
-        flow->y += flow->row + flow->gap;
-    }
-}
-
-// Returns a rectangle of the given width in this row or the next one; empty if the tab is full.
-static DipRect flow_next(Flow *flow, int width) {
-    if (flow->x + width > flow->body.x + flow->body.width) {
-        next_row(flow);
-    }
-    if (flow->y + flow->row > flow->body.y + flow->body.height || width > flow->body.width) {
-        return (DipRect){flow->x, flow->y, 0, 0};
-    }
-    const DipRect rect = {flow->x, flow->y, width, flow->row};
-    flow->x += width + flow->gap;
-    return rect;
-}
 
 static bool flow_button(Flow *flow, unsigned id, const char *text, DipUiLook look,
                         const char *tip) {
-    const int width =
-        dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, flow->narrow ? 12 : 22);
-    const DipRect rect = flow_next(flow, width);
-    return !dip_rect_is_empty(rect) &&
-           dip_ui_button(flow->ui, DIP_UI_ID(DIP_UI_PATH, id), rect, text, look, tip);
+    return dip_flow_button(&flow->row, id, text, look, tip);
 }
 
 // Begins a new row for other matters, where there is room for that.
 static void next_group(Flow *flow) {
-    if (!flow->narrow) {
-        next_row(flow);
+    if (!flow->row.narrow) {
+        dip_flow_next_row(&flow->row);
     }
 }
 
 // Shows a note, which a narrow tab leaves out.
 static void flow_text(Flow *flow, DipColour colour, const char *text) {
-    if (flow->narrow) {
-        return;
-    }
-    const int width = dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, 8);
-    const DipRect rect = flow_next(flow, dip_style_min(width, flow->body.width));
-    if (!dip_rect_is_empty(rect)) {
-        dip_ui_text(flow->ui, TEXT, colour, DIP_ALIGN_LEFT, rect.x,
-                    rect.y + (rect.height - dip_ui_line_height(flow->ui, TEXT)) / 2, rect.width,
-                    text);
+    if (!flow->row.narrow) {
+        dip_flow_text(&flow->row, colour, text);
     }
 }
 
@@ -115,18 +61,16 @@ static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEG
     return count;
 }
 
-static int button_width(const Flow *flow, const char *text) {
-    return dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, flow->narrow ? 12 : 22);
-}
-
 // Finds the first of the paths to show, so that the one that plays is among them in a row of the
 // given width.
 static int first_path(const Flow *flow, const int *paths, int playing, int width) {
     int first = playing;
-    int used = button_width(flow, dip_preview_path_title(flow->state, paths[playing]));
+    int used =
+        dip_flow_button_width(&flow->row, dip_preview_path_title(flow->state, paths[playing]));
     while (first > 0) {
-        used +=
-            flow->gap + button_width(flow, dip_preview_path_title(flow->state, paths[first - 1]));
+        used += flow->row.gap +
+                dip_flow_button_width(&flow->row,
+                                      dip_preview_path_title(flow->state, paths[first - 1]));
         if (used > width) {
             break;
         }
@@ -147,10 +91,11 @@ static void declare_paths(Flow *flow) {
     int width = 0;
     for (int i = 0; i < count; ++i) {
         playing = paths[i] == state->track->active ? i : playing;
-        width += flow->gap + button_width(flow, dip_preview_path_title(state, paths[i]));
+        width += flow->row.gap +
+                 dip_flow_button_width(&flow->row, dip_preview_path_title(state, paths[i]));
     }
-    const int arrows = 2 * (button_width(flow, "<") + flow->gap);
-    const bool all = width <= flow->body.width;
+    const int arrows = 2 * (dip_flow_button_width(&flow->row, "<") + flow->row.gap);
+    const bool all = width <= flow->row.body.width;
     if (!all &&
         flow_button(flow, ID_PATHS - 2, "<", DIP_UI_PLAIN, "The path before (Left arrow).")) {
         act(flow, DIP_ACTION_NEXT_PATH, 0, true);
@@ -159,18 +104,21 @@ static void declare_paths(Flow *flow) {
         flow_button(flow, ID_PATHS - 1, ">", DIP_UI_PLAIN, "The next path (P, or Right arrow).")) {
         act(flow, DIP_ACTION_NEXT_PATH, 0, false);
     }
-    const int row = flow->y;
-    const int first = all ? 0 : first_path(flow, paths, playing, flow->body.width - arrows);
+    const int row = flow->row.y;
+    const int first = all ? 0 : first_path(flow, paths, playing, flow->row.body.width - arrows);
     for (int i = first; i < count; ++i) {
         const char *title = dip_preview_path_title(state, paths[i]);
         char tip[160];
-        if (flow->x + button_width(flow, title) > flow->body.x + flow->body.width && i > first) {
+        if (flow->row.x + dip_flow_button_width(&flow->row, title) >
+                flow->row.body.x + flow->row.body.width &&
+            i > first) {
             break;
         }
         snprintf(tip, sizeof tip, "The camera follows the path %s.",
                  dip_preview_path_name(state, paths[i]));
         const DipUiLook look = i == playing && !state->manual ? DIP_UI_CHOSEN : DIP_UI_PLAIN;
-        if (flow->y == row && flow_button(flow, ID_PATHS + (unsigned)paths[i], title, look, tip)) {
+        if (flow->row.y == row &&
+            flow_button(flow, ID_PATHS + (unsigned)paths[i], title, look, tip)) {
             act(flow, DIP_ACTION_PATH, paths[i], false);
         }
     }
@@ -181,8 +129,8 @@ static void declare_paths(Flow *flow) {
 // Declares a button that edits the path. Without keys, only some edits are possible.
 static void edit_button(Flow *flow, DipPathEdit edit, const char *text, DipUiLook look,
                         const char *tip) {
-    const bool possible = edit == DIP_PATH_EDIT_ADD || edit == DIP_PATH_EDIT_TAKE ||
-                          dip_path_editor_count(flow->state->editor) > 0;
+    const bool possible =
+        edit == DIP_PATH_EDIT_ADD || edit == DIP_PATH_EDIT_TAKE || flow->state->editor->count > 0;
     if (flow_button(flow, ID_EDIT + (unsigned)edit, text, possible ? look : DIP_UI_OFF,
                     possible ? tip : "The path has no key yet.")) {
         act(flow, DIP_ACTION_PATH_EDIT, (int)edit, false);
@@ -191,9 +139,8 @@ static void edit_button(Flow *flow, DipPathEdit edit, const char *text, DipUiLoo
 
 static void declare_edits(Flow *flow) {
     const DipPathEditor *editor = flow->state->editor;
-    const bool flies = dip_path_editor_flies(editor);
-    edit_button(flow, DIP_PATH_EDIT_ADD, "Add key",
-                dip_path_editor_count(editor) ? DIP_UI_PLAIN : DIP_UI_PRIMARY,
+    const bool flies = (editor->fly != NULL);
+    edit_button(flow, DIP_PATH_EDIT_ADD, "Add key", editor->count ? DIP_UI_PLAIN : DIP_UI_PRIMARY,
                 "Adds the camera's pose behind the chosen key (Ctrl+N).");
     edit_button(flow, DIP_PATH_EDIT_REPLACE, "Replace", DIP_UI_PLAIN,
                 "Gives the chosen key the camera's pose (Ctrl+R).");
@@ -203,7 +150,7 @@ static void declare_edits(Flow *flow) {
                 flies ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
                 "Flies the path from the chosen key on (Ctrl+F).");
     edit_button(flow, DIP_PATH_EDIT_SAVE, "Save .pth",
-                dip_path_editor_is_unsaved(editor) ? DIP_UI_PRIMARY : DIP_UI_PLAIN,
+                editor->unsaved ? DIP_UI_PRIMARY : DIP_UI_PLAIN,
                 "Saves the path to a new file in the working folder (Ctrl+W).");
     edit_button(flow, DIP_PATH_EDIT_TAKE, "Edit path", DIP_UI_PLAIN,
                 "Takes the keys of the path that plays, in place of these keys (Ctrl+O).");
@@ -211,16 +158,15 @@ static void declare_edits(Flow *flow) {
 
 static void declare_key(Flow *flow, size_t index) {
     DipPathEditor *editor = flow->state->editor;
-    const DipCamKey key = dip_path_editor_key(editor, index);
+    const DipCamKey key = editor->keys[index];
     char text[16], tip[160];
     snprintf(text, sizeof text, "%zu", index + 1);
     snprintf(tip, sizeof tip, "Key %zu at %.2f, %.2f, %.2f m. Click: the camera goes there.",
              index + 1, key.position_world[0], key.position_world[1], key.position_world[2]);
-    const DipRect rect = flow_next(flow, dip_ui_px(flow->ui, KEY_WIDTH));
+    const DipRect rect = dip_flow_next(&flow->row, dip_ui_px(flow->ui, KEY_WIDTH));
     if (!dip_rect_is_empty(rect) &&
         dip_ui_button(flow->ui, DIP_UI_ID(DIP_UI_PATH, ID_KEYS + index % MAX_SHOWN_KEYS), rect,
-                      text, index == dip_path_editor_chosen(editor) ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
-                      tip)) {
+                      text, index == editor->chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip)) {
         dip_pilot_choose_key(flow->state, index, dip_ui_now_ns(flow->ui));
     }
 }
@@ -228,12 +174,12 @@ static void declare_key(Flow *flow, size_t index) {
 // Declares one row of keys around the chosen one.
 static void declare_keys(Flow *flow) {
     const DipPathEditor *editor = flow->state->editor;
-    const int count = (int)dip_path_editor_count(editor);
-    const int step = dip_ui_px(flow->ui, KEY_WIDTH) + flow->gap;
-    const int room = flow->body.width / dip_style_max(1, step) - 2; // Two arrows take room, too.
-    const int shown = dip_style_max(1, dip_style_min(room, MAX_SHOWN_KEYS));
-    const int middle = (int)dip_path_editor_chosen(editor) - shown / 2;
-    const int first = dip_style_max(0, dip_style_min(middle, count - shown));
+    const int count = (int)editor->count;
+    const int step = dip_ui_px(flow->ui, KEY_WIDTH) + flow->row.gap;
+    const int room = flow->row.body.width / dip_max(1, step) - 2; // Two arrows take room, too.
+    const int shown = dip_max(1, dip_min(room, MAX_SHOWN_KEYS));
+    const int middle = (int)editor->chosen - shown / 2;
+    const int first = dip_max(0, dip_min(middle, count - shown));
     edit_button(flow, DIP_PATH_EDIT_BEFORE, "<", DIP_UI_PLAIN, "The key before (Ctrl+Left).");
     edit_button(flow, DIP_PATH_EDIT_NEXT, ">", DIP_UI_PLAIN, "The next key (Ctrl+Right).");
     if (count == 0) {
@@ -246,7 +192,7 @@ static void declare_keys(Flow *flow) {
 
 static void declare_period(Flow *flow) {
     const DipPathEditor *editor = flow->state->editor;
-    const double period_s = 1e-9 * (double)dip_path_editor_period_ns(editor);
+    const double period_s = 1e-9 * (double)editor->period_ns;
     char text[120];
     edit_button(flow, DIP_PATH_EDIT_FASTER, "-", DIP_UI_PLAIN,
                 "Less time from key to key (Ctrl+Down).");
@@ -254,9 +200,9 @@ static void declare_period(Flow *flow) {
                 "More time from key to key (Ctrl+Up).");
     snprintf(text, sizeof text, "%.3g s from key to key", period_s);
     flow_text(flow, dip_style_soft, text);
-    if (dip_path_editor_file(editor)[0]) {
-        snprintf(text, sizeof text, "Saved: %s%s", dip_path_editor_file(editor),
-                 dip_path_editor_is_unsaved(editor) ? ", changed since" : "");
+    if (editor->file[0]) {
+        snprintf(text, sizeof text, "Saved: %s%s", editor->file,
+                 editor->unsaved ? ", changed since" : "");
         flow_text(flow, dip_style_dim, text);
     }
 }
@@ -295,7 +241,7 @@ static void declare_camera(Flow *flow) {
                     "Whether dragging orbits the scene or turns the camera on the spot (\\).")) {
         act(flow, DIP_ACTION_ORBIT, 0, false);
     }
-    if (flow_button(flow, ID_CAMERA + 2, flow->narrow ? "Pose" : "Pose of the path",
+    if (flow_button(flow, ID_CAMERA + 2, flow->row.narrow ? "Pose" : "Pose of the path",
                     state->manual ? DIP_UI_PLAIN : DIP_UI_OFF,
                     "Gives the free camera the pose of the path (Home).")) {
         act(flow, DIP_ACTION_CAMERA_BACK, 0, false);
@@ -329,9 +275,12 @@ static void declare_steps(Flow *flow) {
 }
 
 void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
-    Flow flow = flow_make(ui, window->state, body);
+    Flow flow = {dip_flow_make(ui, DIP_UI_PATH, body, 12), ui, window->state};
+    if (body.width < dip_ui_px(ui, NARROW)) {
+        dip_flow_make_narrow(&flow.row);
+    }
     declare_paths(&flow);
-    next_row(&flow);
+    dip_flow_next_row(&flow.row);
     if (window->state->editor) {
         declare_edits(&flow);
         next_group(&flow);

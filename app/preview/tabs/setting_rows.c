@@ -1,5 +1,5 @@
 // Rows of settings: sliders of steps with prices, switches, and lines of a list.
-#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/tabs/tabs.h"
 
 #include "app/preview/prices/price_text.h"
 #include "app/ui/style.h"
@@ -96,7 +96,7 @@ static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const Di
     } else if (input->pressed && !input->hovered) {
         wanted = (now + 1) % count;
     }
-    wanted = dip_style_max(0, dip_style_min(count - 1, wanted));
+    wanted = dip_max(0, dip_min(count - 1, wanted));
     if (wanted != now) {
         dip_preview_set_step(state, setting, dip_setting_step_at(setting, wanted),
                              dip_ui_now_ns(ui));
@@ -189,10 +189,9 @@ static void draw_pill(DipUi *ui, const DipWindow *window, const Slider *slider, 
     char why[256];
     const bool valid = is_valid(state, slider->setting, step, why);
     const int height = dip_ui_px(ui, STEP_HEIGHT);
-    const int width =
-        dip_style_min(slider->cell_width,
-                      dip_style_max(dip_ui_px(ui, PILL_LEAST_WIDTH),
-                                    dip_ui_text_width(ui, STEP_SIZE, name) + dip_ui_px(ui, 14)));
+    const int width = dip_min(slider->cell_width,
+                              dip_max(dip_ui_px(ui, PILL_LEAST_WIDTH),
+                                      dip_ui_text_width(ui, STEP_SIZE, name) + dip_ui_px(ui, 14)));
     const DipRect pill = {x - width / 2, slider->cells.y, width, height};
     dip_ui_fill_round(ui, pill, height / 2,
                       requested ? dip_style_accent
@@ -263,12 +262,12 @@ static int declare_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipR
     const int height = dip_ui_px(ui, STEP_HEIGHT) + 2 * dip_ui_px(ui, PRICE_HEIGHT);
     Slider slider = {.setting = setting, .rect = rect};
     slider.count = dip_setting_info(setting)->step_count;
-    slider.cell_width = dip_style_max(1, (rect.width - indent) / slider.count);
+    slider.cell_width = dip_max(1, (rect.width - indent) / slider.count);
     slider.cells =
         (DipRect){rect.x + indent, rect.y + name_height, slider.cell_width * slider.count, height};
     slider.dimmed = dip_quality_needs(&state->quality[edited_pane(state)], setting) != NULL;
     const int under = (dip_ui_pointer_x(ui) - slider.cells.x) / slider.cell_width;
-    slider.pointed = dip_style_max(0, dip_style_min(slider.count - 1, under));
+    slider.pointed = dip_max(0, dip_min(slider.count - 1, under));
     char why[256], tip[DIP_STEP_TEXT_BYTES];
     const int step = dip_setting_step_at(setting, slider.pointed);
     const DipPrice price = price_of(window, setting, step);

@@ -1,7 +1,6 @@
 // The price of the requested settings, and the buttons that act on all settings.
 #include "app/preview/prices/price_text.h"
-#include "app/preview/tabs/pane_time.h"
-#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/ui/style.h"
 #include "app/report/words.h"
 
@@ -36,8 +35,8 @@ int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns)
     const int rows = (DIP_PRESET_COUNT + columns - 1) / columns;
     const bool inert = presets_wait(window);
     const int width = (rect.width - (columns - 1) * gap) / columns;
-    const int height = dip_style_max(
-        1, dip_style_min(dip_ui_px(ui, 28), (rect.height - (rows - 1) * row_gap) / rows));
+    const int height =
+        dip_max(1, dip_min(dip_ui_px(ui, 28), (rect.height - (rows - 1) * row_gap) / rows));
     for (int p = 0; p < DIP_PRESET_COUNT; ++p) {
         const DipRect button = {rect.x + p % columns * (width + gap),
                                 rect.y + p / columns * (height + row_gap), width, height};
@@ -120,6 +119,48 @@ void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     dip_apply_declare(ui, window, apply);
     declare_undo(ui, window, undo);
     declare_copy(ui, window, copy);
+}
+
+// --- the target ----------------------------------------------------------------------------------
+
+// Declares a field and the word behind it at *x. Returns what the user did.
+static DipUiInput declare_field(DipUi *ui, int id, int *x, DipRect room, int width,
+                                const char *text, const char *word, double *typed) {
+    static const char tip[] =
+        "The target: settings are advised that draw this many frames a second, each of them within "
+        "this time. Type a number and press Enter, or step by the wheel or the arrow keys. A right "
+        "click takes the display's refresh.";
+    const DipRect rect = {*x, room.y, dip_ui_px(ui, width), room.height};
+    const DipUiInput input =
+        dip_ui_number_field(ui, DIP_UI_ID(DIP_UI_SETTINGS, id), rect, text, tip, typed);
+    *x += rect.width + dip_ui_px(ui, 5);
+    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, *x,
+                room.y + (room.height - dip_ui_line_height(ui, NOTE_SIZE)) / 2,
+                room.x + room.width - *x, word);
+    *x += dip_ui_text_width(ui, NOTE_SIZE, word) + dip_ui_px(ui, 5);
+    return input;
+}
+
+void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect) {
+    DipPreviewState *state = window->state;
+    char fps[DIP_NUMBER_BYTES], ms[DIP_NUMBER_BYTES];
+    const double rate = 1000.0 / state->budget_ms;
+    int x = rect.x;
+    double typed_fps, typed_ms;
+    snprintf(fps, sizeof fps, fabs(rate - round(rate)) < 0.05 ? "%.0f" : "%.1f", rate);
+    dip_budget_ms_text(state->budget_ms, ms);
+    const DipUiInput by_rate =
+        declare_field(ui, DIP_ID_FRAME_RATE, &x, rect, 44, fps, "fps  =", &typed_fps);
+    const DipUiInput by_time = declare_field(ui, DIP_ID_BUDGET, &x, rect, 52, ms, "ms", &typed_ms);
+    dip_preview_step_frame_rate(state, by_rate.steps - by_time.steps);
+    if (by_rate.right || by_time.right) {
+        dip_preview_set_budget(state, 0.0);
+    }
+    if (typed_fps > 0.0) {
+        dip_preview_set_budget(state, 1000.0 / typed_fps);
+    } else if (typed_ms > 0.0) {
+        dip_preview_set_budget(state, typed_ms);
+    }
 }
 
 // --- the sum -------------------------------------------------------------------------------------
@@ -217,7 +258,7 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
     }
     if (rest_ms > 0.0) {
         const int from = rect.x + (int)(at_ms * per_ms);
-        const int width = dip_style_max(1, (int)(rest_ms * per_ms));
+        const int width = dip_max(1, (int)(rest_ms * per_ms));
         fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_accent);
     }
     if (rest_ms < 0.0) { // The parts take less time together: what they save is struck out.
@@ -235,13 +276,6 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
                 (DipRect){budget_x, rect.y - dip_ui_px(ui, 4), dip_ui_px(ui, 2),
                           rect.height + 2 * dip_ui_px(ui, 4)},
                 dip_style_white);
-    char text[DIP_NUMBER_BYTES + 4];
-    dip_budget_ms_text(budget_ms, text);
-    strcat(text, " ms");
-    const bool left = budget_x - rect.x < dip_ui_text_width(ui, NOTE_SIZE, text);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_white, left ? DIP_ALIGN_LEFT : DIP_ALIGN_RIGHT,
-                left ? rect.x : budget_x - dip_ui_px(ui, 2),
-                rect.y - dip_ui_line_height(ui, NOTE_SIZE) - dip_ui_px(ui, 3), rect.width, text);
 }
 
 // Draws an entry of the legend at *x, *y, or at the start of the next line if it does not fit.
@@ -465,7 +499,10 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     if (dip_ui_is_drawing(ui)) {
         draw_comparison(ui, window, &now, &sum, (DipRect){rect.x, y, rect.width, 0});
     }
-    y += 2 * dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 5);
+    const int target_y = y + dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 2);
+    y += 2 * dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 9);
+    dip_target_declare(ui, window,
+                       (DipRect){rect.x, target_y, rect.width, y - target_y - dip_ui_px(ui, 3)});
     const int legend_y = y + dip_ui_px(ui, BUDGET_HEIGHT + 6);
     if (dip_ui_is_drawing(ui)) {
         const bool doubtful = dip_price_sum_trust(&sum) == DIP_PRICE_TRUST_DOUBTFUL;
@@ -477,7 +514,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     }
     y = legend_y + dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3);
     const int height = dip_ui_px(ui, 28);
-    y = dip_style_min(y, bottom - height);
+    y = dip_min(y, bottom - height);
     dip_setting_buttons_declare(ui, window, (DipRect){rect.x, y, rect.width, height});
     y += height + dip_ui_px(ui, 4);
     if (dip_ui_is_drawing(ui)) {

@@ -1,8 +1,7 @@
 // The tab of the settings, laid out by the room that it has: three columns of settings, one column
 // at a time, or a list.
 #include "app/preview/prices/price_text.h"
-#include "app/preview/tabs/pane_time.h"
-#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/ui/style.h"
 #include "app/report/words.h"
 
@@ -46,7 +45,7 @@ static void declare_columns(DipUi *ui, DipWindow *window, DipRect body) {
     const int margin = dip_ui_px(ui, MARGIN), gap = dip_ui_px(ui, COLUMN_GAP);
     const int least_sum = dip_ui_px(ui, SUM_WIDTH);
     const int room = body.width - 2 * margin - 3 * gap - least_sum;
-    const int width = dip_style_min(dip_ui_px(ui, COLUMN_WIDTH), room / COLUMNS);
+    const int width = dip_min(dip_ui_px(ui, COLUMN_WIDTH), room / COLUMNS);
     const DipRect top = {body.x + margin, body.y + dip_ui_px(ui, 5), width,
                          body.height - dip_ui_px(ui, 8)};
     for (int c = 0; c < COLUMNS; ++c) {
@@ -54,7 +53,7 @@ static void declare_columns(DipUi *ui, DipWindow *window, DipRect body) {
         column.x += c * (width + gap);
         const int used = declare_group(ui, window, c, column);
         if (c == GROUP_SCENE) {
-            const int height = dip_style_min(dip_ui_px(ui, PRESETS_HEIGHT), top.height - used);
+            const int height = dip_min(dip_ui_px(ui, PRESETS_HEIGHT), top.height - used);
             dip_presets_declare(ui, window,
                                 (DipRect){column.x,
                                           column.y + top.height - height - dip_ui_px(ui, 3), width,
@@ -142,8 +141,10 @@ static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) 
 
 static void declare_more(DipUi *ui, DipWindow *window, DipRect room) {
     const int pad = dip_ui_px(ui, 6), height = dip_ui_px(ui, 24);
-    const DipRect presets = {room.x + pad, room.y + pad, room.width - 2 * pad,
-                             room.height - height - 3 * pad};
+    const int target = dip_ui_px(ui, 20);
+    const DipRect presets = {room.x + pad, room.y + target + 2 * pad, room.width - 2 * pad,
+                             room.height - height - target - 4 * pad};
+    dip_target_declare(ui, window, (DipRect){presets.x, room.y + pad, presets.width, target});
     dip_presets_declare(ui, window, presets, 2);
     dip_setting_buttons_declare(
         ui, window,
@@ -152,10 +153,9 @@ static void declare_more(DipUi *ui, DipWindow *window, DipRect room) {
 
 static void declare_drawer(DipUi *ui, DipWindow *window, DipRect body) {
     const bool more = window->state->settings_group == GROUP_PRESETS;
-    const int foot = dip_style_min(dip_ui_px(ui, FOOT_HEIGHT), body.height / 6);
+    const int foot = dip_min(dip_ui_px(ui, FOOT_HEIGHT), body.height / 6);
     const int room = body.height - foot;
-    const int line =
-        dip_style_max(1, dip_style_min(dip_ui_px(ui, LINE_HEIGHT), room / DIP_SETTING_COUNT));
+    const int line = dip_max(1, dip_min(dip_ui_px(ui, LINE_HEIGHT), room / DIP_SETTING_COUNT));
     if (more) {
         declare_more(ui, window, (DipRect){body.x, body.y, body.width, room});
     } else {

@@ -1,7 +1,6 @@
 // The tab of times: frame times of the last seconds, stages, errors and work of each pane.
-#include "app/preview/tabs/setting_rows.h"
-#include "app/ui/style.h"
 #include "app/preview/tabs/tabs.h"
+#include "app/ui/style.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -52,7 +51,7 @@ static void draw_history(DipUi *ui, const History *history, DipRect plot, double
             most[at] = fmax(most[at], history->ms[i]);
         }
     }
-    const int width = dip_style_max(size, plot.width / GRAPH_STEPS);
+    const int width = dip_max(size, plot.width / GRAPH_STEPS);
     for (int i = 0; i < GRAPH_STEPS; ++i) {
         if (most[i] > 0.0) {
             const int y = (int)(fmin(most[i] / top_ms, 1.0) * (plot.height - size));
@@ -138,11 +137,11 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect) {
 static void draw_lines(DipUi *ui, const DipPanelLine *lines, int count, DipRect room) {
     const int line = dip_ui_line_height(ui, SIZE) + dip_ui_px(ui, 1);
     const int pad = dip_ui_px(ui, MARGIN);
-    const int rows = dip_style_max(1, room.height / line);
-    const int fitting = dip_style_max(1, room.width / dip_ui_px(ui, COLUMN_WIDTH));
+    const int rows = dip_max(1, room.height / line);
+    const int fitting = dip_max(1, room.width / dip_ui_px(ui, COLUMN_WIDTH));
     const int needed = (count + rows - 1) / rows;
-    const int columns = dip_style_min(fitting, needed);
-    const int width = room.width / dip_style_max(1, columns);
+    const int columns = dip_min(fitting, needed);
+    const int width = room.width / dip_max(1, columns);
     for (int i = 0; i < count && i < rows * columns; ++i) {
         const DipPanelLine *shown = &lines[i];
         const int x = room.x + i / rows * width;

@@ -1,10 +1,8 @@
 // Declares the whole window, from the back to the front.
-#include "app/preview/tabs/labels.h"
+#include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/loupe.h"
 #include "app/preview/state/pilot.h"
-#include "app/preview/tabs/sheet.h"
 #include "app/ui/style.h"
-#include "app/preview/tabs/tabs.h"
 
 enum { WAY_BACK = 100 }; // Number of a control, beside those of the bar.
 
@@ -66,9 +64,8 @@ static void declare_sheet(DipUi *ui, DipWindow *window) {
 static void declare_way_back(DipUi *ui, DipWindow *window) {
     static const char text[] = "Show the panel  (/)";
     const DipLayout *layout = window->layout;
-    const int width =
-        dip_style_min(layout->width, dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 24));
-    const int height = dip_style_min(layout->height, dip_ui_px(ui, 30));
+    const int width = dip_min(layout->width, dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 24));
+    const int height = dip_min(layout->height, dip_ui_px(ui, 30));
     const DipRect rect = {(layout->width - width) / 2, layout->height - height, width, height};
     const bool near =
         dip_ui_pointer_y(ui) >= layout->height / 2 && dip_ui_pointer_y(ui) < layout->height;

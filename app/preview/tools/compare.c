@@ -1,7 +1,7 @@
 // Where the pictures of a comparison show, and the difference of both panes.
 #include "app/preview/tools/compare.h"
 
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 #include "app/preview/tools/loupe.h"
 #include "app/ui/style.h"
 
@@ -79,15 +79,15 @@ DipRect dip_compare_fit(DipRect area, int width, int height) {
         return (DipRect){area.x, area.y, 0, 0};
     }
     if (width <= area.width && height <= area.height) {
-        const int factor = dip_style_min(area.width / width, area.height / height);
+        const int factor = dip_min(area.width / width, area.height / height);
         shown_width *= factor;
         shown_height *= factor;
     } else if ((int64_t)width * area.height >= (int64_t)height * area.width) {
         shown_width = area.width;
-        shown_height = dip_style_max(1, (int)((int64_t)height * area.width / width));
+        shown_height = dip_max(1, (int)((int64_t)height * area.width / width));
     } else {
         shown_height = area.height;
-        shown_width = dip_style_max(1, (int)((int64_t)width * area.height / height));
+        shown_width = dip_max(1, (int)((int64_t)width * area.height / height));
     }
     return (DipRect){area.x + (area.width - shown_width) / 2,
                      area.y + (area.height - shown_height) / 2, shown_width, shown_height};
@@ -221,7 +221,7 @@ bool dip_compare_adjust(DipToolState *tools, int steps) {
         return true;
     }
     if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
-        tools->gain = dip_style_max(tools->gain, 1);
+        tools->gain = dip_max(tools->gain, 1);
         for (; steps > 0 && tools->gain < DIP_COMPARE_MAX_GAIN; --steps) {
             tools->gain *= 2;
         }
@@ -241,7 +241,7 @@ DipComparer *dip_compare_create(DipError *err) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
         return NULL;
     }
-    compare->version = UINT64_C(5) << 60;
+    compare->version = DIP_DIFFERENCE_VERSION;
     return compare;
 }
 
@@ -264,7 +264,7 @@ const DipDifference *dip_compare_make_difference(DipComparer *compare, const Dip
     uint64_t of[DIP_PANE_COUNT];
     const DipPixels *a = dip_compare_picture(window, DIP_PANE_CURRENT, &of[DIP_PANE_CURRENT]);
     const DipPixels *b = dip_compare_picture(window, DIP_PANE_REQUESTED, &of[DIP_PANE_REQUESTED]);
-    const int gain = dip_style_max(1, window->state->tools.gain);
+    const int gain = dip_max(1, window->state->tools.gain);
     if (!shows(compare, of, gain)) {
         compare->known = a->width == b->width && a->height == b->height &&
                          dip_canvas_resize(&compare->difference, a->width, a->height, NULL);

@@ -2,7 +2,6 @@
 #include "app/preview/tools/compare.h"
 #include "app/ui/style.h"
 #include "app/preview/tools/window.h"
-#include "app/preview/tools/tool_colours.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,7 +51,7 @@ static void draw_one(DipUi *ui, const DipWindow *window, int pane) {
 static void draw_difference(DipUi *ui, const DipWindow *window) {
     DipPixels picture;
     uint64_t version;
-    if (dip_compare_make_difference(dip_tools_compare(window->tools), window, &picture, &version)) {
+    if (dip_compare_make_difference(window->tools->compare, window, &picture, &version)) {
         dip_ui_picture(ui, dip_compare_shown(window, DIP_PANE_CURRENT), &picture, version);
     }
 }
@@ -125,7 +124,7 @@ static DipUiInput declare_line(DipUi *ui, const DipWindow *window) {
 
 // A chevron that points left or right, from rectangles.
 static void draw_chevron(DipUi *ui, int x, int y, int size, int direction, DipColour colour) {
-    const int thick = dip_style_max(2, size / 3);
+    const int thick = dip_max(2, size / 3);
     for (int i = 0; i <= size; ++i) {
         const int reach = abs(i - size / 2);
         dip_ui_fill(ui, (DipRect){x + direction * (size / 2 - reach), y + i - size / 2, thick, 1},
@@ -135,23 +134,23 @@ static void draw_chevron(DipUi *ui, int x, int y, int size, int direction, DipCo
 
 static void draw_divider(DipUi *ui, const DipWindow *window) {
     const DipRect left = dip_compare_visible(window, DIP_PANE_CURRENT);
-    const int unit = dip_style_max(1, dip_ui_px(ui, 1));
+    const int unit = dip_max(1, dip_ui_px(ui, 1));
     const int x = left.x + left.width - 2 * unit;
     const int radius = dip_ui_px(ui, HANDLE);
     const int middle = left.y + left.height / 2;
-    dip_ui_fill(ui, (DipRect){x, left.y, 4 * unit, left.height}, dip_tool_dark);
-    dip_ui_fill(ui, (DipRect){x + unit, left.y, unit, left.height}, dip_tool_white);
-    dip_ui_fill(ui, (DipRect){x + 2 * unit, left.y, unit, left.height}, dip_tool_accent);
+    dip_ui_fill(ui, (DipRect){x, left.y, 4 * unit, left.height}, dip_style_dark);
+    dip_ui_fill(ui, (DipRect){x + unit, left.y, unit, left.height}, dip_style_white);
+    dip_ui_fill(ui, (DipRect){x + 2 * unit, left.y, unit, left.height}, dip_style_accent);
     if (left.height < 4 * radius) {
         return;
     }
     const DipRect disc = {x + 2 * unit - radius, middle - radius, 2 * radius, 2 * radius};
     const DipRect inner = {disc.x + 2 * unit, disc.y + 2 * unit, disc.width - 4 * unit,
                            disc.height - 4 * unit};
-    dip_ui_fill_round(ui, disc, radius, dip_tool_white);
-    dip_ui_fill_round(ui, inner, radius - 2 * unit, dip_tool_well);
-    draw_chevron(ui, x + 2 * unit - radius / 2, middle, radius / 2, -1, dip_tool_white);
-    draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_tool_accent);
+    dip_ui_fill_round(ui, disc, radius, dip_style_white);
+    dip_ui_fill_round(ui, inner, radius - 2 * unit, dip_style_well);
+    draw_chevron(ui, x + 2 * unit - radius / 2, middle, radius / 2, -1, dip_style_white);
+    draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_style_accent);
 }
 
 // Says of what two pictures the difference is. A text that is wider than the picture has two lines.
@@ -164,11 +163,11 @@ static void label_difference(DipUi *ui, const DipWindow *window) {
     }
     dip_preview_describe(&state->quality[DIP_PANE_REQUESTED], true, right, sizeof right);
     snprintf(text, sizeof text, "Difference times %d: %s (%.200s) and requested (%.200s)",
-             dip_style_max(1, state->tools.gain),
-             dip_compare_shows_truth(window) ? "truth" : "current", left, right);
+             dip_max(1, state->tools.gain), dip_compare_shows_truth(window) ? "truth" : "current",
+             left, right);
     const int pad = dip_ui_px(ui, 10);
     const int width =
-        dip_style_min(dip_ui_text_width(ui, TEXT, text), shown.width - 2 * pad - dip_ui_px(ui, 16));
+        dip_min(dip_ui_text_width(ui, TEXT, text), shown.width - 2 * pad - dip_ui_px(ui, 16));
     const int height = dip_ui_text_block_height(ui, TEXT, width, text);
     if (width <= 0 || 2 * height > shown.height) {
         return;
@@ -178,8 +177,8 @@ static void label_difference(DipUi *ui, const DipWindow *window) {
     dip_ui_fill_round(ui,
                       (DipRect){rect.x - pad, rect.y - dip_ui_px(ui, 4), width + 2 * pad,
                                 height + dip_ui_px(ui, 8)},
-                      dip_ui_px(ui, 3), dip_tool_glass);
-    dip_ui_text_block(ui, TEXT, dip_tool_white, rect, text);
+                      dip_ui_px(ui, 3), dip_style_glass);
+    dip_ui_text_block(ui, TEXT, dip_style_white, rect, text);
 }
 
 void dip_compare_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]) {

@@ -20,9 +20,9 @@ double dip_layout_scale(double display_scale, const DipToolState *tools, int hei
 static void place_panes(DipLayout *layout, int height) {
     const int width =
         layout->width > DIP_PANE_GAP_PX + 2 ? (layout->width - DIP_PANE_GAP_PX) / 2 : 1;
-    layout->panes[DIP_PANE_CURRENT] = (DipRect){0, 0, width, dip_style_max(1, height)};
+    layout->panes[DIP_PANE_CURRENT] = (DipRect){0, 0, width, dip_max(1, height)};
     layout->panes[DIP_PANE_REQUESTED] =
-        (DipRect){layout->width - width, 0, width, dip_style_max(1, height)};
+        (DipRect){layout->width - width, 0, width, dip_max(1, height)};
 }
 
 DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare) {
@@ -31,7 +31,7 @@ DipLayout dip_layout_make(int width, int height, double scale, bool open, bool b
         place_panes(&layout, height);
         return layout;
     }
-    const int bar = dip_style_min(dip_style_scaled(BAR_HEIGHT, scale), height / 4);
+    const int bar = dip_min(dip_style_scaled(BAR_HEIGHT, scale), height / 4);
     const int body = dip_style_scaled(BODY_HEIGHT, scale);
     const int least = dip_style_scaled(LEAST_PANE_HEIGHT, scale);
     const bool fits =

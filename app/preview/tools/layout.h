@@ -6,7 +6,7 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_LAYOUT_H
 #define DIP_APP_PREVIEW_TOOLS_LAYOUT_H
 
-#include "app/canvas/pixels.h"
+#include "app/ui/pixels.h"
 #include "app/preview/state/tool_state.h"
 #include "app/session/session.h"
 

@@ -1,7 +1,6 @@
 // The loupe's arithmetic, and the samples that it has read.
 #include "app/preview/tools/loupe.h"
 
-#include "app/preview/tools/loupe_memory.h"
 #include "app/ui/style.h"
 
 #include <stdlib.h>
@@ -73,7 +72,7 @@ void dip_loupe_zoom(DipToolState *tools, int steps) {
 }
 
 static int clamped(int value, int count) {
-    return dip_style_max(0, dip_style_min(value, count - 1));
+    return dip_max(0, dip_min(value, count - 1));
 }
 
 void dip_loupe_move(DipToolState *tools, int dx, int dy, int width, int height) {
@@ -128,7 +127,7 @@ DipLoupe *dip_loupe_create(DipError *err) {
     }
     dip_srgb_decode_table(&loupe->decode);
     dip_srgb_encode_table(&loupe->encode);
-    loupe->version = UINT64_C(1) << 62;
+    loupe->version = DIP_LOUPE_VERSION;
     return loupe;
 }
 
@@ -232,8 +231,10 @@ const DipSamplePattern *dip_loupe_pattern(const DipLoupe *loupe, const DipQualit
                                  dip_pattern_kind(temporal, loupe->frame_index));
 }
 
-uint8_t dip_loupe_code(const DipLoupe *loupe, uint16_t linear16) {
-    return loupe->encode.code[linear16];
+DipColour dip_loupe_colour(const DipLoupe *loupe, const DipSampleValue *sample) {
+    const uint8_t *code = loupe->encode.code;
+    const uint16_t *light = sample->linear16;
+    return (DipColour){code[light[0]], code[light[1]], code[light[2]], 255};
 }
 
 double dip_loupe_linear(const DipLoupe *loupe, uint8_t code) {

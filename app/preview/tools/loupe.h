@@ -6,9 +6,10 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_LOUPE_H
 #define DIP_APP_PREVIEW_TOOLS_LOUPE_H
 
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 #include "app/preview/tools/tools.h"
 #include "app/session/session.h"
+#include "renderer/base/srgb.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/readback.h"
 
@@ -65,6 +66,44 @@ bool dip_loupe_is_front(const DipSampleValue *samples, int count, int sample);
 
 // --- memory ------------------------------------------------------------------------------------
 
+// A picture that is kept until what it shows changes.
+typedef struct DipKeptPicture {
+    DipCanvas canvas;
+    bool valid;
+    uint64_t version;
+} DipKeptPicture;
+
+typedef struct DipPaneSamples {
+    DipSampleValue *samples; // Owned.
+    size_t capacity;         // In entries.
+    bool tried;              // The three members below say what was read last.
+    bool known;              // False if reading failed.
+    uint64_t version;
+    DipTargetRegion region;
+    const DipSamplePattern *pattern;
+    DipKeptPicture crop;
+    DipLoupeCrop crop_shown; // What the crop picture shows.
+    uint64_t crop_frame_version;
+    unsigned crop_generation;
+    DipKeptPicture box;
+    DipColour box_pixel; // What the box picture shows.
+    const DipSamplePattern *box_pattern;
+    DipSampleValue box_samples[DIP_MAX_SAMPLES];
+    bool box_has_samples;
+    int box_side;
+} DipPaneSamples;
+
+struct DipLoupe {
+    DipSrgbDecodeTable decode;
+    DipSrgbEncodeTable encode;
+    DipTargetRegion wanted;
+    bool is_wanted;
+    uint64_t frame_index; // Of the frame that was drawn last.
+    unsigned generation;  // Grows whenever samples are read.
+    uint64_t version;     // Version of the picture that was drawn last.
+    DipPaneSamples panes[DIP_PANE_COUNT];
+};
+
 DipLoupe *dip_loupe_create(DipError *err);
 void dip_loupe_destroy(DipLoupe **loupe);
 
@@ -84,8 +123,8 @@ const DipSampleValue *dip_loupe_samples(const DipLoupe *loupe, int pane, uint64_
 // Returns the patterns of the frame that was drawn last, from a pane's settings.
 const DipSamplePattern *dip_loupe_pattern(const DipLoupe *loupe, const DipQuality *quality);
 
-// Converts between 8-bit sRGB, 16-bit linear light and linear light from 0 to 1.
-uint8_t dip_loupe_code(const DipLoupe *loupe, uint16_t linear16);
+// Returns a sample's colour, and the linear light, 0 to 1, of a code of 8-bit sRGB.
+DipColour dip_loupe_colour(const DipLoupe *loupe, const DipSampleValue *sample);
 double dip_loupe_linear(const DipLoupe *loupe, uint8_t code);
 
 // --- pictures ----------------------------------------------------------------------------------

@@ -1,10 +1,11 @@
 // The loupe over the panes: its marks, the legend of mip colours, and how mouse and keys move it.
 #include "app/preview/tools/compare.h"
 #include "app/preview/tools/loupe.h"
+#include "app/preview/tools/maps.h"
 #include "app/ui/style.h"
 #include "app/preview/tools/window.h"
-#include "app/preview/tools/tool_colours.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { TINY = 10 }; // Size of letters.
@@ -20,7 +21,7 @@ static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
     const DipRect mark = dip_loupe_mark(shown, frame->width, frame->height, crop.source);
     const DipRect inside = dip_rect_intersect(mark, dip_compare_visible(window, pane));
     if (!dip_rect_is_empty(inside)) {
-        dip_tool_outline(ui, inside, pane == DIP_PANE_REQUESTED ? dip_tool_accent : dip_tool_white);
+        dip_ui_mark(ui, inside, pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white);
     }
 }
 
@@ -56,19 +57,9 @@ static void handle_panes(DipWindow *window, const DipUiInput panes[DIP_PANE_COUN
     }
 }
 
-// The colours of mip levels, from the largest level's.
-static const struct {
-    const char *name;
-    DipColour colour;
-} mip_colours[] = {
-    {"1024", {0, 0, 0, 255}},    {"512", {128, 0, 0, 255}},       {"256", {255, 0, 0, 255}},
-    {"128", {255, 128, 0, 255}}, {"64", {255, 255, 0, 255}},      {"32", {0, 255, 0, 255}},
-    {"16", {0, 0, 255, 255}},    {"\u22648", {128, 0, 128, 255}},
-};
-
 // Explains the colours of a pane that shows mip levels: size of the level in texels.
 static void draw_mip_legend(DipUi *ui, DipRect shown) {
-    enum { COUNT = sizeof mip_colours / sizeof *mip_colours };
+    enum { COUNT = DIP_MIP_DEBUG_LEVELS };
     const int margin = dip_ui_px(ui, 8);
     const int cell = dip_ui_px(ui, 32);
     const int height = dip_ui_line_height(ui, TINY) + dip_ui_px(ui, 4);
@@ -78,18 +69,20 @@ static void draw_mip_legend(DipUi *ui, DipRect shown) {
     }
     const int top = shown.y + shown.height - margin - height * (COUNT / across);
     for (int i = 0; i < COUNT; ++i) {
-        const DipColour ground = mip_colours[i].colour;
+        const DipColour ground = dip_map_mip_colour(i);
+        char name[16];
+        snprintf(name, sizeof name, i == COUNT - 1 ? "\u2264%d" : "%d", 1024 >> i);
         const DipRect rect = {shown.x + margin + i % across * cell, top + i / across * height, cell,
                               height};
         dip_ui_fill(ui, rect, ground);
-        dip_ui_text(ui, TINY, dip_tool_contrast(ground), DIP_ALIGN_CENTRE, rect.x + cell / 2,
-                    rect.y + dip_ui_px(ui, 2), cell, mip_colours[i].name);
+        dip_ui_text(ui, TINY, dip_style_contrast(ground), DIP_ALIGN_CENTRE, rect.x + cell / 2,
+                    rect.y + dip_ui_px(ui, 2), cell, name);
     }
     if (top - height >= shown.y + dip_ui_px(ui, 40)) {
         const char *title = "Side of the mip level, texels";
         const int width = dip_ui_text_width(ui, TINY, title) + dip_ui_px(ui, 8);
-        dip_ui_fill(ui, (DipRect){shown.x + margin, top - height, width, height}, dip_tool_glass);
-        dip_ui_text(ui, TINY, dip_tool_white, DIP_ALIGN_LEFT, shown.x + margin + dip_ui_px(ui, 4),
+        dip_ui_fill(ui, (DipRect){shown.x + margin, top - height, width, height}, dip_style_glass);
+        dip_ui_text(ui, TINY, dip_style_white, DIP_ALIGN_LEFT, shown.x + margin + dip_ui_px(ui, 4),
                     top - height + dip_ui_px(ui, 2), width, title);
     }
 }

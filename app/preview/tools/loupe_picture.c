@@ -1,7 +1,6 @@
 // Draws the loupe's pictures: magnified pixels, and one pixel with its samples.
-#include "app/preview/tools/loupe_memory.h"
+#include "app/preview/tools/loupe.h"
 #include "app/ui/style.h"
-#include "app/preview/tools/tool_colours.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,11 +32,9 @@ static void mark_sample(const DipLoupe *loupe, DipCanvas *canvas, int x, int y, 
     const int left = x + pattern->x[s] * zoom / 256 - core / 2;
     const int top = y + pattern->y[s] * zoom / 256 - core / 2;
     const bool coloured = core >= 4;
-    const DipColour own = {dip_loupe_code(loupe, sample->linear16[0]),
-                           dip_loupe_code(loupe, sample->linear16[1]),
-                           dip_loupe_code(loupe, sample->linear16[2]), 255};
-    dip_canvas_fill(canvas, (DipRect){left - 1, top - 1, core + 2, core + 2}, dip_tool_white);
-    dip_canvas_fill(canvas, (DipRect){left, top, core, core}, coloured ? own : dip_tool_dark);
+    const DipColour own = dip_loupe_colour(loupe, sample);
+    dip_canvas_fill(canvas, (DipRect){left - 1, top - 1, core + 2, core + 2}, dip_style_white);
+    dip_canvas_fill(canvas, (DipRect){left, top, core, core}, coloured ? own : dip_style_dark);
 }
 
 static void mark_samples(const DipLoupe *loupe, int pane, const DipCropContent *content,
@@ -69,7 +66,7 @@ static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *con
     }
     const DipRect all = {0, 0, crop->frame.width, crop->frame.height};
     dip_canvas_set_clip(canvas, all);
-    dip_canvas_fill(canvas, all, dip_tool_well);
+    dip_canvas_fill(canvas, all, dip_style_well);
     if (!dip_rect_is_empty(crop->source)) {
         const DipPixels part = part_of(&content->frame, crop->source);
         const DipRect shown = {crop->shown.x - crop->frame.x, crop->shown.y - crop->frame.y,
@@ -127,7 +124,7 @@ static double coverage(double edge, double distance) {
 static void draw_disc(DipCanvas *canvas, int x, int y, double outer, double inner, int dashes,
                       DipColour colour) {
     uint8_t mask[MASK_SIDE * MASK_SIDE];
-    const int reach = dip_style_min((int)outer + 2, MASK_SIDE / 2);
+    const int reach = dip_min((int)outer + 2, MASK_SIDE / 2);
     const int side = 2 * reach;
     for (int i = 0; i < side; ++i) {
         for (int j = 0; j < side; ++j) {
@@ -149,7 +146,7 @@ static void draw_disc(DipCanvas *canvas, int x, int y, double outer, double inne
 }
 
 static void draw_grid(DipCanvas *canvas, DipColour ground, int side, int cells) {
-    const DipColour edge = dip_tool_contrast(ground);
+    const DipColour edge = dip_style_contrast(ground);
     const DipColour line = {edge.red, edge.green, edge.blue, 60};
     const int first = box_position(side, 0);
     const int last = box_position(side, 256);
@@ -157,15 +154,9 @@ static void draw_grid(DipCanvas *canvas, DipColour ground, int side, int cells) 
     for (int i = 0; i <= cells; ++i) {
         const bool outer = i == 0 || i == cells;
         const int at = first + (2 * length * i + cells) / (2 * cells) - (i == cells);
-        dip_canvas_fill(canvas, (DipRect){at, first, 1, length}, outer ? dip_tool_white : line);
-        dip_canvas_fill(canvas, (DipRect){first, at, length, 1}, outer ? dip_tool_white : line);
+        dip_canvas_fill(canvas, (DipRect){at, first, 1, length}, outer ? dip_style_white : line);
+        dip_canvas_fill(canvas, (DipRect){first, at, length, 1}, outer ? dip_style_white : line);
     }
-}
-
-static DipColour sample_colour(const DipLoupe *loupe, const DipSampleValue *sample) {
-    return (DipColour){dip_loupe_code(loupe, sample->linear16[0]),
-                       dip_loupe_code(loupe, sample->linear16[1]),
-                       dip_loupe_code(loupe, sample->linear16[2]), 255};
 }
 
 static void draw_sample(const DipLoupe *loupe, DipCanvas *canvas, const DipBoxContent *content,
@@ -177,12 +168,12 @@ static void draw_sample(const DipLoupe *loupe, DipCanvas *canvas, const DipBoxCo
     int x, y;
     dip_loupe_box_position(content->pattern, content->side, s, &x, &y);
     const DipColour fill =
-        content->samples ? sample_colour(loupe, &content->samples[s]) : content->pixel;
-    draw_disc(canvas, x, y, radius + 1.0, 0.0, 0, dip_tool_dark);
-    draw_disc(canvas, x, y, radius, 0.0, 0, front ? dip_tool_white : dip_tool_dark);
+        content->samples ? dip_loupe_colour(loupe, &content->samples[s]) : content->pixel;
+    draw_disc(canvas, x, y, radius + 1.0, 0.0, 0, dip_style_dark);
+    draw_disc(canvas, x, y, radius, 0.0, 0, front ? dip_style_white : dip_style_dark);
     draw_disc(canvas, x, y, radius - ring, 0.0, 0, fill);
     if (!front) {
-        draw_disc(canvas, x, y, radius, radius - ring, 8, dip_tool_white);
+        draw_disc(canvas, x, y, radius, radius - ring, 8, dip_style_white);
     }
 }
 
@@ -195,17 +186,13 @@ static bool draw_box(const DipLoupe *loupe, const DipBoxContent *content, DipCan
     dip_canvas_set_clip(canvas, all);
     const int first = box_position(content->side, 0);
     const int length = box_position(content->side, 256) - first;
-    dip_canvas_fill(canvas, all, dip_tool_ground);
+    dip_canvas_fill(canvas, all, dip_style_dock);
     dip_canvas_fill(canvas, (DipRect){first, first, length, length}, content->pixel);
     draw_grid(canvas, content->pixel, content->side, count <= 4 ? 4 : count);
     for (int s = 0; s < count; ++s) {
         draw_sample(loupe, canvas, content, s);
     }
     return true;
-}
-
-static bool same_colour(DipColour a, DipColour b) {
-    return a.red == b.red && a.green == b.green && a.blue == b.blue && a.alpha == b.alpha;
 }
 
 static bool same_samples(const DipPaneSamples *held, const DipBoxContent *content) {
@@ -227,7 +214,7 @@ bool dip_loupe_box_picture(DipLoupe *loupe, int pane, const DipBoxContent *conte
     DipPaneSamples *held = &loupe->panes[pane];
     const bool current = held->box.valid && held->box_side == content->side &&
                          held->box_pattern == content->pattern &&
-                         same_colour(held->box_pixel, content->pixel) &&
+                         dip_colour_equals(held->box_pixel, content->pixel) &&
                          same_samples(held, content);
     if (!current) {
         held->box.valid = draw_box(loupe, content, &held->box.canvas);

@@ -1,6 +1,6 @@
 // Draws the maps' pictures.
 #include "app/measure/metrics/magma.h"
-#include "app/preview/tools/maps_memory.h"
+#include "app/preview/tools/maps.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -218,10 +218,6 @@ const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gall
                                : work_status(maps, map, pane, text, size_bytes);
 }
 
-static int smaller(int a, int b) {
-    return a < b ? a : b;
-}
-
 // --- mip levels ----------------------------------------------------------------------------------
 
 // The colours of mip debugging (renderer/scene/resources/mip_debug.c), in sRGB.
@@ -259,7 +255,7 @@ int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y) {
     double least = FARTHEST * FARTHEST;
     int size = 0;
     for (int i = 0; i < BLENDS * (DIP_MIP_DEBUG_LEVELS - 1) + 1; i++) {
-        const int level = smaller(i / BLENDS, DIP_MIP_DEBUG_LEVELS - 2);
+        const int level = dip_min(i / BLENDS, DIP_MIP_DEBUG_LEVELS - 2);
         const double part = (double)(i - level * BLENDS) / BLENDS;
         const DipColour *a = &mip_colours[level], *b = a + 1;
         const double colour[3] = {a->red + part * (b->red - a->red),

@@ -3,7 +3,7 @@
 #include "app/preview/tools/maps.h"
 
 #include "app/preview/tools/compare.h"
-#include "app/preview/tools/maps_memory.h"
+#include "app/preview/tools/maps.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -64,44 +64,13 @@ const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version) {
     return &maps->truth;
 }
 
-const DipErrorReading *dip_maps_reading(const DipMaps *maps) {
-    return &maps->reading;
-}
-
-const DipErrorPictures *dip_maps_errors(const DipMaps *maps) {
-    return maps->errors;
-}
-
 // --- what the user chooses -----------------------------------------------------------------------
-
-bool dip_maps_adjust(DipToolState *tools, int steps) {
-    if (tools->map == DIP_MAP_NONE) {
-        return false;
-    }
-    double brightness = tools->brightness >= 1.0 ? tools->brightness : 1.0;
-    for (; steps > 0 && brightness < DIP_MAP_MAX_BRIGHTNESS; steps--) {
-        brightness *= 2.0;
-    }
-    for (; steps < 0 && brightness > 1.0; steps++) {
-        brightness /= 2.0;
-    }
-    tools->brightness = brightness;
-    return true;
-}
 
 void dip_maps_choose(DipToolState *tools, DipMap map) {
     tools->map = map;
     if (map != DIP_MAP_NONE) {
         tools->comparison = DIP_COMPARE_SIDE_BY_SIDE;
     }
-}
-
-DipMapView *dip_maps_view(DipMaps *maps) {
-    return &maps->view;
-}
-
-void dip_maps_want(DipMaps *maps, DipMap map) {
-    maps->wanted = map;
 }
 
 // --- measuring work ------------------------------------------------------------------------------
@@ -309,14 +278,10 @@ int dip_map_tile(const DipMapWork *work, int x, int y) {
     return y / DIP_TARGET_TILE * work->across + x / DIP_TARGET_TILE;
 }
 
-static int smaller(int a, int b) {
-    return a < b ? a : b;
-}
-
 int dip_map_tile_pixels(const DipMapWork *work, int tile) {
     const int x = tile % work->across * DIP_TARGET_TILE;
     const int y = tile / work->across * DIP_TARGET_TILE;
-    return smaller(work->width - x, DIP_TARGET_TILE) * smaller(work->height - y, DIP_TARGET_TILE);
+    return dip_min(work->width - x, DIP_TARGET_TILE) * dip_min(work->height - y, DIP_TARGET_TILE);
 }
 
 double dip_map_value(const DipMapWork *work, DipMap map, int tile) {
@@ -347,14 +312,4 @@ double dip_maps_end(const DipMaps *maps, const DipToolState *tools) {
     }
     const double brightness = tools->brightness >= 1.0 ? tools->brightness : 1.0;
     return dip_map_round_up(greatest) / brightness;
-}
-
-bool dip_map_pixel_at(DipRect shown, int width, int height, int window_x, int window_y, int *x,
-                      int *y) {
-    if (!dip_rect_holds(shown, window_x, window_y)) {
-        return false;
-    }
-    *x = (int)((2 * (int64_t)(window_x - shown.x) + 1) * width / (2 * (int64_t)shown.width));
-    *y = (int)((2 * (int64_t)(window_y - shown.y) + 1) * height / (2 * (int64_t)shown.height));
-    return true;
 }

@@ -6,12 +6,96 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_MAPS_H
 #define DIP_APP_PREVIEW_TOOLS_MAPS_H
 
-#include "app/canvas/pixels.h"
+#include "app/ui/pixels.h"
 #include "app/preview/live/error_thread.h"
+#include "app/preview/tools/map_colours.h"
 #include "app/preview/tools/tools.h"
 #include "app/session/session.h"
 
-typedef struct DipMaps DipMaps;
+enum { DIP_MAP_DRAWS = 15 }; // Draws of a frame from which the median time of a tile is taken.
+
+// The work of a pane's frame. The arrays are valid until the next dip_maps_update.
+typedef struct DipMapWork {
+    int draws; // Number of draws so far, 0..DIP_MAP_DRAWS. 0: nothing is known.
+    int width; // Size of the frame, in pixels.
+    int height;
+    int across; // Number of tiles.
+    int down;
+    const DipTileRecord *records; // Counters of each tile; the times are those of one draw.
+    const double *ms;             // Median time of each tile, on the worker that drew it.
+    const uint8_t *mixed;         // DipFrameTiles.mixed
+    double geometry_ms;           // Time of one draw before the tiles.
+    double mirrored_ms;           // Time of one draw for the mirrored scene.
+} DipMapWork;
+
+typedef enum DipMapOver {
+    DIP_MAP_OVER_BOTH,
+    DIP_MAP_OVER_CURRENT,
+    DIP_MAP_OVER_REQUESTED
+} DipMapOver;
+
+typedef struct DipMapView {
+    DipMapOver over;
+    bool pointed; // The pointer is over a pane.
+    int x;        // The pixel under the pointer.
+    int y;
+} DipMapView;
+
+// What was measured of a pane's frame. The arrays are NULL until the frame has been drawn.
+typedef struct DipPaneWork {
+    DipMapWork work; // Points to the arrays below.
+    DipTileRecord *records;
+    double *draws_ms; // DIP_MAP_DRAWS times for each tile.
+    double *ms;
+    uint8_t *mixed;
+    uint8_t *mips; // The frame in mip colours, rows packed.
+    int mips_width;
+    int mips_height;
+} DipPaneWork;
+
+// Everything that decides what the panes' frames show and how they are drawn.
+typedef struct DipMapKey {
+    DipPose pose;
+    int64_t play_ns;
+    const void *scene;
+    const void *gallery;
+    DipQuality quality[DIP_PANE_COUNT];
+    uint64_t versions[DIP_PANE_COUNT];
+    int width;
+    int height;
+    bool copied; // Both panes show one frame, which is measured once.
+} DipMapKey;
+
+// A map's picture, and what it was made from.
+typedef struct DipMapPicture {
+    uint8_t *rgba8; // Owned.
+    size_t pixels;
+    DipMap map;
+    double end;
+    uint64_t source; // Version of the values.
+    uint64_t frame_version;
+    int width;
+    int height;
+    bool made;
+    uint64_t version;
+} DipMapPicture;
+
+// The memory of the maps. Others than the files of the maps read `reading` and `errors`, set
+// `wanted` while the window is drawn, and keep the tab's choices in `view`.
+struct DipMaps {
+    DipMap wanted;       // The map that the window showed last.
+    DipPainter *painter; // Draws what the panes show, with records; NULL until a map needs it.
+    DipMapKey key;
+    bool failed;         // The frames of the key could not be drawn.
+    uint64_t generation; // Grows whenever something new is known about work.
+    DipPaneWork panes[DIP_PANE_COUNT];
+    DipErrorReading reading;
+    const DipErrorPictures *errors; // Borrowed; NULL if there are none.
+    DipPixels truth;
+    DipMapPicture pictures[DIP_PANE_COUNT];
+    uint64_t picture_count;
+    DipMapView view;
+};
 
 DipMaps *dip_maps_create(DipError *err);
 void dip_maps_destroy(DipMaps **maps);
@@ -34,30 +118,13 @@ const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version);
 // moves. Returns whether the window must be drawn again. Runs on the thread that draws frames.
 bool dip_maps_update(DipMaps *maps, const DipToolsInput *input);
 
-// Moves the brightness by factors of 2, from 1 to 16. Returns false if no map shows.
-bool dip_maps_adjust(DipToolState *tools, int steps);
-
 // Chooses a map, or none. Maps show side by side.
 void dip_maps_choose(DipToolState *tools, DipMap map);
 
 // --- what is known about the panes ---------------------------------------------------------------
 
-enum { DIP_MAP_DRAWS = 15 }; // Draws of a frame from which the median time of a tile is taken.
-
-// The work of a pane's frame. The arrays are valid until the next dip_maps_update.
-typedef struct DipMapWork {
-    int draws; // Number of draws so far, 0..DIP_MAP_DRAWS. 0: nothing is known.
-    int width; // Size of the frame, in pixels.
-    int height;
-    int across; // Number of tiles.
-    int down;
-    const DipTileRecord *records; // Counters of each tile; the times are those of one draw.
-    const double *ms;             // Median time of each tile, on the worker that drew it.
-    const uint8_t *mixed;         // DipFrameTiles.mixed
-    double geometry_ms;           // Time of one draw before the tiles.
-    double mirrored_ms;           // Time of one draw for the mirrored scene.
-} DipMapWork;
-
+// Returns what was measured of the frame that a pane shows.
+const DipPaneWork *dip_maps_pane(const DipMaps *maps, int pane);
 const DipMapWork *dip_maps_work(const DipMaps *maps, int pane);
 
 // Returns the tile that holds a pixel.
@@ -72,11 +139,6 @@ double dip_map_value(const DipMapWork *work, DipMap map, int tile);
 
 // Returns the value at the end of the colour scale, which is the same for both panes.
 double dip_maps_end(const DipMaps *maps, const DipToolState *tools);
-
-// Finds the pixel of a picture of width x height pixels that a window shows at window_x, window_y,
-// if the picture is scaled to `shown` as dip_canvas_copy does. Returns false outside of `shown`.
-bool dip_map_pixel_at(DipRect shown, int width, int height, int window_x, int window_y, int *x,
-                      int *y);
 
 // --- pictures ------------------------------------------------------------------------------------
 
@@ -98,27 +160,5 @@ int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y);
 
 // The colour of mip level `index` (0..7), which stands for 1024 >> index texels.
 DipColour dip_map_mip_colour(int index);
-
-// --- what the tab remembers ----------------------------------------------------------------------
-
-typedef enum DipMapOver {
-    DIP_MAP_OVER_BOTH,
-    DIP_MAP_OVER_CURRENT,
-    DIP_MAP_OVER_REQUESTED
-} DipMapOver;
-
-typedef struct DipMapView {
-    DipMapOver over;
-    bool pointed; // The pointer is over a pane.
-    int x;        // The pixel under the pointer.
-    int y;
-} DipMapView;
-
-DipMapView *dip_maps_view(DipMaps *maps);
-const DipErrorReading *dip_maps_reading(const DipMaps *maps);
-const DipErrorPictures *dip_maps_errors(const DipMaps *maps);
-
-// Notes which map the window shows; called while the window is drawn.
-void dip_maps_want(DipMaps *maps, DipMap map);
 
 #endif

@@ -1,7 +1,7 @@
 // Draws the thumbnails of a path with a renderer of their own, which exists while they are drawn.
 #include "app/preview/tools/strip.h"
 
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 #include "app/session/painter.h"
 #include "campaths/campath.h"
 
@@ -38,7 +38,7 @@ DipStrip *dip_strip_create(DipError *err) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
         return NULL;
     }
-    strip->version = UINT64_C(6) << 60;
+    strip->version = DIP_STRIP_VERSION;
     return strip;
 }
 

@@ -3,7 +3,7 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_STRIP_H
 #define DIP_APP_PREVIEW_TOOLS_STRIP_H
 
-#include "app/canvas/pixels.h"
+#include "app/ui/pixels.h"
 #include "app/preview/tools/tools.h"
 
 enum { DIP_STRIP_COUNT = 10 };

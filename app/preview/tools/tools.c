@@ -8,13 +8,6 @@
 
 #include <stdlib.h>
 
-struct DipTools {
-    DipLoupe *loupe;
-    DipComparer *compare;
-    DipStrip *strip;
-    DipMaps *maps;
-};
-
 DipTools *dip_tools_create(DipError *err) {
     DipTools *tools = calloc(1, sizeof *tools);
     if (!tools) {
@@ -42,22 +35,6 @@ void dip_tools_destroy(DipTools **tools_pointer) {
     dip_strip_destroy(&tools->strip);
     dip_maps_destroy(&tools->maps);
     free(tools);
-}
-
-DipLoupe *dip_tools_loupe(DipTools *tools) {
-    return tools->loupe;
-}
-
-DipComparer *dip_tools_compare(DipTools *tools) {
-    return tools->compare;
-}
-
-DipStrip *dip_tools_strip(DipTools *tools) {
-    return tools->strip;
-}
-
-DipMaps *dip_tools_maps(DipTools *tools) {
-    return tools->maps;
 }
 
 bool dip_tools_update(DipTools *tools, const DipToolsInput *input) {

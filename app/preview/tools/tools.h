@@ -2,28 +2,29 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_TOOLS_H
 #define DIP_APP_PREVIEW_TOOLS_TOOLS_H
 
-#include "app/canvas/pixels.h"
+#include "app/ui/pixels.h"
 #include "app/preview/state/tool_state.h"
 #include "app/session/session.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// Memory of the tools: pictures that they compute from the panes' frames. Owned by the preview's
-// loop.
-typedef struct DipTools DipTools;
 typedef struct DipLoupe DipLoupe;       // loupe.h
 typedef struct DipComparer DipComparer; // compare.h
 typedef struct DipStrip DipStrip;       // strip.h
 typedef struct DipMaps DipMaps;         // maps.h
 
+// Memory of the tools: pictures that they compute from the panes' frames. Owned by the preview's
+// loop.
+typedef struct DipTools {
+    DipLoupe *loupe;
+    DipComparer *compare;
+    DipStrip *strip;
+    DipMaps *maps;
+} DipTools;
+
 DipTools *dip_tools_create(DipError *err);
 void dip_tools_destroy(DipTools **tools);
-
-DipLoupe *dip_tools_loupe(DipTools *tools);
-DipComparer *dip_tools_compare(DipTools *tools);
-DipStrip *dip_tools_strip(DipTools *tools);
-DipMaps *dip_tools_maps(DipTools *tools);
 
 // What the tools need besides the window, to draw parts of frames again. All of it is borrowed for
 // the call.
@@ -44,5 +45,13 @@ typedef struct DipToolsInput {
 // that draws frames. It does nothing unless a tool shows what it would draw and the pictures are
 // still. Returns whether the window must be drawn again.
 bool dip_tools_update(DipTools *tools, const DipToolsInput *input);
+
+// Versions of the tools' pictures in the draw list. Frames count from 0, so no frame has these
+// numbers, and each tool counts in a range of its own.
+#define DIP_LOUPE_VERSION       (UINT64_C(1) << 62)
+#define DIP_MAP_TRUTH_VERSION   (UINT64_C(0x4d) << 56)
+#define DIP_MAP_PICTURE_VERSION (UINT64_C(0x4e) << 56)
+#define DIP_DIFFERENCE_VERSION  (UINT64_C(5) << 60)
+#define DIP_STRIP_VERSION       (UINT64_C(6) << 60)
 
 #endif

@@ -114,17 +114,20 @@ int main(int argc, char **argv) {
     fake = dip_fake_display_open(&display, width, height);
     dip_fake_display_rescale(fake, scale);
     static DipCosts costs;
+    DipPrices *prices = NULL;
     const bool has_costs = argc > 4 && strncmp(argv[4], "cost:", 5) == 0;
     if (has_costs) {
         char scene[DIP_COST_TEXT];
         DipError err;
         dip_cost_scene_name(&session, scene);
-        if (!dip_costs_load(&costs, NULL, argv[4] + 5, scene, &err)) {
+        prices = dip_prices_create(&err);
+        if (!prices || !dip_costs_load(&costs, prices, argv[4] + 5, scene, &err)) {
             fprintf(stderr, "draw_window: %s\n", err.message);
             return 1;
         }
     }
     const DipPreviewDef preview_def = {.costs = has_costs ? &costs : NULL,
+                                       .prices = prices,
                                        .session = &session,
                                        .display = display,
                                        .flying_speed_m_per_s = 1.0,
@@ -144,6 +147,7 @@ int main(int argc, char **argv) {
     const bool written = dip_png_write(argv[3], &frame, NULL);
     measure(width, height);
     dip_preview_destroy(&preview);
+    dip_prices_destroy(&prices);
     display.close(display.context);
     dip_session_close(&session);
     dip_error_list_free(&faults);

@@ -1,7 +1,8 @@
 // Tests of the maps: their colours, their scale, the pixel under the pointer, the pictures, and the
 // work that they measure.
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 #include "app/measure/metrics/magma.h"
+#include "app/preview/tools/loupe.h"
 #include "app/preview/tools/map_colours.h"
 #include "app/preview/tools/maps.h"
 #include "renderer/catalogue/scenes.h"
@@ -126,13 +127,13 @@ static void the_pointer_finds_the_pixel_that_shows(void **state) {
         for (int wy = 2; wy < 2 + size[3]; wy++) {
             for (int wx = 3; wx < 3 + size[2]; wx++) {
                 const uint8_t *pixel = canvas.rgba8 + 4 * (wy * 60 + wx);
-                assert_true(dip_map_pixel_at(shown, size[0], size[1], wx, wy, &x, &y));
+                assert_true(dip_loupe_pixel_at(shown, size[0], size[1], wx, wy, &x, &y));
                 assert_int_equal(x, pixel[0]);
                 assert_int_equal(y, pixel[1]);
             }
         }
-        assert_false(dip_map_pixel_at(shown, size[0], size[1], 2, 2, &x, &y));
-        assert_false(dip_map_pixel_at(shown, size[0], size[1], 3 + size[2], 2, &x, &y));
+        assert_false(dip_loupe_pixel_at(shown, size[0], size[1], 2, 2, &x, &y));
+        assert_false(dip_loupe_pixel_at(shown, size[0], size[1], 3 + size[2], 2, &x, &y));
         dip_canvas_free(&canvas);
     }
 }
@@ -176,10 +177,10 @@ static void the_error_map_has_the_colours_of_its_values(void **state) {
         dip_magma(2.0f * flip[i], rgb);
         check_colour(picture.rgba8 + 4 * i, rgb[0], rgb[1], rgb[2], 3);
     }
-    assert_true(dip_maps_adjust(&tools, 1) && tools.brightness == 4.0);
+    tools.brightness = 4.0;
     assert_true(dip_maps_picture(maps, &tools, 0, &shown, 1, &picture, &next));
     assert_true(next != version);
-    assert_true(dip_maps_adjust(&tools, -9) && tools.brightness == 1.0);
+    tools.brightness = 1.0;
     assert_true(dip_maps_end(maps, &tools) == 1.0);
     assert_true(dip_maps_truth(maps, &version)->rgba8 == truth);
     dip_maps_destroy(&maps);
@@ -239,7 +240,7 @@ static int close_stage(void **state) {
 // Lets the maps draw until they have nothing left to do. Returns the number of draws.
 static int update(DipMap map) {
     int draws = 0;
-    dip_maps_want(stage.maps, map);
+    stage.maps->wanted = map;
     while (dip_maps_update(stage.maps, &stage.input)) {
         draws++;
         assert_true(draws < 100);

@@ -191,10 +191,10 @@ static void edits_follow_a_plain_model(void **unused) {
             assert_true(turn(0));
             assert_pose(&pose, &keys[chosen]); // The camera is at the chosen key.
         }
-        assert_int_equal(dip_path_editor_count(state.editor), count);
-        assert_int_equal(dip_path_editor_chosen(state.editor), count ? chosen : 0);
+        assert_int_equal(state.editor->count, count);
+        assert_int_equal(state.editor->chosen, count ? chosen : 0);
         for (size_t i = 0; i < count; ++i) {
-            const DipCamKey key = dip_path_editor_key(state.editor, i);
+            const DipCamKey key = state.editor->keys[i];
             const DipPose edited = pose_of(&key);
             assert_pose(&edited, &keys[i]);
         }
@@ -273,12 +273,12 @@ static void saving_never_overwrites(void **unused) {
     fputs(text, file);
     fclose(file);
     record();
-    assert_true(dip_path_editor_is_unsaved(state.editor));
+    assert_true(state.editor->unsaved);
     edit(DIP_PATH_EDIT_SAVE);
-    assert_false(dip_path_editor_is_unsaved(state.editor));
-    assert_string_equal(dip_path_editor_file(state.editor), "path-0002.pth");
+    assert_false(state.editor->unsaved);
+    assert_string_equal(state.editor->file, "path-0002.pth");
     edit(DIP_PATH_EDIT_SAVE);
-    assert_string_equal(dip_path_editor_file(state.editor), "path-0003.pth");
+    assert_string_equal(state.editor->file, "path-0003.pth");
     file = fopen("path-0001.pth", "r");
     assert_non_null(fgets(read, sizeof read, file));
     fclose(file);
@@ -311,7 +311,7 @@ static void flying_shows_the_path_being_edited(void **unused) {
         }
         state.flight.drag_right = 0.1;
         assert_true(turn(1000000));
-        assert_false(dip_path_editor_flies(state.editor));
+        assert_false((state.editor->fly != NULL));
         assert_false(turn(1000000));
     }
     dip_campath_destroy(&loaded);
@@ -321,7 +321,7 @@ static void the_path_that_plays_can_be_edited(void **unused) {
     (void)unused;
     DipCamPath *loaded;
     edit(DIP_PATH_EDIT_TAKE);
-    assert_int_equal(dip_path_editor_count(state.editor), 3);
+    assert_int_equal(state.editor->count, 3);
     edit(DIP_PATH_EDIT_NEXT);
     edit(DIP_PATH_EDIT_DELETE);
     edit(DIP_PATH_EDIT_SAVE);
@@ -340,7 +340,7 @@ static void without_keys_nothing_is_saved(void **unused) {
             edit((DipPathEdit)i);
         }
     }
-    assert_int_equal(dip_path_editor_count(state.editor), 0); // The camera has had no pose.
+    assert_int_equal(state.editor->count, 0); // The camera has had no pose.
     assert_int_not_equal(access("path-0001.pth", F_OK), 0);
     assert_int_equal(track.end, DIP_CAMPATH_END_loop);
 }
@@ -355,7 +355,7 @@ static void keys_reach_every_edit(void **unused) {
     assert_true(dip_keys_press(&state, &event, 0));
     event.repeat = true;
     assert_true(dip_keys_press(&state, &event, 0));
-    assert_int_equal(dip_path_editor_count(state.editor), 1);
+    assert_int_equal(state.editor->count, 1);
     event.repeat = false;
     static const int keys[] = {'r',
                                DIP_KEYCODE_LEFT,
@@ -374,7 +374,7 @@ static void keys_reach_every_edit(void **unused) {
         assert_true(dip_keys_press(&state, &event, 0));
         assert_true(state.notice[0] || state.tools.tab == DIP_TAB_PATH);
     }
-    assert_int_equal(dip_path_editor_count(state.editor), 2); // Those of the path but one.
+    assert_int_equal(state.editor->count, 2); // Those of the path but one.
 }
 
 int main(void) {

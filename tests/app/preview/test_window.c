@@ -4,10 +4,10 @@
 #include "app/preview/live/figures.h"
 #include "app/preview/loop/view.h"
 #include "app/preview/prices/price_text.h"
-#include "app/preview/tabs/pane_time.h"
-#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/tabs/tabs.h"
 #include "config/config.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -310,6 +310,95 @@ static void presets_wait_for_prices(void **unused) {
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
 }
 
+// Moves the focus to a control of the settings' tab.
+static void focus_on(unsigned id) {
+    dip_ui_blur(dip_view_ui(view));
+    while (dip_ui_focus(dip_view_ui(view)) != DIP_UI_ID(DIP_UI_SETTINGS, id)) {
+        assert_true(press(DIP_KEYCODE_TAB));
+    }
+}
+
+static void type(const char *digits) {
+    for (; *digits; ++digits) {
+        assert_true(press((DipKeycode)*digits));
+    }
+    assert_true(press(DIP_KEYCODE_ENTER));
+}
+
+// Asserts that a target holds wherever the window has one: in the state, in what is advised, in
+// both fields' number and in the picture of the tab Times.
+static void assert_target(DipPreviewChoice *choice, double ms, uint64_t *picture) {
+    assert_true(fabs(state.budget_ms - ms) < 1e-6);
+    dip_preview_choose(choice, NULL, prices, &state.quality[DIP_PANE_REQUESTED], state.budget_ms);
+    assert_true(fabs(choice->advice.budget_ms - ms) < 1e-6);
+    state.tools.tab = DIP_TAB_TIMES;
+    assert_true(dip_view_draw(view, &input, NULL));
+    const DipPixels shown = dip_view_picture(view);
+    const uint64_t before = *picture;
+    *picture = 0;
+    for (size_t i = 0; i < shown.stride_bytes * (size_t)shown.height; ++i) {
+        *picture = *picture * 31 + shown.rgba8[i];
+    }
+    assert_true(*picture != before);
+    state.tools.tab = DIP_TAB_SETTINGS;
+}
+
+// A target that the user types or steps is the one for presets, advice and times.
+static void a_target_holds_everywhere(void **unused) {
+    (void)unused;
+    static const double aa_ms[] = {5.0, 7.0, 9.0, 11.0, 13.0};
+    DipPreviewChoice choice = {0};
+    static const DipSetting settings[] = {DIP_SETTING_AA, DIP_SETTING_AF, DIP_SETTING_OPT,
+                                          DIP_SETTING_MIPLOD};
+    DipQuality best;
+    uint64_t picture = 0;
+    for (int i = 0; i < 4; ++i) { // Only antialiasing gains.
+        for (int step = 0; step < dip_setting_info(settings[i])->step_count; ++step) {
+            DipQuality quality = dip_quality_default();
+            const bool gains = settings[i] == DIP_SETTING_AA || step == quality.step[settings[i]];
+            const double ms = i == 0 ? aa_ms[step] : gains ? aa_ms[0] : 6.0;
+            const double flip = i == 0 ? 0.09 - 0.01 * step : gains ? 0.09 : 0.1;
+            quality.step[settings[i]] = (uint8_t)step;
+            assert_true(dip_prices_add_rough(prices, &quality, ms, 0.999 * ms, 1.001 * ms, flip));
+        }
+    }
+    state.choice = &choice;
+    assert_target(&choice, 1000.0 / 60.0, &picture);
+    assert_true(dip_preview_preset(&state, DIP_PRESET_BEST, &best));
+    assert_int_equal(best.step[DIP_SETTING_AA], 4);
+    click(962, 568); // The pointer stays over the field of the frame rate.
+    type("125");
+    assert_target(&choice, 8.0, &picture);
+    assert_true(dip_preview_preset(&state, DIP_PRESET_BEST, &best));
+    assert_int_equal(best.step[DIP_SETTING_AA], 1);
+    focus_on(DIP_ID_FRAME_RATE);           // The tab was left meanwhile.
+    assert_true(press(DIP_KEYCODE_RIGHT)); // The next usual rate.
+    assert_target(&choice, 1000.0 / 144.0, &picture);
+    focus_on(DIP_ID_BUDGET);
+    assert_true(press((DipKeycode)'9') && press((DipKeycode)'9') && press(DIP_KEYCODE_BACKSPACE));
+    type(".5");
+    assert_target(&choice, 9.5, &picture);
+    assert_true(dip_preview_preset(&state, DIP_PRESET_BEST, &best));
+    assert_int_equal(best.step[DIP_SETTING_AA], 2);
+    focus_on(DIP_ID_BUDGET);
+    type("4");
+    assert_target(&choice, 4.0, &picture);
+    assert_false(dip_preview_preset(&state, DIP_PRESET_BEST, &best)); // Nothing fits.
+    dip_preview_follow_refresh(&state, 10.0);                         // The user's choice stays,
+    assert_true(state.budget_ms == 4.0);
+    dip_preview_set_budget(&state, 0.0); // until the user takes the display's refresh.
+    assert_target(&choice, 10.0, &picture);
+    focus_on(DIP_ID_BUDGET);
+    type("0"); // No frame takes no time.
+    assert_true(state.budget_ms == 10.0);
+    focus_on(DIP_ID_FRAME_RATE);
+    assert_true(press((DipKeycode)'3'));
+    focus_on(DIP_ID_BUDGET); // What was not entered is forgotten.
+    type("20");
+    assert_target(&choice, 20.0, &picture);
+    dip_preview_choice_free(&choice);
+}
+
 static void a_click_closes_a_sheet(void **unused) {
     (void)unused;
     state.help = true;
@@ -342,6 +431,7 @@ int main(void) {
         WINDOW_TEST(a_pane_has_one_time),
         WINDOW_TEST(a_time_stays_while_nothing_is_drawn),
         WINDOW_TEST(presets_wait_for_prices),
+        WINDOW_TEST(a_target_holds_everywhere),
         WINDOW_TEST(a_click_closes_a_sheet),
         WINDOW_TEST(the_time_line_moves_the_time),
     };

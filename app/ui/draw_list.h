@@ -5,11 +5,11 @@
 // the new list with the list that was painted last, and draws only inside the rectangles of
 // commands that differ. Therefore code that draws never has to say what it changed. A frame in
 // which only one number changes costs no more than drawing that number.
-#ifndef DIP_APP_CANVAS_DRAW_LIST_H
-#define DIP_APP_CANVAS_DRAW_LIST_H
+#ifndef DIP_APP_UI_DRAW_LIST_H
+#define DIP_APP_UI_DRAW_LIST_H
 
-#include "app/canvas/canvas.h"
-#include "app/canvas/font.h"
+#include "app/ui/canvas.h"
+#include "app/ui/font.h"
 
 typedef struct DipDrawList DipDrawList;
 

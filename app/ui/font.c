@@ -1,5 +1,5 @@
 // Finds the font with fontconfig, draws glyphs with FreeType, and keeps drawn glyphs in a cache.
-#include "app/canvas/font.h"
+#include "app/ui/font.h"
 
 #include "renderer/base/utf8.h"
 

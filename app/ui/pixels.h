@@ -1,6 +1,6 @@
 // Rectangles, colours and read-only pictures, which both the canvas and displays use.
-#ifndef DIP_APP_CANVAS_PIXELS_H
-#define DIP_APP_CANVAS_PIXELS_H
+#ifndef DIP_APP_UI_PIXELS_H
+#define DIP_APP_UI_PIXELS_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -32,6 +32,14 @@ typedef struct DipPixels {
     int height;
 } DipPixels;
 
+static inline int dip_min(int a, int b) {
+    return a < b ? a : b;
+}
+
+static inline int dip_max(int a, int b) {
+    return a > b ? a : b;
+}
+
 // Returns the rectangle of the pixels that lie in both rectangles; it may be empty.
 DipRect dip_rect_intersect(DipRect a, DipRect b);
 
@@ -40,6 +48,7 @@ DipRect dip_rect_unite(DipRect a, DipRect b);
 
 bool dip_rect_is_empty(DipRect rect);
 bool dip_rect_equals(DipRect a, DipRect b);
+bool dip_colour_equals(DipColour a, DipColour b);
 
 // Returns whether a pixel lies in the rectangle.
 bool dip_rect_holds(DipRect rect, int x, int y);

@@ -3,10 +3,10 @@
 // Each glyph is drawn once per size and kept in a cache, so that a line of text costs one blend per
 // letter. Lines are UTF-8; a byte that is not valid UTF-8 shows as U+FFFD. Two threads must not use
 // one font at the same time.
-#ifndef DIP_APP_CANVAS_FONT_H
-#define DIP_APP_CANVAS_FONT_H
+#ifndef DIP_APP_UI_FONT_H
+#define DIP_APP_UI_FONT_H
 
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 
 typedef struct DipFont DipFont;
 

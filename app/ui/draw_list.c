@@ -1,5 +1,5 @@
 // Recording, comparing and painting drawing commands.
-#include "app/canvas/draw_list.h"
+#include "app/ui/draw_list.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -200,16 +200,12 @@ void dip_draw_list_text(DipDrawList *list, int size, DipColour colour, DipAlign 
 
 // --- painting ----------------------------------------------------------------------------------
 
-static bool same_colour(DipColour a, DipColour b) {
-    return a.red == b.red && a.green == b.green && a.blue == b.blue && a.alpha == b.alpha;
-}
-
 static bool same_command(const Frame *a, const Frame *b, size_t index) {
     const Command *p = &a->commands[index];
     const Command *q = &b->commands[index];
     return p->kind == q->kind && dip_rect_equals(p->box, q->box) &&
-           same_colour(p->colour, q->colour) && p->version == q->version && p->size == q->size &&
-           p->x == q->x && p->y == q->y &&
+           dip_colour_equals(p->colour, q->colour) && p->version == q->version &&
+           p->size == q->size && p->x == q->x && p->y == q->y &&
            (p->kind != COMMAND_TEXT || strcmp(a->texts + p->text, b->texts + q->text) == 0);
 }
 

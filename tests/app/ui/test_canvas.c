@@ -1,6 +1,6 @@
 // Tests of drawing into memory: exact blends, clipping, scaling and lines of text.
-#include "app/canvas/canvas.h"
-#include "app/canvas/font.h"
+#include "app/ui/canvas.h"
+#include "app/ui/font.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,12 +1,11 @@
 // A picture in memory, and functions that draw into it: fills, blends, pictures, masks.
 //
-// The canvas has a folder of its own beside app/display/, because neither needs the other. A
-// display shows finished pixels and draws nothing. The preview draws the same pixels for every
-// display, for a screenshot and for a test.
-#ifndef DIP_APP_CANVAS_CANVAS_H
-#define DIP_APP_CANVAS_CANVAS_H
+// Displays (app/display/) show finished pixels and draw nothing. The preview draws the same pixels
+// for every display, for a screenshot and for a test.
+#ifndef DIP_APP_UI_CANVAS_H
+#define DIP_APP_UI_CANVAS_H
 
-#include "app/canvas/pixels.h"
+#include "app/ui/pixels.h"
 #include "renderer/base/error.h"
 
 // Rows are packed. Every pixel is opaque. Zero-initialise a canvas; dip_canvas_resize allocates its

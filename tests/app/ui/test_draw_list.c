@@ -1,6 +1,6 @@
 // Tests of lists of drawing commands. Only what has changed is painted again, and the result is the
 // same picture as if the list were painted on an empty canvas.
-#include "app/canvas/draw_list.h"
+#include "app/ui/draw_list.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 // Tests what texts and draw lists do when memory runs out: a list is painted whole or not at all,
 // and afterwards the right picture is painted, with every letter.
-#include "app/canvas/draw_list.h"
+#include "app/ui/draw_list.h"
 #include "tests/support/out_of_memory.h"
 
 #include <setjmp.h>

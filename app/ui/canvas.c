@@ -1,9 +1,49 @@
 // Draws into memory. Blending works on 8-bit sRGB values, as desktops blend their windows.
-#include "app/canvas/canvas.h"
+#include "app/ui/canvas.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- rectangles and colours ----------------------------------------------------------------------
+
+bool dip_rect_is_empty(DipRect rect) {
+    return rect.width < 1 || rect.height < 1;
+}
+
+bool dip_rect_equals(DipRect a, DipRect b) {
+    return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
+}
+
+bool dip_rect_holds(DipRect rect, int x, int y) {
+    return x >= rect.x && x < rect.x + rect.width && y >= rect.y && y < rect.y + rect.height;
+}
+
+static DipRect from_corners(int left, int top, int right, int bottom) {
+    return (DipRect){left, top, right - left, bottom - top};
+}
+
+DipRect dip_rect_intersect(DipRect a, DipRect b) {
+    return from_corners(dip_max(a.x, b.x), dip_max(a.y, b.y), dip_min(a.x + a.width, b.x + b.width),
+                        dip_min(a.y + a.height, b.y + b.height));
+}
+
+DipRect dip_rect_unite(DipRect a, DipRect b) {
+    if (dip_rect_is_empty(a)) {
+        return b;
+    }
+    if (dip_rect_is_empty(b)) {
+        return a;
+    }
+    return from_corners(dip_min(a.x, b.x), dip_min(a.y, b.y), dip_max(a.x + a.width, b.x + b.width),
+                        dip_max(a.y + a.height, b.y + b.height));
+}
+
+bool dip_colour_equals(DipColour a, DipColour b) {
+    return memcmp(&a, &b, sizeof a) == 0;
+}
+
+// --- the canvas ----------------------------------------------------------------------------------
 
 bool dip_canvas_resize(DipCanvas *canvas, int width, int height, DipError *err) {
     if (!canvas->rgba8 || canvas->width != width || canvas->height != height) {
@@ -102,14 +142,6 @@ static double round_coverage(int x, int y, int width, int height, int radius) {
     return fmin(fmax(radius + 0.5 - sqrt(dx * dx + dy * dy), 0.0), 1.0);
 }
 
-static int least(int a, int b) {
-    return a < b ? a : b;
-}
-
-static int most(int a, int b) {
-    return a > b ? a : b;
-}
-
 // A rectangle with rounded corners, filled (ring = 0) or as an outline of `ring` pixels.
 typedef struct RoundRect {
     DipRect rect;
@@ -127,7 +159,7 @@ static void blend_edge(DipCanvas *canvas, const RoundRect *shape, int y, int fro
         double coverage = round_coverage(px, py, rect->width, rect->height, shape->radius);
         if (ring > 0) {
             coverage -= round_coverage(px - ring, py - ring, rect->width - 2 * ring,
-                                       rect->height - 2 * ring, most(shape->radius - ring, 0));
+                                       rect->height - 2 * ring, dip_max(shape->radius - ring, 0));
         }
         if (coverage > 0.0) {
             blend_pixel(pixel_at(canvas, x, y), shape->colour,
@@ -151,12 +183,12 @@ void dip_canvas_round(DipCanvas *canvas, DipRect rect, int radius, int ring, Dip
     if (dip_rect_is_empty(inside)) {
         return;
     }
-    radius = least(most(radius, 0), least(rect.width, rect.height) / 2);
+    radius = dip_min(dip_max(radius, 0), dip_min(rect.width, rect.height) / 2);
     const RoundRect shape = {rect, radius, ring, colour};
     const int right = inside.x + inside.width;
-    const int edge = most(radius, ring); // Width of the columns in which coverage may vary.
-    const int middle = least(most(rect.x + edge, inside.x), right);
-    const int middle_end = most(least(rect.x + rect.width - edge, right), middle);
+    const int edge = dip_max(radius, ring); // Width of the columns in which coverage may vary.
+    const int middle = dip_min(dip_max(rect.x + edge, inside.x), right);
+    const int middle_end = dip_max(dip_min(rect.x + rect.width - edge, right), middle);
     for (int y = inside.y; y < inside.y + inside.height; ++y) {
         blend_edge(canvas, &shape, y, inside.x, middle);
         blend_middle(canvas, &shape, y, middle, middle_end);

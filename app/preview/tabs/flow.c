@@ -1,0 +1,73 @@
+// Lays controls out in rows that are filled from the left.
+#include "app/preview/tabs/tabs.h"
+
+enum { LETTERS = 12, ROW = 26, GAP = 6, PAD = 20, LOW_ROW = 21, LOW_GAP = 3, LOW_PAD = 12 };
+
+DipFlow dip_flow_make(DipUi *ui, DipUiGroup group, DipRect body, int note_size) {
+    const int margin = dip_ui_px(ui, 8);
+    const DipRect inside = {body.x + margin, body.y + dip_ui_px(ui, 6), body.width - 2 * margin,
+                            body.height - dip_ui_px(ui, 8)};
+    return (DipFlow){.ui = ui,
+                     .group = group,
+                     .note_size = note_size,
+                     .body = inside,
+                     .x = inside.x,
+                     .y = inside.y,
+                     .row = dip_ui_px(ui, ROW),
+                     .gap = dip_ui_px(ui, GAP),
+                     .pad = dip_ui_px(ui, PAD)};
+}
+
+void dip_flow_make_narrow(DipFlow *flow) {
+    flow->narrow = true;
+    flow->row = dip_ui_px(flow->ui, LOW_ROW);
+    flow->gap = dip_ui_px(flow->ui, LOW_GAP);
+    flow->pad = dip_ui_px(flow->ui, LOW_PAD);
+}
+
+void dip_flow_next_row(DipFlow *flow) {
+    if (flow->x > flow->body.x) {
+        flow->x = flow->body.x;
+        flow->y += flow->row + flow->gap;
+    }
+}
+
+DipRect dip_flow_next(DipFlow *flow, int width) {
+    if (flow->x + width > flow->body.x + flow->body.width) {
+        dip_flow_next_row(flow);
+    }
+    if (flow->y + flow->row > flow->body.y + flow->body.height || width > flow->body.width) {
+        return (DipRect){flow->x, flow->y, 0, 0};
+    }
+    const DipRect rect = {flow->x, flow->y, width, flow->row};
+    flow->x += width + flow->gap;
+    return rect;
+}
+
+int dip_flow_button_width(const DipFlow *flow, const char *text) {
+    return dip_ui_text_width(flow->ui, LETTERS, text) + flow->pad;
+}
+
+bool dip_flow_button(DipFlow *flow, unsigned id, const char *text, DipUiLook look,
+                     const char *tip) {
+    const DipRect rect = dip_flow_next(flow, dip_flow_button_width(flow, text));
+    return !dip_rect_is_empty(rect) &&
+           dip_ui_button(flow->ui, DIP_UI_ID(flow->group, id), rect, text, look, tip);
+}
+
+void dip_flow_text(DipFlow *flow, DipColour colour, const char *text) {
+    const int width = dip_ui_text_width(flow->ui, flow->note_size, text) + dip_ui_px(flow->ui, 4);
+    if (width > flow->body.width) {
+        dip_flow_next_row(flow);
+        const DipRect room = {flow->x, flow->y, flow->body.width,
+                              flow->body.y + flow->body.height - flow->y};
+        flow->y += dip_ui_text_block(flow->ui, flow->note_size, colour, room, text) + flow->gap;
+        return;
+    }
+    const DipRect rect = dip_flow_next(flow, width);
+    if (!dip_rect_is_empty(rect)) {
+        dip_ui_text(flow->ui, flow->note_size, colour, DIP_ALIGN_LEFT, rect.x,
+                    rect.y + (rect.height - dip_ui_line_height(flow->ui, flow->note_size)) / 2,
+                    rect.width, text);
+    }
+}
