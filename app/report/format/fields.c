@@ -56,7 +56,9 @@ void dip_field_visit(const DipRecord *record, const DipFieldAt *at, const char *
             visit(context, field, value);
         } else if (field->kind == DIP_FIELD_ESTIMATE) {
             DipField number = *field;
-            DIP_ASSERT(strcmp(path + length, ".value") == 0);
+            const bool is_value = strcmp(path + length, ".value") == 0;
+            DIP_ASSERT(is_value);
+            (void)is_value;
             number.kind = DIP_FIELD_NUMBER;
             visit(context, &number, value ? &((const DipEstimate *)value)->value : NULL);
         } else {
