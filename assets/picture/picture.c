@@ -5,6 +5,7 @@
 
 #include "assets/picture/picture_private.h"
 #include "renderer/base/file.h"
+#include "renderer/base/fp_mode.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -193,6 +194,7 @@ static bool read_picture(const PictureFile *file, DipPicture *picture) {
 
 bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
                         DipPicture *picture, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     const PictureFile file = {bytes, size_bytes, name, err};
     *picture = (DipPicture){0};
     ran_out = false;
