@@ -58,6 +58,18 @@ static void *fill_block(void *memory, size_t from) {
     return memory;
 }
 
+#ifdef POISONS
+// A library may get the block next.
+void __real_free(void *memory);
+void __wrap_free(void *memory);
+void __wrap_free(void *memory) {
+    if (memory) {
+        __msan_unpoison(memory, malloc_usable_size(memory));
+    }
+    __real_free(memory);
+}
+#endif
+
 void *__wrap_malloc(size_t size) {
     return fill_block(__real_malloc(size), 0);
 }
