@@ -15,3 +15,17 @@
 UNCHECKED(int, aiIsExtensionSupported, (const char *extension), (extension))
 UNCHECKED(const void *, aiImportFile, (const char *file, unsigned flags), (file, flags))
 UNCHECKED(const void *, aiApplyPostProcessing, (const void *scene, unsigned flags), (scene, flags))
+
+enum { STRING_BYTES = 1028 }; // Size of assimp's struct aiString.
+
+// The text that assimp copies may have lain on a stack before.
+int __real_aiGetMaterialString(const void *material, const char *key, unsigned type, unsigned index,
+                               void *text);
+int __wrap_aiGetMaterialString(const void *material, const char *key, unsigned type, unsigned index,
+                               void *text);
+int __wrap_aiGetMaterialString(const void *material, const char *key, unsigned type, unsigned index,
+                               void *text) {
+    const int result = __real_aiGetMaterialString(material, key, type, index, text);
+    __msan_unpoison(text, STRING_BYTES);
+    return result;
+}
