@@ -64,7 +64,8 @@ enum { IMPORT_VERSION = 3, IMPORT_NUMBER_BYTES = 24 };
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define IMPORT_IS_SANITIZED 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||                         \
+    __has_feature(memory_sanitizer)
 #define IMPORT_IS_SANITIZED 1
 #endif
 #endif

@@ -34,7 +34,7 @@ static DipWrap wrap_of(DipModel *model, const char *path, const char *name, int 
 
 static void warn_of_transform(DipModel *model, const char *path, const char *name,
                               const struct aiMaterial *material, enum aiTextureType type) {
-    struct aiUVTransform t;
+    struct aiUVTransform t = {0};
     if (aiGetMaterialUVTransform(material, AI_MATKEY_UVTRANSFORM(type, 0), &t) != AI_SUCCESS) {
         return;
     }
@@ -226,7 +226,7 @@ static void set_gltf_highlight(const struct aiMaterial *material, DipMaterialDef
 // Sets the highlight of the scene's lights. Outside glTF, a material without an exponent has none.
 static void set_highlight(const DipModelFile *file, const struct aiMaterial *material,
                           DipMaterialDef *def) {
-    struct aiColor4D specular;
+    struct aiColor4D specular = {0};
     const float shininess = float_property(material, AI_MATKEY_SHININESS, 0.0f);
     const float strength = float_property(material, AI_MATKEY_SHININESS_STRENGTH, 1.0f);
     if (file->linear_colours) {

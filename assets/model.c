@@ -5,6 +5,7 @@
 #include "assets/importer.h"
 #include "assets/model_parts.h"
 #include "renderer/base/clock.h"
+#include "renderer/base/fp_mode.h"
 
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
@@ -292,6 +293,7 @@ static bool load_picture(DipModel *model, const DipModelLoad *load, DipError *er
 }
 
 DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     DipModel *model = calloc(1, sizeof *model);
     if (!model) {
         dip_model_out_of_memory(err, load->files[0]);
@@ -332,6 +334,7 @@ static bool check_load(const DipModelLoad *load, DipError *err) {
 DipModel *dip_model_load_with(const char *const *files, int file_count,
                               const DipModelOptions *options, DipPool *pool, DipErrorList *warnings,
                               DipError *err) {
+    DIP_FP_MODE_SCOPE();
     const DipModelLoad load = {.files = files,
                                .file_count = file_count,
                                .options = *options,
@@ -351,6 +354,7 @@ DipModel *dip_model_load_with(const char *const *files, int file_count,
 
 bool dip_picture_import(const char *path, const DipImporter *importer, DipPicture *picture,
                         DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (!importer) {
         return dip_picture_read_file(path, picture, err);
     }

@@ -4,6 +4,7 @@
 #include "assets/model_parts.h"
 #include "assets/scene_pack_private.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 
 #include <errno.h>
 #include <math.h>
@@ -399,6 +400,7 @@ static bool read_messages(const Reader *reader, DipScenePack *pack) {
 // --- the pack ------------------------------------------------------------------------------------
 
 bool dip_scene_pack_read(const void *bytes, size_t size_bytes, DipScenePack *pack, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     Reader reader = {.bytes = bytes, .size_bytes = size_bytes, .err = err};
     DIP_ASSERT((uintptr_t)bytes % 8 == 0);
     *pack = (DipScenePack){0};

@@ -223,6 +223,7 @@ int64_t dip_campath_time_at_end(const DipCamPath *path, DipCamPathEnd end, int64
 }
 
 DipCamPathInfo dip_campath_info(const DipCamPath *path) {
+    DIP_FP_MODE_SCOPE();
     DipCamPathInfo info = {
         .key_count = path->key_count,
         .period_ns = path->period_ns,

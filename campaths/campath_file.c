@@ -39,6 +39,7 @@ bool dip_campath_load(const char *file, DipCamPath **path, DipError *err) {
 
 static bool save(const DipCamPath *path, const char *file,
                  void (*write)(const DipCamPath *, FILE *), DipError *err) {
+    DIP_FP_MODE_SCOPE();
     FILE *stream = fopen(file, "wb");
     if (!stream) {
         return dip_error_set_runtime(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written (%s)",

@@ -3,6 +3,7 @@
 #include "config/config_private.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -196,6 +197,7 @@ static const char *default_in_words(DipConfigKey key) {
 }
 
 size_t dip_config_document_key(DipConfigKey key, char *buffer, size_t size_bytes) {
+    DIP_FP_MODE_SCOPE();
     const DipConfigKeyInfo *info = dip_config_key_info(key);
     char accepted[128];
     dip_config_describe(key, accepted, sizeof accepted);

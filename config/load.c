@@ -2,6 +2,7 @@
 // values that depend on each other.
 #include "config/config_private.h"
 #include "renderer/base/file.h"
+#include "renderer/base/fp_mode.h"
 
 #include <errno.h>
 #include <ini.h>
@@ -253,6 +254,7 @@ static bool read_file(Loader *loader) {
 }
 
 bool dip_config_load(const char *file, DipConfig *config, DipErrorList *faults) {
+    DIP_FP_MODE_SCOPE();
     const size_t errors_before = faults->error_count;
     *config = (DipConfig){0};
     Loader loader = {.reader = {.file = file, .faults = faults}, .config = config};

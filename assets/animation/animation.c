@@ -4,6 +4,7 @@
 #include "assets/animation/animation_parts.h"
 #include "assets/importer.h"
 #include "assets/picture.h"
+#include "renderer/base/fp_mode.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -157,6 +158,7 @@ DipAnimatedModel *dip_animated_model_make(const char *path) {
 
 DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImporter *importer,
                                           DipErrorList *warnings, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     DipAnimatedModel *model = dip_animated_model_make(file);
     if (!model) {
         dip_model_out_of_memory(err, file);

@@ -374,6 +374,7 @@ static bool allocate(DipAnimatedPose *pose) {
 }
 
 DipAnimatedPose *dip_animated_pose_create(const DipAnimatedModel *model, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     DipAnimatedPose *pose = calloc(1, sizeof *pose);
     if (pose) {
         pose->model = model;

@@ -1,6 +1,6 @@
-// Checks the tables of a JPEG file before stb_image decodes it. Version 2.27 of stb_image writes
-// beyond a Huffman table with more than 256 codes, and decodes scans with tables that the file does
-// not define, whose content is then arbitrary.
+// Checks the tables and scans of a JPEG file before stb_image decodes it. Version 2.27 of stb_image
+// writes beyond a Huffman table with more than 256 codes, decodes scans with tables that the file
+// does not define, and accepts files without scans.
 #include "assets/picture/picture_private.h"
 
 enum {
@@ -29,6 +29,7 @@ typedef struct Jpeg {
     int component_count; // 0 until the frame header is read.
     uint8_t component_id[MAX_COMPONENTS];
     uint8_t component_quantisation[MAX_COMPONENTS];
+    bool component_scanned[MAX_COMPONENTS];
 } Jpeg;
 
 // Beyond the end of the file, stb_image reads zeros.
@@ -141,6 +142,7 @@ static bool read_scan_header(Jpeg *jpeg) {
             (needs_dc && !jpeg->has_huffman[0][dc]) || (needs_ac && !jpeg->has_huffman[1][ac])) {
             return false;
         }
+        jpeg->component_scanned[component[i]] = true;
     }
     return true;
 }
@@ -166,15 +168,28 @@ static bool read_segment(Jpeg *jpeg, int marker) {
     return ok;
 }
 
-bool dip_jpeg_has_good_tables(const uint8_t *bytes, size_t size_bytes) {
-    Jpeg jpeg = {.bytes = bytes, .size_bytes = size_bytes};
-    if (size_bytes < 2 || bytes[0] != 0xff || next_marker(&jpeg) != MARKER_SOI) {
+static bool bad_table(const PictureFile *file) {
+    return dip_error_set(file->err, DIP_ERROR_FORMAT, file->name, 0, NULL,
+                         "a Huffman or quantisation table of the JPEG file is malformed or "
+                         "missing, accepted files with every table that they use");
+}
+
+bool dip_jpeg_check(const PictureFile *file) {
+    Jpeg jpeg = {.bytes = file->bytes, .size_bytes = file->size_bytes};
+    if (jpeg.size_bytes < 2 || jpeg.bytes[0] != 0xff || next_marker(&jpeg) != MARKER_SOI) {
         return true; // This is no JPEG file.
     }
     for (int marker = next_marker(&jpeg); marker != MARKER_END && marker != MARKER_EOI;
          marker = next_marker(&jpeg)) {
         if (!read_segment(&jpeg, marker)) {
-            return false;
+            return bad_table(file);
+        }
+    }
+    for (int i = 0; i < jpeg.component_count; ++i) {
+        if (!jpeg.component_scanned[i]) {
+            return dip_error_set(file->err, DIP_ERROR_TRUNCATED, file->name, 0, NULL,
+                                 "the JPEG file has headers but no picture data, accepted files "
+                                 "with a scan of every component");
         }
     }
     return true;

@@ -5,6 +5,7 @@
 
 #include "assets/picture/picture_private.h"
 #include "renderer/base/file.h"
+#include "renderer/base/fp_mode.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,15 +14,27 @@
 // stb_image reports a failed allocation like a fault of the file, so failures are recorded here.
 static _Thread_local bool ran_out;
 
-static void *stb_resize(void *memory, size_t size_bytes) {
-    void *resized = realloc(memory, size_bytes);
+// stb_image shows memory that it never wrote if a JPEG file lacks data or a PNG file is malformed.
+// All its memory is therefore zeroed. CMakeLists.txt makes the compiler zero its local variables,
+// among them palettes, whose colours beyond those of the file a pixel may name.
+static void *stb_allocate(size_t size_bytes) {
+    void *memory = calloc(1, size_bytes);
+    ran_out = ran_out || !memory;
+    return memory;
+}
+
+static void *stb_resize(void *memory, size_t old_bytes, size_t size_bytes) {
+    uint8_t *resized = realloc(memory, size_bytes);
     ran_out = ran_out || !resized;
+    if (resized && size_bytes > old_bytes) {
+        memset(resized + old_bytes, 0, size_bytes - old_bytes);
+    }
     return resized;
 }
 
-#define STBI_MALLOC(size)           stb_resize(NULL, size)
-#define STBI_REALLOC(pointer, size) stb_resize(pointer, size)
-#define STBI_FREE(pointer)          free(pointer)
+#define STBI_MALLOC(size)                                stb_allocate(size)
+#define STBI_REALLOC_SIZED(pointer, old_bytes, new_size) stb_resize(pointer, old_bytes, new_size)
+#define STBI_FREE(pointer)                               free(pointer)
 
 // stb_image's code is compiled into this file only, with the supported formats and without file
 // access.
@@ -101,6 +114,15 @@ bool dip_picture_out_of_memory(const PictureFile *file) {
                          "the picture cannot be read: out of memory");
 }
 
+// Sets the alpha of pixels that name a colour beyond the palette: without an alpha channel they are
+// black, like in most programs; with one, they are transparent.
+static void make_opaque(DipPicture *picture) {
+    const size_t count = (size_t)picture->width * (size_t)picture->height;
+    for (size_t i = 0; i < count; ++i) {
+        picture->rgba8[4 * i + 3] = 255;
+    }
+}
+
 static bool any_alpha(const DipPicture *picture) {
     const size_t count = (size_t)picture->width * (size_t)picture->height;
     for (size_t i = 0; i < count; ++i) {
@@ -115,10 +137,8 @@ static bool any_alpha(const DipPicture *picture) {
 
 static bool read_with_stb(const PictureFile *file, DipPicture *picture) {
     static const stbi_io_callbacks callbacks = {source_read, source_skip, source_at_end};
-    if (!dip_jpeg_has_good_tables(file->bytes, file->size_bytes)) {
-        return dip_error_set(file->err, DIP_ERROR_FORMAT, file->name, 0, NULL,
-                             "a Huffman or quantisation table of the JPEG file is malformed or "
-                             "missing, accepted files with every table that they use");
+    if (!dip_jpeg_check(file)) {
+        return false;
     }
     Source source = {.bytes = file->bytes, .size_bytes = file->size_bytes};
     int channels = 0;
@@ -138,6 +158,9 @@ static bool read_with_stb(const PictureFile *file, DipPicture *picture) {
                                               &picture->height, &channels, 4);
     if (source.passed_end) {
         return dip_picture_truncated(file);
+    }
+    if (picture->rgba8 && !picture->has_alpha) {
+        make_opaque(picture);
     }
     const char *reason = picture->rgba8 ? NULL : stbi_failure_reason();
     return picture->rgba8 || dip_error_set(file->err, DIP_ERROR_FORMAT, file->name, 0, NULL,
@@ -171,6 +194,7 @@ static bool read_picture(const PictureFile *file, DipPicture *picture) {
 
 bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
                         DipPicture *picture, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     const PictureFile file = {bytes, size_bytes, name, err};
     *picture = (DipPicture){0};
     ran_out = false;

@@ -59,8 +59,8 @@ void dip_picture_decode_bc1(const uint8_t *block, uint8_t rgba8[64]);
 void dip_picture_decode_bc2(const uint8_t *block, uint8_t rgba8[64]);
 void dip_picture_decode_bc3(const uint8_t *block, uint8_t rgba8[64]);
 
-// Returns false if the bytes are a JPEG file that has a malformed table, or that does not define a
-// table which it uses. Returns true for files of other formats.
-bool dip_jpeg_has_good_tables(const uint8_t *bytes, size_t size_bytes);
+// Returns false and fills *err if the file is a JPEG file with a malformed table, without a table
+// that it uses, or without a scan of one of its components. Returns true for other formats.
+bool dip_jpeg_check(const PictureFile *file);
 
 #endif

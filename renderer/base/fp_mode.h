@@ -46,10 +46,10 @@ static inline void dip_fp_mode_load(DipFpMode from, DipFpMode to) {
 // Sets the mode of the calling thread. Returns the thread's previous mode.
 static inline DipFpMode dip_fp_mode_set(void) {
 #if defined(__SSE2__)
-    uint32_t mxcsr;
-    uint16_t x87;
-    __asm__ volatile("stmxcsr %0" : "=m"(mxcsr) : : "memory");
-    __asm__ volatile("fnstcw %0" : "=m"(x87) : : "memory");
+    uint32_t mxcsr = 0; // The memory sanitizer does not see what the instructions write.
+    uint16_t x87 = 0;
+    __asm__ volatile("stmxcsr %0" : "+m"(mxcsr) : : "memory");
+    __asm__ volatile("fnstcw %0" : "+m"(x87) : : "memory");
     const DipFpMode before = (DipFpMode)x87 << 32 | mxcsr;
     dip_fp_mode_load(before, DIP_FP_MODE);
     return before;

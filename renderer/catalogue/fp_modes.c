@@ -6,11 +6,25 @@
 static const int rounding[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
 #if defined(__SSE2__)
-enum { FLUSH_BITS = 0x8040 }; // FTZ and DAZ of MXCSR
+enum { FLUSH_BITS = 0x8040, X87_PRECISION = 0x300 }; // FTZ and DAZ of MXCSR
+
+bool fp_mode_exists(FpMode mode) {
+    return mode < FP_MODE_COUNT;
+}
+
+static uint16_t read_x87(void) {
+    uint16_t word = 0;
+    __asm__ volatile("fnstcw %0" : "+m"(word));
+    return word;
+}
+
+static void write_x87(uint16_t word) {
+    __asm__ volatile("fldcw %0" : : "m"(word) : "memory");
+}
 
 static uint64_t read_register(void) {
-    uint32_t mode;
-    __asm__ volatile("stmxcsr %0" : "=m"(mode));
+    uint32_t mode = 0;
+    __asm__ volatile("stmxcsr %0" : "+m"(mode));
     return mode;
 }
 
@@ -19,7 +33,19 @@ static void write_register(uint64_t value) {
     __asm__ volatile("ldmxcsr %0" : : "m"(mode) : "memory");
 }
 #elif defined(__aarch64__)
-enum { FLUSH_BITS = 1 << 24 }; // FZ of FPCR
+enum { FLUSH_BITS = 1 << 24, X87_PRECISION = 0 }; // FZ of FPCR
+
+bool fp_mode_exists(FpMode mode) {
+    return mode != FP_MODE_SHORT_X87;
+}
+
+static uint16_t read_x87(void) {
+    return 0;
+}
+
+static void write_x87(uint16_t word) {
+    (void)word;
+}
 
 static uint64_t read_register(void) {
     uint64_t mode;
@@ -35,14 +61,17 @@ static void write_register(uint64_t mode) {
 #endif
 
 const char *fp_mode_name(FpMode mode) {
-    static const char *const names[] = {"upward", "downward", "toward zero", "flush to zero"};
+    static const char *const names[] = {"upward", "downward", "toward zero", "flush to zero",
+                                        "24 bits of x87"};
     return names[mode];
 }
 
 FpModeState fp_mode_enter(FpMode mode) {
-    const FpModeState before = {fegetround(), read_register()};
+    const FpModeState before = {fegetround(), read_register(), read_x87()};
     if (mode == FP_MODE_FLUSH_TO_ZERO) {
         write_register(read_register() | FLUSH_BITS);
+    } else if (mode == FP_MODE_SHORT_X87) {
+        write_x87((uint16_t)(read_x87() & ~X87_PRECISION));
     } else {
         fesetround(rounding[mode]);
     }
@@ -50,11 +79,15 @@ FpModeState fp_mode_enter(FpMode mode) {
 }
 
 bool fp_mode_is(FpMode mode) {
+    if (mode == FP_MODE_SHORT_X87) {
+        return (read_x87() & X87_PRECISION) == 0;
+    }
     return mode == FP_MODE_FLUSH_TO_ZERO ? (read_register() & FLUSH_BITS) == FLUSH_BITS
                                          : fegetround() == rounding[mode];
 }
 
 void fp_mode_return(FpModeState before) {
     fesetround(before.rounding); // some C libraries also have another unit with a mode of its own
+    write_x87(before.x87);
     write_register(before.flushing);
 }

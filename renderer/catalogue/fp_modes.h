@@ -11,13 +11,19 @@ typedef enum FpMode {
     FP_MODE_DOWNWARD,
     FP_MODE_TOWARD_ZERO,
     FP_MODE_FLUSH_TO_ZERO, // subnormal results and operands become zero
+    FP_MODE_SHORT_X87,     // the x87 unit computes with 24 bits
+    FP_MODE_COUNT
 } FpMode;
 
 // The mode before fp_mode_enter.
 typedef struct FpModeState {
     int rounding;
     uint64_t flushing; // the register that holds the bits for flushing
+    uint16_t x87;      // the control word of the x87 unit; 0 on other processors
 } FpModeState;
+
+// Returns whether this processor has the mode.
+bool fp_mode_exists(FpMode mode);
 
 const char *fp_mode_name(FpMode mode);
 FpModeState fp_mode_enter(FpMode mode);

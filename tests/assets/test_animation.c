@@ -468,6 +468,7 @@ static void malformed_md2_files_are_refused(void **state) {
 
 static void every_cut_is_refused(void **state) {
     (void)state;
+    static const size_t md2_header_bytes = 68;
     static const char *const names[] = {"crab.md2", "pump.glb"};
     for (size_t f = 0; f < 2; ++f) {
         size_t size_bytes = 0;
@@ -483,6 +484,10 @@ static void every_cut_is_refused(void **state) {
                 fail_msg("%s: accepted with %zu of %zu bytes", names[f], cut, size_bytes);
             }
             assert_true(err.code != DIP_ERROR_NONE && err.message[0]);
+            if (f == 0 && cut > 0 && cut < md2_header_bytes) {
+                assert_int_equal(err.code, DIP_ERROR_TRUNCATED);
+                assert_string_equal(err.message, "the model file ends too early");
+            }
         }
         free(bytes);
     }

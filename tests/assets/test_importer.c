@@ -2,6 +2,7 @@
 // "crash" as its first argument, it misbehaves in that way.
 #define _GNU_SOURCE // F_ADD_SEALS
 #include "assets/importer.h"
+#include "assets/importer_private.h"
 #include "assets/scene_pack.h"
 #include "renderer/base/clock.h"
 #include "tests/assets/fixture.h"
@@ -23,11 +24,7 @@
 // The files that an importer inherits (assets/importer_private.h).
 enum { PACK_FILE = 3, PIPE = 4 };
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-static const bool sanitized = true;
-#else
-static const bool sanitized = false;
-#endif
+static const bool sanitized = IMPORT_IS_SANITIZED;
 
 // --- importers that misbehave --------------------------------------------------------------------
 

@@ -293,6 +293,30 @@ static void a_glb_file_with_an_embedded_picture_loads(void **state) {
     dip_model_destroy(&model);
 }
 
+// An FBX file names its embedded pictures by their paths on another machine.
+static void embedded_pictures_are_found_by_name(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    DipModel *model = load(fixture_data("embedded.fbx"), NULL, &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    // assimp's warnings say what the small file leaves out.
+    for (size_t i = 0; i < warnings.count; ++i) {
+        assert_non_null(strstr(warnings.items[i].message, "FBX-DOM"));
+    }
+    dip_error_list_free(&warnings);
+    assert_int_equal(def->texture_count, 2);
+    static const struct {
+        const char *object;
+        uint8_t rgba8[4];
+    } expected[2] = {{"first", {10, 20, 30, 255}}, {"second", {40, 50, 60, 255}}};
+    for (size_t i = 0; i < 2; ++i) {
+        const DipMaterialDef *material = material_of(def, find_object(def, expected[i].object));
+        assert_in_range(material->colour_texture, 0, 1);
+        assert_memory_equal(def->textures[material->colour_texture].rgba8, expected[i].rgba8, 4);
+    }
+    dip_model_destroy(&model);
+}
+
 // Two triangles have a common edge but separate areas of the light map. Their vertices at this edge
 // have equal positions and different second texture coordinates, so they must not be merged.
 static void seams_of_light_maps_are_kept(void **state) {
@@ -534,6 +558,7 @@ int main(void) {
         cmocka_unit_test(repeated_parts_of_the_courtyard_share_meshes),
         cmocka_unit_test(a_gltf_file_with_an_embedded_picture_loads),
         cmocka_unit_test(a_glb_file_with_an_embedded_picture_loads),
+        cmocka_unit_test(embedded_pictures_are_found_by_name),
         cmocka_unit_test(seams_of_light_maps_are_kept),
         cmocka_unit_test(every_node_with_a_mesh_becomes_an_object),
         cmocka_unit_test(extras_choose_the_kind_of_surface),

@@ -138,6 +138,18 @@ typedef struct Fault {
     const char *reason;
 } Fault;
 
+// A file of three bytes is no PCX file, whatever lies behind it in memory.
+static void a_pcx_that_ends_before_its_bits_is_no_pcx(void **state) {
+    (void)state;
+    const uint8_t bytes[256] = {10, 5, 1, 8};
+    for (size_t size_bytes = 1; size_bytes <= 4; ++size_bytes) {
+        DipPicture picture;
+        DipError err = {0};
+        assert_false(dip_picture_decode(bytes, size_bytes, "short", &picture, &err));
+        assert_int_equal(err.code, size_bytes < 4 ? DIP_ERROR_FORMAT : DIP_ERROR_TRUNCATED);
+    }
+}
+
 static void malformed_headers_are_refused(void **state) {
     (void)state;
     static const Fault faults[] = {
@@ -402,6 +414,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_have_the_texels_that_other_programs_read),
         cmocka_unit_test(every_cut_is_refused),
+        cmocka_unit_test(a_pcx_that_ends_before_its_bits_is_no_pcx),
         cmocka_unit_test(malformed_headers_are_refused),
         cmocka_unit_test(malformed_texts_are_refused),
         cmocka_unit_test(malformed_runs_of_an_hdr_are_refused),

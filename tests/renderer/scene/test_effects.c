@@ -221,6 +221,12 @@ static void cloud_phases_repeat_exactly_and_advance_evenly(void **state) {
     }
     assert_true(dip_sky_phase(0.0, second_ns) == 0.0);
     assert_true(dip_sky_phase(1e-7, second_ns) == 0.0);
+    // The slowest layer that moves, and the next slower one.
+    const int64_t slowest_period_ns = INT64_C(60000000000) * 1000000;
+    assert_true(dip_sky_phase(1e-6, slowest_period_ns / 4) == 0.25);
+    assert_true(dip_sky_phase(-1e-6, slowest_period_ns / 4) == 0.75);
+    assert_true(dip_sky_phase(nextafter(1e-6, 0.0), slowest_period_ns / 4) == 0.0);
+    assert_true(dip_sky_phase(-nextafter(1e-6, 0.0), slowest_period_ns / 4) == 0.0);
 }
 
 static void hash_at(const Stage *stage, int64_t time_ns, char hex[33]) {

@@ -2,6 +2,7 @@
 // nothing and changes nothing. Afterwards, the renderer draws the right picture.
 #include "renderer/base/hash.h"
 #include "renderer/scene/renderer.h"
+#include "renderer/scene/resources/instancing.h"
 #include "renderer/catalogue/scenes.h"
 #include "tests/support/out_of_memory.h"
 
@@ -323,6 +324,40 @@ static void failed_change_of_a_setting_can_be_taken_back(void **state) {
     end(&fixture);
 }
 
+static DipUnsharedMeshes *unshared;
+
+static bool copy_shared_meshes(void *context, DipError *err) {
+    const Fixture *fixture = context;
+    unshared = dip_unshared_meshes_create(fixture->scene, fixture->pool, err);
+    return unshared != NULL;
+}
+
+static void free_copies(void *context) {
+    dip_unshared_meshes_destroy(&unshared);
+    free_panes(context);
+}
+
+// With gi=off, each object has a mesh of its own. An object whose copy failed must not be drawn
+// with the mesh that it shares.
+static void meshes_are_copied_for_all_objects_or_for_none(void **state) {
+    (void)state;
+    static Fixture fixture;
+    begin(&fixture, DIP_TEST_SCENE_cube_on_plane);
+    DipTestScene *made = &fixture.made;
+    for (int copy = 0; copy < 2; copy++) {
+        assert_true(made->def.object_count < DIP_TEST_SCENE_PARTS);
+        made->objects[made->def.object_count] = made->objects[0];
+        made->objects[made->def.object_count++].transform[3] += 1.5f + (float)copy;
+    }
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a mesh of its own for each object",
+                                              .context = &fixture,
+                                              .prepare = must_make_scene,
+                                              .run = copy_shared_meshes,
+                                              .finish = free_copies,
+                                              .needs_every_allocation = true});
+    end(&fixture);
+}
+
 static bool resize(void *context, DipError *err) {
     Fixture *fixture = context;
     return dip_renderer_resize(fixture->panes[0], fixture->width, fixture->height, err);
@@ -464,6 +499,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(renderer_is_made_whole_or_not_at_all),
         cmocka_unit_test(failed_frame_leaves_the_renderer_usable),
         cmocka_unit_test(failed_change_of_a_setting_can_be_taken_back),
+        cmocka_unit_test(meshes_are_copied_for_all_objects_or_for_none),
         cmocka_unit_test(failed_resize_keeps_the_old_size),
         cmocka_unit_test(failed_compression_can_be_repeated),
         cmocka_unit_test(failed_mip_pictures_keep_the_old_ones),
