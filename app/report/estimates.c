@@ -9,7 +9,7 @@
 #include <string.h>
 
 int dip_cost_frame_count(const DipCostReport *report) {
-    return report->options.rounds * report->options.timed_frames;
+    return dip_cost_is_view(report) ? 1 : report->options.rounds * report->options.timed_frames;
 }
 
 static bool out_of_memory(DipError *err) {

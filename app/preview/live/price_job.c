@@ -1,10 +1,9 @@
 // Timing combinations of settings beside the base, in blocks.
 #include "app/preview/live/price_job.h"
 
-#include "app/measure/stats/paired.h"
+#include "app/cost/context.h"
 #include "app/measure/timing/driver.h"
-#include "app/preview/prices/price_question.h"
-#include "app/report/verdict.h"
+#include "app/report/prices/question.h"
 #include "renderer/base/clock.h"
 
 #include <math.h>
@@ -15,16 +14,14 @@
 enum {
     BLOCK = 4,            // Combinations of a block, besides the base.
     VISITS = BLOCK + 1,   // The base is one of them.
-    LEVELS = 64,          // Blocks whose times of the base are kept.
     FRAMES_OF_A_VISIT = 2 // One untimed, one timed.
 };
 
-// A combination that was timed.
-typedef struct Timed {
+// A combination of the block that is being timed. The first one is the base.
+typedef struct Member {
     DipQuality quality;
-    DipEstimate ratio; // Of its time to that of the base.
-    int rounds;        // In which it was timed.
-} Timed;
+    double counters[DIP_COST_COUNTER_COUNT]; // Of the frame that was drawn last.
+} Member;
 
 struct DipPriceJob {
     DipPriceJobCalls calls;
@@ -37,24 +34,19 @@ struct DipPriceJob {
     bool idle;        // Every combination is known.
     DipQuality wanted[DIP_PRICE_MAX_WANTED];
     int wanted_count;
-    int rounds; // That each combination gets now: the first rounds, until all have them.
+    int rounds; // That each combination has at last: the first rounds, until all have them.
 
-    // The block.
     DipDriver *driver; // Times the members; NULL: there is no block.
-    DipQuality members[VISITS];
-    int member_count; // Member 0 is the base.
+    Member members[VISITS];
+    int member_count;
+    int rounds_before; // Of the members, when the block began.
 
-    Timed timed[DIP_PRICE_MAX_WANTED * 2];
-    int timed_count;
-    double base_ms[LEVELS]; // Median time of the base in each of the last blocks.
-    int blocks;             // Blocks that are complete.
-    double drawn_ms;        // Time and number of the frames of this picture.
+    int rounds_of[DIP_PRICES_LIVE_ROWS]; // In which a row of the report was timed.
+    int blocks;                          // Blocks that are complete.
+    double drawn_ms;                     // Time and number of the frames of this picture.
     int drawn;
-    // Sums over the pairs of times of this picture: the share that the threads waited, and
-    // disturbed ones.
-    double waited;
-    int disturbed;
-    int judged;
+    double waited; // Share that the threads waited, summed over the rounds of all blocks.
+    int waited_rounds;
 };
 
 static int64_t now_ns(const DipPriceJob *job) {
@@ -89,29 +81,16 @@ void dip_price_job_interrupt(DipPriceJob *job) {
 
 void dip_price_job_forget(DipPriceJob *job) {
     dip_driver_destroy(&job->driver);
-    dip_prices_forget_rough(job->prices);
-    dip_prices_set_rough_doubtful(job->prices, false);
-    job->timed_count = 0;
-    job->blocks = 0;
-    job->drawn_ms = 0.0;
-    job->drawn = 0;
-    job->waited = 0.0;
-    job->disturbed = job->judged = 0;
+    dip_prices_forget_live(job->prices);
+    memset(job->rounds_of, 0, sizeof job->rounds_of);
+    job->blocks = job->drawn = job->waited_rounds = 0;
+    job->drawn_ms = job->waited = 0.0;
     job->failed = false;
     job->idle = false;
     job->rounds = DIP_PRICE_JOB_FIRST_ROUNDS;
 }
 
 // --- what to time --------------------------------------------------------------------------------
-
-static Timed *find_timed(DipPriceJob *job, const DipQuality *quality) {
-    for (int i = 0; i < job->timed_count; i++) {
-        if (dip_quality_equal(&job->timed[i].quality, quality)) {
-            return &job->timed[i];
-        }
-    }
-    return NULL;
-}
 
 // Lists the combinations that are not timed yet in `rounds` rounds. The base is part of every
 // block, so it is not in the list.
@@ -123,8 +102,8 @@ static void list_with_rounds(DipPriceJob *job, int rounds) {
     job->rounds = rounds;
     job->wanted_count = 0;
     for (int i = 0; i < count; i++) {
-        const Timed *timed = find_timed(job, &all[i]);
-        if (!dip_quality_equal(&all[i], &base) && (!timed || timed->rounds < rounds)) {
+        const int row = dip_prices_find_live(job->prices, &all[i]);
+        if (!dip_quality_equal(&all[i], &base) && (row < 0 || job->rounds_of[row] < rounds)) {
             job->wanted[job->wanted_count++] = all[i];
         }
     }
@@ -140,7 +119,13 @@ static void list_wanted(DipPriceJob *job) {
 
 void dip_price_job_follow(DipPriceJob *job, const DipQuality *current,
                           const DipQuality *requested) {
-    if (job->follows && dip_quality_equal(&job->current, current) &&
+    const DipQuality base = dip_prices_base(job->prices);
+    const DipQuality measured = dip_prices_live(job->prices)->options.baseline;
+    const bool same_base = dip_quality_equal(&base, &measured);
+    if (!same_base) { // Another report was opened.
+        dip_price_job_forget(job);
+    }
+    if (job->follows && same_base && dip_quality_equal(&job->current, current) &&
         dip_quality_equal(&job->requested, requested)) {
         return;
     }
@@ -160,15 +145,21 @@ static void drop_block(DipPriceJob *job) {
 // Each round begins with the pattern of temporal AA that the round before timed last.
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     DipPriceJob *job = context;
-    (void)timed;
+    Member *member = &job->members[turn->subject];
     const bool is_timed = turn->phase == DIP_DRIVER_TIMED;
     const uint64_t index = (uint64_t)(FRAMES_OF_A_VISIT * turn->round + is_timed + turn->round % 2);
     const int64_t begin_ns = now_ns(job);
-    if (!job->calls.draw(job->calls.context, &job->members[turn->subject], index, err)) {
+    DipFrame frame = {0};
+    if (!job->calls.draw(job->calls.context, &member->quality, index, &frame, err)) {
         return false;
     }
     job->drawn_ms += 1e-6 * (double)(now_ns(job) - begin_ns);
     job->drawn++;
+    dip_cost_stage_parts(&frame, timed->parts_ms);
+    double *counter = member->counters;
+#define TAKE_COUNTER(name, text) *counter++ = (double)frame.counters.name;
+    DIP_COUNTER_LIST(TAKE_COUNTER)
+#undef TAKE_COUNTER
     return true;
 }
 
@@ -183,14 +174,15 @@ static DipThreadUse thread_use(void *context) {
 
 static bool begin_block(DipPriceJob *job) {
     list_wanted(job);
-    if (job->idle || job->timed_count + BLOCK > (int)(sizeof job->timed / sizeof *job->timed)) {
+    if (job->idle || dip_prices_live(job->prices)->row_count + VISITS > DIP_PRICES_LIVE_ROWS) {
         job->idle = true;
         return false;
     }
-    job->members[0] = dip_prices_base(job->prices);
+    job->rounds_before = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS ? 0 : DIP_PRICE_JOB_FIRST_ROUNDS;
+    job->members[0].quality = dip_prices_base(job->prices);
     job->member_count = 1;
     while (job->member_count < VISITS && job->member_count <= job->wanted_count) {
-        job->members[job->member_count] = job->wanted[job->member_count - 1];
+        job->members[job->member_count].quality = job->wanted[job->member_count - 1];
         job->member_count++;
     }
     static const int base_of[VISITS] = {0};
@@ -199,7 +191,7 @@ static bool begin_block(DipPriceJob *job) {
         .base_of = base_of,
         .block_subjects = BLOCK,
         .starts = 1,
-        .rounds = job->rounds,
+        .rounds = job->rounds - job->rounds_before,
         .frames = 1,
         .seed = (uint64_t)job->blocks,
         .most_wait = DIP_TIMED_MOST_WAIT,
@@ -216,91 +208,62 @@ static bool begin_block(DipPriceJob *job) {
     return !job->failed;
 }
 
-// Returns the time of the base: the median over the blocks.
-static double base_ms_of(const DipPriceJob *job) {
-    double ms[LEVELS];
-    const int count = job->blocks < LEVELS ? job->blocks : LEVELS;
-    memcpy(ms, job->base_ms, (size_t)count * sizeof *ms);
-    return dip_stats_median(ms, count);
-}
-
-// Publishes all prices anew, because the base's time has become better known.
-static bool publish(DipPriceJob *job) {
-    const double base_ms = base_ms_of(job);
-    const DipQuality base = dip_prices_base(job->prices);
-    bool added = dip_prices_add_rough(job->prices, &base, base_ms, base_ms, base_ms, -1.0);
-    for (int i = 0; added && i < job->timed_count; i++) {
-        const Timed *timed = &job->timed[i];
-        added = dip_prices_add_rough(job->prices, &timed->quality, timed->ratio.value * base_ms,
-                                     timed->ratio.low * base_ms, timed->ratio.high * base_ms, -1.0);
-    }
-    return added ||
-           dip_error_set(&job->failure, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
-}
-
-// Lists a member's and the base's times in each round. Disturbed rounds are left out, unless more
-// than half of them are. Returns the number of disturbed ones.
-static int list_rounds(const DipTimes *times, int member, double ms[DIP_PRICE_JOB_ROUNDS],
-                       double base_ms[DIP_PRICE_JOB_ROUNDS]) {
-    double waits[DIP_PRICE_JOB_ROUNDS] = {0.0};
-    int disturbed = 0;
-    for (int i = 0; i < times->count; i++) {
-        const DipTimed *timed = &times->list[i];
-        for (int j = 0; timed->subject == member && j < times->count; j++) {
-            const DipTimed *base = &times->list[j];
-            if (base->subject == 0 && base->round == timed->round && base->block == timed->block) {
-                ms[timed->round] = timed->ms;
-                base_ms[timed->round] = base->ms;
-                waits[timed->round] = fmax(timed->wait, base->wait);
+// Fills in what a row has beside its times: the work of its last frame, and the shares of the
+// stages and of waiting, from its timed frames in the log.
+static void fill_row(DipCostReport *report, int r, const Member *member) {
+    DipTimePair pair = {0};
+    double parts_ms[DIP_TIMED_PARTS] = {0}, waited_ms = 0.0;
+    for (int i = 0; i < report->log_count; i++) {
+        const DipTimed *timed = &report->log[i];
+        if (timed->subject == r) {
+            pair.ms += timed->ms;
+            waited_ms += timed->wait * timed->ms;
+            for (int p = 0; p < DIP_TIMED_PARTS; p++) {
+                parts_ms[p] += timed->parts_ms[p];
             }
         }
     }
-    for (int r = 0; r < times->rounds; r++) {
-        disturbed += waits[r] > DIP_TIMED_MOST_WAIT;
+    for (int p = 0; p < DIP_TIMED_PARTS; p++) {
+        pair.shares[p] = parts_ms[p] / pair.ms;
     }
-    for (int r = 0; r < times->rounds && 2 * disturbed <= times->rounds; r++) {
-        ms[r] = waits[r] > DIP_TIMED_MOST_WAIT ? NAN : ms[r];
-    }
-    return disturbed;
+    pair.wait = waited_ms / pair.ms;
+    *report->rows[r].pairs = pair;
+    memcpy(report->rows[r].counters, member->counters, sizeof member->counters);
 }
 
-// Tells whether the machine was too busy: by the rule of a report, as far as its signs are known.
-static void judge(DipPriceJob *job, double wait, int disturbed, int rounds) {
-    job->waited += wait * rounds;
-    job->disturbed += disturbed;
-    job->judged += rounds;
-    const DipCostSigns signs = {.wait = job->waited / job->judged,
-                                .disturbed = (double)job->disturbed / job->judged,
-                                .settled = true};
-    char reason[DIP_COST_REASON];
-    dip_prices_set_rough_doubtful(job->prices, dip_cost_verdict_of(&signs, reason) == DIP_COST_RED);
+// Adds the block to the log. Rounds of the second time follow those of the first.
+static bool log_block(DipPriceJob *job, const int rows[VISITS], DipError *err) {
+    DipCostReport *report = dip_prices_live(job->prices);
+    const DipTimes times = dip_driver_times(job->driver);
+    const int before = job->rounds_before, first = report->log_count;
+    if (!dip_cost_log_add(report, &times, rows, err)) {
+        return false;
+    }
+    for (int i = first; i < report->log_count; i++) {
+        report->log[i].round += before;
+    }
+    const int rounds = before + times.rounds;
+    report->rounds = report->options.rounds = rounds > report->rounds ? rounds : report->rounds;
+    job->waited += dip_driver_machine(job->driver, job->calls.threads).wait * times.rounds;
+    job->waited_rounds += times.rounds;
+    report->machine.wait = job->waited / job->waited_rounds;
+    for (int m = 0; m < job->member_count; m++) {
+        job->rounds_of[rows[m]] = rounds;
+        fill_row(report, rows[m], &job->members[m]);
+    }
+    return dip_prices_update_live(job->prices, true, err);
 }
 
 static bool end_block(DipPriceJob *job) {
-    const DipTimes times = dip_driver_times(job->driver);
-    double ms[DIP_PRICE_JOB_ROUNDS], base_ms[DIP_PRICE_JOB_ROUNDS];
-    int disturbed = 0;
+    int rows[VISITS];
     bool done = true;
-    for (int m = 1; done && m < job->member_count; m++) {
-        disturbed += list_rounds(&times, m, ms, base_ms);
-        const DipPairedTimes paired = {ms, base_ms, times.rounds, 1};
-        Timed *before = find_timed(job, &job->members[m]);
-        Timed timed = {.quality = job->members[m], .rounds = times.rounds};
-        done = dip_paired_ratio(&paired, &timed.ratio, &job->failure);
-        if (done) {
-            *(before ? before : &job->timed[job->timed_count++]) = timed;
-        }
+    for (int m = 0; done && m < job->member_count; m++) {
+        rows[m] = dip_prices_live_row(job->prices, &job->members[m].quality, &job->failure);
+        done = rows[m] >= 0;
     }
-    int kept = 0;
-    for (int r = 0; r < times.rounds; r++) {
-        base_ms[kept] = base_ms[r];
-        kept += !isnan(ms[r]);
-    }
-    job->base_ms[job->blocks++ % LEVELS] = dip_stats_median(base_ms, kept);
-    judge(job, dip_driver_machine(job->driver, job->calls.threads).wait, disturbed,
-          times.rounds * (job->member_count - 1));
+    done = done && log_block(job, rows, &job->failure);
+    job->blocks++;
     drop_block(job);
-    done = done && publish(job);
     job->failed = !done;
     list_wanted(job);
     return done;
@@ -336,10 +299,12 @@ DipPriceProgress dip_price_job_progress(const DipPriceJob *job) {
     }
     const int blocks = (job->wanted_count + BLOCK - 1) / BLOCK; // With the one that is being timed.
     const int visits = job->wanted_count + blocks;
-    const int frames = visits * FRAMES_OF_A_VISIT * job->rounds;
+    const bool first = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS;
+    const int rounds = first ? job->rounds : job->rounds - DIP_PRICE_JOB_FIRST_ROUNDS;
+    const int frames = visits * FRAMES_OF_A_VISIT * rounds;
     const DipDriverProgress block =
         job->driver ? dip_driver_progress(job->driver) : (DipDriverProgress){0};
-    progress.first = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS;
+    progress.first = first;
     progress.rounds = block.rounds;
     progress.combinations = job->wanted_count;
     if (job->drawn > 0) {

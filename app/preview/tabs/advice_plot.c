@@ -140,12 +140,12 @@ static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot) {
 void dip_advice_plot(DipUi *ui, const DipWindow *window, DipRect room) {
     const DipPreviewChoice *choice = window->state->choice;
     const DipCandidates *candidates = &choice->candidates;
-    const DipCosts *costs = choice->live ? NULL : window->state->costs;
+    const DipCostReport *report = choice->live ? NULL : window->state->costs;
     const int line = dip_ui_line_height(ui, NOTE_SIZE), axis = dip_ui_px(ui, AXIS_WIDTH);
     char text[160];
     int y = room.y;
     snprintf(text, sizeof text, "%d combinations   %s%s", candidates->count,
-             costs ? "path " : "this view", costs ? costs->path : "");
+             report ? "path " : "this view", report ? report->paths[0] : "");
     dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, room.x, y, room.width, text);
     y += line + dip_ui_px(ui, 3);
     if (candidates->count < 2) {

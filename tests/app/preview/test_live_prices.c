@@ -90,8 +90,8 @@ static void check_all_known(bool with_errors) {
             assert_int_equal(price.has_flip, with_errors);
         }
     }
-    assert_true(dip_prices_has_rough(prices, &panes[DIP_PANE_CURRENT]));
-    assert_true(dip_prices_has_rough(prices, pane));
+    assert_true(dip_prices_find_live(prices, &panes[DIP_PANE_CURRENT]) >= 0);
+    assert_true(dip_prices_find_live(prices, pane) >= 0);
 }
 
 // Draws with a painter of the test's own. The frame is valid until the painter draws again.
@@ -203,7 +203,7 @@ static void times_wait_while_a_truth_is_drawn(void **state) {
         dip_live_prices_step(live, &picture, panes, &drawn, 5.0);
     }
     assert_false(dip_live_prices_are_working(live));
-    assert_false(dip_prices_has_rough(prices, &panes[DIP_PANE_REQUESTED]));
+    assert_true(dip_prices_find_live(prices, &panes[DIP_PANE_REQUESTED]) < 0);
     assert_string_equal(dip_prices_progress(prices), "errors: the converged picture is 40 % drawn");
     dip_live_prices_pause(live);
     picture.time_ns++;
