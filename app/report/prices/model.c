@@ -1,6 +1,7 @@
 // Predicts the time and the error of a combination from its composed work.
 #include "app/report/prices/view.h"
 
+#include "app/report/combinations.h"
 #include "app/report/prices/question.h"
 #include "app/report/work.h"
 
@@ -17,12 +18,8 @@ static const double normal_p90 = 1.6449;
 // Misses of a few rows may all happen to be tiny.
 static const double least_error = 0.002;
 
-DipEstimate dip_price_predicted_time(double ms, double log_error) {
-    return dip_estimate_make(ms, log_error, INFINITY);
-}
-
-double dip_price_error_of_misses(const DipCostMisses *misses) {
-    return misses->rows > 0 ? fmax(log1p(misses->p90) / normal_p90, least_error) : NAN;
+DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses) {
+    return dip_estimate_make(ms, fmax(log1p(misses->p90) / normal_p90, least_error), misses->rows);
 }
 
 // The counters of a row of path 0 that differs from the base in one group at most, so that no row
@@ -39,8 +36,17 @@ static bool compose(const DipPriceView *view, const DipQuality *normal,
     return dip_work_compose(find_counters, view, &view->base, normal, counters);
 }
 
-// Predicts a row from all other rows, as a combination that was never run. Returns the miss, or a
-// negative value if the row's work cannot be composed.
+// Returns whether two combinations have the same antialiasing and filtering, which decide how well
+// a combination is predicted.
+static bool are_alike(const DipQuality *a, const DipQuality *b) {
+    const unsigned mask =
+        dip_cost_sampling_settings() | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF;
+    const DipQuality other = dip_cost_take_settings(b, a, mask);
+    return dip_quality_equal(&other, b);
+}
+
+// Predicts a row from the rows that are not like it, as a combination that was never run. Returns
+// the miss, or a negative value if the row's work cannot be composed.
 static double miss_of(const DipPriceView *view, const int *rows, int count, int row) {
     const DipCostRow *left_out = &view->report->rows[row];
     const DipQuality normal = dip_price_normal(&view->base, &left_out->quality);
@@ -52,7 +58,7 @@ static double miss_of(const DipPriceView *view, const int *rows, int count, int 
         return -1.0;
     }
     for (int i = 0; i < count; i++) {
-        if (rows[i] != row) {
+        if (!are_alike(&view->report->rows[rows[i]].quality, &left_out->quality)) {
             others[other_count++] = rows[i];
         }
     }
@@ -97,14 +103,13 @@ static int list_rows(const DipCostReport *report, bool timed, int rows[DIP_COST_
 static void make(const DipPriceView *view) {
     DipPriceModel *model = view->model;
     int rows[DIP_COST_MAX_ROWS];
-    *model = (DipPriceModel){.is_made = true, .log_error = NAN};
+    *model = (DipPriceModel){.is_made = true};
     int count = list_rows(view->report, true, rows);
     if (count < 2 * dip_cost_term_count(DIP_COST_STAGE_raster)) {
         return;
     }
-    const DipCostMisses misses = find_misses(view, rows, count);
+    model->misses = find_misses(view, rows, count);
     model->times = dip_cost_model_fit(view->report, rows, count);
-    model->log_error = dip_price_error_of_misses(&misses);
     count = list_rows(view->report, false, rows);
     if (count >= LEAST_JUDGED) {
         model->errors = dip_cost_error_model_fit(view->report, rows, count);
@@ -123,7 +128,7 @@ bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPr
     const double ms = dip_cost_model_ms(&model->times, counters, normal);
     *whole = (DipPriceWhole){
         .state = DIP_PRICE_PREDICTED,
-        .time = dip_price_predicted_time(ms, model->log_error),
+        .time = dip_price_predicted_time(ms, &model->misses),
         .has_flip = model->errors.rows > 0,
     };
     if (whole->has_flip) {

@@ -3,7 +3,6 @@
 
 #include "app/report/prices/question.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -147,13 +146,13 @@ DipPriceWhole dip_price_known(const DipPriceView *view, const DipPriceEntry *ent
     if (entry->row >= 0) {
         return whole_of_row(view->report, entry->row);
     }
-    // Those that were measured later, or else the rows that were each predicted from the others.
-    const double before = dip_price_error_of_misses(&predicted->times_left_out);
-    const double later = dip_price_error_of_misses(&predicted->times);
+    // The rows that were each predicted from the others, or those that were measured later.
+    const DipCostMisses *before = &predicted->times_left_out, *later = &predicted->times;
+    const bool worse = before->rows == 0 || (later->rows > 0 && later->p90 > before->p90);
     const DipCostPrediction *prediction = &predicted->list[entry->prediction];
     return (DipPriceWhole){
         .state = DIP_PRICE_PREDICTED,
-        .time = dip_price_predicted_time(prediction->ms, fmax(before, later)),
+        .time = dip_price_predicted_time(prediction->ms, worse ? later : before),
         .has_flip = prediction->flip > 0.0,
         .flip = prediction->flip,
     };

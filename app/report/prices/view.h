@@ -17,8 +17,8 @@ typedef struct DipPriceEntry {
 // The report's models. Made when they are first asked for.
 typedef struct DipPriceModel {
     bool is_made;
-    DipCostModel times; // rows is 0 if the report has too few times.
-    double log_error;   // Of a predicted time; NAN: not known.
+    DipCostModel times;   // rows is 0 if the report has too few times.
+    DipCostMisses misses; // Of predicted times.
     DipCostErrorModel errors;
 } DipPriceModel;
 
@@ -60,11 +60,9 @@ DipPriceWhole dip_price_known(const DipPriceView *view, const DipPriceEntry *ent
 // not tell enough.
 bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPriceWhole *whole);
 
-// Returns the time of a prediction, whose error has this standard deviation as a logarithm.
-DipEstimate dip_price_predicted_time(double ms, double log_error);
-
-// Returns the standard error of the logarithm of predictions whose 90th percentile of misses this
-// is; NAN if there are none.
-double dip_price_error_of_misses(const DipCostMisses *misses);
+// Returns the time of a prediction of a kind that missed so far elsewhere. Its error has the
+// standard deviation of a normal distribution with the 90th percentile of the misses, and as many
+// degrees of freedom as there are misses; without misses it is not known.
+DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 
 #endif
