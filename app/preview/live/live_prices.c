@@ -144,10 +144,17 @@ static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
            a->pixels_per_degree == b->pixels_per_degree;
 }
 
+// Returns whether live prices start from what prices start from now. A report that was opened since
+// may have another baseline.
+static bool has_same_base(const DipLivePrices *live) {
+    const DipQuality base = dip_prices_base(live->prices);
+    return dip_quality_equal(&base, &dip_prices_live(live->prices)->options.baseline);
+}
+
 // Forgets the prices of another picture. A painter that cannot have the new size is destroyed; the
 // next frame then fails with the reason.
 static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
-    if (live->has_picture && is_same_picture(&live->picture, picture)) {
+    if (live->has_picture && is_same_picture(&live->picture, picture) && has_same_base(live)) {
         return;
     }
     forget(live);

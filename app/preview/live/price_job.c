@@ -119,13 +119,7 @@ static void list_wanted(DipPriceJob *job) {
 
 void dip_price_job_follow(DipPriceJob *job, const DipQuality *current,
                           const DipQuality *requested) {
-    const DipQuality base = dip_prices_base(job->prices);
-    const DipQuality measured = dip_prices_live(job->prices)->options.baseline;
-    const bool same_base = dip_quality_equal(&base, &measured);
-    if (!same_base) { // Another report was opened.
-        dip_price_job_forget(job);
-    }
-    if (job->follows && same_base && dip_quality_equal(&job->current, current) &&
+    if (job->follows && dip_quality_equal(&job->current, current) &&
         dip_quality_equal(&job->requested, requested)) {
         return;
     }

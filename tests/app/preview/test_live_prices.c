@@ -235,6 +235,22 @@ static void another_picture_has_no_prices_yet(void **state) {
     check_all_known(false);
 }
 
+// Live prices start from the baseline of a report that was opened, even if the user prefers them.
+static void another_baseline_begins_anew(void **state) {
+    (void)state;
+    DipCostReport report = {.path_count = 1};
+    assert_true(dip_quality_parse("aa=2", &report.options.baseline, NULL));
+    make_truth();
+    measure(&truth, 1);
+    assert_true(dip_prices_set_report(prices, &report, NULL));
+    dip_prices_prefer_rough(prices, true);
+    measure(&truth, 1);
+    check_all_known(true);
+    const DipQuality *pane = &panes[DIP_PANE_REQUESTED];
+    assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 1, pane).state, DIP_PRICE_BASE);
+    assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 0, pane).state, DIP_PRICE_ROUGH);
+}
+
 static void scenes_of_the_gallery_have_prices(void **state) {
     (void)state;
     int index;
@@ -263,6 +279,7 @@ int main(int argc, char **argv) {
         TEST(errors_do_not_vanish_when_the_truth_gets_finer),
         TEST(times_wait_while_a_truth_is_drawn),
         TEST(another_picture_has_no_prices_yet),
+        TEST(another_baseline_begins_anew),
         TEST(scenes_of_the_gallery_have_prices),
     };
     assets = argc > 1 ? argv[1] : "assets";
