@@ -21,23 +21,20 @@ static bool load_scene_def(void *context, DipError *err) {
 }
 
 // Loads the cost report if `file` is not NULL; otherwise *costs stays NULL.
-static bool load_costs(const DipSession *session, const char *file, DipCosts **costs,
+static bool load_costs(const DipSession *session, const char *file, DipCostReport **costs,
                        DipPrices *prices, DipError *err) {
     char scene[DIP_COST_TEXT];
     if (!file) {
         return true;
     }
-    *costs = calloc(1, sizeof **costs);
-    if (!*costs) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "--cost", "out of memory");
-    }
     dip_cost_scene_name(session, scene);
-    return dip_costs_load(*costs, prices, file, scene, err);
+    *costs = dip_costs_load(prices, file, scene, err);
+    return *costs != NULL;
 }
 
 // What the preview needs beside its session and display.
 typedef struct Parts {
-    DipCosts *costs;
+    DipCostReport *costs;
     DipPrices *prices;
     DipReload *reload;
     DipRemote *remote;
@@ -100,10 +97,7 @@ static bool open_parts(Parts *parts, DipSession *session, const DipPreviewOption
 static void close_parts(Parts *parts) {
     dip_remote_close(&parts->remote);
     dip_reload_destroy(&parts->reload);
-    if (parts->costs) {
-        dip_costs_free(parts->costs);
-    }
-    free(parts->costs);
+    dip_costs_free(&parts->costs);
     dip_prices_destroy(&parts->prices);
 }
 

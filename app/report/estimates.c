@@ -9,7 +9,7 @@
 #include <string.h>
 
 int dip_cost_frame_count(const DipCostReport *report) {
-    return report->options.rounds * report->options.timed_frames;
+    return dip_cost_is_view(report) ? 1 : report->options.rounds * report->options.timed_frames;
 }
 
 static bool out_of_memory(DipError *err) {
@@ -63,6 +63,7 @@ static DipTimesFit *fit_rows(const DipCostReport *report, DipError *err) {
         .rounds = report->options.rounds / starts,
         .frames = dip_cost_frame_count(report),
         .base_of = base_of,
+        .complete = dip_cost_is_view(report),
     };
     for (int r = 0; r < report->row_count; r++) {
         base_of[r] = report->base_rows[report->rows[r].path];

@@ -306,6 +306,12 @@ bool dip_cost_at_floor(const DipCostReport *report, int row);
 
 // --- times -------------------------------------------------------------------------------------
 
+// Returns whether the report is of one picture instead of camera paths: every round of its log draws
+// the same frame. So the preview measures.
+static inline bool dip_cost_is_view(const DipCostReport *report) {
+    return report->rounds > 0 && report->options.timed_frames == 0;
+}
+
 // Number of frames that are timed along a path.
 int dip_cost_frame_count(const DipCostReport *report);
 

@@ -81,18 +81,19 @@ static bool is_focused(const DipTextView *view, DipSetting setting) {
 
 // --- figures of a cost report ------------------------------------------------------------------
 
-static const DipCostsRow *costs_row(const DipCosts *costs, DipSetting setting) {
-    for (int r = 0; costs && r < costs->row_count; ++r) {
-        if (costs->rows[r].setting == setting) {
-            return &costs->rows[r];
+// Returns the steps of a setting in the report, none if there is no report.
+static DipCostsRow costs_row(const DipCostReport *report, DipSetting setting) {
+    for (int i = 0; report && i < report->sweep_count; ++i) {
+        if (report->sweeps[i].setting == setting) {
+            return dip_costs_row(report, &report->sweeps[i]);
         }
     }
-    return NULL;
+    return (DipCostsRow){.step_count = 0};
 }
 
 // Returns a step of a report, or NULL if the report does not have it.
 static const DipCostsStep *costs_step(const DipCostsRow *row, DipSetting setting, int step) {
-    for (int s = 0; row && s < row->step_count; ++s) {
+    for (int s = 0; s < row->step_count; ++s) {
         if (row->steps[s].quality.step[setting] == step) {
             return &row->steps[s];
         }
@@ -146,10 +147,10 @@ static void draw_title(DipTextView *view, const DipPreviewState *state, DipSetti
 static void draw_block(DipTextView *view, const DipPreviewState *state, DipSetting setting, int row,
                        int column) {
     const int end = column + BLOCK_COLUMNS - 2;
-    const DipCostsRow *costs = costs_row(state->costs, setting);
+    const DipCostsRow costs = costs_row(state->costs, setting);
     const DipSettingInfo *info = dip_setting_info(setting);
     if (is_switch(setting)) {
-        const DipCostsStep *step = costs_step(costs, setting, 1);
+        const DipCostsStep *step = costs_step(&costs, setting, 1);
         dip_text_put(&view->screen, row, column, end - 22,
                      is_focused(view, setting) ? name_focused : title, info->title);
         if (step) {
@@ -164,7 +165,7 @@ static void draw_block(DipTextView *view, const DipPreviewState *state, DipSetti
     draw_title(view, state, setting, row, column, end);
     draw_steps(view, state, setting, row + 1, column + 6, width);
     if (state->costs) {
-        draw_figures(view, costs, setting, row + 2, column + 6, width);
+        draw_figures(view, &costs, setting, row + 2, column + 6, width);
     }
 }
 
@@ -215,8 +216,9 @@ static void draw_row(DipTextView *view, const DipPreviewState *state, DipSetting
     if (columns < ROW_COLUMNS + FIGURE_COLUMNS) {
         return;
     }
-    const DipCostsStep *step = costs_step(costs_row(state->costs, setting), setting,
-                                          state->quality[DIP_PANE_REQUESTED].step[setting]);
+    const DipCostsRow costs = costs_row(state->costs, setting);
+    const DipCostsStep *step =
+        costs_step(&costs, setting, state->quality[DIP_PANE_REQUESTED].step[setting]);
     if (step) {
         dip_text_put_right(&view->screen, row, end - FIGURE_COLUMNS, end - 7, name, step->time);
         dip_text_put_right(&view->screen, row, end - 7, end, error_colours(step), step->flip);

@@ -59,15 +59,18 @@ static void draw_how_to(DipTextScreen *screen, DipTextArea body, const DipPrevie
 }
 
 void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPreviewState *state) {
-    const DipCosts *costs = state->costs;
     const int end = body.column + body.columns;
-    if (!costs) {
+    DipCosts costs;
+    char heading[DIP_COSTS_HEADING];
+    if (!state->costs) {
         draw_how_to(screen, body, state);
         return;
     }
-    dip_text_put(screen, body.row, body.column + 1, end, white, costs->heading);
-    for (int r = 0; r < costs->row_count && r + 1 < body.rows; ++r) {
-        const DipCostsRow *row = &costs->rows[r];
+    dip_costs_make(&costs, state->costs);
+    dip_costs_heading(state->costs, heading);
+    dip_text_put(screen, body.row, body.column + 1, end, white, heading);
+    for (int r = 0; r < costs.row_count && r + 1 < body.rows; ++r) {
+        const DipCostsRow *row = &costs.rows[r];
         int column = body.column + 1;
         dip_text_put(screen, body.row + 1 + r, column, column + TITLE_COLUMNS - 1, white,
                      row->title);

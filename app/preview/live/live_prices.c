@@ -1,4 +1,4 @@
-// Draws the frames that rough prices come from.
+// Draws and judges the frames that the live report comes from.
 #include "app/preview/live/live_prices.h"
 
 #include "app/cost/plan.h"
@@ -12,7 +12,6 @@
 #include <string.h>
 
 static const int64_t progress_period_ns = 250000000;
-enum { MOST_ERRORS = 2 * DIP_PRICE_JOB_ROUNDS * 16 }; // More than the rough prices of a picture.
 
 struct DipLivePrices {
     DipSession *session;
@@ -23,7 +22,6 @@ struct DipLivePrices {
     DipPainter *painters[2];
     DipLivePicture picture;
     bool has_picture;
-    DipFrame frame; // The frame that was drawn last.
     char scene[DIP_COST_TEXT];
     char processor[DIP_COST_TEXT];
 
@@ -31,8 +29,11 @@ struct DipLivePrices {
     uint8_t *rgba8; // Copy of the picture that is judged, rows packed. Owned; NULL: no meter yet.
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
-    DipQuality judged;       // Settings of this picture.
-    DipLiveTruth truth;      // That of the last step.
+    int judged; // The row of this picture.
+    // Of each row: its errors against the truth of most samples that it was compared with.
+    DipMetricSums sums[DIP_PRICES_LIVE_ROWS];
+    int samples[DIP_PRICES_LIVE_ROWS]; // Of this truth; 0: none.
+    DipLiveTruth truth;                // That of the last step.
     int errors_left;         // Combinations whose errors are not known, if there is a truth.
     DipProcessorShare share; // Of this thread, while it measures errors.
     int64_t progress_ns;     // When the text of the progress was written last.
@@ -58,7 +59,8 @@ static DipPainter *painter_for(DipLivePrices *live, const DipQuality *quality, D
     return *painter;
 }
 
-static bool draw(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err) {
+static bool draw(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
+                 DipError *err) {
     DipLivePrices *live = context;
     DipPainter *painter = painter_for(live, quality, err);
     if (!painter) {
@@ -67,7 +69,7 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
     dip_painter_set_frame_index(painter, frame_index);
     return dip_painter_set_quality(painter, quality, err) &&
            dip_painter_draw(painter, live->session->scene, &live->picture.pose,
-                            live->picture.time_ns, &live->frame, err);
+                            live->picture.time_ns, frame, err);
 }
 
 static void forget(DipLivePrices *live) {
@@ -77,6 +79,7 @@ static void forget(DipLivePrices *live) {
     live->rgba8 = NULL;
     live->measures_errors = live->errors_failed = false;
     live->errors_left = 0;
+    memset(live->samples, 0, sizeof live->samples);
     live->has_picture = false;
     live->progress_ns = -progress_period_ns; // The next text is shown at once.
 }
@@ -141,10 +144,17 @@ static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
            a->pixels_per_degree == b->pixels_per_degree;
 }
 
+// Returns whether live prices start from what prices start from now. A report that was opened since
+// may have another baseline.
+static bool has_same_base(const DipLivePrices *live) {
+    const DipQuality base = dip_prices_base(live->prices);
+    return dip_quality_equal(&base, &dip_prices_live(live->prices)->options.baseline);
+}
+
 // Forgets the prices of another picture. A painter that cannot have the new size is destroyed; the
 // next frame then fails with the reason.
 static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
-    if (live->has_picture && is_same_picture(&live->picture, picture)) {
+    if (live->has_picture && is_same_picture(&live->picture, picture) && has_same_base(live)) {
         return;
     }
     forget(live);
@@ -161,7 +171,7 @@ static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
 // --- errors --------------------------------------------------------------------------------------
 
 // Begins to judge a copy of the frame, since the painter draws over its own picture.
-static bool begin_judging(DipLivePrices *live, const DipSrgbPicture *truth) {
+static bool begin_judging(DipLivePrices *live, const DipFrame *frame, const DipSrgbPicture *truth) {
     const DipLivePicture *picture = &live->picture;
     const size_t row_bytes = 4 * (size_t)picture->width;
     if (!live->rgba8) {
@@ -177,22 +187,49 @@ static bool begin_judging(DipLivePrices *live, const DipSrgbPicture *truth) {
         dip_meter_set_standard(&live->meter, &(DipMeterStandard){.picture = *truth});
     }
     for (size_t y = 0; y < (size_t)picture->height; y++) {
-        memcpy(live->rgba8 + y * row_bytes, live->frame.rgba8 + y * live->frame.stride_bytes,
-               row_bytes);
+        memcpy(live->rgba8 + y * row_bytes, frame->rgba8 + y * frame->stride_bytes, row_bytes);
     }
     const DipSrgbPicture copy = {live->rgba8, row_bytes, picture->width, picture->height};
     dip_meter_begin(&live->meter, &copy, NULL);
     return true;
 }
 
+// Returns the first row whose errors against the truth are not known; -1: there is none.
+static int find_unjudged(const DipLivePrices *live) {
+    for (int r = 0; r < dip_prices_live(live->prices)->row_count; r++) {
+        if (live->samples[r] < live->truth.samples) {
+            return r;
+        }
+    }
+    return -1;
+}
+
 static void begin_errors(DipLivePrices *live) {
-    DipQuality list[MOST_ERRORS];
-    dip_prices_list_without_flip(live->prices, live->truth.samples, list, MOST_ERRORS);
-    live->judged = list[0];
+    DipFrame frame;
+    live->judged = find_unjudged(live);
     live->measures_errors =
-        draw(live, &live->judged, 0, NULL) && begin_judging(live, &live->truth.picture);
+        draw(live, &dip_prices_live(live->prices)->rows[live->judged].quality, 0, &frame, NULL) &&
+        begin_judging(live, &frame, &live->truth.picture);
     live->errors_failed = !live->measures_errors;
     live->errors_left = live->errors_failed ? 0 : live->errors_left;
+}
+
+// Shows the errors against the newest truth once no row shows an error against a coarser one, since
+// errors against two truths must not be compared.
+static bool show_errors(const DipLivePrices *live) {
+    const DipCostReport *report = dip_prices_live(live->prices);
+    for (int r = 0; r < report->row_count; r++) {
+        if (report->rows[r].judged[0] && live->samples[r] < live->truth.samples) {
+            return false;
+        }
+    }
+    for (int r = 0; r < report->row_count; r++) {
+        if (live->samples[r] == live->truth.samples) {
+            report->rows[r].viewpoints[0] = live->sums[r];
+            report->rows[r].judged[0] = true;
+        }
+    }
+    return dip_prices_update_live(live->prices, false, NULL);
 }
 
 // Draws a picture or measures a part of it; there is a combination whose error is not known.
@@ -212,11 +249,10 @@ static bool step_errors(DipLivePrices *live) {
         live->errors_left = 0;
         return false;
     }
-    const DipMetricSums sums = dip_meter_sums(&live->meter);
-    dip_prices_add_rough_flip(live->prices, &live->judged, dip_metrics_of(&sums, 0).flip,
-                              live->truth.samples);
+    live->sums[live->judged] = dip_meter_sums(&live->meter);
+    live->samples[live->judged] = live->truth.samples;
     live->errors_left--;
-    return true;
+    return show_errors(live);
 }
 
 static bool measure_errors(DipLivePrices *live, int64_t end_ns) {
@@ -248,11 +284,11 @@ static void follow_truth(DipLivePrices *live, const DipLiveTruth *truth) {
 }
 
 static void count_errors_left(DipLivePrices *live) {
-    DipQuality list[MOST_ERRORS];
-    live->errors_left =
-        has_truth(live) && !live->errors_failed
-            ? dip_prices_list_without_flip(live->prices, live->truth.samples, list, MOST_ERRORS)
-            : 0;
+    const int rows = dip_prices_live(live->prices)->row_count;
+    live->errors_left = 0;
+    for (int r = 0; has_truth(live) && !live->errors_failed && r < rows; r++) {
+        live->errors_left += live->samples[r] < live->truth.samples;
+    }
 }
 
 // --- progress ------------------------------------------------------------------------------------
@@ -265,7 +301,7 @@ static bool truth_draws(const DipLivePrices *live) {
 // Writes "times: 12 steps left, 4 s", "errors: the converged picture is 40 % drawn", "errors: 3 of
 // 24", or "" if nothing is left.
 static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
-    const int count = dip_prices_rough_count(live->prices);
+    const int count = dip_prices_live(live->prices)->row_count;
     bool waits = false;
     dip_price_job_describe(live->job, text, size_bytes);
     if (truth_draws(live)) {

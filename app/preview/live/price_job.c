@@ -1,9 +1,9 @@
 // Timing combinations of settings beside the base, in blocks.
 #include "app/preview/live/price_job.h"
 
+#include "app/cost/context.h"
 #include "app/measure/timing/driver.h"
-#include "app/preview/prices/price_question.h"
-#include "app/report/verdict.h"
+#include "app/report/prices/question.h"
 #include "renderer/base/clock.h"
 
 #include <math.h>
@@ -14,16 +14,14 @@
 enum {
     BLOCK = 4,            // Combinations of a block, besides the base.
     VISITS = BLOCK + 1,   // The base is one of them.
-    LEVELS = 64,          // Blocks whose times of the base are kept.
     FRAMES_OF_A_VISIT = 2 // One untimed, one timed.
 };
 
-// A combination that was timed.
-typedef struct Timed {
+// A combination of the block that is being timed. The first one is the base.
+typedef struct Member {
     DipQuality quality;
-    DipEstimate ratio; // Of its time to that of the base.
-    int rounds;        // In which it was timed.
-} Timed;
+    double counters[DIP_COST_COUNTER_COUNT]; // Of the frame that was drawn last.
+} Member;
 
 struct DipPriceJob {
     DipPriceJobCalls calls;
@@ -36,24 +34,19 @@ struct DipPriceJob {
     bool idle;        // Every combination is known.
     DipQuality wanted[DIP_PRICE_MAX_WANTED];
     int wanted_count;
-    int rounds; // That each combination gets now: the first rounds, until all have them.
+    int rounds; // That each combination has at last: the first rounds, until all have them.
 
-    // The block.
     DipDriver *driver; // Times the members; NULL: there is no block.
-    DipQuality members[VISITS];
-    int member_count; // Member 0 is the base.
+    Member members[VISITS];
+    int member_count;
+    int rounds_before; // Of the members, when the block began.
 
-    Timed timed[DIP_PRICE_MAX_WANTED * 2];
-    int timed_count;
-    double base_ms[LEVELS]; // Median time of the base in each of the last blocks.
-    int blocks;             // Blocks that are complete.
-    double drawn_ms;        // Time and number of the frames of this picture.
+    int rounds_of[DIP_PRICES_LIVE_ROWS]; // In which a row of the report was timed.
+    int blocks;                          // Blocks that are complete.
+    double drawn_ms;                     // Time and number of the frames of this picture.
     int drawn;
-    // Sums over the pairs of times of this picture: the share that the threads waited, and
-    // disturbed ones.
-    double waited;
-    int disturbed;
-    int judged;
+    double waited; // Share that the threads waited, summed over the rounds of all blocks.
+    int waited_rounds;
 };
 
 static int64_t now_ns(const DipPriceJob *job) {
@@ -88,29 +81,16 @@ void dip_price_job_interrupt(DipPriceJob *job) {
 
 void dip_price_job_forget(DipPriceJob *job) {
     dip_driver_destroy(&job->driver);
-    dip_prices_forget_rough(job->prices);
-    dip_prices_set_rough_doubtful(job->prices, false);
-    job->timed_count = 0;
-    job->blocks = 0;
-    job->drawn_ms = 0.0;
-    job->drawn = 0;
-    job->waited = 0.0;
-    job->disturbed = job->judged = 0;
+    dip_prices_forget_live(job->prices);
+    memset(job->rounds_of, 0, sizeof job->rounds_of);
+    job->blocks = job->drawn = job->waited_rounds = 0;
+    job->drawn_ms = job->waited = 0.0;
     job->failed = false;
     job->idle = false;
     job->rounds = DIP_PRICE_JOB_FIRST_ROUNDS;
 }
 
 // --- what to time --------------------------------------------------------------------------------
-
-static Timed *find_timed(DipPriceJob *job, const DipQuality *quality) {
-    for (int i = 0; i < job->timed_count; i++) {
-        if (dip_quality_equal(&job->timed[i].quality, quality)) {
-            return &job->timed[i];
-        }
-    }
-    return NULL;
-}
 
 // Lists the combinations that are not timed yet in `rounds` rounds. The base is part of every
 // block, so it is not in the list.
@@ -122,8 +102,8 @@ static void list_with_rounds(DipPriceJob *job, int rounds) {
     job->rounds = rounds;
     job->wanted_count = 0;
     for (int i = 0; i < count; i++) {
-        const Timed *timed = find_timed(job, &all[i]);
-        if (!dip_quality_equal(&all[i], &base) && (!timed || timed->rounds < rounds)) {
+        const int row = dip_prices_find_live(job->prices, &all[i]);
+        if (!dip_quality_equal(&all[i], &base) && (row < 0 || job->rounds_of[row] < rounds)) {
             job->wanted[job->wanted_count++] = all[i];
         }
     }
@@ -159,15 +139,21 @@ static void drop_block(DipPriceJob *job) {
 // Each round begins with the pattern of temporal AA that the round before timed last.
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     DipPriceJob *job = context;
-    (void)timed;
+    Member *member = &job->members[turn->subject];
     const bool is_timed = turn->phase == DIP_DRIVER_TIMED;
     const uint64_t index = (uint64_t)(FRAMES_OF_A_VISIT * turn->round + is_timed + turn->round % 2);
     const int64_t begin_ns = now_ns(job);
-    if (!job->calls.draw(job->calls.context, &job->members[turn->subject], index, err)) {
+    DipFrame frame = {0};
+    if (!job->calls.draw(job->calls.context, &member->quality, index, &frame, err)) {
         return false;
     }
     job->drawn_ms += 1e-6 * (double)(now_ns(job) - begin_ns);
     job->drawn++;
+    dip_cost_stage_parts(&frame, timed->parts_ms);
+    double *counter = member->counters;
+#define TAKE_COUNTER(name, text) *counter++ = (double)frame.counters.name;
+    DIP_COUNTER_LIST(TAKE_COUNTER)
+#undef TAKE_COUNTER
     return true;
 }
 
@@ -182,14 +168,15 @@ static DipThreadUse thread_use(void *context) {
 
 static bool begin_block(DipPriceJob *job) {
     list_wanted(job);
-    if (job->idle || job->timed_count + BLOCK > (int)(sizeof job->timed / sizeof *job->timed)) {
+    if (job->idle || dip_prices_live(job->prices)->row_count + VISITS > DIP_PRICES_LIVE_ROWS) {
         job->idle = true;
         return false;
     }
-    job->members[0] = dip_prices_base(job->prices);
+    job->rounds_before = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS ? 0 : DIP_PRICE_JOB_FIRST_ROUNDS;
+    job->members[0].quality = dip_prices_base(job->prices);
     job->member_count = 1;
     while (job->member_count < VISITS && job->member_count <= job->wanted_count) {
-        job->members[job->member_count] = job->wanted[job->member_count - 1];
+        job->members[job->member_count].quality = job->wanted[job->member_count - 1];
         job->member_count++;
     }
     static const int base_of[VISITS] = {0};
@@ -198,7 +185,7 @@ static bool begin_block(DipPriceJob *job) {
         .base_of = base_of,
         .block_subjects = BLOCK,
         .starts = 1,
-        .rounds = job->rounds,
+        .rounds = job->rounds - job->rounds_before,
         .frames = 1,
         .seed = (uint64_t)job->blocks,
         .most_wait = DIP_TIMED_MOST_WAIT,
@@ -215,59 +202,41 @@ static bool begin_block(DipPriceJob *job) {
     return !job->failed;
 }
 
-// Returns the time of the base: the median over the blocks.
-static double base_ms_of(const DipPriceJob *job) {
-    double ms[LEVELS];
-    const int count = job->blocks < LEVELS ? job->blocks : LEVELS;
-    memcpy(ms, job->base_ms, (size_t)count * sizeof *ms);
-    return dip_median(ms, count);
-}
-
-// Publishes all prices anew, because the base's time has become better known.
-static bool publish(DipPriceJob *job) {
-    const double base_ms = base_ms_of(job);
-    const DipQuality base = dip_prices_base(job->prices);
-    bool added = dip_prices_add_rough(job->prices, &base, base_ms, base_ms, base_ms, -1.0);
-    for (int i = 0; added && i < job->timed_count; i++) {
-        const Timed *timed = &job->timed[i];
-        added = dip_prices_add_rough(job->prices, &timed->quality, timed->ratio.value * base_ms,
-                                     timed->ratio.low * base_ms, timed->ratio.high * base_ms, -1.0);
+// Adds the block to the log. Rounds of the second time follow those of the first.
+static bool log_block(DipPriceJob *job, const int rows[VISITS], DipError *err) {
+    DipCostReport *report = dip_prices_live(job->prices);
+    const DipTimes times = dip_driver_times(job->driver);
+    const int before = job->rounds_before, first = report->log_count;
+    if (!dip_cost_log_add(report, &times, rows, err)) {
+        return false;
     }
-    return added ||
-           dip_error_set(&job->failure, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
-}
-
-// Tells whether the machine was too busy: by the rule of a report, as far as its signs are known.
-static void judge(DipPriceJob *job, double wait, int disturbed, int rounds) {
-    job->waited += wait * rounds;
-    job->disturbed += disturbed;
-    job->judged += rounds;
-    const DipCostSigns signs = {.wait = job->waited / job->judged,
-                                .disturbed = (double)job->disturbed / job->judged,
-                                .settled = true};
-    char reason[DIP_COST_REASON];
-    dip_prices_set_rough_doubtful(job->prices, dip_cost_verdict_of(&signs, reason) == DIP_COST_RED);
+    for (int i = first; i < report->log_count; i++) {
+        report->log[i].round += before;
+    }
+    const int rounds = before + times.rounds;
+    report->rounds = report->options.rounds = rounds > report->rounds ? rounds : report->rounds;
+    job->waited += dip_driver_machine(job->driver, job->calls.threads).wait * times.rounds;
+    job->waited_rounds += times.rounds;
+    report->machine.wait = job->waited / job->waited_rounds;
+    for (int m = 0; m < job->member_count; m++) {
+        job->rounds_of[rows[m]] = rounds;
+        memcpy(report->rows[rows[m]].counters, job->members[m].counters,
+               sizeof job->members[m].counters);
+    }
+    return dip_prices_update_live(job->prices, true, err);
 }
 
 static bool end_block(DipPriceJob *job) {
-    const DipTimes times = dip_driver_times(job->driver);
-    DipTimesFit *fit = dip_times_fit(&times, &job->failure);
-    int disturbed = 0;
-    for (int m = 1; fit && m < job->member_count; m++) {
-        const DipAlong along = dip_times_along(fit, m);
-        Timed *before = find_timed(job, &job->members[m]);
-        disturbed += along.timed - along.kept;
-        *(before ? before : &job->timed[job->timed_count++]) =
-            (Timed){job->members[m], dip_times_ratio(fit, m), times.rounds};
+    int rows[VISITS];
+    bool done = true;
+    for (int m = 0; done && m < job->member_count; m++) {
+        rows[m] = dip_prices_live_row(job->prices, &job->members[m].quality, &job->failure);
+        done = rows[m] >= 0;
     }
-    if (fit) {
-        job->base_ms[job->blocks++ % LEVELS] = dip_times_frames(fit, 0)[0];
-        judge(job, dip_driver_machine(job->driver, job->calls.threads).wait, disturbed,
-              times.rounds * (job->member_count - 1));
-    }
+    done = done && log_block(job, rows, &job->failure);
+    job->blocks++;
     drop_block(job);
-    job->failed = !fit || !publish(job);
-    dip_times_fit_free(&fit);
+    job->failed = !done;
     list_wanted(job);
     return !job->failed;
 }
@@ -302,10 +271,12 @@ DipPriceProgress dip_price_job_progress(const DipPriceJob *job) {
     }
     const int blocks = (job->wanted_count + BLOCK - 1) / BLOCK; // With the one that is being timed.
     const int visits = job->wanted_count + blocks;
-    const int frames = visits * FRAMES_OF_A_VISIT * job->rounds;
+    const bool first = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS;
+    const int rounds = first ? job->rounds : job->rounds - DIP_PRICE_JOB_FIRST_ROUNDS;
+    const int frames = visits * FRAMES_OF_A_VISIT * rounds;
     const DipDriverProgress block =
         job->driver ? dip_driver_progress(job->driver) : (DipDriverProgress){0};
-    progress.first = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS;
+    progress.first = first;
     progress.rounds = block.rounds;
     progress.combinations = job->wanted_count;
     if (job->drawn > 0) {

@@ -1,11 +1,11 @@
-// Measures rough prices while the preview rests, a frame at a time.
+// Measures the times of the live report while the preview rests, a frame at a time.
 //
 // The job times combinations of settings in blocks: the base and a few combinations, each drawn
 // once in every round, in an order that is shuffled anew. A visit draws one frame untimed, because
-// the previous combination has used the caches, and times the next one. The ratios of each
-// combination to the base give its price with an interval (app/measure/stats/rounds.h). At first
-// every combination gets three rounds, so that all prices are soon known roughly; then each gets a
-// block of eight rounds. The combinations nearest to the requested settings come first.
+// the previous combination has used the caches, and times the next one. All times enter the log of
+// the live report (app/preview/prices/prices.h), which is estimated anew after each block. At first
+// every combination gets three rounds, so that all prices are soon known roughly; then each gets
+// five more. The combinations nearest to the requested settings come first.
 //
 // What draws and what tells the time are functions of the caller, so that tests need neither.
 #ifndef DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
@@ -14,6 +14,7 @@
 #include "app/measure/timing/thread_use.h"
 #include "app/preview/prices/prices.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/frame.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -22,9 +23,11 @@
 enum { DIP_PRICE_JOB_FIRST_ROUNDS = 3, DIP_PRICE_JOB_ROUNDS = 8 };
 
 typedef struct DipPriceJobCalls {
-    // Draws a frame with these settings. frame_index: see dip_painter_set_frame_index. If it
-    // fails, the job ends until it is told to forget.
-    bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err);
+    // Draws a frame with these settings. frame_index: see dip_painter_set_frame_index. Of *frame
+    // the counters and the times of the stages are used. If it fails, the job ends until it is told
+    // to forget.
+    bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
+                 DipError *err);
     int64_t (*now_ns)(void *context);          // NULL means dip_clock_ns.
     DipThreadUse (*thread_use)(void *context); // NULL: a watch of this process' threads.
     int threads;                               // That draw a frame.
@@ -33,12 +36,12 @@ typedef struct DipPriceJobCalls {
 
 typedef struct DipPriceJob DipPriceJob;
 
-// Writes prices into *prices, which is borrowed. Fails with MEMORY.
+// Fills the live report of *prices, which is borrowed. Fails with MEMORY.
 DipPriceJob *dip_price_job_create(const DipPriceJobCalls *calls, DipPrices *prices, DipError *err);
 void dip_price_job_destroy(DipPriceJob **job); // *job may be NULL.
 
-// Drops the block that is being timed and forgets all rough prices. Call it when pose, time, size
-// or scene of the picture change.
+// Drops the block that is being timed and empties the live report. Call it when pose, time,
+// size or scene of the picture change.
 void dip_price_job_forget(DipPriceJob *job);
 
 // Drops the round that is being timed, because the preview no longer rests.

@@ -151,7 +151,7 @@ static void follow_layout(DipPreview *preview) {
 // Follows the prices and the budget in what can be chosen. Returns whether that is new.
 static bool choose(DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
-    return dip_preview_choose(&preview->choice, state->costs, preview->prices,
+    return dip_preview_choose(&preview->choice, preview->prices,
                               &state->quality[DIP_PANE_REQUESTED], state->budget_ms);
 }
 

@@ -42,18 +42,11 @@ struct DipReload {
     char **names; // Every name that was ever dropped, once. Options point to these names.
     int name_count;
     Opening opening;
-    DipPrices *prices; // Borrowed, or NULL.
-    DipCosts *costs;
+    DipPrices *prices;    // Borrowed, or NULL.
+    DipCostReport *costs; // Owned; NULL: none was opened.
 };
 
 // --- the files of a session ----------------------------------------------------------------------
-
-static void free_costs(DipCosts *costs) {
-    if (costs) {
-        dip_costs_free(costs);
-    }
-    free(costs);
-}
 
 static void watch_model(DipWatch *watch, const char *file) {
     dip_watch_file(watch, file);
@@ -147,7 +140,7 @@ void dip_reload_destroy(DipReload **reload_pointer) {
         free(reload->names[i]);
     }
     free(reload->names);
-    free_costs(reload->costs);
+    dip_costs_free(&reload->costs);
     free(reload);
 }
 
@@ -337,26 +330,22 @@ void dip_reload_take(DipReload *reload) {
 static bool open_costs(DipReload *reload, const char *file, DipReloadNews *news) {
     char scene[DIP_COST_TEXT];
     DipError err;
-    DipCosts *costs = calloc(1, sizeof *costs);
     dip_cost_scene_name(reload->session, scene);
     news->dropped = true;
-    if (costs && dip_costs_load(costs, reload->prices, file, scene, &err)) {
-        free_costs(reload->costs);
-        reload->costs = costs;
-        return tell(news, DIP_RELOAD_COSTS, "Opened ", base_name(file));
-    }
+    DipCostReport *costs = dip_costs_load(reload->prices, file, scene, &err);
     if (!costs) {
-        dip_error_set(&err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+        return tell_error(news, &err);
     }
-    free_costs(costs);
-    return tell_error(news, &err);
+    dip_costs_free(&reload->costs);
+    reload->costs = costs;
+    return tell(news, DIP_RELOAD_COSTS, "Opened ", base_name(file));
 }
 
 void dip_reload_set_prices(DipReload *reload, DipPrices *prices) {
     reload->prices = prices;
 }
 
-const DipCosts *dip_reload_costs(const DipReload *reload) {
+const DipCostReport *dip_reload_costs(const DipReload *reload) {
     return reload->costs;
 }
 

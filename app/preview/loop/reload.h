@@ -54,6 +54,6 @@ void dip_reload_take(DipReload *reload);
 void dip_reload_set_prices(DipReload *reload, DipPrices *prices);
 
 // Returns the cost report that was dropped last. It is valid until the next one is loaded.
-const DipCosts *dip_reload_costs(const DipReload *reload);
+const DipCostReport *dip_reload_costs(const DipReload *reload);
 
 #endif

@@ -1,7 +1,6 @@
 // Makes the preview's choice from a report or from live prices, and puts it into words.
 #include "app/preview/prices/choice.h"
 
-#include "app/preview/prices/live_candidates.h"
 #include "app/preview/prices/price_text.h"
 #include "app/report/words.h"
 
@@ -15,21 +14,27 @@ static const double shares[DIP_MEASURED_PRESETS - 1] = {0.5, 0.8, 0.95};
 
 static void take_candidates(DipPreviewChoice *choice, const DipPrices *prices) {
     static const DipChoiceState states[] = {
-        [DIP_LIVE_NO_TIMES] = DIP_CHOICE_NO_TIMES,
-        [DIP_LIVE_NO_ERRORS] = DIP_CHOICE_NO_ERRORS,
-        [DIP_LIVE_KNOWN] = DIP_CHOICE_KNOWN,
+        [DIP_PRICES_NO_TIMES] = DIP_CHOICE_NO_TIMES,
+        [DIP_PRICES_NO_ERRORS] = DIP_CHOICE_NO_ERRORS,
+        [DIP_PRICES_KNOWN] = DIP_CHOICE_KNOWN,
     };
-    free(choice->live_list);
-    choice->live_list = NULL;
-    choice->live = !choice->costs || (prices && dip_prices_are_rough(prices));
+    const DipPriceView *view = prices ? dip_prices_view(prices) : NULL;
+    const DipCostReport *report = view ? dip_price_view_report(view) : NULL;
+    free(choice->own_list);
+    choice->own_list = NULL;
+    choice->live = !prices || dip_prices_are_rough(prices);
+    choice->of_like = report && (choice->live || dip_cost_is_view(report));
     choice->candidates = (DipCandidates){0};
     choice->state = DIP_CHOICE_NO_TIMES;
-    if (choice->live && prices) {
-        choice->state = states[dip_live_candidates(prices, &choice->like, &choice->candidates)];
-        choice->live_list = choice->candidates.list;
-    } else if (!choice->live && choice->costs->candidates.count > 0) {
-        choice->candidates = choice->costs->candidates;
-        choice->state = choice->candidates.disturbed ? DIP_CHOICE_DISTURBED : DIP_CHOICE_KNOWN;
+    if (choice->of_like) {
+        choice->state = states[dip_price_candidates(view, &choice->like, &choice->candidates)];
+        choice->own_list = choice->candidates.list;
+    } else if (report && report->choice.candidates.count > 0) {
+        choice->candidates = report->choice.candidates;
+        choice->state = DIP_CHOICE_KNOWN;
+    }
+    if (choice->state == DIP_CHOICE_KNOWN && choice->candidates.disturbed) {
+        choice->state = DIP_CHOICE_DISTURBED;
     }
 }
 
@@ -71,24 +76,20 @@ void dip_preview_choice_set_budget(DipPreviewChoice *choice, double budget_ms) {
     make_presets(choice);
 }
 
-bool dip_preview_choose(DipPreviewChoice *choice, const DipCosts *costs, const DipPrices *prices,
-                        const DipQuality *like, double budget_ms) {
+bool dip_preview_choose(DipPreviewChoice *choice, const DipPrices *prices, const DipQuality *like,
+                        double budget_ms) {
     const unsigned changes = prices ? dip_prices_changes(prices) : 0;
-    const bool same_list = choice->is_made && choice->costs == costs &&
-                           choice->price_changes == changes &&
-                           (!choice->live || memcmp(&choice->like, like, sizeof *like) == 0);
+    const bool same_list = choice->is_made && choice->price_changes == changes &&
+                           (!choice->of_like || memcmp(&choice->like, like, sizeof *like) == 0);
     if (same_list && fabs(choice->advice.budget_ms - budget_ms) < 1e-9) {
         return false;
     }
     if (!same_list) {
-        choice->costs = costs;
         choice->price_changes = changes;
         choice->like = *like;
         take_candidates(choice, prices);
         list_front(choice);
-        const DipQuality base = costs    ? costs->base
-                                : prices ? dip_prices_base(prices)
-                                         : dip_quality_default();
+        const DipQuality base = prices ? dip_prices_base(prices) : dip_quality_default();
         find_base(choice, &base);
     }
     choice->is_made = true;
@@ -98,7 +99,7 @@ bool dip_preview_choose(DipPreviewChoice *choice, const DipCosts *costs, const D
 
 void dip_preview_choice_free(DipPreviewChoice *choice) {
     free(choice->front);
-    free(choice->live_list);
+    free(choice->own_list);
     *choice = (DipPreviewChoice){0};
 }
 
@@ -118,7 +119,8 @@ void dip_preview_choice_why(const DipPreviewChoice *choice, const char *progress
         snprintf(text, size_bytes, "Errors are measured while the view rests. %s", progress);
     } else if (choice->state == DIP_CHOICE_DISTURBED) {
         snprintf(text, size_bytes,
-                 "The machine was too busy while the report was measured, so nothing is advised.");
+                 "The machine was too busy while the %s measured, so nothing is advised.",
+                 choice->live ? "times were" : "report was");
     } else {
         dip_budget_ms_text(choice->advice.budget_ms, ms);
         snprintf(text, size_bytes, "Nothing measured surely fits %s ms.", ms);

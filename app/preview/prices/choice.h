@@ -4,7 +4,6 @@
 #ifndef DIP_APP_PREVIEW_PRICES_CHOICE_H
 #define DIP_APP_PREVIEW_PRICES_CHOICE_H
 
-#include "app/preview/prices/costs.h"
 #include "app/preview/prices/prices.h"
 
 typedef enum DipChoiceState {
@@ -22,7 +21,7 @@ enum { DIP_MEASURED_PRESETS = 4 };
 typedef struct DipPreviewChoice {
     DipChoiceState state;
     bool live;                // From live prices, so times are means of this view.
-    DipCandidates candidates; // Borrowed from the report, or live.
+    DipCandidates candidates; // Those that the report measured, or prices of one picture.
     int *front;               // The thinned front: indices of candidates. Owned.
     int front_count;
     int base;         // The candidate with the settings that prices start from, or -1.
@@ -30,16 +29,16 @@ typedef struct DipPreviewChoice {
     int presets[DIP_MEASURED_PRESETS]; // Candidates, or -1 while nothing fits.
     // What all of it was computed from.
     bool is_made;
-    const DipCosts *costs;
     unsigned price_changes;
+    bool of_like; // The candidates depend on `like`.
     DipQuality like;
-    DipCandidate *live_list; // Owned.
+    DipCandidate *own_list; // Owned.
 } DipPreviewChoice;
 
-// Computes the choice again if something has changed. costs may be NULL. like: the settings of the
+// Computes the choice again if something has changed. prices may be NULL. like: the settings of the
 // requested pane. Returns whether it was computed.
-bool dip_preview_choose(DipPreviewChoice *choice, const DipCosts *costs, const DipPrices *prices,
-                        const DipQuality *like, double budget_ms);
+bool dip_preview_choose(DipPreviewChoice *choice, const DipPrices *prices, const DipQuality *like,
+                        double budget_ms);
 
 // Asks for another budget at once.
 void dip_preview_choice_set_budget(DipPreviewChoice *choice, double budget_ms);

@@ -1,7 +1,6 @@
 // Turns a report's times and errors into text.
 #include "app/preview/prices/costs.h"
 
-#include "app/report/candidates.h"
 #include "app/report/format/formats.h"
 #include "app/report/words.h"
 
@@ -40,52 +39,55 @@ static void make_step(DipCostsStep *step, const DipCostReport *report, const Dip
     snprintf(step->name, sizeof step->name, "%.23s", name);
 }
 
-static void make_row(DipCostsRow *row, const DipCostReport *report, const DipCostSweep *sweep) {
+DipCostsRow dip_costs_row(const DipCostReport *report, const DipCostSweep *sweep) {
+    DipCostsRow row = {.setting = sweep->setting, .step_count = sweep->row_count};
     char title[DIP_COST_TEXT];
     dip_cost_sweep_title(report, sweep, title);
-    snprintf(row->title, sizeof row->title, "%.47s", title);
-    row->setting = sweep->setting;
-    row->step_count = sweep->row_count;
+    snprintf(row.title, sizeof row.title, "%.47s", title);
     for (int i = 0; i < sweep->row_count; i++) {
-        make_step(&row->steps[i], report, sweep, i);
+        make_step(&row.steps[i], report, sweep, i);
     }
+    return row;
 }
 
-bool dip_costs_make(DipCosts *costs, const DipCostReport *report, DipError *err) {
-    *costs = (DipCosts){.base = report->options.baseline};
-    snprintf(costs->heading, sizeof costs->heading, "%.80s, %dx%d, %d thread%s, %s", report->scene,
-             report->width, report->height, report->threads, report->threads == 1 ? "" : "s",
-             report->isa);
-    costs->width = report->width;
-    costs->height = report->height;
-    snprintf(costs->path, sizeof costs->path, "%s", report->paths[0]);
+void dip_costs_heading(const DipCostReport *report, char text[DIP_COSTS_HEADING]) {
+    snprintf(text, DIP_COSTS_HEADING, "%.80s, %dx%d, %d thread%s, %s", report->scene, report->width,
+             report->height, report->threads, report->threads == 1 ? "" : "s", report->isa);
+}
+
+void dip_costs_make(DipCosts *costs, const DipCostReport *report) {
+    *costs = (DipCosts){.row_count = report->sweep_count};
     for (int i = 0; i < report->sweep_count; i++) {
-        make_row(&costs->rows[costs->row_count++], report, &report->sweeps[i]);
+        costs->rows[i] = dip_costs_row(report, &report->sweeps[i]);
     }
-    costs->budget_count = report->options.budget_count;
-    memcpy(costs->budgets_ms, report->options.budgets_ms, sizeof costs->budgets_ms);
-    return report->rounds == 0 ||
-           dip_candidates_of(report, report->options.budget_of, &costs->candidates, err);
 }
 
-void dip_costs_free(DipCosts *costs) {
-    dip_candidates_free(&costs->candidates);
+static bool read_report(DipCostReport *report, DipPrices *prices, const char *file,
+                        const char *scene, DipError *err) {
+    return dip_cost_read_json(report, file, err) &&
+           (strcmp(report->scene, scene) == 0 ||
+            dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
+                          "is a report of %s, accepted a report of %s", report->scene, scene)) &&
+           (!prices || dip_prices_set_report(prices, report, err));
 }
 
-bool dip_costs_load(DipCosts *costs, DipPrices *prices, const char *file, const char *scene,
-                    DipError *err) {
-    DipCostReport report;
-    *costs = (DipCosts){0};
-    if (!dip_cost_read_json(&report, file, err)) {
-        return false;
+DipCostReport *dip_costs_load(DipPrices *prices, const char *file, const char *scene,
+                              DipError *err) {
+    DipCostReport *report = calloc(1, sizeof *report);
+    if (!report) {
+        dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "--cost", "out of memory");
+    } else if (!read_report(report, prices, file, scene, err)) {
+        dip_costs_free(&report);
     }
-    bool fits = strcmp(report.scene, scene) == 0 ||
-                dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
-                              "is a report of %s, accepted a report of %s", report.scene, scene);
-    fits = fits && dip_costs_make(costs, &report, err) &&
-           (!prices || dip_prices_set_report(prices, &report, err));
-    dip_cost_report_free(&report);
-    return fits;
+    return report;
+}
+
+void dip_costs_free(DipCostReport **report) {
+    if (*report) {
+        dip_cost_report_free(*report);
+        free(*report);
+        *report = NULL;
+    }
 }
 
 // The report measures the steps of adaptive AA with one number of samples, so the pane must have

@@ -1,11 +1,8 @@
-// The times, errors and advice of a cost report (`diptych cost`), as text for the window.
+// The sweeps of a cost report (`diptych cost`) as text for the window, and the report's memory.
 #ifndef DIP_APP_PREVIEW_PRICES_COSTS_H
 #define DIP_APP_PREVIEW_PRICES_COSTS_H
 
-#include "app/report/report.h"
 #include "app/preview/prices/prices.h"
-
-#include <stdbool.h>
 
 // One step (value) of a setting.
 typedef struct DipCostsStep {
@@ -27,30 +24,25 @@ typedef struct DipCostsRow {
 } DipCostsRow;
 
 typedef struct DipCosts {
-    char heading[256]; // Scene, size, threads and instruction set.
-    int width;         // Size of the measured pictures, in pixels.
-    int height;
-    char path[16];   // Name of the camera path of the combinations: "DEFAULT".
-    DipQuality base; // The settings that the report starts from.
-    // What can be chosen: the combinations with times and errors. The list is owned.
-    DipCandidates candidates;
-    double budgets_ms[DIP_COST_MAX_BUDGETS]; // Those of the report.
-    int budget_count;
     DipCostsRow rows[DIP_COST_MAX_SWEEPS];
     int row_count;
 } DipCosts;
 
-// Fails with MEMORY.
-bool dip_costs_make(DipCosts *costs, const DipCostReport *report, DipError *err);
-void dip_costs_free(DipCosts *costs);
+// Writes the scene, size, threads and instruction set.
+enum { DIP_COSTS_HEADING = 256 };
+void dip_costs_heading(const DipCostReport *report, char text[DIP_COSTS_HEADING]);
 
-// Reads a cost report from the JSON file that `diptych cost` wrote, and gives its prices to
-// `prices`, unless that is NULL. Fails with CONFLICT if the
-// report's scene is not `scene`. Free *costs even after a failure.
-bool dip_costs_load(DipCosts *costs, DipPrices *prices, const char *file, const char *scene,
-                    DipError *err);
+DipCostsRow dip_costs_row(const DipCostReport *report, const DipCostSweep *sweep);
+void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 
 // Returns whether a pane's settings include the given step of the row's setting.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality);
+
+// Reads a cost report from the JSON file that `diptych cost` wrote, and gives it to `prices`,
+// unless that is NULL, which uses it as long as it has no other. Returns NULL on failure: as
+// dip_cost_read_json does, or with CONFLICT if the report's scene is not `scene`.
+DipCostReport *dip_costs_load(DipPrices *prices, const char *file, const char *scene,
+                              DipError *err);
+void dip_costs_free(DipCostReport **report); // *report may be NULL.
 
 #endif

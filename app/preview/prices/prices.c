@@ -1,66 +1,50 @@
-// Prices of steps: from the report's tags, or from the differences of whole times.
+// Holds the report that was read and the report that is measured here, and says which one is used.
 #include "app/preview/prices/prices.h"
 
 #include "app/measure/metrics/flip.h"
-#include "app/report/format/formats.h"
-#include "app/preview/prices/prices_private.h"
 
-#include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// The widest interval that holds 0 and stands for a price of 0, as a share of the time without the
-// step. A wider interval comes from a busy machine or from a prediction, and tells nothing.
-static const double widest_zero = 0.2;
-// The widest interval of a time that is not doubtful, as a share of the time; and the interval that
-// is always narrow enough, because the panel shows times to a tenth of a millisecond.
-static const double widest_share = 0.5;
-static const double narrow_ms = 0.2;
-static const double least_shown_ms = 0.05; // Smaller times would be shown as 0.0.
+struct DipPrices {
+    DipPriceView *read; // NULL: there is no report.
+    DipCostReport measured;
+    DipPriceView *live; // Of `measured`.
+    bool prefers_live;
+    DipPriceConditions conditions;
+    unsigned changes;
+    double pixels_per_degree; // 0: none was set.
+    char progress[DIP_PRICE_PROGRESS];
+};
+
+static bool out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
+}
 
 DipPrices *dip_prices_create(DipError *err) {
     DipPrices *prices = calloc(1, sizeof *prices);
     if (!prices) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
+        out_of_memory(err);
+        return NULL;
+    }
+    prices->measured.options.baseline = dip_quality_default();
+    prices->live = dip_price_view_create(&prices->measured, err);
+    if (!prices->live) {
+        dip_prices_destroy(&prices);
     }
     return prices;
 }
 
 void dip_prices_destroy(DipPrices **prices) {
     if (*prices) {
-        dip_price_report_free(&(*prices)->report);
-        free((*prices)->rough.items);
+        dip_price_view_destroy(&(*prices)->read);
+        dip_price_view_destroy(&(*prices)->live);
+        dip_cost_report_free(&(*prices)->measured);
         free(*prices);
         *prices = NULL;
     }
-}
-
-static bool is_wide(double ms, double low, double high) {
-    return !(high - low <= fmax(widest_share * fabs(ms), narrow_ms));
-}
-
-DipPriceTrust dip_price_trust(const DipPrice *price) {
-    const double width = price->ms_high - price->ms_low;
-    if (price->state == DIP_PRICE_UNKNOWN) {
-        return DIP_PRICE_TRUST_UNKNOWN;
-    }
-    if (price->doubtful) {
-        return DIP_PRICE_TRUST_DOUBTFUL;
-    }
-    if (price->state != DIP_PRICE_BASE && price->ms_low <= 0.0 && price->ms_high >= 0.0) {
-        return width <= widest_zero * price->without_ms ? DIP_PRICE_TRUST_ZERO
-                                                        : DIP_PRICE_TRUST_DOUBTFUL;
-    }
-    return is_wide(price->ms, price->ms_low, price->ms_high) ? DIP_PRICE_TRUST_DOUBTFUL
-           : fabs(price->ms) < least_shown_ms                ? DIP_PRICE_TRUST_ZERO
-                                                             : DIP_PRICE_TRUST_KNOWN;
-}
-
-DipPriceTrust dip_price_sum_trust(const DipPriceSum *sum) {
-    return sum->state == DIP_PRICE_UNKNOWN                                ? DIP_PRICE_TRUST_UNKNOWN
-           : sum->doubtful || is_wide(sum->ms, sum->ms_low, sum->ms_high) ? DIP_PRICE_TRUST_DOUBTFUL
-                                                                          : DIP_PRICE_TRUST_KNOWN;
 }
 
 void dip_prices_set_conditions(DipPrices *prices, const DipPriceConditions *conditions) {
@@ -73,159 +57,216 @@ void dip_prices_set_viewing(DipPrices *prices, double pixels_per_degree) {
 
 double dip_prices_viewing(const DipPrices *prices) {
     return prices->pixels_per_degree > 0.0 ? prices->pixels_per_degree
-           : prices->has_report            ? prices->report.pixels_per_degree
-                                           : DIP_FLIP_PIXELS_PER_DEGREE;
+           : prices->read ? dip_price_view_report(prices->read)->options.pixels_per_degree
+                          : DIP_FLIP_PIXELS_PER_DEGREE;
 }
+
+// --- the report that was read --------------------------------------------------------------------
 
 bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipError *err) {
     ++prices->changes;
-    dip_price_report_free(&prices->report);
-    prices->has_report = dip_price_report_make(&prices->report, report, err);
-    return prices->has_report;
-}
-
-bool dip_prices_load_report(DipPrices *prices, const char *file, DipError *err) {
-    DipCostReport report;
-    if (!dip_cost_read_json(&report, file, err)) {
-        return false;
-    }
-    const bool taken = dip_prices_set_report(prices, &report, err);
-    dip_cost_report_free(&report);
-    return taken;
+    dip_price_view_destroy(&prices->read);
+    prices->read = dip_price_view_create(report, err);
+    return prices->read != NULL;
 }
 
 bool dip_prices_has_report(const DipPrices *prices) {
-    return prices->has_report;
+    return prices->read != NULL;
 }
 
 void dip_prices_prefer_rough(DipPrices *prices, bool prefer) {
-    prices->changes += prices->prefers_rough != prefer;
-    prices->prefers_rough = prefer;
+    prices->changes += prices->prefers_live != prefer;
+    prices->prefers_live = prefer;
+}
+
+bool dip_prices_are_rough(const DipPrices *prices) {
+    return !prices->read || prices->prefers_live;
+}
+
+// --- the report that is measured here ------------------------------------------------------------
+
+DipCostReport *dip_prices_live(DipPrices *prices) {
+    return &prices->measured;
+}
+
+// Begins a report of one picture, in which each row has room for one frame and one viewpoint.
+static bool begin_live(DipPrices *prices, DipError *err) {
+    DipCostReport *report = &prices->measured;
+    report->options.baseline = dip_prices_base(prices);
+    report->options.places = 1;
+    report->options.budget_of = DIP_TIME_MEAN;
+    report->machine.settled = true;
+    report->path_count = 1;
+    report->rounds = report->options.rounds = 1; // The log has more.
+    report->rows = calloc(DIP_PRICES_LIVE_ROWS, sizeof *report->rows);
+    return (report->rows || out_of_memory(err)) && dip_cost_report_alloc(report, err);
+}
+
+int dip_prices_find_live(const DipPrices *prices, const DipQuality *quality) {
+    return dip_price_row(prices->live, quality);
+}
+
+int dip_prices_live_row(DipPrices *prices, const DipQuality *quality, DipError *err) {
+    DipCostReport *report = &prices->measured;
+    if (!report->rows && !begin_live(prices, err)) {
+        dip_prices_forget_live(prices);
+        return -1;
+    }
+    const int row = dip_price_row(prices->live, quality);
+    if (row >= 0) {
+        return row;
+    }
+    if (report->row_count == DIP_PRICES_LIVE_ROWS) {
+        out_of_memory(err);
+        return -1;
+    }
+    const int added = dip_cost_report_add_row(report, quality, 0, err);
+    return added >= 0 && dip_price_view_update(prices->live, err) ? added : -1;
+}
+
+bool dip_prices_update_live(DipPrices *prices, bool timed, DipError *err) {
+    ++prices->changes;
+    return (!timed || dip_cost_estimate_times(&prices->measured, err)) &&
+           dip_price_view_update(prices->live, err);
+}
+
+void dip_prices_forget_live(DipPrices *prices) {
+    const DipQuality base = dip_prices_base(prices);
+    ++prices->changes;
+    dip_cost_report_free(&prices->measured);
+    prices->measured.options.baseline = base;
+    dip_price_view_update(prices->live, NULL); // Empty.
+}
+
+// --- what is used --------------------------------------------------------------------------------
+
+const DipPriceView *dip_prices_view(const DipPrices *prices) {
+    return dip_prices_are_rough(prices) ? prices->live : prices->read;
+}
+
+DipQuality dip_prices_base(const DipPrices *prices) {
+    return dip_price_base(prices->read ? prices->read : prices->live);
 }
 
 unsigned dip_prices_changes(const DipPrices *prices) {
     return prices->changes;
 }
 
-bool dip_prices_are_rough(const DipPrices *prices) {
-    return !prices->has_report || prices->prefers_rough;
-}
-
-const DipPriceList *dip_prices_list(const DipPrices *prices) {
-    return dip_prices_are_rough(prices) ? &prices->rough : &prices->report.known;
-}
-
-DipQuality dip_prices_base(const DipPrices *prices) {
-    return prices->has_report ? prices->report.base : dip_quality_default();
-}
-
-// Makes the price of the base's own step from its whole time.
-static DipPrice whole_price(const DipPriceKnown *known) {
-    return (DipPrice){
-        .state = known->state == DIP_PRICE_UNKNOWN ? DIP_PRICE_UNKNOWN : DIP_PRICE_BASE,
-        .ms = known->ms,
-        .ms_low = known->ms_low,
-        .ms_high = known->ms_high,
-        .has_flip = known->has_flip,
-        .flip = known->flip,
-        .flip_at_floor = known->flip_at_floor,
-    };
-}
-
-// Makes a price of two whole times, whose errors are independent.
-static DipPrice difference(const DipPriceKnown *with, const DipPriceKnown *without) {
-    DipPrice price = {.has_flip = with->has_flip && without->has_flip};
-    if (with->state != DIP_PRICE_UNKNOWN && without->state != DIP_PRICE_UNKNOWN) {
-        price.state = with->state > without->state ? with->state : without->state;
-        price.ms = with->ms - without->ms;
-        price.ms_low = price.ms - hypot(with->ms - with->ms_low, without->ms_high - without->ms);
-        price.ms_high = price.ms + hypot(with->ms_high - with->ms, without->ms - without->ms_low);
-        price.without_ms = without->ms;
-    }
-    if (price.has_flip) {
-        price.flip = with->flip - without->flip;
-        price.flip_at_floor = with->flip_at_floor;
-    }
-    return price;
-}
-
-// Answers from whole times: rough prices, and those that a report predicted.
-static DipPrice price_of_list(const DipPrices *prices, const DipPriceQuestion *question) {
-    const DipPriceKnown *with = dip_price_list_find(dip_prices_list(prices), &question->with);
-    const DipPriceKnown *without = dip_price_list_find(dip_prices_list(prices), &question->without);
-    if (!with || !without) {
-        return (DipPrice){.state = DIP_PRICE_UNKNOWN};
-    }
-    DipPrice price = question->is_base ? whole_price(with) : difference(with, without);
-    price.doubtful = dip_prices_are_doubtful(prices);
-    if (!dip_prices_are_rough(prices)) {
-        snprintf(price.path, sizeof price.path, "%s", prices->report.path);
-    }
-    return price;
-}
-
-static DipPrice answer(const DipPrices *prices, DipSetting setting,
-                       const DipPriceQuestion *question) {
-    const DipPrice *tag = dip_prices_are_rough(prices)
-                              ? NULL
-                              : dip_price_report_find(&prices->report, setting, question);
-    return tag ? *tag : price_of_list(prices, question);
-}
-
-// The companies that a price may have, the pane's own first.
-enum { WITHOUT_ADAPTIVE_AA = 1, WITHOUT_AA, COMPANIES };
-
-static DipQuality simpler_company(const DipQuality *base, const DipQuality *quality, int company) {
-    DipQuality simpler = *quality;
-    if (company >= WITHOUT_ADAPTIVE_AA) {
-        simpler.step[DIP_SETTING_AAA] = base->step[DIP_SETTING_AAA];
-        simpler.step[DIP_SETTING_ASD] = base->step[DIP_SETTING_ASD];
-    }
-    if (company >= WITHOUT_AA) {
-        simpler.step[DIP_SETTING_AA] = base->step[DIP_SETTING_AA];
-    }
-    return simpler;
-}
-
-// Returns how much is known of a price: nothing, its error, a prediction, or a measured time.
-static int knowledge(const DipPrice *price) {
-    return price->state == DIP_PRICE_UNKNOWN     ? price->has_flip
-           : price->state == DIP_PRICE_PREDICTED ? 2
-                                                 : 3;
-}
-
-static void name_company(DipPrice *price, const DipQuality *base, const DipQuality *without) {
-    size_t length = 0;
-    for (int s = 0; s < DIP_SETTING_COUNT && length < sizeof price->beside; s++) {
-        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
-        if (without->step[s] != base->step[s]) {
-            length +=
-                (size_t)snprintf(price->beside + length, sizeof price->beside - length, "%s%s=%s",
-                                 length > 0 ? "," : "", info->key, info->steps[without->step[s]]);
-        }
-    }
-}
-
 DipPrice dip_prices_step(const DipPrices *prices, DipSetting setting, int step,
                          const DipQuality *quality) {
-    const DipQuality base = dip_prices_base(prices);
-    const DipPriceQuestion question = dip_price_question(&base, setting, step, quality);
-    DipPrice price = answer(prices, setting, &question);
-    const bool filters = setting == DIP_SETTING_AF || setting == DIP_SETTING_AAF;
-    DipQuality without = question.without;
-    for (int company = WITHOUT_ADAPTIVE_AA; filters && company < COMPANIES; company++) {
-        const DipQuality pane = simpler_company(&base, quality, company);
-        const DipPriceQuestion other = dip_price_question(&base, setting, step, &pane);
-        const DipPrice otherwise = answer(prices, setting, &other);
-        if (knowledge(&otherwise) > knowledge(&price)) {
-            price = otherwise;
-            without = other.without;
-        }
+    return dip_price_step(dip_prices_view(prices), setting, step, quality);
+}
+
+DipPriceSum dip_prices_sum(const DipPrices *prices, const DipQuality *quality) {
+    return dip_price_sum(dip_prices_view(prices), quality);
+}
+
+bool dip_prices_are_doubtful(const DipPrices *prices) {
+    return dip_price_is_doubtful(dip_prices_view(prices));
+}
+
+bool dip_prices_set_progress(DipPrices *prices, const char *text) {
+    char before[DIP_PRICE_PROGRESS];
+    memcpy(before, prices->progress, sizeof before);
+    snprintf(prices->progress, sizeof prices->progress, "%s", text);
+    return strcmp(before, prices->progress) != 0;
+}
+
+const char *dip_prices_progress(const DipPrices *prices) {
+    return prices->progress;
+}
+
+// --- the source ----------------------------------------------------------------------------------
+
+typedef struct Text {
+    char *at;
+    size_t size_bytes;
+} Text;
+
+__attribute__((format(printf, 2, 3))) static void say(Text *text, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(text->at, text->size_bytes, format, arguments);
+    va_end(arguments);
+    const size_t left = text->size_bytes > 0 ? text->size_bytes - 1 : 0;
+    const size_t used = length > 0 && (size_t)length < left ? (size_t)length : left;
+    text->at += used;
+    text->size_bytes -= used;
+}
+
+static bool differs(const char *now, const char *then) {
+    return now && strcmp(now, then) != 0;
+}
+
+// Says what differs between the report and the panes. Returns whether anything does.
+static bool say_differences(const DipPrices *prices, int width, int height, Text *text) {
+    const DipCostReport *report = dip_price_view_report(prices->read);
+    const DipPriceConditions *now = &prices->conditions;
+    bool stale = false;
+    if (differs(now->scene, report->scene)) {
+        say(text, " The panes show %s.", now->scene);
+        stale = true;
     }
-    if (price.state != DIP_PRICE_BASE) {
-        name_company(&price, &base, &without);
+    if (width != report->width || height != report->height) {
+        say(text, " The panes are %dx%d.", width, height);
+        stale = true;
     }
-    price.needs_company = question.needs[0] != '\0';
-    snprintf(price.needs, sizeof price.needs, "%s", question.needs);
-    return price;
+    if (dip_prices_viewing(prices) != report->options.pixels_per_degree) {
+        say(text, " FLIP of the panes is for %.1f pixels per degree, that of the report for %.1f.",
+            dip_prices_viewing(prices), report->options.pixels_per_degree);
+        stale = true;
+    }
+    if (now->threads != 0 && now->threads != report->threads) {
+        say(text, " The panes have %d thread%s.", now->threads, now->threads == 1 ? "" : "s");
+        stale = true;
+    }
+    if (differs(now->processor, report->processor)) {
+        say(text, " The report is from another machine.");
+        stale = true;
+    } else if (differs(now->isa, report->isa)) {
+        say(text, " The report is for %s, the panes use %s.", report->isa, now->isa);
+        stale = true;
+    }
+    return stale;
+}
+
+bool dip_prices_are_of_other_scene(const DipPrices *prices) {
+    return prices->read &&
+           differs(prices->conditions.scene, dip_price_view_report(prices->read)->scene);
+}
+
+static bool has_errors(const DipCostReport *report) {
+    int viewpoints = 0;
+    for (int r = 0; r < report->row_count && viewpoints == 0; r++) {
+        dip_cost_row_sums(report, r, &viewpoints);
+    }
+    return viewpoints > 0;
+}
+
+bool dip_prices_source(const DipPrices *prices, int width, int height, char *out,
+                       size_t size_bytes) {
+    Text text = {out, size_bytes};
+    if (dip_prices_are_rough(prices)) {
+        say(&text, "%s",
+            prices->measured.row_count > 0
+                ? "Prices: measured here, in this picture, a few frames each (rough)."
+                : "Prices: not measured yet. They are measured while the camera rests.");
+        return false;
+    }
+    const DipCostReport *report = dip_price_view_report(prices->read);
+    say(&text, "Prices: report of %.80s, path %s, %dx%d, %d thread%s.",
+        differs(prices->conditions.scene, report->scene) ? report->scene : "this scene",
+        report->paths[0], report->width, report->height, report->threads,
+        report->threads == 1 ? "" : "s");
+    const bool stale = say_differences(prices, width, height, &text);
+    if (dip_price_is_doubtful(prices->read)) {
+        say(&text, " The machine was too busy, so the times are wrong.");
+    }
+    if (report->rounds == 0) {
+        say(&text, " The report has no times.");
+    }
+    if (!has_errors(report)) {
+        say(&text, " The report has no errors.");
+    }
+    return stale;
 }

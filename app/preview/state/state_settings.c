@@ -215,9 +215,9 @@ void dip_state_apply(DipPreviewState *state, int64_t now_ns) {
 
 int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_BUDGETS]) {
     static const double usual_ms[] = {1000.0 / 240.0, 1000.0 / 120.0, 1000.0 / 60.0, 1000.0 / 30.0};
-    const bool has_report = state->costs && state->costs->budget_count > 0;
-    const int count = has_report ? state->costs->budget_count : (int)DIP_ARRAY_COUNT(usual_ms);
-    memcpy(list, has_report ? state->costs->budgets_ms : usual_ms, (size_t)count * sizeof *list);
+    const bool has_report = state->costs && state->costs->options.budget_count > 0;
+    const int count = has_report ? state->costs->options.budget_count : (int)DIP_ARRAY_COUNT(usual_ms);
+    memcpy(list, has_report ? state->costs->options.budgets_ms : usual_ms, (size_t)count * sizeof *list);
     return count;
 }
 
@@ -275,7 +275,7 @@ void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns)
         dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advised->quality, now_ns);
         state->scene_changes = changes + 1;
     }
-    const DipCosts *costs = state->choice && !state->choice->live ? state->costs : NULL;
+    const DipCostReport *costs = state->choice && !state->choice->live ? state->costs : NULL;
     if (!state->choice) {
         snprintf(text, sizeof text, "Nothing is measured yet; U says how to make a cost report");
     } else {

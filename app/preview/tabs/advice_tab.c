@@ -77,7 +77,7 @@ static void try_settings(DipUi *ui, DipWindow *window, const DipQuality *quality
 static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate *advised,
                           DipRect room, int *y) {
     const DipPreviewChoice *choice = window->state->choice;
-    const DipCosts *costs = choice->live ? NULL : window->state->costs;
+    const DipCostReport *report = choice->live ? NULL : window->state->costs;
     char text[200], number[DIP_NUMBER_BYTES], flip[DIP_STEP_NAME_BYTES];
     snprintf(text, sizeof text, "%s%.1f ms", choice->live ? DIP_ROUGH_MARK : "",
              advised->time.value);
@@ -100,10 +100,10 @@ static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate
         snprintf(text, sizeof text, "%d more within 1 %% of its FLIP", choice->advice.tie_count);
         write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
     }
-    if (costs &&
-        (costs->width != window->frames[0].width || costs->height != window->frames[0].height)) {
-        snprintf(text, sizeof text, "The report is of %dx%d, the panes are %dx%d.", costs->width,
-                 costs->height, window->frames[0].width, window->frames[0].height);
+    if (report &&
+        (report->width != window->frames[0].width || report->height != window->frames[0].height)) {
+        snprintf(text, sizeof text, "The report is of %dx%d, the panes are %dx%d.", report->width,
+                 report->height, window->frames[0].width, window->frames[0].height);
         write_line(ui, NOTE_SIZE, dip_style_worse, room, y, text);
     }
 }
@@ -239,6 +239,7 @@ static int declare_step(DipUi *ui, DipWindow *window, const DipCandidate *advise
 
 static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
     const DipPreviewChoice *choice = window->state->choice;
+    char heading[DIP_COSTS_HEADING] = "";
     const DipCandidate *advised = dip_preview_advised(choice);
     const int gap = dip_ui_px(ui, 6);
     char text[80], fits[DIP_NUMBER_BYTES];
@@ -257,17 +258,19 @@ static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
     }
     y += gap + declare_step(ui, window, advised, next_faster(choice, advised), false,
                             (DipRect){room.x, y, room.width, room.height});
+    if (!choice->live && window->state->costs) {
+        dip_costs_heading(window->state->costs, heading);
+    }
     dip_ui_text_block(ui, NOTE_SIZE, dip_style_dim,
-                      (DipRect){room.x, y, room.width, room.y + room.height - y},
-                      choice->live ? "" : window->state->costs->heading);
+                      (DipRect){room.x, y, room.width, room.y + room.height - y}, heading);
 }
 
 // Says how to get a report, which measures combinations along whole paths.
 static void write_how_to(DipUi *ui, const DipWindow *window, DipRect room) {
     char text[2 * DIP_SCENE_WORDS_BYTES + 512];
     snprintf(text, sizeof text,
-             "This advice adds up the prices of single steps in this view. Settings that work on "
-             "the same pixels, such as antialiasing and adaptive AA, gain less together.\n"
+             "This advice is for this view: some combinations were timed here, and the others are "
+             "predicted from their work.\n"
              "Advice for whole paths comes from a cost report, which measures combinations. "
              "This makes one in some minutes, and then starts the preview with it:\n"
              "diptych cost%s --out report\n"
@@ -410,12 +413,12 @@ static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot) {
 static void draw_plot(DipUi *ui, const DipWindow *window, DipRect room) {
     const DipPreviewChoice *choice = window->state->choice;
     const DipCandidates *candidates = &choice->candidates;
-    const DipCosts *costs = choice->live ? NULL : window->state->costs;
+    const DipCostReport *report = choice->live ? NULL : window->state->costs;
     const int line = dip_ui_line_height(ui, NOTE_SIZE), axis = dip_ui_px(ui, AXIS_WIDTH);
     char text[160];
     int y = room.y;
     snprintf(text, sizeof text, "%d combinations   %s%s", candidates->count,
-             costs ? "path " : "this view", costs ? costs->path : "");
+             report ? "path " : "this view", report ? report->paths[0] : "");
     dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, room.x, y, room.width, text);
     y += line + dip_ui_px(ui, 3);
     if (candidates->count < 2) {

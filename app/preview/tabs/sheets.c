@@ -110,8 +110,13 @@ static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double 
     }
 }
 
-static void draw_table(DipDrawList *list, const DipCosts *costs, const DipQuality *quality,
+static void draw_table(DipDrawList *list, const DipCostReport *report, const DipQuality *quality,
                        double scale) {
+    DipCosts table;
+    const DipCosts *costs = &table;
+    char heading[DIP_COSTS_HEADING];
+    dip_costs_make(&table, report);
+    dip_costs_heading(report, heading);
     CostsLayout l;
     int size = dip_style_scaled(LARGEST_LETTERS, scale);
     do {
@@ -120,7 +125,7 @@ static void draw_table(DipDrawList *list, const DipCosts *costs, const DipQualit
              size-- > DIP_FONT_MIN_SIZE);
     const DipRect sheet = draw_sheet(list, l.width, l.height);
     const int x = sheet.x + l.size, y = sheet.y + l.size, room = sheet.width - 2 * l.size;
-    dip_draw_list_text(list, l.size, dip_style_white, DIP_ALIGN_LEFT, x, y, room, costs->heading);
+    dip_draw_list_text(list, l.size, dip_style_white, DIP_ALIGN_LEFT, x, y, room, heading);
     for (int r = 0; r < costs->row_count; ++r) {
         draw_row(list, &l, &costs->rows[r], quality, x, y + (r + 1) * l.line + l.line / 2);
     }

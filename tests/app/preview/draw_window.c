@@ -113,20 +113,20 @@ int main(int argc, char **argv) {
     }
     fake = dip_fake_display_open(&display, width, height);
     dip_fake_display_rescale(fake, scale);
-    static DipCosts costs;
-    DipPrices *prices = NULL;
+    DipPrices *prices = dip_prices_create(NULL);
+    DipCostReport *costs = NULL;
     const bool has_costs = argc > 4 && strncmp(argv[4], "cost:", 5) == 0;
     if (has_costs) {
         char scene[DIP_COST_TEXT];
         DipError err;
         dip_cost_scene_name(&session, scene);
-        prices = dip_prices_create(&err);
-        if (!prices || !dip_costs_load(&costs, prices, argv[4] + 5, scene, &err)) {
+        costs = dip_costs_load(prices, argv[4] + 5, scene, &err);
+        if (!costs) {
             fprintf(stderr, "draw_window: %s\n", err.message);
             return 1;
         }
     }
-    const DipPreviewDef preview_def = {.costs = has_costs ? &costs : NULL,
+    const DipPreviewDef preview_def = {.costs = costs,
                                        .prices = prices,
                                        .session = &session,
                                        .display = display,

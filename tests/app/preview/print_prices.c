@@ -3,6 +3,7 @@
 //     print_prices COST.JSON
 //
 // Standard input asks for prices, one per line (price_lines.h).
+#include "app/report/format/formats.h"
 #include "tests/app/preview/price_lines.h"
 
 #include <stdio.h>
@@ -19,14 +20,16 @@ static int answer_lines(const DipPrices *prices) {
 }
 
 int main(int argc, char **argv) {
-    DipError err;
+    DipError err = {.message = "give one report"};
+    DipCostReport report = {.rows = NULL};
     DipPrices *prices = argc == 2 ? dip_prices_create(&err) : NULL;
-    if (!prices || !dip_prices_load_report(prices, argv[1], &err)) {
-        fprintf(stderr, "print_prices: %s\n", prices ? err.message : "give one report");
-        dip_prices_destroy(&prices);
-        return 2;
+    const bool known = prices && dip_cost_read_json(&report, argv[1], &err) &&
+                       dip_prices_set_report(prices, &report, &err);
+    if (!known) {
+        fprintf(stderr, "print_prices: %s\n", err.message);
     }
-    const int code = answer_lines(prices);
+    const int code = known ? answer_lines(prices) : 2;
     dip_prices_destroy(&prices);
+    dip_cost_report_free(&report);
     return code;
 }

@@ -90,8 +90,8 @@ static void check_all_known(bool with_errors) {
             assert_int_equal(price.has_flip, with_errors);
         }
     }
-    assert_true(dip_prices_has_rough(prices, &panes[DIP_PANE_CURRENT]));
-    assert_true(dip_prices_has_rough(prices, pane));
+    assert_true(dip_prices_find_live(prices, &panes[DIP_PANE_CURRENT]) >= 0);
+    assert_true(dip_prices_find_live(prices, pane) >= 0);
 }
 
 // Draws with a painter of the test's own. The frame is valid until the painter draws again.
@@ -203,7 +203,7 @@ static void times_wait_while_a_truth_is_drawn(void **state) {
         dip_live_prices_step(live, &picture, panes, &drawn, 5.0);
     }
     assert_false(dip_live_prices_are_working(live));
-    assert_false(dip_prices_has_rough(prices, &panes[DIP_PANE_REQUESTED]));
+    assert_true(dip_prices_find_live(prices, &panes[DIP_PANE_REQUESTED]) < 0);
     assert_string_equal(dip_prices_progress(prices), "errors: the converged picture is 40 % drawn");
     dip_live_prices_pause(live);
     picture.time_ns++;
@@ -235,6 +235,22 @@ static void another_picture_has_no_prices_yet(void **state) {
     check_all_known(false);
 }
 
+// Live prices start from the baseline of a report that was opened, even if the user prefers them.
+static void another_baseline_begins_anew(void **state) {
+    (void)state;
+    DipCostReport report = {.path_count = 1};
+    assert_true(dip_quality_parse("aa=2", &report.options.baseline, NULL));
+    make_truth();
+    measure(&truth, 1);
+    assert_true(dip_prices_set_report(prices, &report, NULL));
+    dip_prices_prefer_rough(prices, true);
+    measure(&truth, 1);
+    check_all_known(true);
+    const DipQuality *pane = &panes[DIP_PANE_REQUESTED];
+    assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 1, pane).state, DIP_PRICE_BASE);
+    assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 0, pane).state, DIP_PRICE_ROUGH);
+}
+
 static void scenes_of_the_gallery_have_prices(void **state) {
     (void)state;
     int index;
@@ -263,6 +279,7 @@ int main(int argc, char **argv) {
         TEST(errors_do_not_vanish_when_the_truth_gets_finer),
         TEST(times_wait_while_a_truth_is_drawn),
         TEST(another_picture_has_no_prices_yet),
+        TEST(another_baseline_begins_anew),
         TEST(scenes_of_the_gallery_have_prices),
     };
     assets = argc > 1 ? argv[1] : "assets";

@@ -130,10 +130,11 @@ static void steps_show_their_time_and_change_of_flip(void **state) {
     (void)state;
     DipCostReport report;
     DipCosts costs;
-    char expected[48];
+    char expected[48], heading[DIP_COSTS_HEADING];
     dip_made_report(&report, 3);
-    assert_true(dip_costs_make(&costs, &report, NULL));
-    assert_string_equal(costs.heading, "made up, 64x48, 2 threads, scalar");
+    dip_costs_make(&costs, &report);
+    dip_costs_heading(&report, heading);
+    assert_string_equal(heading, "made up, 64x48, 2 threads, scalar");
     assert_int_equal(costs.row_count, 1);
     assert_string_equal(costs.rows[0].title, "Antialiasing");
     assert_int_equal(costs.rows[0].step_count, 3);
@@ -148,34 +149,34 @@ static void steps_show_their_time_and_change_of_flip(void **state) {
     DipQuality quality = dip_quality_default();
     assert_true(dip_costs_is_at(&costs.rows[0], 0, &quality));
     assert_false(dip_costs_is_at(&costs.rows[0], 2, &quality));
-    dip_costs_free(&costs);
     dip_cost_report_free(&report);
 }
 
 static void a_report_of_another_scene_is_refused(void **state) {
     (void)state;
     DipCostReport report;
-    DipCosts costs;
     DipError err = {0};
+    DipPrices *prices = dip_prices_create(NULL);
     char file[] = "/tmp/test_panel.XXXXXX";
     const int descriptor = mkstemp(file);
     assert_true(descriptor >= 0);
     close(descriptor);
     dip_made_report(&report, 3);
     assert_true(dip_cost_write_json(&report, file, &err));
-    assert_true(dip_costs_load(&costs, NULL, file, "made up", &err));
-    assert_int_equal(costs.row_count, 1);
-    dip_costs_free(&costs);
-    assert_false(dip_costs_load(&costs, NULL, file, "other", &err));
+    DipCostReport *costs = dip_costs_load(prices, file, "made up", &err);
+    assert_non_null(costs);
+    assert_int_equal(costs->sweep_count, 1);
+    assert_null(dip_costs_load(prices, file, "other", &err));
     assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+    assert_true(dip_prices_has_report(prices)); // The first one.
+    dip_prices_destroy(&prices);
     dip_costs_free(&costs);
     remove(file);
     dip_cost_report_free(&report);
 }
 
-static void choose(DipPreviewState *preview, DipPreviewChoice *choice) {
-    dip_preview_choose(choice, preview->costs, NULL, &preview->quality[DIP_PANE_REQUESTED],
-                       preview->budget_ms);
+static void choose(DipPreviewState *preview, DipPreviewChoice *choice, const DipPrices *prices) {
+    dip_preview_choose(choice, prices, &preview->quality[DIP_PANE_REQUESTED], preview->budget_ms);
     preview->choice = choice;
 }
 
@@ -184,7 +185,7 @@ static void choose(DipPreviewState *preview, DipPreviewChoice *choice) {
 static void advice_sets_the_requested_pane(void **state) {
     (void)state;
     DipCostReport report;
-    DipCosts costs;
+    DipPrices *prices = dip_prices_create(NULL);
     DipPreviewChoice choice = {0};
     dip_made_report(&report, 16);
     report.combined_first = 2;
@@ -193,13 +194,13 @@ static void advice_sets_the_requested_pane(void **state) {
     report.options.budgets_ms[0] = 16.6;
     report.options.budgets_ms[1] = 1.0;
     report.options.budget_count = 2;
-    assert_true(dip_costs_make(&costs, &report, NULL));
+    assert_true(dip_cost_choose(&report, NULL) && dip_prices_set_report(prices, &report, NULL));
     DipPreviewState preview = {.budget_ms = 16.6};
     dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, false, 0);
     assert_non_null(strstr(preview.notice, "Nothing is measured yet"));
     assert_int_equal(preview.scene_changes, 0);
-    preview.costs = &costs;
-    choose(&preview, &choice);
+    preview.costs = &report;
+    choose(&preview, &choice, prices);
     preview.advised_ms = 0.0;
     dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, false, 0);
     // Both combinations are fast enough; the one of 4 ms has less error.
@@ -216,7 +217,7 @@ static void advice_sets_the_requested_pane(void **state) {
     assert_true(preview.budget_ms == 16.6);
     assert_int_equal(preview.scene_changes, 2);
     dip_preview_choice_free(&choice);
-    dip_costs_free(&costs);
+    dip_prices_destroy(&prices);
     dip_cost_report_free(&report);
 }
 

@@ -1,5 +1,6 @@
 // Tests of the measurement of rough prices, with a painter and a clock that are made up.
 #include "app/preview/live/price_job.h"
+#include "app/report/combinations.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -35,7 +36,47 @@ static double true_ms(const DipQuality *quality) {
            0.0625 * step[DIP_SETTING_AA] * step[DIP_SETTING_AF];
 }
 
-static bool draw(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err) {
+// Work and times of a frame in a made-up scene: fragments at edges grow with the samples, and
+// probes with AF less than their number. The times follow from the work but for a share of it that
+// the model of work does not know.
+static bool works; // The painter tells its work, and its times follow from it.
+static double unknown_share;
+
+static double work_of(const DipQuality *quality, DipFrame *frame) {
+    const double samples = dip_quality_sample_count(quality);
+    const double groups = samples / dip_quality_samples_per_group(quality);
+    const double probes = dip_quality_max_anisotropy(quality);
+    const double fragments = 3e5 * (1.0 + 0.2 * (1.0 - 1.0 / samples));
+    const double bias = 1.0 - 0.1 * (DIP_MIPLOD_HIGH_QUALITY - quality->step[DIP_SETTING_MIPLOD]);
+    DipCounters *c = &frame->counters;
+    c->passes = 2;
+    c->tiles_drawn = 80;
+    c->triangles_in = 20000;
+    c->triangles_drawn = 8000;
+    c->tile_triangles = 15000;
+    c->sub_blocks_tested = 100000;
+    c->sub_blocks_accepted = 30000;
+    c->fragments_shaded = (uint64_t)fragments;
+    c->fragments_clip_tested = (uint64_t)(40000.0 * (quality->step[DIP_SETTING_AAA] ? groups : 1));
+    c->samples_shown = (uint64_t)(3e5 * samples);
+    c->pixels_resolved = samples > 1.0 ? 300000 : 0;
+    c->texture_probes = (uint64_t)(fragments * bias *
+                                   (1.0 + 0.6 * log2(probes) +
+                                    (quality->step[DIP_SETTING_AAF] ? 0.1 * probes : 0.0)));
+    c->texels_fetched = 6 * c->texture_probes;
+    frame->stages.geometry_ms = 0.2 + 3e-5 * (double)c->triangles_in;
+    frame->stages.raster_ms =
+        0.1 + 1e-6 * (double)c->samples_shown + 8e-6 * (double)c->fragments_clip_tested;
+    frame->stages.shading_ms =
+        (4e-6 * fragments + 5e-7 * (double)c->texels_fetched) *
+        (1.0 + unknown_share * sin(7.0 * samples + 3.0 * probes + 2.0 * groups));
+    frame->stages.resolve_ms = 1e-6 * (double)c->pixels_resolved * samples;
+    return frame->stages.geometry_ms + frame->stages.raster_ms + frame->stages.shading_ms +
+           frame->stages.resolve_ms + 0.1;
+}
+
+static bool draw(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
+                 DipError *err) {
     (void)context;
     if (refuses) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "renderer", "no memory for samples");
@@ -46,8 +87,9 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
     }
     random_ = random_ * 1664525u + 1013904223u;
     const double deviation = noise * ((random_ >> 16) / 32768.0 - 1.0);
+    const double quiet_ms = works ? work_of(quality, frame) : true_ms(quality);
     const double ms =
-        slow * true_ms(quality) * (cold ? 3.0 : 1.0) * (1.0 + drift * frames) * (1.0 + deviation);
+        slow * quiet_ms * (cold ? 3.0 : 1.0) * (1.0 + drift * frames) * (1.0 + deviation);
     now_ns += (int64_t)llround(1e6 * ms);
     use.wait_ns += (int64_t)llround(1e6 * ms * waits);
     last = *quality;
@@ -80,6 +122,7 @@ static int set_up(void **state) {
     random_ = 1;
     refuses = false;
     parities = 0;
+    works = false;
     prices = dip_prices_create(NULL);
     waits = 0.0;
     slow = 1.0;
@@ -246,7 +289,7 @@ static void all_prices_are_soon_known_roughly(void **state) {
     const DipPrice rough = dip_prices_step(prices, DIP_SETTING_AA, 4, &pane);
     check_steps(&pane, 1.0);
     work_until_done();
-    assert_true(3 * first < frames);
+    assert_true(2 * first < frames);
     const DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 4, &pane);
     assert_true(price.ms_high - price.ms_low < rough.ms_high - rough.ms_low);
 }
@@ -280,7 +323,7 @@ static void the_nearest_steps_come_first(void **state) {
     while (!dip_price_job_step(job, 0.0)) {
     }
     assert_int_equal(dip_prices_sum(prices, &pane).state, DIP_PRICE_ROUGH);
-    assert_true(dip_prices_has_rough(prices, &pane));
+    assert_true(dip_prices_find_live(prices, &pane) >= 0);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).state, DIP_PRICE_ROUGH);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AF, 3, &pane).state, DIP_PRICE_ROUGH);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 4, &pane).state, DIP_PRICE_UNKNOWN);
@@ -347,6 +390,62 @@ static void a_painter_that_fails_ends_the_job_with_its_reason(void **state) {
     assert_true(frames > 0);
 }
 
+// Compares the predictions of all combinations that were not timed with the truth. Returns how many
+// there are.
+static int check_predictions(int *outside) {
+    DipQuality list[2048];
+    const unsigned settings_of = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA |
+                                 1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF |
+                                 1u << DIP_SETTING_MIPLOD;
+    const DipQuality base = dip_quality_default();
+    const int count = dip_cost_list_combinations(&base, settings_of, list, 2048);
+    int predicted = 0;
+    for (int i = 0; i < count; i++) {
+        DipFrame frame = {0};
+        const double ms = work_of(&list[i], &frame);
+        const DipPriceSum sum = dip_prices_sum(prices, &list[i]);
+        if (sum.state == DIP_PRICE_PREDICTED) {
+            predicted++;
+            assert_true(sum.ms_high < 1.3 * sum.ms);
+            *outside += ms < sum.ms_low || ms > sum.ms_high;
+        }
+    }
+    return predicted;
+}
+
+// Predictions from what was measured live miss by more than their interval of 95 % in about one of
+// twenty combinations, however much of the times the work explains. A report that was read predicts
+// the same.
+static void predictions_miss_as_often_as_they_say(void **state) {
+    static const char *const panes[] = {"aa=4,aaa=on,af=8,aaf=on", "aa=none", "aa=8,aaa=on,af=16",
+                                        "aa=2,af=4", "aa=6,af=2,miplod=performance"};
+    int predicted = 0, outside = 0;
+    tear_down(state);
+    for (int i = 0; i < 15; i++) {
+        set_up(state);
+        works = true;
+        noise = 0.02;
+        unknown_share = 0.04 * (i % 3);
+        random_ = (unsigned)(1 + i);
+        follow("aa=none", panes[i / 3]);
+        work_until_done();
+        predicted += check_predictions(&outside);
+        DipPrices *read_prices = dip_prices_create(NULL);
+        assert_true(dip_prices_set_report(read_prices, dip_prices_live(prices), NULL));
+        const DipQuality other = settings("aa=2,af=2,miplod=quality");
+        const DipPriceSum a = dip_prices_sum(prices, &other);
+        const DipPriceSum b = dip_prices_sum(read_prices, &other);
+        assert_true(a.state == b.state && a.ms == b.ms && a.ms_low == b.ms_low);
+        dip_prices_destroy(&read_prices);
+        tear_down(state);
+    }
+    set_up(state);
+    assert_true(predicted > 1000);
+    if (outside > 0.08 * predicted) {
+        fail_msg("%d of %d predictions lie outside of their intervals", outside, predicted);
+    }
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
@@ -361,6 +460,7 @@ int main(void) {
         TEST(an_interrupted_block_leaves_no_price),
         TEST(prices_of_a_busy_machine_are_doubtful),
         TEST(disturbed_frames_make_no_price),
+        TEST(predictions_miss_as_often_as_they_say),
         TEST(a_painter_that_fails_ends_the_job_with_its_reason),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

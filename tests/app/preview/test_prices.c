@@ -4,6 +4,7 @@
 #include "app/preview/prices/price_text.h"
 #include "app/preview/prices/prices.h"
 #include "tests/app/cost/made_report.h"
+#include "tests/app/preview/made_live.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -306,8 +307,10 @@ static void a_predicted_sum_has_the_predictions_miss(void **state) {
     const DipPriceSum sum = dip_prices_sum(prices, &quality);
     assert_int_equal(sum.state, DIP_PRICE_PREDICTED);
     check_near(sum.ms, 4.5);
-    check_near(sum.ms_low, 4.5 * 0.96);
-    check_near(sum.ms_high, 4.5 * 1.04);
+    // Of a normal distribution, 90 % lie within 1.6449 standard deviations. 2.119905 is the
+    // quantile of Student's t for 16 misses (tables).
+    check_near(sum.ms_high, 4.5 * exp(2.119905 / 1.6449 * log(1.04)));
+    check_near(sum.ms_low, 4.5 * exp(-2.119905 / 1.6449 * log(1.04)));
     check_near(sum.flip, 0.2);
 }
 
@@ -407,14 +410,9 @@ static void prices_of_a_busy_machine_are_marked(void **state) {
     assert_non_null(strstr(text, "The machine was too busy"));
 }
 
-// --- rough prices --------------------------------------------------------------------------------
+// --- live prices ---------------------------------------------------------------------------------
 
-static void add_rough(const char *of, double ms, double error, double flip) {
-    const DipQuality quality = settings(of);
-    assert_true(dip_prices_add_rough(prices, &quality, ms, ms - error, ms + error, flip));
-}
-
-static void rough_prices_are_differences_of_whole_times(void **state) {
+static void live_prices_are_differences_of_whole_times(void **state) {
     (void)state;
     const DipQuality pane = settings("aa=4,aaa=on,af=8");
     prices = dip_prices_create(NULL);
@@ -423,37 +421,39 @@ static void rough_prices_are_differences_of_whole_times(void **state) {
     assert_int_equal(dip_prices_sum(prices, &pane).state, DIP_PRICE_UNKNOWN);
     assert_false(dip_prices_source(prices, 64, 48, text, sizeof text));
     assert_non_null(strstr(text, "not measured yet"));
-    add_rough("aa=none", 5.0, 0.0, 0.05);
-    add_rough("aa=4", 7.0, 0.3, -1.0);
-    add_rough("aa=4,aaa=on", 7.2, 0.4, -1.0);
-    add_rough("af=8", 6.0, 0.1, 0.04);
+    dip_made_live(prices, "aa=none", 5.0, 0.001, 0.05);
+    dip_made_live(prices, "aa=4", 7.0, 0.01, -1.0);
+    dip_made_live(prices, "aa=4,aaa=on", 7.02, 0.03, -1.0);
+    dip_made_live(prices, "af=8", 6.0, 0.01, 0.04);
+    assert_false(dip_prices_source(prices, 64, 48, text, sizeof text));
+    assert_non_null(strstr(text, "measured here"));
     DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
     assert_int_equal(price.state, DIP_PRICE_ROUGH);
     check_near(price.ms, 2.0);
-    check_near(price.ms_high, 2.3);
+    assert_true(price.ms_low < 1.95 && price.ms_low > 1.6 && price.ms_high > 2.05);
+    assert_string_equal(price.path, "");
     assert_false(price.has_flip || dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
     price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &pane);
-    check_near(price.ms, 0.2);
-    check_near(price.ms_low, 0.2 - 0.5);
-    assert_true(dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
+    check_near(price.ms, 0.02);
+    assert_true(price.ms_low < 0.0 && dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
     price = dip_prices_step(prices, DIP_SETTING_AF, 3, &pane);
     assert_true(price.has_flip);
     check_near(price.flip, -0.01);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AF, 0, &pane).state, DIP_PRICE_BASE);
     DipPriceSum sum = dip_prices_sum(prices, &pane);
     assert_int_equal(sum.state, DIP_PRICE_ROUGH);
-    check_near(sum.ms, 5.0 + 2.0 + 0.2 + 1.0);
-    add_rough("aa=2", 6.0, 1.5, -1.0); // A busy machine: the interval holds 0 but says little.
+    check_near(sum.ms, 5.0 + 2.0 + 0.02 + 1.0);
+    dip_made_live(prices, "aa=2", 5.1, 0.5, -1.0); // A busy machine: the interval says little.
     price = dip_prices_step(prices, DIP_SETTING_AA, 1, &pane);
     assert_true(price.ms_low < 0.0 && price.ms_high > 0.0 &&
                 dip_price_trust(&price) == DIP_PRICE_TRUST_DOUBTFUL);
-    add_rough("aa=4,aaa=on,af=8", 8.0, 0.2, -1.0); // Measured together.
+    dip_made_live(prices, "aa=4,aaa=on,af=8", 8.0, 0.01, -1.0); // Measured together.
     sum = dip_prices_sum(prices, &pane);
     check_near(sum.ms, 8.0);
-    check_near(sum.parts_ms[DIP_SETTING_AF], 0.8); // Beside the antialiasing.
+    check_near(sum.parts_ms[DIP_SETTING_AF], 0.98); // Beside the antialiasing.
     check_near(sum.together_ms, 0.0);
-    add_rough("opt=advanced", 4.5, 0.1, -1.0);
-    add_rough("aa=4,opt=advanced", 6.3, 0.1, -1.0);
+    dip_made_live(prices, "opt=advanced", 4.5, 0.01, -1.0);
+    dip_made_live(prices, "aa=4,opt=advanced", 6.3, 0.01, -1.0);
     const DipQuality optimised = settings("aa=4,opt=advanced");
     sum = dip_prices_sum(prices, &optimised);
     check_near(sum.together_ms, -0.2);
@@ -510,31 +510,28 @@ static void doubtful_times_are_written_with_one_digit(void **state) {
     assert_int_equal(dip_price_sum_trust(&sum), DIP_PRICE_TRUST_DOUBTFUL);
 }
 
-static void a_new_rough_time_replaces_the_old_one(void **state) {
+static void a_new_live_time_replaces_the_old_one(void **state) {
     (void)state;
-    DipQuality list[4];
     const DipQuality pane = settings("aa=4");
     prices = dip_prices_create(NULL);
-    add_rough("aa=none", 5.0, 0.0, 0.05);
-    add_rough("aa=4", 7.0, 0.3, -1.0);
-    assert_int_equal(dip_prices_list_without_flip(prices, 32, list, 4), 1);
-    dip_prices_add_rough_flip(prices, &list[0], 0.02, 32);
-    assert_int_equal(dip_prices_list_without_flip(prices, 32, list, 4), 0);
-    assert_int_equal(dip_prices_list_without_flip(prices, 128, list, 4), 1);
-    add_rough("aa=4", 8.0, 0.3, -1.0); // The error stays.
+    dip_made_live(prices, "aa=none", 5.0, 0.01, 0.05);
+    dip_made_live(prices, "aa=4", 7.0, 0.01, 0.02);
+    unsigned changes = dip_prices_changes(prices);
+    dip_made_live(prices, "aa=4", 8.0, 0.01, -1.0); // The error stays.
+    assert_true(dip_prices_changes(prices) > changes);
     const DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
     check_near(price.ms, 3.0);
     check_near(price.flip, -0.03);
-    dip_prices_forget_rough(prices);
+    dip_prices_forget_live(prices);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).state, DIP_PRICE_UNKNOWN);
 }
 
-static void rough_prices_replace_a_report_on_demand(void **state) {
+static void live_prices_replace_a_report_on_demand(void **state) {
     (void)state;
     take_report();
     const DipQuality pane = settings("aa=4");
-    add_rough("aa=none", 5.0, 0.0, -1.0);
-    add_rough("aa=4", 7.0, 0.3, -1.0);
+    dip_made_live(prices, "aa=none", 5.0, 0.01, -1.0);
+    dip_made_live(prices, "aa=4", 7.0, 0.01, -1.0);
     assert_false(dip_prices_are_rough(prices));
     check_near(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).ms, 3.0);
     dip_prices_prefer_rough(prices, true);
@@ -564,10 +561,10 @@ int main(void) {
         TEST(the_source_names_what_differs),
         TEST(live_and_report_flip_share_pixels_per_degree),
         TEST(prices_of_a_busy_machine_are_marked),
-        TEST(rough_prices_are_differences_of_whole_times),
+        TEST(live_prices_are_differences_of_whole_times),
         TEST(doubtful_times_are_written_with_one_digit),
-        TEST(a_new_rough_time_replaces_the_old_one),
-        TEST(rough_prices_replace_a_report_on_demand),
+        TEST(a_new_live_time_replaces_the_old_one),
+        TEST(live_prices_replace_a_report_on_demand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

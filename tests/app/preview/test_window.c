@@ -1,5 +1,6 @@
 // Tests of the window's layout and of its settings tab: at every size, nothing leaves the window,
 // and the keyboard reaches every setting and Apply; clicks, drags and the wheel change steps.
+#include "tests/app/preview/made_live.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/live/figures.h"
 #include "app/preview/loop/view.h"
@@ -260,13 +261,12 @@ static void a_pane_has_one_time(void **unused) {
     dip_pane_time_text(&time, text);
     assert_string_equal(text, "5.0 ms");
     // What was measured at rest takes the place of the frames' time, in both.
-    const DipQuality base = dip_quality_default();
-    assert_true(dip_prices_add_rough(prices, &base, 6.7, 6.7, 6.7, 0.05));
+    dip_made_live(prices, "aa=none", 6.7, 0.01, 0.05);
     time = dip_pane_time(&window, 1);
     dip_pane_time_text(&time, text);
     assert_string_equal(text, DIP_ROUGH_MARK "6.7 ms");
     assert_true(dip_pane_sum(&window, 1).ms == time.ms);
-    assert_true(dip_prices_add_rough(prices, &base, 6.7, 1.0, 26.7, 0.05));
+    dip_made_live(prices, "aa=none", 6.7, 0.9, 0.05);
     time = dip_pane_time(&window, 1);
     dip_pane_time_text(&time, text);
     assert_string_equal(text, "7? ms");
@@ -304,8 +304,7 @@ static void presets_wait_for_prices(void **unused) {
     (void)unused;
     click(880, 667); // Quality.
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
-    const DipQuality base = dip_quality_default();
-    assert_true(dip_prices_add_rough(prices, &base, 6.7, 6.7, 6.7, -1.0));
+    dip_made_live(prices, "aa=none", 6.7, 0.01, -1.0);
     click(880, 667);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
 }

@@ -9,11 +9,13 @@
 #include "app/preview/state/state.h"
 #include "app/preview/live/timing.h"
 #include "app/report/candidates.h"
+#include "app/report/combinations.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/report/analysis.h"
 #include "app/report/words.h"
 #include "tests/app/cost/made_report.h"
+#include "tests/app/preview/made_live.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -79,26 +81,23 @@ static void expect_text(const char *text, const char *part) {
 
 // The preview with a report, asked for one budget.
 typedef struct Window {
-    DipCosts costs;
     DipPrices *prices;
     DipPreviewChoice choice;
 } Window;
 
 static void open_window(Window *window, const DipCostReport *report) {
     *window = (Window){.prices = dip_prices_create(NULL)};
-    assert_true(dip_costs_make(&window->costs, report, NULL));
     assert_true(dip_prices_set_report(window->prices, report, NULL));
 }
 
 static const DipPreviewChoice *ask(Window *window, double budget_ms) {
     const DipQuality like = dip_quality_default();
-    dip_preview_choose(&window->choice, &window->costs, window->prices, &like, budget_ms);
+    dip_preview_choose(&window->choice, window->prices, &like, budget_ms);
     return &window->choice;
 }
 
 static void close_window(Window *window) {
     dip_preview_choice_free(&window->choice);
-    dip_costs_free(&window->costs);
     dip_prices_destroy(&window->prices);
 }
 
@@ -307,69 +306,74 @@ static void red_report_advises_nothing_anywhere(void **state) {
     dip_cost_common_free(&common);
 }
 
-// The preview chooses from live prices what it chooses from a report with the same figures, at
-// every budget.
+// Writes times for a frame of these settings: the work of samples, probes and both together.
+static double made_ms(const DipQuality *quality) {
+    const double samples = dip_quality_sample_count(quality);
+    const double probes = dip_quality_max_anisotropy(quality);
+    return 4.0 + 0.5 * samples + 0.15 * probes + 0.02 * samples * probes -
+           0.2 * quality->step[DIP_SETTING_OPT] + 0.1 * quality->step[DIP_SETTING_MIPLOD];
+}
+
+static double made_flip(const DipQuality *quality) {
+    return 0.02 + 0.06 / dip_quality_sample_count(quality) +
+           0.02 / dip_quality_max_anisotropy(quality) + 0.01 * quality->step[DIP_SETTING_OPT] +
+           0.012 * (DIP_MIPLOD_HIGH_QUALITY - quality->step[DIP_SETTING_MIPLOD]);
+}
+
+// A live report and the same report when it was read have the same prices, the same sums and the
+// same choice, at every budget; and the advice is dip_advise of them.
 static void advice_of_a_live_report_is_dip_advise(void **state) {
     (void)state;
-    static const char *const steps[] = {"aa=none",
-                                        "aa=2",
-                                        "aa=4",
-                                        "aa=6",
-                                        "aa=8",
-                                        "af=2",
-                                        "af=4",
-                                        "af=8",
-                                        "af=16",
-                                        "opt=standard",
-                                        "opt=advanced",
-                                        "miplod=high-performance",
-                                        "miplod=performance",
-                                        "miplod=quality"};
-    static const double ms[] = {5.0, 6.0, 6.9, 7.7, 8.4, 5.4, 5.9,
-                                6.6, 7.6, 4.7, 4.1, 4.2, 4.5, 4.8};
-    static const double flip[] = {.08,  .06,  .05,  .046, .044, .072, .068,
-                                  .065, .064, .084, .1,   .13,  .11,  .09};
-    DipPrices *prices = dip_prices_create(NULL);
-    DipPreviewChoice live = {0}, read_choice = {0};
-    DipCostReport report;
-    DipCosts costs;
-    const DipQuality like = dip_quality_default();
-    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
-        DipQuality quality;
-        assert_true(dip_quality_parse(steps[i], &quality, NULL));
-        assert_true(
-            dip_prices_add_rough(prices, &quality, ms[i], 0.99 * ms[i], 1.01 * ms[i], flip[i]));
-    }
-    dip_preview_choose(&live, NULL, prices, &like, 10.0);
-    assert_int_equal(live.state, DIP_CHOICE_KNOWN);
-    dip_made_report(&report, 16);
-    memset(report.has_floor, 0, (size_t)report.options.places * sizeof *report.has_floor);
-    for (int i = 0; i < live.candidates.count; i++) {
-        const DipCandidate *c = &live.candidates.list[i];
-        const int row = dip_made_combination(&report, &c->quality, c->time.value, c->flip);
-        report.rows[row].time.mean_ms.value = c->time.value;
-        report.rows[row].time.ratio_error = c->time.log_error;
-    }
-    report.options.budget_of = DIP_TIME_MEAN;
-    assert_true(dip_costs_make(&costs, &report, NULL));
-    int chosen = 0;
-    for (double budget_ms = 3.0; budget_ms < 14.0; budget_ms += 0.25) {
-        dip_preview_choose(&live, NULL, prices, &like, budget_ms);
-        dip_preview_choose(&read_choice, &costs, NULL, &like, budget_ms);
-        const DipCandidate *a = dip_preview_advised(&live);
-        const DipCandidate *b = dip_preview_advised(&read_choice);
-        assert_int_equal(a != NULL, b != NULL);
-        if (a) {
-            assert_memory_equal(&a->quality, &b->quality, sizeof a->quality);
-            chosen++;
+    DipPrices *live = dip_prices_create(NULL), *read_prices = dip_prices_create(NULL);
+    const unsigned settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_OPT |
+                              1u << DIP_SETTING_MIPLOD;
+    DipQuality list[512];
+    const DipQuality base = dip_quality_default();
+    const int count = dip_cost_list_combinations(&base, settings, list, 512);
+    dip_made_live(live, "aa=none", made_ms(&base), 0.01, made_flip(&base));
+    for (int i = 0; i < count; i++) {
+        char text[200];
+        dip_quality_format(&list[i], text, sizeof text);
+        if (dip_quality_count_changes(&list[i]) <= 1 || i % 5 == 0) {
+            dip_made_live(live, text, made_ms(&list[i]), 0.01, made_flip(&list[i]));
         }
     }
+    assert_true(dip_prices_set_report(read_prices, dip_prices_live(live), NULL));
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        for (int step = 0; step < dip_setting_info((DipSetting)s)->step_count; step++) {
+            const DipPrice a = dip_prices_step(live, (DipSetting)s, step, &list[count - 1]);
+            const DipPrice b = dip_prices_step(read_prices, (DipSetting)s, step, &list[count - 1]);
+            assert_int_equal(a.state, b.state);
+            assert_int_equal(dip_price_trust(&a), dip_price_trust(&b));
+            assert_true(a.ms == b.ms && a.flip == b.flip && a.doubtful == b.doubtful);
+            assert_true(a.state == DIP_PRICE_UNKNOWN || a.ms_low == b.ms_low);
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        const DipPriceSum a = dip_prices_sum(live, &list[i]);
+        const DipPriceSum b = dip_prices_sum(read_prices, &list[i]);
+        assert_true(a.state == b.state && a.state != DIP_PRICE_UNKNOWN);
+        assert_true(a.ms == b.ms && a.ms_low == b.ms_low && a.flip == b.flip);
+    }
+    DipPreviewChoice of_live = {0}, of_read = {0};
+    int chosen = 0;
+    for (double budget_ms = 3.0; budget_ms < 14.0; budget_ms += 0.25) {
+        dip_preview_choose(&of_live, live, &base, budget_ms);
+        dip_preview_choose(&of_read, read_prices, &base, budget_ms);
+        assert_int_equal(of_live.state, DIP_CHOICE_KNOWN);
+        const DipAdvice advice = dip_advise(&of_read.candidates, budget_ms);
+        assert_int_equal(of_live.advice.chosen, advice.chosen);
+        assert_int_equal(of_read.advice.chosen, advice.chosen);
+        assert_int_equal(of_live.advice.next, advice.next);
+        assert_true(advice.chosen < 0 || of_live.advice.fits == of_read.advice.fits);
+        assert_int_equal(of_live.front_count, of_read.front_count);
+        chosen += advice.chosen >= 0;
+    }
     assert_true(chosen > 20);
-    dip_preview_choice_free(&live);
-    dip_preview_choice_free(&read_choice);
-    dip_costs_free(&costs);
-    dip_cost_report_free(&report);
-    dip_prices_destroy(&prices);
+    dip_preview_choice_free(&of_live);
+    dip_preview_choice_free(&of_read);
+    dip_prices_destroy(&read_prices);
+    dip_prices_destroy(&live);
 }
 
 // --- presets -------------------------------------------------------------------------------------

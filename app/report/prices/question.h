@@ -7,8 +7,8 @@
 // AF and advanced AF also have the antialiasing of the pane as company. They cost more where
 // antialiasing shades more fragments, so their prices alone would not add up to the time of the
 // whole: the courtyard in 8x AA with adaptive AA and AF 16x takes 11 % more than that sum.
-#ifndef DIP_APP_PREVIEW_PRICES_PRICE_QUESTION_H
-#define DIP_APP_PREVIEW_PRICES_PRICE_QUESTION_H
+#ifndef DIP_APP_REPORT_PRICES_QUESTION_H
+#define DIP_APP_REPORT_PRICES_QUESTION_H
 
 #include "renderer/scene/quality.h"
 

@@ -1,5 +1,5 @@
 // Finds the company of each setting, and lists the combinations that prices are made of.
-#include "app/preview/prices/price_question.h"
+#include "app/report/prices/question.h"
 
 #include <stdio.h>
 #include <stdlib.h>
