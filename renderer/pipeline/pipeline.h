@@ -51,10 +51,11 @@ typedef struct DipDraw {
     // Fragment shaders get the last value_only_varying_count varyings, 0..varying_count, without
     // derivatives, which saves time.
     int value_only_varying_count;
-    // Bit s: the shaders use varying s only modulo 1, as a coordinate along which all their
-    // textures repeat (DIP_WRAP_REPEAT). The pipeline may then add whole numbers to the varying,
-    // the same at all corners of a triangle but different from triangle to triangle, so that large
-    // coordinates keep their precision near the eye. Derivatives do not change.
+    // Bit s: the shaders use varying s only modulo 2, as a coordinate along which all their
+    // textures repeat or mirror (DIP_WRAP_REPEAT, DIP_WRAP_MIRROR). The pipeline may then add even
+    // whole numbers to the varying, the same at all corners of a triangle but different from
+    // triangle to triangle, so that large coordinates keep their precision near the eye.
+    // Derivatives do not change.
     uint32_t repeating_varyings;
     const void *uniforms;
     const DipSampler *samplers; // at most DIP_MAX_SAMPLERS
