@@ -29,10 +29,14 @@ function(dip_add_library name)
             OUTPUT_NAME diptych-${name} EXPORT_NAME ${name}${kind})
     endforeach()
     set_target_properties(dip_${name}_shared PROPERTIES
-        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} INSTALL_RPATH "$ORIGIN")
+        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+        INSTALL_RPATH "$ORIGIN")
     if(NOT DIP_SANITIZE) # sanitized objects need symbols that only the program defines
         target_link_options(dip_${name}_shared PRIVATE -Wl,-z,defs)
     endif()
+    add_dependencies(installed dip_${name} dip_${name}_shared)
+    set_property(TARGET installed APPEND PROPERTY DIP_FILES
+        $<TARGET_FILE:dip_${name}> $<TARGET_FILE:dip_${name}_shared>)
     set_property(GLOBAL APPEND PROPERTY DIP_LIBRARIES ${name})
     set_property(GLOBAL PROPERTY DIP_LINKS_${name} ${L_LINKS})
 endfunction()
@@ -46,6 +50,10 @@ endfunction()
 # dip_install_libraries(): installs headers, libraries, a CMake package and pkg-config files.
 function(dip_install_libraries)
     get_property(names GLOBAL PROPERTY DIP_LIBRARIES)
+    # pkg-config files find the other files from their own place, so that an installed copy can be
+    # moved and --prefix may choose its folder.
+    file(RELATIVE_PATH DIP_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+    string(REGEX REPLACE "/$" "" DIP_PC_PREFIX ${DIP_PC_PREFIX})
     foreach(name IN LISTS names)
         install(TARGETS dip_${name} dip_${name}_shared EXPORT diptych
             COMPONENT development)

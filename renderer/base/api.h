@@ -9,6 +9,13 @@
 #define DIP_API
 #endif
 
+// DIP_NORETURN marks a function that does not return.
+#if defined(__GNUC__)
+#define DIP_NORETURN __attribute__((noreturn))
+#else
+#define DIP_NORETURN
+#endif
+
 // DIP_PRINTF(f, a) lets the compiler check the arguments of a function like printf: parameter f is
 // the format, and the arguments begin with parameter a. Under MinGW, formats follow the C standard
 // (__USE_MINGW_ANSI_STDIO), not Microsoft's C library.

@@ -5,9 +5,18 @@
 
 #include "renderer/base/api.h"
 
-#if defined(DIP_ASSERTS) && DIP_ASSERTS
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // Prints the condition, the file and the line, then aborts.
-_Noreturn DIP_API void dip_assert_failed(const char *condition, const char *file, int line);
+DIP_NORETURN DIP_API void dip_assert_failed(const char *condition, const char *file, int line);
+
+#ifdef __cplusplus
+}
+#endif
+
+#if defined(DIP_ASSERTS) && DIP_ASSERTS
 #define DIP_ASSERT(condition)                                                                      \
     ((condition) ? (void)0 : dip_assert_failed(#condition, __FILE__, __LINE__))
 #else

@@ -2,19 +2,16 @@
 #ifndef DIP_RENDERER_BASE_CLOCK_H
 #define DIP_RENDERER_BASE_CLOCK_H
 
+#include "renderer/base/api.h"
+
 #include <stdint.h>
-#include <time.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 // Returns nanoseconds since an unspecified moment. Thread-safe.
-static inline int64_t dip_clock_ns(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
+DIP_API int64_t dip_clock_ns(void);
 
 #ifdef __cplusplus
 }

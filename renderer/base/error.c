@@ -114,9 +114,7 @@ void dip_error_list_free(DipErrorList *list) {
     *list = (DipErrorList){0};
 }
 
-#if defined(DIP_ASSERTS) && DIP_ASSERTS
 void dip_assert_failed(const char *condition, const char *file, int line) {
     fprintf(stderr, "%s:%d: assertion failed: %s\n", file, line, condition);
     abort();
 }
-#endif

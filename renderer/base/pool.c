@@ -43,6 +43,7 @@ struct DipPool {
     atomic_bool stop;
     _Atomic uint64_t state;
 
+    pthread_mutex_t turn;  // held by the thread whose run this is
     pthread_mutex_t mutex; // for sleeping and waking only
     pthread_cond_t wake;
     int sleeping; // number of workers that sleep
@@ -164,6 +165,7 @@ DipPool *dip_pool_create(int thread_count, DipError *err) {
     }
     pool->thread_count = thread_count ? thread_count : processor_count();
     pool->spins = pool->thread_count <= processor_count();
+    pthread_mutex_init(&pool->turn, NULL);
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
     pool->workers = calloc((size_t)pool->thread_count, sizeof *pool->workers);
@@ -195,16 +197,18 @@ void dip_pool_destroy(DipPool **pool_pointer) {
     }
     pthread_cond_destroy(&pool->wake);
     pthread_mutex_destroy(&pool->mutex);
+    pthread_mutex_destroy(&pool->turn);
     free(pool->workers);
     free(pool);
     *pool_pointer = NULL;
 }
 
 int dip_pool_thread_count(const DipPool *pool) {
-    return pool->thread_count;
+    return pool ? pool->thread_count : 1;
 }
 
 static void run_on_all(DipPool *pool, int count, DipTask task, void *context) {
+    pthread_mutex_lock(&pool->turn);
     pool->task = task;
     pool->context = context;
     pool->count = count;
@@ -216,6 +220,7 @@ static void run_on_all(DipPool *pool, int count, DipTask task, void *context) {
     if (pool->started) {
         end_run(pool);
     }
+    pthread_mutex_unlock(&pool->turn);
 }
 
 void dip_pool_run(DipPool *pool, int count, DipTask task, void *context) {

@@ -24,14 +24,14 @@ DIP_API DipPool *dip_pool_create(int thread_count, DipError *err);
 // Stops the threads and frees the pool. No dip_pool_run may be in progress. *pool may be NULL and
 // becomes NULL.
 DIP_API void dip_pool_destroy(DipPool **pool);
-// Returns the number of threads, including the caller of dip_pool_run.
+// Returns the number of threads, including the caller of dip_pool_run: 1 for NULL.
 DIP_API int dip_pool_thread_count(const DipPool *pool);
 
 // Runs the task for each index 0..count-1 and returns when the task is done for all of them. A pool
-// can do one such run at a time: do not call this function from a task of the same pool, nor from
-// two threads at once. If pool is NULL, the caller's thread runs the task for all indices as worker
-// 0. Tasks run in the floating-point mode of fp_mode.h; afterwards the caller's own mode is
-// restored.
+// does one such run at a time: if several threads call this function, they take turns. Do not call
+// it from a task of the same pool, which would wait for itself. If pool is NULL, the caller's
+// thread runs the task for all indices as worker 0. Tasks run in the floating-point mode of
+// fp_mode.h; afterwards the caller's own mode is restored.
 DIP_API void dip_pool_run(DipPool *pool, int count, DipTask task, void *context);
 
 #ifdef __cplusplus

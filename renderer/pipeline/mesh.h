@@ -35,7 +35,8 @@ typedef struct DipBox {
 } DipBox;
 
 // Makes an immutable mesh from a copy of the data. Any thread may use the mesh. Fails with RANGE if
-// an index or attribute_count is out of range or a position is not finite, with FORMAT if
+// an index or attribute_count is out of range or a position is not finite, with MISSING if data,
+// attributes or indices are NULL, with FORMAT if
 // index_count is not a multiple of 3, with OVERSIZED if index_count is above 2^30, and with MEMORY.
 DIP_API DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err);
 

@@ -10,6 +10,7 @@
 #include "renderer/pipeline/run/pass_check.h"
 #include "renderer/pipeline/run/tile_worker.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,6 +28,7 @@ struct DipPipeline {
     uint8_t *is_ordered;        // one per draw (draw_room)
     DipSrgbEncodeTable *srgb;
     float srgb_light[256]; // linear light of the 8-bit sRGB values
+    atomic_bool busy;      // a thread is drawing with the pipeline
 };
 
 // --- preparing a pass --------------------------------------------------------------------------
@@ -87,6 +89,10 @@ static bool make_merge(DipPipeline *pipeline, const DipPass *pass, DipError *err
 
 bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
     DIP_FP_MODE_SCOPE();
+    if (!pipeline || !pass) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, pipeline ? "pass" : "pipeline",
+                             "NULL, accepted a pointer");
+    }
     return make_lists(pipeline, pass->draw_count, err) && make_merge(pipeline, pass, err) &&
            dip_geometry_reserve(&pipeline->geometry, pass, err);
 }
@@ -122,6 +128,9 @@ static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, DipError *err
     set_sample_groups(tile_pass, pass);
     begin_merge(pipeline, pass);
     begin_recording(pipeline);
+    for (int w = 0; w < pipeline->worker_count; w++) {
+        dip_tile_worker_begin_pass(pipeline->workers[w]);
+    }
     return true;
 }
 
@@ -319,15 +328,37 @@ static void add_results(const Batch *batch, int64_t tiles_ns) {
     const double scale = total_ns ? 1e-6 * (double)tiles_ns / (double)total_ns : 0.0;
     for (int i = 0; i < batch->count; i++) {
         const DipPassWork *work = &batch->works[i];
-        add_counters(work->pipeline, work->counters);
+        if (work->counters) {
+            add_counters(work->pipeline, work->counters);
+        }
         record_tiles(work->pipeline);
-        add_times(&sums[i], batch->geometry_ns[i], scale, work->times);
+        if (work->times) {
+            add_times(&sums[i], batch->geometry_ns[i], scale, work->times);
+        }
     }
+}
+
+// Reports the fault of the earliest draw whose shaders read what they cannot have.
+static bool check_shaders(const DipPipeline *pipeline, DipError *err) {
+    DipError fault = {.code = DIP_ERROR_NONE};
+    uint32_t draw = 0;
+    for (int w = 0; w < pipeline->worker_count; w++) {
+        dip_shader_guard_collect(&pipeline->workers[w]->guard, &fault, &draw);
+        dip_shader_guard_collect(&pipeline->workers[w]->clip_guard, &fault, &draw);
+    }
+    if (fault.code && err) {
+        *err = fault;
+    }
+    return !fault.code;
 }
 
 // Checks whether works[index] may be drawn at once with the works before it.
 static bool check_work(const DipPassWork *works, int index, DipError *err) {
     const DipPipeline *pipeline = works[index].pipeline;
+    if (!pipeline) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "pipeline",
+                             "NULL, accepted a pipeline");
+    }
     if (!dip_pass_check(works[index].pass, pipeline->width, pipeline->height, err)) {
         return false;
     }
@@ -342,9 +373,49 @@ static bool check_work(const DipPassWork *works, int index, DipError *err) {
     return true;
 }
 
+// Draws passes that have been checked, with pipelines that no other thread uses.
+static bool draw_batch(Batch *batch, DipError *err) {
+    const DipPassWork *works = batch->works;
+    for (int i = 0; i < batch->count; i++) {
+        if (!begin_pass(works[i].pipeline, works[i].pass, err)) {
+            return false;
+        }
+    }
+    if (!run_geometries(batch, err)) {
+        return false;
+    }
+    const int64_t begin_ns = dip_clock_ns();
+    dip_pool_run(works[0].pipeline->pool, greatest_tile_count(batch), run_tiles, batch);
+    add_results(batch, dip_clock_ns() - begin_ns);
+    for (int i = 0; i < batch->count; i++) {
+        if (!check_shaders(works[i].pipeline, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Takes the pipelines for this thread. Fails if another thread is drawing with one of them.
+static bool take(const DipPassWork *works, int count, DipError *err) {
+    for (int i = 0; i < count; i++) {
+        if (atomic_exchange_explicit(&works[i].pipeline->busy, true, memory_order_acquire)) {
+            for (int k = 0; k < i; k++) {
+                atomic_store_explicit(&works[k].pipeline->busy, false, memory_order_release);
+            }
+            return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "pipeline",
+                                 "another thread is drawing with it, accepted one thread at a "
+                                 "time");
+        }
+    }
+    return true;
+}
+
 bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geometry,
                               DipError *err) {
     DIP_FP_MODE_SCOPE();
+    if (!works) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "works", "NULL, accepted a pointer");
+    }
     if (count < 1 || count > DIP_MAX_PASSES_AT_ONCE) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "count", "%d passes, accepted 1..%d",
                              count, DIP_MAX_PASSES_AT_ONCE);
@@ -354,19 +425,15 @@ bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geo
             return false;
         }
     }
-    for (int i = 0; i < count; i++) {
-        if (!begin_pass(works[i].pipeline, works[i].pass, err)) {
-            return false;
-        }
-    }
-    Batch batch = {.works = works, .count = count, .same_geometry = same_geometry};
-    if (!run_geometries(&batch, err)) {
+    if (!take(works, count, err)) {
         return false;
     }
-    const int64_t begin_ns = dip_clock_ns();
-    dip_pool_run(works[0].pipeline->pool, greatest_tile_count(&batch), run_tiles, &batch);
-    add_results(&batch, dip_clock_ns() - begin_ns);
-    return true;
+    Batch batch = {.works = works, .count = count, .same_geometry = same_geometry};
+    const bool drawn = draw_batch(&batch, err);
+    for (int i = 0; i < count; i++) {
+        atomic_store_explicit(&works[i].pipeline->busy, false, memory_order_release);
+    }
+    return drawn;
 }
 
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipPipelineCounters *counters,

@@ -1,8 +1,9 @@
 // The pipeline: draws a list of meshes with the caller's shaders into a target.
 //
 // A pipeline owns the working memory for targets of one size. It spreads its work over a pool of
-// threads, but only one thread may call it at a time. Pictures are the same to the bit for any
-// number of threads and any instruction set.
+// threads, but only one thread may call it at a time. Several threads may draw with different
+// pipelines of one pool; they take turns in using the pool. Pictures are the same to the bit for
+// any number of threads and any instruction set.
 #ifndef DIP_RENDERER_PIPELINE_PIPELINE_H
 #define DIP_RENDERER_PIPELINE_PIPELINE_H
 
@@ -51,10 +52,15 @@ typedef struct DipDraw {
     // Fragment shaders get the last value_only_varying_count varyings, 0..varying_count, without
     // derivatives, which saves time.
     int value_only_varying_count;
-    // Bit s: the shaders use varying s only modulo 1, as a coordinate along which all their
-    // textures repeat (DIP_WRAP_REPEAT). The pipeline may then add whole numbers to the varying,
-    // the same at all corners of a triangle but different from triangle to triangle, so that large
-    // coordinates keep their precision near the eye. Derivatives do not change.
+    // The shaders compute the last computed_varying_count of the DIP_MAX_VARYINGS varyings of their
+    // batches themselves, with derivatives, to read textures there. They are 0 at first.
+    // 0..DIP_MAX_VARYINGS - varying_count.
+    int computed_varying_count;
+    // Bit s: the shaders use varying s only modulo 2, as a coordinate along which all their
+    // textures repeat or mirror (DIP_WRAP_REPEAT, DIP_WRAP_MIRROR). The pipeline may then add even
+    // whole numbers to the varying, the same at all corners of a triangle but different from
+    // triangle to triangle, so that large coordinates keep their precision near the eye.
+    // Derivatives do not change.
     uint32_t repeating_varyings;
     const void *uniforms;
     const DipSampler *samplers; // at most DIP_MAX_SAMPLERS
@@ -111,7 +117,8 @@ typedef struct DipPass {
     // return true for sample_count and this number. If the number is 0 or sample_count, the samples
     // are not divided, and these draws are shaded like any other draw.
     int samples_per_group;
-    float clear_lin[3]; // linear light; clamped to 0..1 for targets of 8 bits per channel
+    // Linear light, not NaN; clamped to 0..1 for targets of 8 bits per channel.
+    float clear_lin[3];
     // User clip planes in clip space. A surface is kept where dot(plane, clip position) >= 0.
     float clip_planes[DIP_MAX_CLIP_PLANES][4];
     int clip_plane_count;
@@ -125,7 +132,8 @@ typedef struct DipPass {
     // this rectangle and in `region` are needed. NULL: all of each tile.
     const DipTileRegion *tile_regions;
     DipAttachments attachments;
-    // Pixels to which clip space maps, and beyond which nothing is drawn. All 0: the whole target.
+    // Pixels to which clip space maps. Pixels outside it are neither drawn nor cleared: they are
+    // left untouched, with their depths and stencil values. All 0: the whole target.
     DipTargetRegion viewport;
     // Pixels outside this rectangle are left untouched, to the pixel. All 0: the whole target.
     DipTargetRegion scissor;
@@ -139,16 +147,20 @@ typedef struct DipPass {
 typedef struct DipPipeline DipPipeline;
 
 // Creates a pipeline for targets of width x height pixels, each 1..DIP_MAX_TARGET_SIZE. The pool is
-// borrowed and must outlive the pipeline. Fails with RANGE, UNSUPPORTED (an instruction set that
-// this machine lacks) or MEMORY.
+// borrowed and must outlive the pipeline. If it is NULL, the callers' threads do the work. Fails
+// with RANGE, UNSUPPORTED (an instruction set that this machine lacks) or MEMORY.
 DIP_API DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height,
                                          DipError *err);
 // Frees a pipeline, which must not be drawing. *pipeline may be NULL and becomes NULL.
 DIP_API void dip_pipeline_destroy(DipPipeline **pipeline);
 
-// Draws a pass, and adds its work and its times to *counters and *times. Fails with
+// Draws a pass, and adds its work and its times to *counters and *times, each of which may be NULL.
+// Fails with
 // - RANGE, CONFLICT or MISSING if a field breaks the rules in its comment above; the error's key is
-//   the field, and the target is unchanged;
+//   the field, for example "draws[7].mesh", and the target is unchanged;
+// - RANGE, CONFLICT or MISSING if a shader reads what it cannot have (shader.h). The pass is drawn,
+//   with 0 in place of these reads. The error's key names the earliest of these draws;
+// - CONFLICT if another thread is drawing with the pipeline;
 // - OVERSIZED if 32 bits cannot index the pass's triangles. The limit is about
 //   2^31 / (8 + 3 * the largest varying_count) triangles. The triangles of a mesh count once for
 //   each draw of the mesh, in view or not;
@@ -156,7 +168,7 @@ DIP_API void dip_pipeline_destroy(DipPipeline **pipeline);
 DIP_API bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass,
                                DipPipelineCounters *counters, DipStageTimes *times, DipError *err);
 
-// A pass, the pipeline that draws it, and the counters and times that drawing adds to.
+// A pass, the pipeline that draws it, and the counters and times that drawing adds to, or NULL.
 typedef struct DipPassWork {
     DipPipeline *pipeline;
     const DipPass *pass;

@@ -29,8 +29,9 @@ enum {
     DIP_MAX_SAMPLERS = 4,
 };
 
-// A vertex shader reads in[a][i]: float a of vertex i's attributes in the mesh. It writes
-// varying[s][i], the vertex's varying s, and clip[0..3][i], its clip position x, y, z, w. A vertex
+// A vertex shader reads in[a][i]: float a of vertex i's attributes in the mesh, and 0 for the
+// attributes up to DIP_MAX_ATTRIBUTES that the mesh lacks. It writes varying[s][i], the vertex's
+// varying s, and clip[0..3][i], its clip position x, y, z, w; what it does not write is 0. A vertex
 // is in view if -w <= x <= w, -w <= y <= w and 0 <= z <= w; z = w is nearest.
 typedef struct DipVertexBatch {
     int count; // 1..DIP_VERTEX_BATCH
@@ -51,9 +52,13 @@ typedef struct DipShaderWork {
 
 typedef struct DipFragmentBatch DipFragmentBatch;
 
+// The functions below read for a whole batch. A read that the draw does not allow gives 0, and
+// drawing the pass fails with an error that names the draw and the fault (dip_pipeline_draw).
+
 // Reads a texture at the coordinates u and v, which are varyings u_varying and u_varying + 1. The
-// derivatives of u and v determine the footprint: the area of the texture that a pixel covers.
-// Writes linear light, 0..1, to out[0..2][i].
+// derivatives of u and v determine the footprint: the area of the texture that a pixel covers. Only
+// a sampler without mips and anisotropic filtering reads at varyings without derivatives. Writes
+// linear light, 0..1, to out[0..2][i].
 typedef void DipSampleColour(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
                              float (*out)[DIP_FRAGMENT_BATCH]);
 
@@ -66,24 +71,27 @@ typedef void DipSampleColours(DipFragmentBatch *batch, const DipSampler *const s
 typedef void DipSampleAlpha(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
                             float *out);
 
-// Reads a target of format DIP_FORMAT_SRGB8 that an earlier pass drew. u[i] and v[i] are fractions
+// Reads a target of format DIP_FORMAT_SRGB8 that an earlier pass drew; it may not share memory with
+// the target of this pass. u[i] and v[i] are fractions
 // of the target's size, measured from its top left corner; they are clamped to the target. The
 // function filters bilinearly in linear light and writes out[0..2][i].
 typedef void DipSampleTarget(DipFragmentBatch *batch, const DipTarget *target, const float *u,
                              const float *v, float (*out)[DIP_FRAGMENT_BATCH]);
 
-// Compares depths with those that an earlier pass drew. u[i] and v[i] are fractions of the map's
-// size, measured from its top left corner. out[i] is the share of light, 0..1: of the stored depths
-// around the point, those that are not nearer than z[i] count as lit (z[i] >= stored). With
-// DIP_SHADOW_LINEAR, each of the four texels around the point is compared first, and the four
-// results are averaged with the weights of bilinear filtering, in 1/256. Points outside the map are
-// lit; texels beyond its border repeat the border.
+// Compares depths with those that an earlier pass drew, not with those of this pass. u[i] and v[i]
+// are fractions of the map's size, measured from its top left corner. out[i] is the share of light,
+// 0..1: of the stored depths around the point, those that are not nearer than z[i] count as lit
+// (z[i] >= stored). With DIP_SHADOW_LINEAR, each of the four texels around the point is compared
+// first, and the four results are averaged with the weights of bilinear filtering, in 1/256. Points
+// outside the map are lit; texels beyond its border repeat the border.
 typedef void DipSampleShadow(DipFragmentBatch *batch, const DipShadowMap *map, const float *u,
                              const float *v, const float *z, float *out);
 
 struct DipFragmentBatch {
     int count; // 1..DIP_FRAGMENT_BATCH
-    // Varyings at the fragment's position, and their derivatives per pixel along x and y.
+    // Varyings at the fragment's position, and their derivatives per pixel along x and y. Varyings
+    // and derivatives that the draw does not have are 0. The shader may write to the varyings that
+    // the draw declares as computed (computed_varying_count in pipeline.h).
     float varying[DIP_MAX_VARYINGS][DIP_FRAGMENT_BATCH];
     float varying_dx[DIP_MAX_VARYINGS][DIP_FRAGMENT_BATCH];
     float varying_dy[DIP_MAX_VARYINGS][DIP_FRAGMENT_BATCH];
@@ -99,11 +107,13 @@ struct DipFragmentBatch {
     const float *srgb_light; // linear light of the 256 8-bit sRGB values, for sample_target
     DipShaderWork work;      // a shader may add to work.counts
     // A fragment shader writes linear light. The pipeline clamps it to 0..1 for targets of 8 bits.
+    // What it does not write is black.
     float colour[3][DIP_FRAGMENT_BATCH];
     // A fragment shader of an ordered draw (state.h) may write an alpha; it is 1 if it does not.
     float alpha[DIP_FRAGMENT_BATCH];
-    // A clip shader writes 1 where the surface exists and 0 where it is cut away.
+    // A clip shader writes 1 where the surface exists and 0, as at first, where it is cut away.
     uint8_t keep[DIP_FRAGMENT_BATCH];
+    struct DipShaderGuard *guard; // the pipeline's own
 };
 
 typedef void DipFragmentShader(DipFragmentBatch *batch);

@@ -14,6 +14,8 @@
 #ifndef DIP_RENDERER_PIPELINE_STATE_H
 #define DIP_RENDERER_PIPELINE_STATE_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -194,7 +196,7 @@ typedef struct DipDrawState {
 #define DIP_MAX_LINE_WIDTH 64.0f
 
 // Returns whether a draw with this state is ordered. state may be NULL.
-bool dip_state_is_ordered(const DipDrawState *state);
+DIP_API bool dip_state_is_ordered(const DipDrawState *state);
 
 #ifdef __cplusplus
 }

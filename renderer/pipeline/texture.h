@@ -134,13 +134,13 @@ typedef enum DipFilter {
 // 1/256 level.
 typedef struct DipSampler {
     const DipTexture *texture;
-    int max_anisotropy; // most probes along a footprint's long axis: 1 (trilinear) .. 16
+    int max_anisotropy; // most probes along a footprint's long axis: 0 or 1 (trilinear) .. 16
     // True: the long axis is the major axis of the footprint's exact ellipse. False: the long axis
     // is estimated from the screen derivatives, so the level of detail depends on the surface's
     // angle on the screen.
     bool exact_footprint;
-    int32_t bias_lod8; // added to the level of detail
-    int32_t min_lod8;  // smallest level of detail
+    int32_t bias_lod8; // added to the level of detail; within +-2^20
+    int32_t min_lod8;  // smallest level of detail, 0..2^20
     // True saves time: two levels are blended only in the middle quarter of the way from one to the
     // other, and a footprint gets half the number of probes, rounded up.
     bool cheap;

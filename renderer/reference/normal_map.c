@@ -88,13 +88,13 @@ static double map_normal(const DipRefVaryings *varyings, const double texel[3],
         mapped[i] = normal[i];
     }
     m[2] = fmax(m[2], 0.125);
+    const double length = sqrt(dot(m, m));
     if (find_tangents(varyings, normal, along_u, against_v)) {
         for (int i = 0; i < 3; i++) {
-            mapped[i] = m[0] * along_u[i] + m[1] * against_v[i] + m[2] * normal[i];
+            mapped[i] = (m[0] * along_u[i] + m[1] * against_v[i] + m[2] * normal[i]) / length;
         }
-        normalise(mapped);
     }
-    return sqrt(dot(m, m));
+    return length;
 }
 
 static double find_highlight(double roughness, double length, const double place[3],

@@ -29,8 +29,10 @@ typedef enum DipLightKind {
 typedef struct DipLightDef {
     const char *name; // may be NULL
     DipLightKind kind;
-    float colour_lin[3];      // 0..DIP_MAX_LIGHT_LIN; light on a surface that faces the light
-    float position_world[3];  // of a point or spot light
+    float colour_lin[3]; // 0..DIP_MAX_LIGHT_LIN; light on a surface that faces the light
+    // Of a point or spot light. A light more than 1e18 m from the eye shines everywhere as it does
+    // at the eye.
+    float position_world[3];
     float direction_world[3]; // the way the light travels; any length but 0; not of a point light
     // At distance d, the light of a point or spot light is divided by
     // attenuation[0] + attenuation[1] * d + attenuation[2] * d * d. Each is 0 or more, and at least

@@ -64,7 +64,7 @@ typedef struct DipMeshDef {
     const char *name;
     uint32_t vertex_count;
     const float *positions;   // x, y, z
-    const float *normals;     // x, y, z, unit
+    const float *normals;     // x, y, z, unit; a normal 0, 0, 0 faces no light
     const float *uv0;         // u, v for the colour texture and the normal map
     const float *uv1;         // u, v for the light map
     const float *colours_lin; // r, g, b; multiplies the base colour

@@ -5,6 +5,7 @@
 #include "renderer/base/fp_mode.h"
 #include "renderer/base/trig.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -118,13 +119,15 @@ bool dip_camera_perspective(DipMatrix *projection, const DipPerspective *lens, D
     if (!(lens->aspect > 0.0 && isfinite(lens->aspect))) {
         return refuse(err, "aspect", lens->aspect, "numbers above 0");
     }
-    if (!(near > 0.0 && isfinite(near))) {
-        return refuse(err, "near_distance", near, "numbers above 0");
+    if (!(near >= (double)FLT_MIN && near <= (double)FLT_MAX)) {
+        return refuse(err, "near_distance", near, "1.2e-38 to 3.4e38, as floats hold it");
     }
     if (far != 0.0 && !(far > near && isfinite(far))) {
         return refuse(err, "far_distance", far, "numbers above near_distance, or 0");
     }
-    const double focal = 1.0 / dip_tan(lens->fov_deg * (DIP_PI / 360.0));
+    // Near 180 degrees, the difference from 180 keeps the precision that the angle has not.
+    const double focal = lens->fov_deg > 90.0 ? dip_tan((180.0 - lens->fov_deg) * (DIP_PI / 360.0))
+                                              : 1.0 / dip_tan(lens->fov_deg * (DIP_PI / 360.0));
     DipMatrix made = {{0.0}};
     made.m[0] = focal / lens->aspect;
     made.m[5] = focal;

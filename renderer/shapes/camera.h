@@ -37,7 +37,7 @@ DIP_API bool dip_camera_look_at(DipMatrix *view, const double eye[3], const doub
 typedef struct DipPerspective {
     double fov_deg;       // vertical field of view, in degrees; above 0 and below 180
     double aspect;        // width of the picture divided by its height; above 0
-    double near_distance; // distance of the near plane from the eye; above 0
+    double near_distance; // distance of the near plane from the eye; FLT_MIN to FLT_MAX
     double far_distance;  // distance of the far plane, above near_distance; 0: no far plane
 } DipPerspective;
 

@@ -132,10 +132,14 @@ static void measure_moved(StabilityRun *run) {
 
 // --- whole numbers added to texture coordinates --------------------------------------------------
 
-// Whether a texture, which may be DIP_NO_TEXTURE, repeats along an axis.
+static bool wraps(DipWrap wrap) {
+    return wrap == DIP_WRAP_REPEAT || wrap == DIP_WRAP_MIRROR;
+}
+
+// Whether a texture, which may be DIP_NO_TEXTURE, repeats along an axis, mirrored or not.
 static bool repeats(const DipTestScene *scene, int texture, int axis) {
-    return texture == DIP_NO_TEXTURE || (axis ? scene->textures[texture].wrap_v
-                                              : scene->textures[texture].wrap_u) == DIP_WRAP_REPEAT;
+    return texture == DIP_NO_TEXTURE ||
+           wraps(axis ? scene->textures[texture].wrap_v : scene->textures[texture].wrap_u);
 }
 
 // Rounds coordinates to multiples of 1/8, which floats hold up to 2^21, and adds whole numbers
@@ -170,6 +174,25 @@ static void shift_by(DipTestScene *scene, int change) {
 
 static void measure_whole_numbers(StabilityRun *run) {
     compare_changes(run, shift_by, 4, "shift");
+}
+
+// Mirrors the textures that repeat: along both axes, or only along u in every second texture, whose
+// v still repeats.
+static void mirror_and_shift_by(DipTestScene *scene, int change) {
+    for (int t = 0; t < scene->def.texture_count; t++) {
+        DipTextureDef *texture = &scene->textures[t];
+        if (texture->wrap_u == DIP_WRAP_REPEAT) {
+            texture->wrap_u = DIP_WRAP_MIRROR;
+        }
+        if (texture->wrap_v == DIP_WRAP_REPEAT && t % 2 == 0) {
+            texture->wrap_v = DIP_WRAP_MIRROR;
+        }
+    }
+    shift_by(scene, change);
+}
+
+static void measure_mirrored(StabilityRun *run) {
+    compare_changes(run, mirror_and_shift_by, 4, "shift");
 }
 
 // A quad that faces the camera has the same level of detail everywhere, also where its coordinates
@@ -396,6 +419,13 @@ static const StabilityRow rows[] = {
      .unit = "pixels",
      .per_isa = true,
      .measure = measure_whole_numbers},
+    {.id = "A65",
+     .promise = "Multiples of 128 added to the coordinates of mirrored textures, up to 2^20, "
+                "change no pixel, if floats hold the sums.",
+     .truth = "the picture with the smaller coordinates",
+     .unit = "pixels",
+     .per_isa = true,
+     .measure = measure_mirrored},
     {.id = "N29",
      .promise = "The level of detail is the same on both sides of the seam where a coordinate "
                 "passes a whole number.",

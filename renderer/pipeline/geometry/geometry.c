@@ -613,16 +613,24 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
     const DipMesh *mesh = run->draw->mesh;
     DipGeometryScratch *scratch = run->scratch;
     const float *in[DIP_MAX_ATTRIBUTES];
-    for (int a = 0; a < mesh->attribute_count; a++) {
-        in[a] = mesh->attributes + (size_t)a * mesh->vertex_total + chunk->first_vertex;
+    static const float lacking[DIP_VERTEX_BATCH];
+    for (int a = 0; a < DIP_MAX_ATTRIBUTES; a++) {
+        in[a] = a < mesh->attribute_count
+                    ? mesh->attributes + (size_t)a * mesh->vertex_total + chunk->first_vertex
+                    : lacking;
     }
     float *clip[4];
     float *varying[DIP_MAX_VARYINGS];
+    // What the vertex shader leaves unset is 0, not what an earlier chunk left there.
+    const size_t bytes = chunk->vertex_count * sizeof(float);
     for (int c = 0; c < 4; c++) {
-        clip[c] = scratch->clip[c];
+        clip[c] = memset(scratch->clip[c], 0, bytes);
     }
     for (int s = 0; s < DIP_MAX_VARYINGS; s++) {
         varying[s] = scratch->varying[s];
+    }
+    for (int s = 0; s < run->draw->varying_count; s++) {
+        memset(varying[s], 0, bytes);
     }
     memcpy(run->position, in, sizeof run->position);
     const DipVertexBatch batch = {(int)chunk->vertex_count, in, clip, varying, run->draw->uniforms};

@@ -40,6 +40,11 @@ static bool check_positions(const char *name, const float *attributes, size_t at
 }
 
 static bool check_data(const DipMeshData *data, DipError *err) {
+    if (!data || (data->vertex_count && !data->attributes) ||
+        (data->index_count && !data->indices)) {
+        return dip_error_set(err, DIP_ERROR_MISSING, data ? data->name : NULL, 0, "mesh",
+                             "NULL, accepted vertices and indices");
+    }
     if (data->attribute_count < 3 || data->attribute_count > DIP_MAX_ATTRIBUTES) {
         return dip_error_set(err, DIP_ERROR_RANGE, data->name, 0, "attributes",
                              "%d floats per vertex, accepted 3..%d", data->attribute_count,

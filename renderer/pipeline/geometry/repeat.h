@@ -4,9 +4,10 @@
 #define DIP_RENDERER_PIPELINE_GEOMETRY_REPEAT_H
 
 // A triangle's repeating varyings are reduced by a multiple of this number, so that their values at
-// the corner nearest to the eye are within half of it. A smaller number would hardly be more
-// precise: floats within +-32 have steps of at most 2^-19, 1/64 texel of the largest texture. But
-// it would change the bits of ordinary pictures, whose coordinates lie within +-32.
+// the corner nearest to the eye are within half of it. The number is even, so that mirrored
+// textures keep their phase. A smaller number would hardly be more precise: floats within +-32 have
+// steps of at most 2^-19, 1/64 texel of the largest texture. But it would change the bits of
+// ordinary pictures, whose coordinates lie within +-32.
 #define DIP_REPEAT_STEP 64.0
 
 // Adding this number to v and subtracting it again rounds v to the nearest integer, ties to even,

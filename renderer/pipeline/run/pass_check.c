@@ -4,8 +4,10 @@
 #include "renderer/pipeline/merge/merge_tile.h"
 #include "renderer/pipeline/run/state_check.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 static bool in_range(int value, int least, int most, const char *field, DipError *err) {
     return (value >= least && value <= most) ||
@@ -91,8 +93,32 @@ static bool check_draw(const DipDraw *draw, bool shades, DipError *err) {
                     err) &&
            in_range(draw->value_only_varying_count, 0, draw->varying_count,
                     "draws.value_only_varying_count", err) &&
+           in_range(draw->computed_varying_count, 0, DIP_MAX_VARYINGS - draw->varying_count,
+                    "draws.computed_varying_count", err) &&
            in_range((int)draw->cull, DIP_CULL_NONE, DIP_CULL_FRONT, "draws.cull", err) &&
            dip_state_check(draw->state, err);
+}
+
+// Puts the draw's index into the key of its error: "draws[7].mesh" in place of "draws.mesh".
+// Returns false.
+static bool name_draw(int index, DipError *err) {
+    if (err) {
+        char key[sizeof err->key + 16];
+        snprintf(key, sizeof key, "draws[%d]%s", index, err->key + sizeof "draws" - 1);
+        memcpy(err->key, key, sizeof err->key);
+        err->key[sizeof err->key - 1] = '\0';
+    }
+    return false;
+}
+
+static bool check_clear(const float clear_lin[3], DipError *err) {
+    for (int c = 0; c < 3; c++) {
+        if (isnan(clear_lin[c])) {
+            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "clear_lin",
+                                 "NaN, accepted numbers");
+        }
+    }
+    return true;
 }
 
 // Checks everything but the rule that a pass with a readback is not merged.
@@ -115,7 +141,8 @@ bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
         !dip_rectangle_check(&pass->region, &pass->target, "region", err) ||
         !dip_rectangle_check(&pass->viewport, &pass->target, "viewport", err) ||
         !dip_rectangle_check(&pass->scissor, &pass->target, "scissor", err) ||
-        !check_samples(pass, err) || !dip_attachments_check(pass, err) ||
+        !check_samples(pass, err) || !check_clear(pass->clear_lin, err) ||
+        !dip_attachments_check(pass, err) ||
         !in_range(pass->clip_plane_count, 0, DIP_MAX_CLIP_PLANES, "clip_plane_count", err) ||
         !in_range(pass->draw_count, 0, INT32_MAX, "draw_count", err) ||
         (pass->draw_count && !is_set(pass->draws, "draws", err)) ||
@@ -124,7 +151,7 @@ bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
     }
     for (int d = 0; d < pass->draw_count; d++) {
         if (!check_draw(&pass->draws[d], has_colours(&pass->target), err)) {
-            return false;
+            return name_draw(d, err);
         }
     }
     return !pass->readback || !dip_pass_is_merged(pass) ||

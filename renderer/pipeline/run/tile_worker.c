@@ -20,17 +20,6 @@ static void pad_list(DipFragmentList *list) {
     }
 }
 
-static void bind_batch(const DipTileWorker *worker, const DipDraw *draw, DipFragmentBatch *batch) {
-    batch->samplers = draw->samplers;
-    batch->uniforms = draw->uniforms;
-    batch->sample_colour = worker->pass->kernels->dip_kernel_sample_colour;
-    batch->sample_colours = worker->pass->kernels->dip_kernel_sample_colours;
-    batch->sample_alpha = worker->pass->kernels->dip_kernel_sample_alpha;
-    batch->sample_target = worker->pass->kernels->dip_kernel_sample_target;
-    batch->sample_shadow = worker->pass->kernels->dip_kernel_sample_shadow;
-    batch->srgb_light = worker->pass->srgb_light;
-}
-
 int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmentList *list) {
     const DipTilePass *pass = worker->pass;
     const DipDraw *draw = &pass->pass->draws[draw_index];
@@ -38,7 +27,8 @@ int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmen
     pad_list(list);
     pass->kernels->dip_kernel_interpolate(&worker->shading.input, list, draw->varying_count,
                                           draw->value_only_varying_count, batch);
-    bind_batch(worker, draw, batch);
+    dip_shader_guard_bind(&worker->guard, draw_index, draw->varying_count,
+                          draw->varying_count - draw->value_only_varying_count, batch);
     draw->fragment_shader(batch);
     worker->work->batches++;
     if (list == &worker->shading.whole_lists[draw_index]) {
@@ -96,7 +86,8 @@ const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle) 
     DipFragmentBatch *batch = &worker->clip_batch;
     pass->kernels->dip_kernel_interpolate(&worker->shading.input, &worker->clip_list,
                                           draw->clip_varying_count, 0, batch);
-    bind_batch(worker, draw, batch);
+    dip_shader_guard_bind(&worker->clip_guard, triangle->draw, draw->clip_varying_count,
+                          draw->clip_varying_count, batch);
     draw->clip_shader(batch);
     worker->work->clip_tested += (uint64_t)worker->clip_list.count;
     return batch->keep;
@@ -239,6 +230,12 @@ static void add_shader_work(const DipShaderWork *from, DipShaderWork *to) {
     for (int i = 0; i < DIP_SHADER_COUNT_MAX; i++) {
         to->counts[i] += from->counts[i];
     }
+}
+
+void dip_tile_worker_begin_pass(DipTileWorker *worker) {
+    const DipTilePass *pass = worker->pass;
+    dip_shader_guard_begin(&worker->guard, pass->kernels, pass->pass, pass->srgb_light);
+    dip_shader_guard_begin(&worker->clip_guard, pass->kernels, pass->pass, pass->srgb_light);
 }
 
 void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {

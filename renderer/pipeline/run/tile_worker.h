@@ -8,6 +8,7 @@
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/merge/merge_tile.h"
 #include "renderer/pipeline/pipeline.h"
+#include "renderer/pipeline/run/shader_guard.h"
 #include "renderer/pipeline/shading/tile_shading.h"
 
 // The parts of a tile's work whose times are measured.
@@ -64,6 +65,8 @@ typedef struct DipTileWorker {
     DipTileShading shading;
     DipFragmentBatch batch;
     DipFragmentBatch clip_batch;
+    DipShaderGuard guard;      // of `batch`
+    DipShaderGuard clip_guard; // of `clip_batch`
     DipFragmentList clip_list;
     DipEncodedBatch encoded;
     DipMergeTile merge; // its arrays exist once a merged pass has been drawn
@@ -103,6 +106,9 @@ void dip_tile_worker_shade_tile(DipTileWorker *worker);
 // merged_tile.c: covers, shades and stores the tile of a merged pass that has begun.
 void dip_merged_tile_begin(DipTileWorker *worker);
 void dip_merged_tile_draw(DipTileWorker *worker, int index);
+
+// Prepares a worker for the tiles of its next pass.
+void dip_tile_worker_begin_pass(DipTileWorker *worker);
 
 // Draws the tile with this index (y * tiles_x + x) and fills in *work.
 void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work);

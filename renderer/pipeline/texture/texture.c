@@ -52,6 +52,9 @@ static bool check_wrap(const DipTextureDef *def, const char *key, DipWrap wrap, 
 }
 
 static bool check_def(const DipTextureDef *def, DipError *err) {
+    if (!def) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "texture", "NULL");
+    }
     if (def->width < 1 || def->height < 1 || def->width > DIP_MAX_TEXTURE_SIZE ||
         def->height > DIP_MAX_TEXTURE_SIZE) {
         return dip_error_set(err, DIP_ERROR_RANGE, def->name, 0, "texture",
@@ -401,7 +404,9 @@ bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool
 
 DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
     DipTexture *texture;
-    return dip_textures_create(def, NULL, NULL, 1, NULL, &texture, err) ? texture : NULL;
+    return check_def(def, err) && dip_textures_create(def, NULL, NULL, 1, NULL, &texture, err)
+               ? texture
+               : NULL;
 }
 
 static bool check_levels(const DipTextureDef *levels, int level_count, DipError *err) {
@@ -410,7 +415,7 @@ static bool check_levels(const DipTextureDef *levels, int level_count, DipError 
                              level_count, DIP_MAX_LEVELS);
     }
     for (int i = 0; i < level_count; i++) {
-        if (!check_def(&levels[i], err)) {
+        if (!check_def(levels ? &levels[i] : NULL, err)) {
             return false;
         }
     }

@@ -164,6 +164,7 @@ static void set_effect(const DipDrawInput *input, const DipSceneMesh *mesh,
         draw->value_only_varying_count = 0;
     } else if (mesh->sky && !input->quality->step[DIP_SETTING_MIPDEBUG]) {
         draw->fragment_shader = kernels->dip_kernel_sky_fragment;
+        draw->computed_varying_count = 2; // the coordinates of the layer of clouds
     }
 }
 

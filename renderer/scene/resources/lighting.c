@@ -65,6 +65,53 @@ static void set_cone(const DipLightDef *light, DipLightUniforms *uniforms) {
     uniforms->cone_shift = (float)(-outer * scale);
 }
 
+// A point or spot light that is farther from the eye than this distance acts like a directional
+// light, as strong as it is at the eye: the square of a much greater distance is not a float.
+#define FAR_AWAY_M 1e18
+
+// Returns the part of a point or spot light that arrives at the eye. to_light: unit vector.
+static double share_at_eye(const DipLightDef *light, const DipLightUniforms *uniforms,
+                           const double to_light[3], double distance) {
+    const float *a = light->attenuation;
+    if (light->range_m > 0.0f) {
+        return 0.0; // no range is as long as FAR_AWAY_M
+    }
+    double share = 1.0 / ((a[0] + a[1] * distance) + a[2] * distance * distance);
+    if (light->kind == DIP_LIGHT_SPOT) {
+        double cosine = 0.0;
+        for (int k = 0; k < 3; k++) {
+            cosine += to_light[k] * uniforms->to_light[k];
+        }
+        const double cone = cosine * uniforms->cone_scale + uniforms->cone_shift;
+        share *= fmin(fmax(cone, 0.0), 1.0) * fmin(fmax(cone, 0.0), 1.0);
+    }
+    return share;
+}
+
+// Makes a light that is far away directional.
+static void make_directional(const DipLightDef *light, const double eye[3],
+                             DipLightUniforms *uniforms) {
+    double to_light[3];
+    double distance2 = 0.0;
+    for (int k = 0; k < 3; k++) {
+        to_light[k] = light->position_world[k] - eye[k];
+        distance2 += to_light[k] * to_light[k];
+    }
+    if (light->kind == DIP_LIGHT_DIRECTIONAL || !(distance2 > FAR_AWAY_M * FAR_AWAY_M)) {
+        return;
+    }
+    const double distance = sqrt(distance2);
+    for (int k = 0; k < 3; k++) {
+        to_light[k] /= distance;
+    }
+    const double share = share_at_eye(light, uniforms, to_light, distance);
+    for (int k = 0; k < 3; k++) {
+        uniforms->colour_lin[k] = (float)(light->colour_lin[k] * share);
+        uniforms->to_light[k] = (float)to_light[k];
+    }
+    uniforms->kind = DIP_LIGHT_DIRECTIONAL;
+}
+
 void dip_lighting_at(const DipSceneLighting *lighting, const double eye[3],
                      DipLightingUniforms *uniforms) {
     memcpy(uniforms->ambient_lin, lighting->ambient_lin, sizeof uniforms->ambient_lin);
@@ -88,6 +135,7 @@ void dip_lighting_at(const DipSceneLighting *lighting, const double eye[3],
         if (light->kind == DIP_LIGHT_SPOT) {
             set_cone(light, out);
         }
+        make_directional(light, eye, out);
     }
 }
 

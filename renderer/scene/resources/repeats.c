@@ -1,4 +1,4 @@
-// Finds large texture coordinates along which all textures of a surface repeat.
+// Finds large texture coordinates along which all textures of a surface repeat, mirrored or not.
 #include "renderer/scene/resources/repeats.h"
 
 // Coordinates within +- this number are not reduced: set-up subtracts multiples of 64, and the
@@ -7,7 +7,8 @@
 
 static bool repeats(const DipSceneDef *def, int texture, int axis) {
     const DipTextureDef *picture = &def->textures[texture];
-    return (axis ? picture->wrap_v : picture->wrap_u) == DIP_WRAP_REPEAT;
+    const DipWrap wrap = axis ? picture->wrap_v : picture->wrap_u;
+    return wrap == DIP_WRAP_REPEAT || wrap == DIP_WRAP_MIRROR;
 }
 
 static bool is_large(const float *uv, uint32_t vertex_count, int axis) {

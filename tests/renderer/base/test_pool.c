@@ -2,6 +2,7 @@
 // threads.
 #include "renderer/base/pool.h"
 
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -97,6 +98,46 @@ static void a_pool_can_be_destroyed_right_after_a_run(void **state) {
     assert_int_equal(all.runs[0], POOLS * RUNS_EACH);
 }
 
+// --- several callers -----------------------------------------------------------------------------
+
+typedef struct Caller {
+    DipPool *pool;
+    Tally all;
+} Caller;
+
+static void *run_many(void *context) {
+    Caller *caller = context;
+    for (int run = 0; run < RUNS; run++) {
+        dip_pool_run(caller->pool, MAX_COUNT, tally, &caller->all);
+    }
+    return NULL;
+}
+
+static void threads_take_turns_in_using_a_pool(void **state) {
+    (void)state;
+    enum { CALLERS = 3 };
+    for (int threads = 1; threads <= 3; threads++) {
+        static Caller callers[CALLERS];
+        pthread_t ids[CALLERS];
+        DipPool *pool = dip_pool_create(threads, NULL);
+        for (int c = 0; c < CALLERS; c++) {
+            callers[c] = (Caller){.pool = pool, .all = {.thread_count = threads}};
+            assert_int_equal(pthread_create(&ids[c], NULL, run_many, &callers[c]), 0);
+        }
+        for (int c = 0; c < CALLERS; c++) {
+            pthread_join(ids[c], NULL);
+        }
+        for (int c = 0; c < CALLERS; c++) {
+            for (int i = 0; i < MAX_COUNT; i++) {
+                assert_int_equal(callers[c].all.runs[i], RUNS);
+                assert_int_equal(callers[c].all.plain[i], (int64_t)i * RUNS);
+            }
+            assert_int_equal(callers[c].all.bad_worker, 0);
+        }
+        dip_pool_destroy(&pool);
+    }
+}
+
 static void impossible_thread_counts_are_refused(void **state) {
     (void)state;
     DipError err = {0};
@@ -112,6 +153,7 @@ int main(void) {
         cmocka_unit_test(every_index_runs_once),
         cmocka_unit_test(workers_that_wake_late_join_the_next_run),
         cmocka_unit_test(a_pool_can_be_destroyed_right_after_a_run),
+        cmocka_unit_test(threads_take_turns_in_using_a_pool),
         cmocka_unit_test(impossible_thread_counts_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,12 +1,16 @@
 // Tests that the pipeline refuses passes that it cannot draw, even in release builds. The error
 // must name the field at fault. Also tests that passes drawn in one call have the same results as
-// passes drawn one by one.
+// passes drawn one by one, that shaders cannot read or show what is undefined, and that threads may
+// share a pool.
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/catalogue/random.h"
 
+#include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -140,6 +144,8 @@ SPOIL(too_many_varyings, draw->varying_count = DIP_MAX_VARYINGS + 1)
 SPOIL(too_many_clip_varyings, draw->clip_varying_count = 2)
 SPOIL(too_many_value_only_varyings, draw->value_only_varying_count = 2)
 SPOIL(unknown_cull, draw->cull = (DipCull)7)
+SPOIL(too_many_computed_varyings, draw->computed_varying_count = DIP_MAX_VARYINGS)
+SPOIL(undefined_clear, pass->clear_lin[1] = NAN)
 
 static DipSampleValue read_samples[2 * DIP_READBACK_STRIDE];
 static const DipSampleReadback good_readback = {{0, 0, 2, 1}, read_samples};
@@ -173,13 +179,15 @@ static const BadPass bad_passes[] = {
     {"readback", DIP_ERROR_CONFLICT, merged_readback},
     {"draw_count", DIP_ERROR_RANGE, negative_draws},
     {"draws", DIP_ERROR_MISSING, no_draws},
-    {"draws.mesh", DIP_ERROR_MISSING, no_mesh},
-    {"draws.vertex_shader", DIP_ERROR_MISSING, no_vertex_shader},
-    {"draws.fragment_shader", DIP_ERROR_MISSING, no_fragment_shader},
-    {"draws.varying_count", DIP_ERROR_RANGE, too_many_varyings},
-    {"draws.clip_varying_count", DIP_ERROR_RANGE, too_many_clip_varyings},
-    {"draws.value_only_varying_count", DIP_ERROR_RANGE, too_many_value_only_varyings},
-    {"draws.cull", DIP_ERROR_RANGE, unknown_cull},
+    {"draws[0].mesh", DIP_ERROR_MISSING, no_mesh},
+    {"draws[0].vertex_shader", DIP_ERROR_MISSING, no_vertex_shader},
+    {"draws[0].fragment_shader", DIP_ERROR_MISSING, no_fragment_shader},
+    {"draws[0].varying_count", DIP_ERROR_RANGE, too_many_varyings},
+    {"draws[0].clip_varying_count", DIP_ERROR_RANGE, too_many_clip_varyings},
+    {"draws[0].value_only_varying_count", DIP_ERROR_RANGE, too_many_value_only_varyings},
+    {"draws[0].cull", DIP_ERROR_RANGE, unknown_cull},
+    {"draws[0].computed_varying_count", DIP_ERROR_RANGE, too_many_computed_varyings},
+    {"clear_lin", DIP_ERROR_RANGE, undefined_clear},
 };
 
 static void bad_passes_are_refused_with_the_field_at_fault(void **state) {
@@ -275,8 +283,323 @@ static void passes_that_cannot_be_drawn_at_once_are_refused(void **state) {
     assert_string_equal(err.key, "count");
 }
 
+static void the_fault_of_one_draw_of_many_names_its_index(void **state) {
+    enum { MANY = 10000, WRONG = 4711 };
+    const Stage *stage = *state;
+    DipDraw *draws = malloc(MANY * sizeof *draws);
+    for (int d = 0; d < MANY; d++) {
+        draws[d] = stage->draw;
+    }
+    draws[WRONG].mesh = NULL;
+    DipPass pass = good_pass(stage, 0);
+    pass.draws = draws;
+    pass.draw_count = MANY;
+    DipError err = {0};
+    assert_false(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, &err));
+    assert_string_equal(err.key, "draws[4711].mesh");
+    assert_false(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, NULL));
+    free(draws);
+}
+
+static void missing_pointers_are_refused_or_have_a_meaning(void **state) {
+    const Stage *stage = *state;
+    const DipPass pass = good_pass(stage, 0);
+    DipError err = {0};
+    assert_false(dip_pipeline_draw(NULL, &pass, NULL, NULL, &err));
+    assert_string_equal(err.key, "pipeline");
+    assert_false(dip_pipeline_draw(stage->pipelines[0], NULL, NULL, NULL, &err));
+    assert_string_equal(err.key, "pass");
+    assert_false(dip_pipeline_draw_passes(NULL, 1, false, &err));
+    assert_string_equal(err.key, "works");
+    assert_false(dip_pipeline_reserve(NULL, &pass, &err));
+    assert_string_equal(err.key, "pipeline");
+    assert_false(dip_pipeline_reserve(stage->pipelines[0], NULL, &err));
+    assert_string_equal(err.key, "pass");
+    assert_null(dip_mesh_create(NULL, &err));
+    assert_string_equal(err.key, "mesh");
+    assert_null(dip_texture_create(NULL, &err));
+    assert_string_equal(err.key, "texture");
+    assert_null(dip_texture_create_from_levels(NULL, 1, &err));
+    assert_string_equal(err.key, "texture");
+    // Without counters, times or a pool, a pass is drawn all the same.
+    assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, &err));
+    DipPipeline *alone = dip_pipeline_create(NULL, dip_isa_best(), WIDTH, HEIGHT, &err);
+    assert_non_null(alone);
+    DipPass again = pass;
+    again.target.rgba8 = pictures[1][0];
+    assert_true(dip_pipeline_draw(alone, &again, NULL, NULL, &err));
+    assert_memory_equal(pictures[0][0], pictures[1][0], sizeof pictures[0][0]);
+    dip_pipeline_destroy(&alone);
+}
+
+// --- what shaders read ---------------------------------------------------------------------------
+
+// What the shader of this test reads.
+typedef struct Reading {
+    int u_varying;
+    const DipTarget *target;    // NULL: it reads a texture
+    const DipShadowMap *shadow; // NULL: it reads a texture
+} Reading;
+
+static void read_as_told(DipFragmentBatch *batch) {
+    const Reading *reading = batch->uniforms;
+    if (reading->target) {
+        batch->sample_target(batch, reading->target, batch->x, batch->y, batch->colour);
+    } else if (reading->shadow) {
+        batch->sample_shadow(batch, reading->shadow, batch->x, batch->y, batch->y,
+                             batch->colour[0]);
+    } else {
+        batch->sample_colour(batch, &batch->samplers[1], reading->u_varying, batch->colour);
+    }
+}
+
+static void three_varyings(const DipVertexBatch *batch) {
+    copy_vertices(batch);
+    for (int i = 0; i < batch->count; i++) {
+        batch->varying[1][i] = batch->in[1][i];
+        batch->varying[2][i] = batch->in[2][i];
+    }
+}
+
+// A reading with one fault, and the error that the pipeline must report.
+typedef struct BadReading {
+    const char *field;
+    DipErrorCode code;
+    void (*spoil)(DipPass *pass, DipDraw *draw, DipSampler *sampler, Reading *reading);
+} BadReading;
+
+#define MISREAD(name, statement)                                                                   \
+    static void name(DipPass *pass, DipDraw *draw, DipSampler *sampler, Reading *reading) {        \
+        (void)pass;                                                                                \
+        (void)draw;                                                                                \
+        (void)sampler;                                                                             \
+        (void)reading;                                                                             \
+        statement;                                                                                 \
+    }
+static const DipTarget other_format = {.rgba8 = pictures[1][0],
+                                       .stride_bytes = WIDTH * 4,
+                                       .width = WIDTH,
+                                       .height = HEIGHT,
+                                       .format = DIP_FORMAT_LINEAR8};
+static const DipTarget no_memory = {.stride_bytes = WIDTH * 4, .width = WIDTH, .height = HEIGHT};
+static const DipTarget no_rows = {
+    .rgba8 = pictures[1][0], .stride_bytes = WIDTH * 4, .width = WIDTH};
+static const DipTarget own_rows = {
+    .rgba8 = pictures[0][0] + WIDTH * 8, .stride_bytes = WIDTH * 4, .width = WIDTH, .height = 1};
+static const DipShadowMap no_depths;
+MISREAD(values_only, draw->value_only_varying_count = 2)
+MISREAD(beyond, reading->u_varying = 2)
+MISREAD(far_beyond, reading->u_varying = INT32_MAX)
+MISREAD(negative, reading->u_varying = -1)
+MISREAD(no_samplers, draw->samplers = NULL)
+MISREAD(no_texture, sampler->texture = NULL)
+MISREAD(much_anisotropy, sampler->max_anisotropy = 17)
+MISREAD(negative_anisotropy, sampler->max_anisotropy = -1)
+MISREAD(unknown_filter, sampler->filter = DIP_FILTER_COUNT)
+MISREAD(negative_level, sampler->min_lod8 = -256)
+MISREAD(great_bias, sampler->bias_lod8 = INT32_MIN)
+MISREAD(no_such_level, (sampler->shown = sampler->texture, sampler->shown_level[0] = 9))
+MISREAD(linear_target, reading->target = &other_format)
+MISREAD(target_without_pixels, reading->target = &no_memory)
+MISREAD(target_without_rows, reading->target = &no_rows)
+MISREAD(own_target, reading->target = &own_rows)
+MISREAD(shadow_of_nothing, reading->shadow = &no_depths)
+
+static const BadReading bad_readings[] = {
+    {"value_only_varying_count", DIP_ERROR_CONFLICT, values_only},
+    {"varying_count", DIP_ERROR_RANGE, beyond},
+    {"varying_count", DIP_ERROR_RANGE, far_beyond},
+    {"varying_count", DIP_ERROR_RANGE, negative},
+    {"samplers", DIP_ERROR_MISSING, no_samplers},
+    {"samplers", DIP_ERROR_MISSING, no_texture},
+    {"samplers", DIP_ERROR_RANGE, much_anisotropy},
+    {"samplers", DIP_ERROR_RANGE, negative_anisotropy},
+    {"samplers", DIP_ERROR_RANGE, unknown_filter},
+    {"samplers", DIP_ERROR_RANGE, negative_level},
+    {"samplers", DIP_ERROR_RANGE, great_bias},
+    {"samplers", DIP_ERROR_RANGE, no_such_level},
+    {"sample_target", DIP_ERROR_CONFLICT, linear_target},
+    {"sample_target", DIP_ERROR_CONFLICT, target_without_pixels},
+    {"sample_target", DIP_ERROR_RANGE, target_without_rows},
+    {"sample_target", DIP_ERROR_CONFLICT, own_target},
+    {"sample_shadow", DIP_ERROR_MISSING, shadow_of_nothing},
+};
+
+// Draws with a shader that reads sampler 1 at the varyings 1 and 2, or with a fault. bad: or NULL.
+static bool draw_reading(const Stage *stage, const BadReading *bad, int samples, DipError *err) {
+    static const uint8_t texel[4] = {255, 255, 255, 255};
+    const DipTextureDef def = {.name = "white", .width = 1, .height = 1, .rgba8 = texel};
+    DipTexture *texture = dip_texture_create(&def, NULL);
+    DipSampler samplers[2] = {{.texture = NULL}, {.texture = texture}};
+    Reading reading = {.u_varying = 1};
+    DipDraw draw = stage->draw;
+    draw.vertex_shader = three_varyings;
+    draw.fragment_shader = read_as_told;
+    draw.varying_count = 3;
+    draw.samplers = samplers;
+    draw.uniforms = &reading;
+    DipPass pass = good_pass(stage, 0);
+    pass.draws = &draw;
+    pass.sample_count = samples;
+    if (bad) {
+        bad->spoil(&pass, &draw, &samplers[1], &reading);
+    }
+    const bool drawn = dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, err);
+    dip_texture_destroy(&texture);
+    return drawn;
+}
+
+static void readings_that_are_not_allowed_are_refused_by_name(void **state) {
+    const Stage *stage = *state;
+    assert_true(draw_reading(stage, NULL, 4, NULL)); // max_anisotropy is 0, which means 1
+    for (size_t i = 0; i < sizeof bad_readings / sizeof *bad_readings; i++) {
+        DipError err = {0};
+        char key[64];
+        snprintf(key, sizeof key, "draws[0].%s", bad_readings[i].field);
+        assert_false(draw_reading(stage, &bad_readings[i], i % 2 ? 4 : 1, &err));
+        assert_string_equal(err.key, key);
+        assert_int_equal(err.code, bad_readings[i].code);
+    }
+    assert_true(draw_reading(stage, NULL, 4, NULL)); // the pipeline still works
+}
+
+// --- what shaders leave unset --------------------------------------------------------------------
+
+static void leave_unset(DipFragmentBatch *batch) {
+    (void)batch;
+}
+
+static void leave_vertices_unset(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        for (int c = 0; c < 3; c++) {
+            batch->clip[c][i] = batch->in[c][i] + batch->in[c + 3][i]; // the mesh has 3 attributes
+        }
+        batch->clip[3][i] = 1.0f;
+    }
+}
+
+static void show_last_varying(DipFragmentBatch *batch) {
+    const int last = DIP_MAX_VARYINGS - 1;
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = batch->varying[last][i] + batch->varying_dx[0][i];
+        batch->colour[1][i] = batch->varying[0][i];
+        batch->colour[2][i] = batch->varying[1][i];
+    }
+}
+
+static void write_all(const DipVertexBatch *batch) {
+    copy_vertices(batch);
+    for (int s = 0; s < DIP_MAX_VARYINGS; s++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->varying[s][i] = 0.7f + batch->in[0][i];
+        }
+    }
+}
+
+// Every array of a pipeline holds numbers of another pass before each of these draws.
+static void what_shaders_leave_unset_is_zero(void **state) {
+    const Stage *stage = *state;
+    const DipDraw unset[3] = {
+        {.mesh = stage->mesh, .vertex_shader = copy_vertices, .fragment_shader = leave_unset},
+        {.mesh = stage->mesh,
+         .vertex_shader = leave_vertices_unset,
+         .fragment_shader = show_last_varying,
+         .varying_count = 2,
+         .value_only_varying_count = 2},
+        {.mesh = stage->mesh,
+         .vertex_shader = copy_vertices,
+         .fragment_shader = show_varying,
+         .clip_shader = leave_unset,
+         .varying_count = 1}};
+    DipDraw full = stage->draw;
+    full.vertex_shader = write_all;
+    full.varying_count = DIP_MAX_VARYINGS;
+    for (int d = 0; d < 3; d++) {
+        DipPass pass = good_pass(stage, 0);
+        pass.draws = &full;
+        assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, NULL));
+        pass.draws = &unset[d];
+        assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, NULL));
+        for (size_t b = 0; b < sizeof pictures[0][0]; b++) {
+            assert_int_equal(pictures[0][0][b], b % 4 == 3 ? 255 : 0);
+        }
+    }
+}
+
+// --- threads -------------------------------------------------------------------------------------
+
+typedef struct Artist {
+    const Stage *stage;
+    int index;
+    bool drew;
+} Artist;
+
+static void *draw_many(void *context) {
+    Artist *artist = context;
+    DipPass pass = good_pass(artist->stage, artist->index);
+    artist->drew = true;
+    for (int n = 0; n < 40; n++) {
+        artist->drew =
+            dip_pipeline_draw(artist->stage->pipelines[artist->index], &pass, NULL, NULL, NULL) &&
+            artist->drew;
+    }
+    return NULL;
+}
+
+static void threads_may_draw_with_pipelines_of_one_pool(void **state) {
+    enum { ARTISTS = 4 };
+    const Stage *stage = *state;
+    Artist artists[ARTISTS];
+    pthread_t threads[ARTISTS];
+    memset(pictures, 0, sizeof pictures);
+    for (int i = 0; i < ARTISTS; i++) {
+        artists[i] = (Artist){stage, i, false};
+        assert_int_equal(pthread_create(&threads[i], NULL, draw_many, &artists[i]), 0);
+    }
+    for (int i = 0; i < ARTISTS; i++) {
+        pthread_join(threads[i], NULL);
+    }
+    DipPass pass = good_pass(stage, ARTISTS);
+    assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, NULL));
+    for (int i = 0; i < ARTISTS; i++) {
+        assert_true(artists[i].drew);
+        assert_memory_equal(pictures[0][i], pictures[0][ARTISTS], sizeof pictures[0][0]);
+    }
+}
+
+// A store function that draws with the pipeline that calls it, which must be refused.
+static void draw_again(void *context, int x, int y, int count, const float *const colour[4]) {
+    (void)y;
+    (void)colour;
+    const Stage *stage = context;
+    const DipPass pass = good_pass(stage, 1);
+    DipError err = {0};
+    assert_true(x >= 0 && count > 0);
+    assert_false(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, &err));
+    assert_string_equal(err.key, "pipeline");
+    assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+}
+
+static void a_pipeline_that_draws_cannot_be_used(void **state) {
+    Stage *stage = *state;
+    DipPass pass = good_pass(stage, 0);
+    pass.draw_count = 0;
+    pass.target.format = DIP_FORMAT_CALLER;
+    pass.target.store = draw_again;
+    pass.target.context = stage;
+    DipPipelineCounters counters = {0};
+    assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, &counters, NULL, NULL));
+    assert_int_equal(counters.passes, 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_fault_of_one_draw_of_many_names_its_index),
+        cmocka_unit_test(missing_pointers_are_refused_or_have_a_meaning),
+        cmocka_unit_test(readings_that_are_not_allowed_are_refused_by_name),
+        cmocka_unit_test(what_shaders_leave_unset_is_zero),
+        cmocka_unit_test(threads_may_draw_with_pipelines_of_one_pool),
+        cmocka_unit_test(a_pipeline_that_draws_cannot_be_used),
         cmocka_unit_test(bad_passes_are_refused_with_the_field_at_fault),
         cmocka_unit_test(a_good_pass_is_drawn),
         cmocka_unit_test(passes_drawn_at_once_equal_passes_drawn_alone),

@@ -11,6 +11,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -36,9 +37,16 @@ static void fail_with(const DipError *err) {
     fail_msg("%s", text);
 }
 
-static void open_pair(Pair *pair, DipTestSceneKind kind, int width, int height) {
+// Changes a scene before both renderers get it.
+typedef void Change(DipTestScene *scene);
+
+static void open_changed_pair(Pair *pair, DipTestSceneKind kind, Change *change, int width,
+                              int height) {
     DipError err = {0};
     dip_test_scene_make(&pair->scene, kind);
+    if (change) {
+        change(&pair->scene);
+    }
     pair->width = width;
     pair->height = height;
     pair->expected = malloc((size_t)width * (size_t)height * 3 * sizeof(double));
@@ -59,6 +67,10 @@ static void open_pair(Pair *pair, DipTestSceneKind kind, int width, int height) 
     }
     assert_non_null(pair->expected);
     dip_reference_set_reflection(pair->reference, &pair->scene.reflection);
+}
+
+static void open_pair(Pair *pair, DipTestSceneKind kind, int width, int height) {
+    open_changed_pair(pair, kind, NULL, width, height);
 }
 
 static void close_pair(Pair *pair) {
@@ -219,9 +231,59 @@ static void texture_optimisation_matches_the_reference(void **state) {
               "opt=advanced,miplod=high-performance,af=4");
 }
 
+static void remove_normals(DipTestScene *scene) {
+    for (int m = 0; m < scene->def.mesh_count; m++) {
+        const DipMeshDef *mesh = &scene->meshes[m];
+        if (mesh->normals) {
+            memset((float *)(uintptr_t)mesh->normals, 0,
+                   (size_t)mesh->vertex_count * 3 * sizeof(float));
+        }
+    }
+}
+
+// Flattens every object along one axis of its mesh. Normals along the other axes become 0.
+static void flatten(DipTestScene *scene, int axis) {
+    for (int o = 0; o < scene->def.object_count; o++) {
+        for (int row = 0; row < 3; row++) {
+            scene->objects[o].transform[4 * row + axis] = 0.0f;
+        }
+    }
+}
+
+static void flatten_x(DipTestScene *scene) {
+    flatten(scene, 0);
+}
+
+static void flatten_y(DipTestScene *scene) {
+    flatten(scene, 1);
+}
+
+static void flatten_z(DipTestScene *scene) {
+    flatten(scene, 2);
+}
+
+static void normals_without_direction_match_the_reference(void **state) {
+    (void)state;
+    static const DipTestSceneKind kinds[] = {DIP_TEST_SCENE_normal_map, DIP_TEST_SCENE_lights,
+                                             DIP_TEST_SCENE_gouraud_lights,
+                                             DIP_TEST_SCENE_lit_sphere};
+    static Change *const changes[] = {remove_normals, flatten_x, flatten_y, flatten_z};
+    int missed = 0;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        for (size_t c = 0; c < sizeof changes / sizeof *changes; c++) {
+            Pair pair;
+            open_changed_pair(&pair, kinds[k], changes[c], sizes[0][0], sizes[0][1]);
+            missed += !matches(&pair, kinds[k], "aa=4,af=4", (int)c);
+            close_pair(&pair);
+        }
+    }
+    assert_int_equal(missed, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(antialiasing_matches_the_reference),
+        cmocka_unit_test(normals_without_direction_match_the_reference),
         cmocka_unit_test(temporal_antialiasing_matches_the_reference),
         cmocka_unit_test(adaptive_antialiasing_matches_the_reference),
         cmocka_unit_test(anisotropic_filtering_matches_the_reference),

@@ -264,6 +264,21 @@ static void a_spot_light_follows_the_formulas(void **state) {
     }
 }
 
+// The squares of these distances are not floats.
+static void a_light_far_beyond_floats_of_squares_follows_the_formulas(void **state) {
+    (void)state;
+    for (int spot = 0; spot < 2; spot++) {
+        check_light(&(DipLightDef){.kind = spot ? DIP_LIGHT_SPOT : DIP_LIGHT_POINT,
+                                   .colour_lin = {0.7f, 0.7f, 0.7f},
+                                   .position_world = {-6e24f, 3e24f, 9e24f},
+                                   .direction_world = {6.5f, -3.0f, -9.0f},
+                                   .attenuation = {0.5f, 3e-26f, 0.0f},
+                                   .inner_deg = 1.0f,
+                                   .outer_deg = 8.0f},
+                    5.0);
+    }
+}
+
 static void several_lights_add_up(void **state) {
     (void)state;
     double darkest;
@@ -475,6 +490,7 @@ int main(void) {
         cmocka_unit_test(a_directional_light_follows_the_formulas),
         cmocka_unit_test(a_point_light_follows_the_formulas),
         cmocka_unit_test(a_spot_light_follows_the_formulas),
+        cmocka_unit_test(a_light_far_beyond_floats_of_squares_follows_the_formulas),
         cmocka_unit_test(several_lights_add_up),
         cmocka_unit_test(light_stays_finite_at_a_light),
         cmocka_unit_test(the_fixed_light_as_lights_draws_the_same_picture),

@@ -422,8 +422,29 @@ static void singular_matrices_are_refused(void **context) {
     check_error(dip_matrix_normals(normals, &flat, &err), &err, "model");
 }
 
+static void wide_and_near_lenses_keep_their_precision(void **state) {
+    (void)state;
+    for (int n = 3; n <= 44; n++) {
+        const double fov = 180.0 - ldexp(180.0, -n);
+        const DipPerspective lens = {.fov_deg = fov, .aspect = 1.0, .near_distance = 0.1};
+        DipMatrix projection;
+        assert_true(dip_camera_perspective(&projection, &lens, NULL));
+        const long double focal = tanl((180.0L - (long double)fov) * pi / 360.0L);
+        assert_near(projection.m[5] / (double)focal, 1.0, 1e-14);
+    }
+    const double distances[] = {1e-300, 1e-45, 1e-39, 1e39};
+    for (int n = 0; n < 4; n++) {
+        const DipPerspective lens = {.fov_deg = 60.0, .aspect = 1.0, .near_distance = distances[n]};
+        DipMatrix projection;
+        DipError err = {0};
+        assert_false(dip_camera_perspective(&projection, &lens, &err));
+        assert_string_equal(err.key, "near_distance");
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(wide_and_near_lenses_keep_their_precision),
         cmocka_unit_test(look_at_turns_the_target_to_minus_z),
         cmocka_unit_test(perspective_maps_its_pyramid),
         cmocka_unit_test(orthographic_maps_its_box),
