@@ -60,4 +60,11 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
 // in the journal (journal.h).
 bool dip_cost_interrupted(DipError *err);
 
+// Writes the times of a frame's stages as the parts of a timed frame.
+static inline void dip_cost_stage_parts(const DipFrame *frame, double parts_ms[DIP_TIMED_PARTS]) {
+#define WRITE_STAGE(name, text) *parts_ms++ = frame->stages.name##_ms;
+    DIP_STAGE_LIST(WRITE_STAGE)
+#undef WRITE_STAGE
+}
+
 #endif

@@ -115,8 +115,9 @@ static bool average_work(const Timing *t, DipError *err) {
     return true;
 }
 
+_Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is a part");
+
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
-    _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is a part");
     const Timing *t = context;
     const Subject *s = &t->subjects[turn->subject];
     DipFrame frame;
@@ -126,13 +127,10 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
             return false;
         }
     } else {
-        double *part = timed->parts_ms;
         if (!dip_cost_draw_timed(s->cost, s->quality, s->path, turn->frame, &frame, err)) {
             return false;
         }
-#define WRITE_STAGE(name, text) *part++ = frame.stages.name##_ms;
-        DIP_STAGE_LIST(WRITE_STAGE)
-#undef WRITE_STAGE
+        dip_cost_stage_parts(&frame, timed->parts_ms);
     }
     count_work(t, turn->subject, turn->frame, &frame.counters);
     return true;

@@ -306,8 +306,8 @@ bool dip_cost_at_floor(const DipCostReport *report, int row);
 
 // --- times -------------------------------------------------------------------------------------
 
-// Returns whether the report is of one picture instead of camera paths: every round of its log draws
-// the same frame. So the preview measures.
+// Returns whether the report is of one picture instead of camera paths: every round of its log
+// draws the same frame. So the preview measures.
 static inline bool dip_cost_is_view(const DipCostReport *report) {
     return report->rounds > 0 && report->options.timed_frames == 0;
 }

@@ -34,8 +34,8 @@ typedef struct DipCostOptions {
                      // viewpoints.
     int samples;     // Samples per pixel in each half of the converged picture; a square number.
     double pixels_per_degree;
-    int rounds; // Of all starts.
-    int starts; // Processes that draw the timed frames, one after another; 1: this one.
+    int rounds;       // Of all starts.
+    int starts;       // Processes that draw the timed frames, one after another; 1: this one.
     int timed_frames; // Of each round along a path; 0: see dip_cost_is_view.
     bool errors_only;
     bool predict; // Measure a few combinations and predict all others.

@@ -3,6 +3,7 @@
 
 #include "app/cost/context.h"
 #include "app/measure/timing/driver.h"
+#include "app/measure/timing/sample.h"
 #include "app/report/prices/question.h"
 #include "renderer/base/clock.h"
 
@@ -150,10 +151,8 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     job->drawn_ms += 1e-6 * (double)(now_ns(job) - begin_ns);
     job->drawn++;
     dip_cost_stage_parts(&frame, timed->parts_ms);
-    double *counter = member->counters;
-#define TAKE_COUNTER(name, text) *counter++ = (double)frame.counters.name;
-    DIP_COUNTER_LIST(TAKE_COUNTER)
-#undef TAKE_COUNTER
+    memset(member->counters, 0, sizeof member->counters);
+    dip_counters_add(&frame.counters, member->counters);
     return true;
 }
 

@@ -41,7 +41,7 @@ typedef struct DipPreviewControl {
 typedef struct DipPreviewDef {
     DipSession *session;         // Borrowed.
     DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
-    const DipCostReport *costs;       // Borrowed; NULL if there is no cost report.
+    const DipCostReport *costs;  // Borrowed; NULL if there is no cost report.
     struct DipReload *reload;    // Borrowed; NULL: the preview ignores dropped files.
     DipPrices *prices;           // Borrowed; NULL: the preview has prices of its own.
     bool measures_prices;        // Measure rough prices while the dock is open and nothing moves.

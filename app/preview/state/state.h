@@ -92,7 +92,7 @@ typedef struct DipPreviewState {
     bool help;               // The help shows.
     char help_words[DIP_HELP_WORDS]; // The help shows only keys with this text.
     bool panel;                      // Each pane shows its times, errors and work.
-    const DipCostReport *costs;           // Borrowed; NULL if there is no cost report.
+    const DipCostReport *costs;      // Borrowed; NULL if there is no cost report.
     bool show_costs;                 // The table of costs shows.
     DipPreviewChoice *choice;        // Borrowed; what can be chosen now, or NULL.
     // Time within which a frame has to be drawn: one refresh of the display, unless the user has

@@ -216,8 +216,10 @@ void dip_state_apply(DipPreviewState *state, int64_t now_ns) {
 int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_BUDGETS]) {
     static const double usual_ms[] = {1000.0 / 240.0, 1000.0 / 120.0, 1000.0 / 60.0, 1000.0 / 30.0};
     const bool has_report = state->costs && state->costs->options.budget_count > 0;
-    const int count = has_report ? state->costs->options.budget_count : (int)DIP_ARRAY_COUNT(usual_ms);
-    memcpy(list, has_report ? state->costs->options.budgets_ms : usual_ms, (size_t)count * sizeof *list);
+    const int count =
+        has_report ? state->costs->options.budget_count : (int)DIP_ARRAY_COUNT(usual_ms);
+    memcpy(list, has_report ? state->costs->options.budgets_ms : usual_ms,
+           (size_t)count * sizeof *list);
     return count;
 }
 

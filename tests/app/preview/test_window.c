@@ -328,7 +328,7 @@ static void type(const char *digits) {
 // both fields' number and in the picture of the tab Times.
 static void assert_target(DipPreviewChoice *choice, double ms, uint64_t *picture) {
     assert_true(fabs(state.budget_ms - ms) < 1e-6);
-    dip_preview_choose(choice, NULL, prices, &state.quality[DIP_PANE_REQUESTED], state.budget_ms);
+    dip_preview_choose(choice, prices, &state.quality[DIP_PANE_REQUESTED], state.budget_ms);
     assert_true(fabs(choice->advice.budget_ms - ms) < 1e-6);
     state.tools.tab = DIP_TAB_TIMES;
     assert_true(dip_view_draw(view, &input, NULL));
@@ -358,7 +358,9 @@ static void a_target_holds_everywhere(void **unused) {
             const double ms = i == 0 ? aa_ms[step] : gains ? aa_ms[0] : 6.0;
             const double flip = i == 0 ? 0.09 - 0.01 * step : gains ? 0.09 : 0.1;
             quality.step[settings[i]] = (uint8_t)step;
-            assert_true(dip_prices_add_rough(prices, &quality, ms, 0.999 * ms, 1.001 * ms, flip));
+            char text[DIP_COST_TEXT];
+            dip_quality_format(&quality, text, sizeof text);
+            dip_made_live(prices, text, ms, 0.001, flip);
         }
     }
     state.choice = &choice;
