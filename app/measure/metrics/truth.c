@@ -483,7 +483,7 @@ bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, D
         int samples;
         const bool draws = job->phase == DRAW;
         step = dip_truth_job_step(job, err);
-        if (draws && step == DIP_STEP_WORKING &&
+        if (draws && progress && step == DIP_STEP_WORKING &&
             !progress(context, dip_truth_job_drawn(job, &samples))) {
             dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "truth", "interrupted");
             step = DIP_STEP_FAILED;

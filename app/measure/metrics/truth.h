@@ -94,7 +94,7 @@ double dip_truth_job_drawn(const DipTruthJob *job, int *samples);
 typedef bool DipTruthProgress(void *context, double done);
 
 // Runs a job that is not live to its end. Fails as its steps do, and with RUNTIME if `progress`
-// stopped the work; *truth is then empty.
+// stopped the work; *truth is then empty. progress may be NULL.
 bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, DipPool *pool,
                    DipTruthProgress *progress, void *context, DipError *err);
 void dip_truth_free(DipTruth *truth);
