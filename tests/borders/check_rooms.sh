@@ -1,6 +1,6 @@
 #!/bin/sh
 # Fails if the tree is not divided as its map says: a line of tests/borders/layers.txt that names a
-# library below it, a library of more than 15 % of the product's lines, a folder of more than 32
+# library below it, a library of more than 15 % of the product's lines, a folder of more than 30
 # files, or a product file that belongs to no library.
 #
 # Usage: check_rooms.sh LAYERS ROOT
@@ -50,8 +50,8 @@ find renderer config campaths assets app -name '*.[ch]' | sort | xargs wc -l | a
             }
         }
         for (folder in files) {
-            if (files[folder] > 32) {
-                printf "%s holds %d files, more than 32\n", folder, files[folder]
+            if (files[folder] > 30) {
+                printf "%s holds %d files, more than 30\n", folder, files[folder]
                 wrong = 1
             }
         }
