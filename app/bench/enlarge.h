@@ -1,11 +1,12 @@
-// Enlarging a picture, bilinearly in linear light, as a display does that gets a picture of fewer
-// pixels than it has.
+// Enlarges a picture, bilinearly in linear light, as a display does with a picture that has fewer
+// pixels than the display.
 //
-// The centre of the destination's pixel x lies at (x + 1/2) from / to - 1/2 in the source, counted
-// in pixels from the centre of its first pixel. Its value is interpolated between the two nearest
-// pixels, first along x, then along y; beyond the outermost centres the picture is constant. sRGB
-// codes are decoded before and encoded after, rounded to the nearest code; alpha is interpolated as
-// it is. The result has the same bits on every machine and with any number of threads.
+// The centre of pixel x of the result lies at (x + 1/2) * source width / result width - 1/2 in the
+// source, counted in pixels from the centre of its first pixel. Its value is interpolated between
+// the two nearest pixels, first along x, then along y; beyond the outermost centres the picture is
+// constant. sRGB codes are decoded before and encoded after, rounded to the nearest code; alpha is
+// interpolated as it is. The result has the same bits on every machine and with any number of
+// threads.
 #ifndef DIP_APP_BENCH_ENLARGE_H
 #define DIP_APP_BENCH_ENLARGE_H
 
@@ -15,9 +16,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Writes the size at which a picture is drawn at a render scale of at most 1: the nearest size with
-// exactly the same shape if its width is within 2 % of scale * width, so that the enlarged picture
-// is not stretched; otherwise the width and the height are rounded.
+// Writes the size at which a picture is drawn at a render scale of at most 1. This is the nearest
+// size of exactly the same shape, so that enlarging does not stretch the picture. If that size's
+// width is more than 2 % away from scale * width, the scaled width and height are rounded instead.
 void dip_enlarger_source_size(int width, int height, double scale, int *to_width, int *to_height);
 
 typedef struct DipEnlarger DipEnlarger;

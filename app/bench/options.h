@@ -26,7 +26,8 @@ typedef struct DipBenchSet {
 } DipBenchSet;
 
 // What to measure. Texts are borrowed from argv. An empty list stands for one value, which comes
-// from the ini or the machine. Without grids, the bench draws the scene.
+// from the ini or the machine. A grid is a test scene of a given number of triangles; without
+// grids, the bench draws the session's scene.
 typedef struct DipBenchOptions {
     DipBenchSet sets[DIP_BENCH_MAX_VALUES];
     int set_count;

@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const struct Kind {
-    const char *name; // Of the plot's file: time_pixels.svg.
+    const char *name; // "pixels": the file is time_pixels.svg, the title "Time against pixels".
     const char *x_title;
     DipBenchAxis axis;
 } kinds[] = {
@@ -77,7 +77,8 @@ static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Serie
     dip_bench_label(plan, series->like, kind->axis, series->name);
     if (kind->axis == DIP_BENCH_AXIS_SET) {
         const int set = series->like->at[DIP_BENCH_AXIS_SET];
-        DipQuality rest = plan->options.sets[set].quality; // Without its samples.
+        DipQuality rest =
+            plan->options.sets[set].quality; // With aa at its default: what all points share.
         char settings[64], others[DIP_BENCH_LABEL_SIZE] = "";
         const DipQuality standard = dip_quality_default();
         rest.step[DIP_SETTING_AA] = standard.step[DIP_SETTING_AA];

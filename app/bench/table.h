@@ -10,14 +10,14 @@
 // rounds, seed.
 void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session, FILE *out);
 
-// Prints milliseconds by stage, median, 95th percentile and minimum of each combination, with its
-// ratio to the plan's base, and its speed-up if the number of threads varies.
+// Prints the median, 95th percentile and minimum of the milliseconds of each combination, by stage,
+// with the ratio of its time to that of the plan's base, and its speed-up if threads vary.
 void dip_bench_print_times(const DipBenchResult *result, FILE *out);
 
 // Prints the work counters: means over the frames.
 void dip_bench_print_work(const DipBenchResult *result, FILE *out);
 
-// Prints for each combination the ratio of the other program's mean time to this program's, the
+// Prints for each combination the ratio of the mean time of the program of --vs to this one's, the
 // 95 % interval of this ratio, and whether the pictures are the same.
 void dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out);
 

@@ -58,7 +58,7 @@ typedef struct DipCommand {
     bool (*run)(DipSession *session, const void *options, DipError *err);
 } DipCommand;
 
-// A command of two words that there was once. Naming it is an error that says what to type instead.
+// A former command, whose name has two words. Typing it is an error that says what to type now.
 typedef struct DipMovedCommand {
     const char *name;
     const char *instead;

@@ -110,7 +110,7 @@ static bool find_command(const DipCommandList *list, int argc, char *const *argv
             *used = 1;
         }
     }
-    // A word without a dot or a slash cannot be the name of a model, so it is a mistyped command.
+    // A word without a dot or a slash is taken for a mistyped command, not for the name of a model.
     return *used || first[0] == '-' || strpbrk(first, "./\\") || unknown_command(list, first, err);
 }
 

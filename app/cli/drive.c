@@ -1,4 +1,4 @@
-// Stepping, showing progress, looking for Ctrl-C.
+// Steps a timing driver, shows its progress, and looks for Ctrl-C.
 #include "app/cli/drive.h"
 
 #include "app/cli/interrupt.h"
@@ -9,7 +9,7 @@ bool dip_drive(DipDriver *driver, const char *things, const char *command, const
     DipDriverProgress now = dip_driver_progress(driver);
     DipProgress progress = dip_progress_begin(things, now.total);
     DipDriverStep step = DIP_DRIVER_WORKING;
-    bool searches = false; // For disturbed frames to time again, with a progress of its own.
+    bool searches = false; // The driver looks for disturbed frames, with a progress of its own.
     while (step < DIP_DRIVER_DONE && !dip_interrupted()) {
         step = dip_driver_step(driver, err);
         now = dip_driver_progress(driver);
@@ -23,7 +23,7 @@ bool dip_drive(DipDriver *driver, const char *things, const char *command, const
         dip_progress_show(&progress, searches ? now.searched : now.drawn);
     }
     dip_progress_end(&progress, searches ? now.searched : now.drawn);
-    // Ctrl-C ends child processes, too, so a frame that failed is then no fault of theirs.
+    // Ctrl-C also ends child processes, so a frame that fails after it is not an error.
     return dip_interrupted()
                ? dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, command, "%s", interrupted)
                : step == DIP_DRIVER_DONE;

@@ -92,7 +92,7 @@ static bool read_choice(const DipOptionRow *row, const char *value, int *choice,
     return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, row->accepted);
 }
 
-// Stores a value of a LIST behind those before it.
+// Appends a value to the values of a LIST.
 static bool read_item(const DipOptionRow *row, const char *value, void *fields, DipError *err) {
     int *count = (int *)((char *)fields + row->count);
     DipOptionRow item = *row;

@@ -18,7 +18,7 @@ typedef enum DipOptionKind {
     DIP_OPTION_SIZE,     // DipOptionSize
     DIP_OPTION_SETTINGS, // DipQuality
     DIP_OPTION_CHOICE,   // int: the index of a name
-    DIP_OPTION_LIST,     // an array of `item`, or `read` stores each value; at most `room`
+    DIP_OPTION_LIST,     // at most `room` values: an array of `item`, or `read` stores each
     DIP_OPTION_CUSTOM    // `read` stores the value
 } DipOptionKind;
 
@@ -43,11 +43,11 @@ struct DipOptionRow {
     size_t given; // Offset of a bool that becomes true when the option is given; 0: there is none.
     size_t count; // TEXTS and LIST: offset of an int that holds the number of values.
     int room;     // TEXTS and LIST: most values.
-    DipOptionKind item;       // LIST: the kind of a value. INTEGER, NUMBER and SIZE have no `read`.
-    double least;             // INTEGER and NUMBER: the least value.
-    double most;              // INTEGER and NUMBER: the greatest value. CHOICE: number of names.
+    DipOptionKind item; // LIST without `read`: the kind of each value, INTEGER, NUMBER or SIZE.
+    double least;       // INTEGER and NUMBER: the least value.
+    double most;        // INTEGER and NUMBER: the greatest value. CHOICE: number of names.
     const char *const *names; // CHOICE: the names of the values.
-    // What a value must be, for the message "'value' is not accepted". NULL: the kind of the
+    // What a value must be. The message is "'VALUE' is not " and this text. NULL: the kind of the
     // option decides the message.
     const char *accepted;
     char separator;        // LIST, and CUSTOM with several values: the character between two.
@@ -84,7 +84,7 @@ typedef struct DipOptionParts {
 bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc, char *const *argv,
                       int *index, void *options, DipError *err);
 
-// Stores a value in the row's struct, as if the option were given.
+// Stores an option's value in `fields`, the struct of its table. Leaves the bool of `given` alone.
 bool dip_option_store(const DipOptionRow *row, const char *value, void *fields, DipError *err);
 
 // Finds a row by its name. Returns NULL if no part has it.
@@ -92,7 +92,7 @@ const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *nam
 
 // --- for readers of values -----------------------------------------------------------------------
 
-// Fills *err with the message "'value' is not what". Returns false.
+// Fills *err with the message "'VALUE' is not WHAT", where WHAT is `what`. Returns false.
 bool dip_option_refuse(DipError *err, DipErrorCode code, const char *key, const char *value,
                        const char *what);
 

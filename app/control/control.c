@@ -17,7 +17,7 @@ struct DipControl {
     unsigned subscriptions;
 };
 
-// Replies that are sent when there is no memory for a real one, or no room.
+// What is sent instead of a reply when memory runs out, and to a client that is one too many.
 static const char no_memory[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"MEMORY\","
                                 "\"field\":\"\",\"message\":\"out of memory\"}}";
 static const char too_many[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"BUSY\","
@@ -118,7 +118,7 @@ void dip_control_send(DipControl *control, DipControlTopic topic, cJSON *fields)
 
 // --- requests ------------------------------------------------------------------------------------
 
-// Refuses the first topic that has no events.
+// Fails if the target cannot send events for one of the topics. The message names the first such.
 static bool check_topics(const DipControl *control, unsigned topics, DipError *err) {
     const unsigned missing = topics & control->target.missing_topics;
     for (int t = 0; t < DIP_CONTROL_TOPIC_COUNT; ++t) {

@@ -13,7 +13,7 @@ typedef enum DipFieldKind {
     DIP_FIELD_TEXT,    // char[size], not empty
     DIP_FIELD_NUMBER,  // double
     DIP_FIELD_INTEGER, // int
-    DIP_FIELD_NAMES    // unsigned: bits of the names; a text or an array of texts
+    DIP_FIELD_NAMES    // unsigned: a bit per name; in JSON a name or an array of names
 } DipFieldKind;
 
 typedef struct DipField {
@@ -26,7 +26,7 @@ typedef struct DipField {
     const char *const *names; // NAMES.
 } DipField;
 
-// Words with a space between each two. What does not fit is cut.
+// Words separated by spaces. The end of a text that is too long is cut off.
 typedef struct DipWords {
     char text[224];
 } DipWords;
@@ -37,7 +37,7 @@ DipWords dip_words_list(const char *const *names, size_t count);
 // Describes a value for a message: 'text', a number, or its type. Long texts are cut.
 DipWords dip_words_describe(const struct cJSON *item);
 
-// Always returns false, with TYPE: "[name] what was found, accepted ...".
+// Fills *err with DIP_ERROR_TYPE and "VALUE found, accepted ACCEPTED". Returns false.
 bool dip_field_refuse_type(const char *name, const struct cJSON *item, const char *accepted,
                            DipError *err);
 
@@ -50,13 +50,13 @@ bool dip_field_read_text(const DipField *field, const struct cJSON *item, char *
 bool dip_field_read_number(const DipField *field, const struct cJSON *item, double *number,
                            DipError *err);
 
-// Reads a text that is one of the names, and adds its bit. what: what the names stand for, for the
-// message "'text' is no name, accepted ...". Fails with TYPE and UNKNOWN.
+// Reads a text that is one of the names, and adds its bit. `what` says what the names stand for; it
+// is the word "topic" in the message "'x' is no topic, accepted ...". Fails with TYPE and UNKNOWN.
 bool dip_field_read_name(const DipField *field, const char *what, const struct cJSON *item,
                          unsigned *bits, DipError *err);
 
-// Reads a value of any kind into its place in `values`. Fails as the functions above, and with
-// UNKNOWN (no such name) and MISSING (no name at all).
+// Reads a value of any kind into its place in `values`. Fails as the functions above do, and with
+// MISSING if an array of names is empty.
 bool dip_field_read(const DipField *field, const struct cJSON *item, void *values, DipError *err);
 
 #endif

@@ -1,5 +1,6 @@
-// Advice for each time budget (app/report/choice.h). Combinations that may be within a budget, and
-// would then be better, are timed again until they are on one side.
+// Makes the advice for each time budget surer (app/report/choice.h). Combinations that may fit a
+// budget, and would then be better than the advised one, are timed again until it is clear whether
+// they fit, but not more often than MOST_RACES times.
 #include "app/cost/steps.h"
 
 #include "app/report/verdict.h"

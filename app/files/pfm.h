@@ -6,9 +6,10 @@
 
 #include <stdbool.h>
 
-// Writes pixels of three values, rows packed, the top row first, whole or not at all. The file has
-// the type PF, the scale -1 (little-endian) and, as the format demands, its rows from the bottom
-// up. Fails with DIP_ERROR_IO or DIP_ERROR_MEMORY. Thread-safe for different files.
+// Writes the whole file or none. `rgb` holds three floats per pixel in packed rows, the top row
+// first. The file has the type PF, the scale -1 (little-endian) and, as the format demands, its
+// rows from the bottom up. Fails with DIP_ERROR_IO or DIP_ERROR_MEMORY. Thread-safe for different
+// files.
 bool dip_pfm_write(const char *file, const float *rgb, int width, int height, DipError *err);
 
 #endif

@@ -13,15 +13,16 @@ typedef struct DipCostModel {
     int rows; // Number of rows that the prices come from; 0 if there are none.
 } DipCostModel;
 
-// Fits prices to rows whose times and stages are known, and to the report's combinations at a
-// smaller size: for each stage, the prices >= 0 with the least sum of squared errors, each relative
-// to the row's whole time, so that slow rows have no more weight than fast ones.
+// Fits prices to rows whose times and stages are known, and to the combinations that the report has
+// timed at half its size. Chooses for each stage the prices >= 0 with the least sum of squared
+// deviations. Each deviation is relative to the row's whole time, so that slow rows have no more
+// weight than fast ones.
 DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count);
 
 // Fits prices as dip_cost_model_fit does, and also to combinations that were timed at another size,
-// on another camera path or with other threads ("there"). Prices are meant for that place: these
-// combinations together count 30 times as often as the report's rows together, which tell what
-// they leave open.
+// on another camera path or with other threads ("there"). The prices are to hold there: all these
+// combinations together count 30 times as much as all rows of the report. The rows decide only what
+// the combinations leave open.
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
                                       const DipCostElsewhere *there, int there_count);
 
@@ -29,31 +30,31 @@ DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *ro
 double dip_cost_model_ms(const DipCostModel *model, const double counters[DIP_COST_COUNTER_COUNT],
                          const DipQuality *quality);
 
-// Summarises misses, which are sorted on return.
+// A miss is |predicted / measured - 1|. Summarises misses, and sorts them.
 DipCostMisses dip_cost_misses_of(double *misses, int count);
 
-// The misses of a model at rows that it does not come from.
+// Returns the misses of a model at rows to which it was not fitted.
 DipCostMisses dip_cost_model_misses(const DipCostReport *report, const DipCostModel *model,
                                     const int *rows, int count);
 
-// Predicts each of the rows from all others of them (leave one out).
+// Predicts each of the rows from all others (leave one out), and returns the misses.
 DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows, int count);
 
 // --- errors --------------------------------------------------------------------------------------
 
 // The model of FLIP: a sum of terms of the settings alone (dip_cost_error_terms), since the error
-// of antialiasing and that of filtering add up nearly.
+// of antialiasing and that of filtering nearly add up.
 typedef struct DipCostErrorModel {
     double coefficients[DIP_COST_ERROR_TERMS];
     int rows; // Number of rows that the model comes from; 0 if there are none.
 } DipCostErrorModel;
 
-// Fits the model to rows that were judged, by least squares of relative errors.
+// Fits the model to rows whose FLIP is known, by least squares of relative deviations.
 DipCostErrorModel dip_cost_error_model_fit(const DipCostReport *report, const int *rows, int count);
 
 double dip_cost_error_model_flip(const DipCostErrorModel *model, const DipQuality *quality);
 
-// As the functions of the same name for times, for FLIP.
+// These two do for FLIP what the functions of the model of times above do for times.
 DipCostMisses dip_cost_error_model_misses(const DipCostReport *report,
                                           const DipCostErrorModel *model, const int *rows,
                                           int count);
@@ -62,7 +63,7 @@ DipCostMisses dip_cost_error_model_leave_one_out(const DipCostReport *report, co
 
 // --- the fit of a whole report -------------------------------------------------------------------
 
-// The model of all rows of a report, for readers.
+// The model of all rows of a report, in the form in which the report shows it.
 enum { DIP_COST_FIT_MAX_TERMS = DIP_COST_ALL_TERMS };
 
 typedef struct DipCostFit {

@@ -1,9 +1,10 @@
-// Terms: the kinds of work that explain how long each stage of a frame takes. The time of a stage
-// is modelled as the sum of its terms, each the amount of one kind of work times a price (fit.h).
+// Terms explain how long each stage of a frame takes. A term is one kind of work. The time of a
+// stage is modelled as a sum over its terms: of the amount of this work times a price (fit.h).
 //
-// Amounts come from the exact counters of a frame and from its settings. No counter tells what lies
-// in the processor's caches, so texels that are read from the full set of mip levels, from textures
-// that are not compressed, or by the probes of advanced AF are terms of their own.
+// Amounts come from the exact counters of a frame and from its settings. No counter tells which
+// reads miss the processor's caches. Reads that miss them more often than others therefore have
+// terms of their own: those of all mip levels (miplod=high-quality), those of uncompressed
+// textures, and those of advanced AF's probes.
 #ifndef DIP_APP_REPORT_TERMS_H
 #define DIP_APP_REPORT_TERMS_H
 

@@ -1,4 +1,4 @@
-// Reads the pictures of mip levels.
+// Reads the pictures that the ini gives for mip colours, and hands them to the panes.
 #include "app/session/session_private.h"
 
 #include "assets/importer.h"
@@ -6,7 +6,7 @@
 typedef struct MipPictures {
     DipPicture pictures[DIP_MIP_LEVEL_COUNT];
     DipTextureDef defs[DIP_MIP_LEVEL_COUNT];
-    const DipTextureDef *given[DIP_MIP_LEVEL_COUNT]; // NULL: this level keeps its colour.
+    const DipTextureDef *given[DIP_MIP_LEVEL_COUNT]; // NULL: this level keeps its debug colour.
     bool any;
 } MipPictures;
 

@@ -1,5 +1,5 @@
-// Draws for the user interface: gives a drawing pass what it draws with, shows the tip of a
-// control, and moves the focus at the end of a pass.
+// What a drawing pass of the user interface draws with (its list, font, scale, shapes and texts),
+// the tip of a control, and the end of a pass, which moves the focus.
 #include "app/ui/style.h"
 #include "app/ui/ui_private.h"
 
@@ -260,7 +260,7 @@ static void move_focus_towards(DipUi *ui, int dx, int dy) {
     ui->focus = best ? best->id : ui->focus;
 }
 
-// Moves the focus by a key that no control took. Returns whether the key is one of those.
+// Moves the focus if the event is Tab or an arrow key that no control took. Returns whether it is.
 static bool move_focus_by_key(DipUi *ui, const DipEvent *event) {
     const bool plain = !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
     if (event->kind != DIP_EVENT_KEY_DOWN || !plain) {

@@ -16,7 +16,8 @@
 
 enum { MAX_DROPS = 64 };
 
-// What is opened, and what came of it. The thread alone uses it while `running`.
+// A session that is being opened, and the result. While `running`, the main thread reads only
+// `running` and `done`.
 typedef struct Opening {
     pthread_t thread;
     bool running;
@@ -35,11 +36,11 @@ struct DipReload {
     const DipSessionOptions *first_options; // Of the session as it was at first.
     DipSessionOptions options;              // Of the session that the preview shows.
     DipWatch *watch;                        // NULL without --watch.
-    bool changed;                           // A file has changed, and the session is to be opened.
+    bool changed; // A file has changed: the session is to be opened again.
     char changed_name[DIP_WATCH_NAME_SIZE];
-    const char *drops[MAX_DROPS]; // Files that wait, the first one first. They are in `names`.
+    const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first. In `names`.
     int drop_count;
-    char **names; // Every name that was ever dropped, once. Options point to these names.
+    char **names; // Every file that was ever dropped, each once. Options point to these names.
     int name_count;
     Opening opening;
     DipPrices *prices;    // Borrowed, or NULL.
@@ -250,16 +251,15 @@ static bool tell_error(DipReloadNews *news, const DipError *err) {
     return true;
 }
 
-// Returns whether the name belongs to a folder, a named pipe or a device. The reader of ini files
-// accepts a pipe, as the shell makes one for the command line, but a pipe can be read only once,
-// and to wait for its writer could take for ever.
+// Returns whether the name belongs to a folder, a named pipe or a device. The command line may name
+// a pipe as its ini, but a pipe cannot be opened again: it can be read only once, and waiting for
+// its writer could take for ever.
 static bool is_no_file(const char *file) {
     struct stat status;
     return file && stat(file, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-// Begins to open a session. `file` was dropped; NULL: the files of the present session are opened
-// again.
+// Begins to open the dropped `file`, or the files of the present session again if `file` is NULL.
 static bool begin(DipReload *reload, const char *file, const char *name, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     opening->options = reload->options;
@@ -283,8 +283,8 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
                             : tell(news, DIP_RELOAD_FAULT, "No thread could start for ", name);
 }
 
-// Returns whether a file that has changed, or has disappeared, was left out of the new session. A
-// picture that cannot be read is only a warning, and its surfaces lose their texture.
+// Returns whether a file that has changed, or has disappeared, was left out of the new session. An
+// unreadable picture is such a file: the session opens with a warning, but lacks its texture.
 static bool lacks_changed_file(const Opening *opening) {
     const char *sign = opening->name[0] ? opening->name : "is missing";
     for (size_t i = 0; !opening->dropped && i < opening->faults.count; ++i) {

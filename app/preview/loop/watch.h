@@ -25,14 +25,15 @@ void dip_watch_begin_list(DipWatch *watch);
 void dip_watch_end_list(DipWatch *watch);
 void dip_watch_file(DipWatch *watch, const char *file);
 
-// Watches the models, pictures and other parts of models in the folder of a file and in that
-// folder's subfolders. Other kinds of files do not count, and neither do screenshots of the
+// Watches the models, and the files that models use, in the folder of a file and in that folder's
+// subfolders. Other kinds of files do not count, and neither do screenshots of the
 // preview.
 void dip_watch_folder(DipWatch *watch, const char *file);
 
-// Looks at the files if a quarter of a second has passed. Returns true once after files have
-// changed and come to rest, and sets `name` to the name, without its folder, of a file that has
-// changed; "" if files have only disappeared. now_ns: any clock that does not go backwards.
+// Looks at the files if a quarter of a second has passed since the last look. Returns true once
+// after files have changed and come to rest, and sets `name` to the name, without its folder, of a
+// file that has changed; "" if files have only disappeared. now_ns: any clock that does not go
+// backwards.
 bool dip_watch_poll(DipWatch *watch, int64_t now_ns, char name[DIP_WATCH_NAME_SIZE]);
 
 #endif

@@ -132,7 +132,8 @@ static bool take(DipPathEditor *editor, const DipCamPath *playing, char *text, s
     return true;
 }
 
-// Takes the next time from key to key of the list. Times of paths that were taken may lie between.
+// Changes the time from key to key to the next one in periods_ns. The time of a path that was taken
+// over may lie between two of these.
 static bool change_period(DipPathEditor *editor, bool longer, char *text, size_t size_bytes) {
     const int count = (int)DIP_ARRAY_COUNT(periods_ns);
     int64_t found_ns = editor->period_ns;
@@ -240,7 +241,7 @@ bool dip_path_editor_edit(DipPathEditor *editor, DipPathEdit edit, const DipCamP
     }
 }
 
-// --- the loop's turn -----------------------------------------------------------------------------
+// --- what the preview's main loop calls ----------------------------------------------------------
 
 void dip_path_editor_stop(DipPathEditor *editor) {
     dip_campath_destroy(&editor->fly);

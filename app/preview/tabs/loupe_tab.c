@@ -27,7 +27,7 @@ typedef struct Part {
 
 enum { BOX_SIDE = 120 };
 
-// Returns the colour of a pixel of a picture, which must have it.
+// Returns the colour of a pixel, which must lie inside the picture.
 static DipColour pixel_of(const DipPixels *picture, int x, int y) {
     const uint8_t *rgba8 = picture->rgba8 + (size_t)y * picture->stride_bytes + 4 * (size_t)x;
     return (DipColour){rgba8[0], rgba8[1], rgba8[2], 255};
@@ -434,7 +434,8 @@ static void declare_head(DipUi *ui, DipWindow *window, DipRect row) {
     }
 }
 
-// Returns the part of the tab that lies beneath a pane, or one half of it if it lies elsewhere.
+// Returns the part of the tab that lies beneath a pane, or a half of the tab if the tab lies beside
+// the panes.
 static DipRect half_of(const DipLayout *layout, DipRect body, int pane) {
     DipRect half = body;
     if (layout->side == DIP_DOCK_BELOW) {

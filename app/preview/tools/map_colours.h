@@ -11,8 +11,9 @@ enum { DIP_MAP_COLOURS = 256 };
 // Values outside 0..1 are clamped. Thread-safe.
 void dip_cividis(float value, uint8_t rgb[3]);
 
-// A palette as a table: entry i stands for i / 255.
 typedef void DipPalette(float value, uint8_t rgb[3]); // dip_magma (errors) or dip_cividis (work)
+
+// Writes a palette as a table. Entry i is the colour of the value i / 255.
 void dip_map_table(DipPalette *palette, uint8_t rgb[DIP_MAP_COLOURS][3]);
 
 // Returns the index of the colour of a value on a scale from 0 to `end`.
@@ -21,8 +22,8 @@ static inline int dip_map_colour_index(float value, float end) {
     return index < (float)DIP_MAP_COLOURS ? (int)index : DIP_MAP_COLOURS - 1;
 }
 
-// Returns the smallest of 1, 1.5, 2, 3, 4, 5, 6 and 8 times a power of 10 that is at least `value`;
-// 1 for values of 0 and below.
+// Rounds a value up to a power of 10 times 1, 1.5, 2, 3, 4, 5, 6 or 8. Returns 1 for values of 0
+// and below.
 double dip_map_round_up(double value);
 
 // Writes a value below 1 as ".43", others as "4.3" or "43".

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// How much of a work map is colour, of 256; the rest is the grey picture beneath.
+// A work map shows this many 256ths of its colour; the rest is the grey picture beneath it.
 enum { COLOUR_SHARE = 174 };
 
 typedef uint8_t Table[DIP_MAP_COLOURS][3];
@@ -29,7 +29,7 @@ static void blend(uint8_t *to, const uint8_t *rgba8, const uint8_t rgb[3], int s
     to[3] = 255;
 }
 
-// --- one map each --------------------------------------------------------------------------------
+// --- a function for each map ---------------------------------------------------------------------
 
 static void draw_flip(DipMapPicture *picture, const float *flip) {
     Table table;
@@ -67,7 +67,7 @@ static void draw_tiles(DipMapPicture *picture, const DipMapWork *work, const Dip
     }
 }
 
-// Shows pixels whose samples differ in the scale's last colour, and all others dark.
+// Gives every pixel whose samples differ the scale's last colour, and darkens all others.
 static void draw_mixed(DipMapPicture *picture, const DipMapWork *work, const DipPixels *frame) {
     uint8_t first[3], last[3];
     dip_cividis(0.0f, first);
@@ -88,7 +88,8 @@ static void draw_mixed(DipMapPicture *picture, const DipMapWork *work, const Dip
 
 // --- any map -------------------------------------------------------------------------------------
 
-// Returns whether a pane's map is known for a frame of this size, and its version.
+// Returns whether the values of a pane's map are known for a frame of this size. Sets *source to
+// the version of these values.
 static bool find_source(const DipMaps *maps, DipMap map, int pane, const DipPixels *frame,
                         uint64_t *source) {
     const DipPaneWork *work = dip_maps_pane(maps, pane);

@@ -1,5 +1,5 @@
-// The fields of cost.json: of a report, its rows, sweeps and advice. The context of all items is
-// the DipCostReport.
+// The fields of cost.json: of a report, its rows, sweeps and advice. DipFieldAt.context is the
+// DipCostReport in all of them.
 #ifndef DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 #define DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 
@@ -8,15 +8,15 @@
 
 #include <stddef.h>
 
-// Ranges of measurements, far beyond what can be measured. They keep all values that are computed
-// from measurements finite.
+// Limits of the values in a file. They are far wider than any real measurement needs, and keep all
+// values that are computed from measurements finite.
 #define DIP_COST_LEAST_MS   1e-6
 #define DIP_COST_MOST_MS    1e9
 #define DIP_COST_MOST_COUNT 1e15
 #define DIP_COST_MOST_MEAN  1e6
 
-// A fact that is a member of a struct, a member that is computed from facts, and a value that a
-// function computes.
+// DIP_FACT is a fact that is a member of a struct. DIP_COMPUTED is a member that is computed from
+// facts, and DIP_DERIVED is a value that a function computes.
 #define DIP_FACT(KIND, TYPE, member)                                                               \
     .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON, .offset = offsetof(TYPE, member),           \
     .size = sizeof(((TYPE *)0)->member)
@@ -39,7 +39,7 @@
         (void)scratch;                                                                             \
         return value;                                                                              \
     }
-// A value that a derived field makes up.
+// Stores a computed value in the scratch memory, and gives its address to DIP_DERIVE.
 #define DIP_MADE(TYPE, value) (*(TYPE *)scratch = (value), scratch)
 #define DIP_RECORD(NAME, MEANS, fields, TYPE, CHECK)                                               \
     { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), sizeof(TYPE), CHECK }
@@ -55,8 +55,8 @@ extern const DipRecord dip_cost_price_record;     // double: the prices of a fit
 extern const DipRecord dip_cost_same_record;      // DipCostSame
 extern const DipRecord dip_cost_elsewhere_record; // DipCostElsewhere
 
-// The format of all files that are written. It changes when a reader of the last format would
-// misread a file.
+// The number of the format of every cost.json that is written. It grows when a program that reads
+// the format before would misread the new one.
 enum { DIP_COST_JSON_FORMAT = 3 };
 DipFieldDerive dip_cost_derive_format;
 

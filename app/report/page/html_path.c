@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// As many lines as the plot has colours.
+// MOST_LINES is the number of colours of a plot.
 enum { MOST_LINES = 6, TITLE_ROOM = DIP_COST_TEXT + 64, MOST_FRAMES = 256 };
 
 // The lines of both plots. Arrays are owned.
@@ -15,12 +15,12 @@ typedef struct Lines {
     int rows[MOST_LINES];
     char names[MOST_LINES][DIP_COST_TEXT];
     int count;
-    int frames; // Number of frames shown: all timed frames, or at most MOST_FRAMES of them.
+    int frames; // Number of timed frames; fill_times reduces it to those that are shown.
     // Positions of the frames, and then of the viewpoints, as shares of the path in percent.
     double *positions;
     double *ms;   // [line * frames + frame]
     double *flip; // [line * viewpoints + viewpoint]
-    // [line * (frames or viewpoints) + point]: texts beside the pointer, and pointers to them.
+    // Tooltips at [line * (frames or viewpoints) + point]; `titles` points to `texts`.
     char (*texts)[TITLE_ROOM];
     const char **titles;
 } Lines;
@@ -41,7 +41,8 @@ static void add_line(Lines *lines, int row, const char *prefix) {
     }
 }
 
-// Lists the baseline and the advised combinations or, without advice, the knee of the front.
+// Lists the baseline and then the advised combinations. Without advice, the knee of the front
+// follows instead.
 static void list_lines(Lines *lines) {
     const DipCostReport *report = lines->report;
     add_line(lines, report->base_rows[0], "baseline: ");
@@ -80,7 +81,7 @@ static bool alloc_lines(Lines *lines) {
     return lines->positions && lines->ms && lines->flip && lines->texts && lines->titles;
 }
 
-// Fills in the times and positions of the frames.
+// Fills in the times and positions of the frames: of every n-th if there are more than MOST_FRAMES.
 static void fill_times(Lines *lines) {
     const int frames = lines->frames;
     const int step = (frames + MOST_FRAMES - 1) / MOST_FRAMES;
@@ -94,7 +95,7 @@ static void fill_times(Lines *lines) {
     }
 }
 
-// Returns a line of `count` points, and writes their titles.
+// Returns a line of `count` points, and writes the points' tooltips.
 static DipPlotSeries series_of(const Lines *lines, int line, const double *x, const double *y,
                                int count, int digits, const char *unit) {
     const char **titles = lines->titles + line * count;
@@ -138,7 +139,7 @@ static void write_times(const Lines *lines, FILE *out) {
     write_plot(lines, series, "Time along the path", "time of a frame, ms", out);
 }
 
-// The viewpoints that every line has, since the lines share their positions.
+// Fills in the positions and the FLIP of the viewpoints that all lines have. Returns their number.
 static int list_viewpoints(const Lines *lines, double *positions) {
     const DipCostReport *report = lines->report;
     const int viewpoints = report->options.places;
