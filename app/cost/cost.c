@@ -142,6 +142,7 @@ static void describe_cost(const void *arguments, DipSessionDef *def) {
 
 static const DipExample cost_examples[] = {
     {"diptych cost --out report", "measures the courtyard in a few minutes"},
+    {"diptych cost --out report --quick", "answers in a minute or two, less surely"},
     {"diptych cost --out report --fps 60,120",
      "finds the best settings for 60 and for 120 frames a second"},
     {"diptych cost --out report --predict --budget-ms 4,8,16,33",

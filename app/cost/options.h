@@ -14,6 +14,7 @@ typedef struct DipCostArguments {
     DipProgramOptions program;
     DipSessionOptions session;
     const char *out;     // Folder of the report.
+    bool quick;          // Other options have the defaults of a quick answer.
     DipCostOptions cost; // Without what `measure` has.
     DipMeasureOptions measure;
     DipServeOptions serve; // A start of another process serves.

@@ -2,6 +2,7 @@
 // refuses wrong values, and the help explains every option.
 #include "app/cli/command_line.h"
 #include "app/command_list.h"
+#include "app/cost/options.h"
 #include "app/cli/help.h"
 #include "app/cli/manual.h"
 #include "renderer/base/assert.h"
@@ -276,6 +277,23 @@ static void help_needs_no_complete_command_line(void **state) {
     assert_true(parses("dump --version"));
 }
 
+// --quick changes defaults, wherever it stands; what is given holds.
+static void quick_changes_what_is_not_given(void **state) {
+    (void)state;
+    DipCommandLine line;
+    DipError err = {0};
+    assert_true(parse("cost --samples 25 --out x --quick", NULL, NULL, &line, &err));
+    const DipCostArguments *quick = line.options;
+    assert_true(quick->cost.predict && quick->cost.places == 2 && quick->cost.samples == 25);
+    assert_int_equal(quick->measure.starts * quick->measure.rounds, 6);
+    dip_command_line_free(&line);
+    assert_true(parse("cost --out x", NULL, NULL, &line, &err));
+    const DipCostArguments *usual = line.options;
+    assert_true(!usual->cost.predict && usual->cost.places == 3 && usual->cost.samples == 64);
+    assert_int_equal(usual->measure.starts * usual->measure.rounds, 16);
+    dip_command_line_free(&line);
+}
+
 // Options of this name mean different things, or are yet to be shared. Do not add to this list.
 static bool may_stand_twice(const char *name) {
     static const char *const names[] = {
@@ -331,6 +349,7 @@ int main(void) {
         cmocka_unit_test(manual_has_every_option),
         cmocka_unit_test(help_of_a_group_has_its_commands),
         cmocka_unit_test(mistyped_commands_are_refused),
+        cmocka_unit_test(quick_changes_what_is_not_given),
         cmocka_unit_test(help_needs_no_complete_command_line),
         cmocka_unit_test(an_option_stands_in_one_table),
     };
