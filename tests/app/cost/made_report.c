@@ -18,26 +18,31 @@ static void fill_sums(DipMetricSums *sums, int seed) {
     sums->bursts = 1.0;
 }
 
-// Finds a frame of a row in the log, or adds it. Each row has a block of its own.
+// Makes room for more frames in the log.
+static void reserve(DipCostReport *report, int count) {
+    DipTimed *log = realloc(report->log, (size_t)(report->log_count + count) * sizeof *log);
+    if (!log) {
+        abort();
+    }
+    report->log = log;
+}
+
+// Finds a frame of a row in the log, or adds it where there is room. Each row has a block of its
+// own.
 static DipTimed *find_timed(DipCostReport *report, int row, int subject, int frame) {
-    for (int i = 0; i < report->log_count; i++) {
+    for (int i = report->log_count - 1; i >= 0; i--) {
         DipTimed *timed = &report->log[i];
         if (timed->block == row && timed->subject == subject && timed->frame == frame) {
             return timed;
         }
     }
-    DipTimed *log = realloc(report->log, ((size_t)report->log_count + 1) * sizeof *log);
-    if (!log) {
-        abort();
-    }
-    report->log = log;
     report->starts = 1;
-    log[report->log_count] = (DipTimed){
+    report->log[report->log_count] = (DipTimed){
         .subject = subject, .round = frame % report->rounds, .block = row, .frame = frame};
-    return &log[report->log_count++];
+    return &report->log[report->log_count++];
 }
 
-void dip_made_frame(DipCostReport *report, int row, int frame, double ms, double base_ms) {
+static void set_frame(DipCostReport *report, int row, int frame, double ms, double base_ms) {
     const int base = report->base_rows[report->rows[row].path];
     find_timed(report, row, base, frame)->ms = base_ms;
     if (row != base) {
@@ -47,13 +52,21 @@ void dip_made_frame(DipCostReport *report, int row, int frame, double ms, double
     }
 }
 
+void dip_made_frame(DipCostReport *report, int row, int frame, double ms, double base_ms) {
+    reserve(report, 2);
+    set_frame(report, row, frame, ms, base_ms);
+}
+
 DipTimed *dip_made_timed(DipCostReport *report, int row, int frame) {
+    reserve(report, 1);
     return find_timed(report, row, row, frame);
 }
 
 void dip_made_times(DipCostReport *report, int row, double ms) {
-    for (int f = 0; report->rounds > 0 && f < dip_cost_frame_count(report); f++) {
-        dip_made_frame(report, row, f, ms, 1.0);
+    const int frames = report->rounds > 0 ? dip_cost_frame_count(report) : 0;
+    reserve(report, 2 * frames + 1);
+    for (int f = 0; f < frames; f++) {
+        set_frame(report, row, f, ms, 1.0);
     }
 }
 
