@@ -7,6 +7,7 @@
     study.py order OUT/*                               do green runs rank the steps alike?
     study.py advice OUT/*                              is the advice of green runs the best of all?
     study.py bench DIPTYCH OUT/quiet-1                 is the advice within its budget, measured anew?
+    study.py p95 DIPTYCH OUT/quiet-*                   is p95 / mean that of many more rounds by bench?
 
 The truth of a ratio is the median over the other quiet runs: a run is never part of its own truth.
 Loads are loops that keep one core busy each. Figures in docs/cost-methods.md come from these commands.
@@ -22,8 +23,6 @@ import subprocess
 import sys
 import tempfile
 
-# Student's t that 97.5 % do not exceed, by degrees of freedom.
-T_975 = [math.nan, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179]
 BUDGETS = "4,8,16,33,5.3,6.7,9.1,11.9,14.2"
 
 
@@ -72,20 +71,6 @@ def repeat(options):
             load.kill()
 
 
-def interval_over_runs(run, others, key):
-    """Adds to a ratio's interval the spread between the other runs.
-
-    Returns whether the interval holds the median of the other runs, and its half width.
-    """
-    squares = sum((math.log(other[step][0]) - statistics.mean(math.log(o[step][0]) for o in others))
-                  ** 2 for step in run for other in others)
-    deviation = math.sqrt(squares / (len(run) * (len(others) - 1)))
-    ratio, low, high = run[key]
-    half = math.hypot(math.log(high / low) / 2, T_975[len(others) - 1] * deviation)
-    truth = statistics.median(other[key][0] for other in others)
-    return abs(math.log(ratio / truth)) <= half, half
-
-
 def coverage(options):
     runs = [ratios_of(read(folder)) for folder in options.reports]
     held, total, halves = 0, 0, []
@@ -98,11 +83,6 @@ def coverage(options):
             halves.append(math.log(high / low) / 2)
     print("%d of %d intervals (%.1f %%) hold the median of the other runs; median half width "
           "%.1f %%" % (held, total, 100 * held / total, 100 * statistics.median(halves)))
-    wide = [interval_over_runs(run, runs[:index] + runs[index + 1:], key)
-            for index, run in enumerate(runs) for key in run]
-    print("%d of them (%.1f %%) do with the spread of the other runs; median half width %.1f %%" % (
-        sum(inside for inside, _ in wide), 100 * sum(inside for inside, _ in wide) / total,
-        100 * statistics.median(half for _, half in wide)))
     levels = [read(folder)["rows"][0]["ms"] for folder in options.reports]
     print("milliseconds of the baseline: %s" % ", ".join("%.2f" % level for level in levels))
 
@@ -190,6 +170,51 @@ def fastest_better(report, item):
     return min(better, key=lambda row: row[kind], default=None)
 
 
+def frames_by_bench(diptych, sets, rounds, arguments):
+    """Times settings by `bench`. Returns the medians of the frames of each, sorted."""
+    with tempfile.TemporaryDirectory() as folder:
+        table = os.path.join(folder, "bench.csv")
+        subprocess.run([diptych, "bench", "--sets", ";".join(sets), "--frames", "64", "--rounds",
+                        str(rounds), "--csv", table, *arguments], stdout=subprocess.DEVNULL, check=True)
+        times = {}
+        for line in csv.DictReader(open(table)):
+            times.setdefault(line["settings"], {}).setdefault(line["frame"], []).append(
+                float(line["total_ms"]))
+    return [sorted(statistics.median(values) for values in frames.values()) for frames in times.values()]
+
+
+def percentile_95(values):
+    place = 0.95 * (len(values) - 1)
+    below = int(place)
+    above = min(below + 1, len(values) - 1)
+    return values[below] + (place - below) * (values[above] - values[below])
+
+
+def p95_by_bench(diptych, sets, arguments):
+    return [percentile_95(frames) for frames in frames_by_bench(diptych, sets, 8, arguments)]
+
+
+def p95(options):
+    """Compares p95 / mean of eight combinations with that of the frames' medians of many rounds."""
+    reports = [read(folder) for folder in options.reports]
+    rows = reports[0]["rows"][reports[0]["combined_first"]:]
+    chosen = [rows[index * (len(rows) - 1) // 7]["settings"] for index in range(8)]
+    texts = {row["settings"]: set_of(row) for row in rows}
+    frames = frames_by_bench(options.diptych, [texts[key] for key in chosen], options.rounds,
+                             options.arguments)
+    truths = {key: percentile_95(values) / statistics.mean(values) for key, values in zip(chosen, frames)}
+    misses = []
+    for report in reports:
+        own = {row["settings"]: row["p95_ms"] / row["ms"]
+               for row in report["rows"][report["combined_first"]:] if row["settings"] in truths}
+        misses.append([math.log(own[key] / truths[key]) for key in own])
+    every = [miss for run in misses for miss in run]
+    print("p95 / mean by bench: %s" % ", ".join("%s %.3f" % (texts[key], truths[key]) for key in chosen))
+    print("%d values of %d runs: bias %+.1f %%, rms %.1f %%" % (
+        len(every), len(reports), 100 * statistics.mean(every),
+        100 * math.sqrt(statistics.mean(miss ** 2 for miss in every))))
+
+
 def bench(options):
     report = read(options.report)
     held = beaten = 0
@@ -238,6 +263,12 @@ def main():
     one.add_argument("report")
     one.add_argument("arguments", nargs="*", help="further options of diptych bench, after --")
     one.set_defaults(run=bench)
+    one = commands.add_parser("p95")
+    one.add_argument("diptych")
+    one.add_argument("reports", nargs="+")
+    one.add_argument("--rounds", type=int, default=24)
+    one.add_argument("--arguments", type=str.split, default=[], help="further options of diptych bench")
+    one.set_defaults(run=p95)
     options = parser.parse_args()
     options.run(options)
 
