@@ -41,9 +41,8 @@ static bool open_source(DipCostContext *cost, bool judges, DipError *err) {
 }
 
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
-                           DipCostJournal *journal, const char *cache, bool judges, DipError *err) {
-    *cost =
-        (DipCostContext){.session = session, .report = report, .journal = journal, .cache = cache};
+                           bool judges, DipError *err) {
+    *cost = (DipCostContext){.session = session, .report = report};
     const DipRendererDef def = {
         .pool = session->pool,
         .isa = session->isa,
@@ -212,7 +211,8 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
         .samples = report->options.samples,
         .pixels_per_degree = report->options.pixels_per_degree,
     };
-    const bool got = dip_truth_get(truth, &def, cost->cache, cost->session->pool,
+    const char *cache = cost->cache && cost->cache[0] ? cost->cache : NULL;
+    const bool got = dip_truth_get(truth, &def, cache, cost->session->pool,
                                    progress ? progress : go_on, context, err);
     if (!got) {
         dip_cost_interrupted(err); // Says how to go on.

@@ -1,4 +1,5 @@
-// The options of `diptych cost` and `cost merge`.
+// Reads and checks the options of `diptych cost`, and declares options that other commands on
+// reports share.
 #include "app/cost/options.h"
 
 #include "app/measure/metrics/truth.h"
@@ -199,18 +200,18 @@ static const DipOptionRow time_rows[] = {
              "wrong. The report is written all the same."},
 };
 
-static const DipOptionTable out_table = DIP_OPTION_TABLE("What to measure", out_rows);
+const DipOptionTable dip_out_option_table = DIP_OPTION_TABLE("What to measure", out_rows);
 static const DipOptionTable quick_table = DIP_OPTION_TABLE("What to measure", quick_rows);
 static const DipOptionTable choice_table = DIP_OPTION_TABLE("What to measure", choice_rows);
 static const DipOptionTable error_table = DIP_OPTION_TABLE("Errors", error_rows);
 static const DipOptionTable time_table = DIP_OPTION_TABLE("Times", time_rows);
-static const DipOptionTable picture_table = DIP_OPTION_TABLE("Pictures", picture_rows);
+const DipOptionTable dip_picture_option_table = DIP_OPTION_TABLE("Pictures", picture_rows);
 const DipOptionTable dip_cost_budget_option_table = DIP_OPTION_TABLE("Budgets", budget_rows);
 const DipOptionTable dip_viewing_option_table = DIP_OPTION_TABLE("Errors", viewing_rows);
 const DipOptionTable dip_cache_option_table = DIP_OPTION_TABLE("Pictures", cache_rows);
 
 static const DipOptionPart cost_parts[] = {
-    {&out_table, offsetof(DipCostArguments, out)},
+    {&dip_out_option_table, offsetof(DipCostArguments, out)},
     {&quick_table, offsetof(DipCostArguments, quick)},
     {&choice_table, offsetof(DipCostArguments, cost)},
     {&dip_cost_budget_option_table, offsetof(DipCostArguments, cost)},
@@ -220,7 +221,7 @@ static const DipOptionPart cost_parts[] = {
     {&dip_measure_option_table, offsetof(DipCostArguments, measure)},
     {&dip_starts_option_table, offsetof(DipCostArguments, measure)},
     {&dip_serve_option_table, offsetof(DipCostArguments, serve)},
-    {&picture_table, offsetof(DipCostArguments, cost)},
+    {&dip_picture_option_table, offsetof(DipCostArguments, cost)},
     {&dip_cache_option_table, offsetof(DipCostArguments, cost.cache)},
     {&dip_scene_option_table, offsetof(DipCostArguments, session)},
     {&dip_path_option_table, offsetof(DipCostArguments, session)},
@@ -228,16 +229,7 @@ static const DipOptionPart cost_parts[] = {
     {&dip_threads_option_table, offsetof(DipCostArguments, session)},
     {&dip_program_option_table, offsetof(DipCostArguments, program)},
 };
-static const DipOptionPart merge_parts[] = {
-    {&out_table, offsetof(DipCostMergeArguments, out)},
-    {&picture_table, offsetof(DipCostMergeArguments, cost)},
-    {&dip_cache_option_table, offsetof(DipCostMergeArguments, cost.cache)},
-    {&dip_scene_option_table, offsetof(DipCostMergeArguments, session)},
-    {&dip_threads_option_table, offsetof(DipCostMergeArguments, session)},
-    {&dip_program_option_table, offsetof(DipCostMergeArguments, program)},
-};
 const DipOptionParts dip_cost_option_parts = {cost_parts, DIP_ARRAY_COUNT(cost_parts)};
-const DipOptionParts dip_cost_merge_option_parts = {merge_parts, DIP_ARRAY_COUNT(merge_parts)};
 
 // --- defaults and checks -------------------------------------------------------------------------
 
@@ -264,7 +256,7 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
     }
 }
 
-static bool check_out(const char *out, DipError *err) {
+bool dip_cost_check_out(const char *out, DipError *err) {
     return out || dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--out",
                                 "there is no folder for the report; give one with --out DIR");
 }
@@ -288,7 +280,7 @@ static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
 bool dip_cost_options_check(const void *arguments, DipError *err) {
     const DipCostArguments *all = arguments;
     const DipCostOptions *cost = &all->cost;
-    if (!check_out(all->out, err) || !check_rounds(&all->measure, err)) {
+    if (!dip_cost_check_out(all->out, err) || !check_rounds(&all->measure, err)) {
         return false;
     }
     if (cost->end_place > cost->places) {
@@ -308,14 +300,4 @@ bool dip_cost_options_check(const void *arguments, DipError *err) {
                              "--errors-only and --part, or --predict");
     }
     return dip_session_options_check(&all->session, err);
-}
-
-bool dip_cost_merge_options_check(const void *arguments, DipError *err) {
-    const DipCostMergeArguments *all = arguments;
-    return check_out(all->out, err) &&
-           (all->part_count > 0 ||
-            dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost merge",
-                          "there are no parts to join; give the cost.json of each: cost merge "
-                          "--out DIR PART/cost.json...")) &&
-           dip_session_options_check(&all->session, err);
 }

@@ -1,9 +1,8 @@
-// Making the rows and the sweeps of a report. A row is one combination of settings on a camera
+// Makes the rows and the sweeps of a report. A row is one combination of settings on a camera
 // path; a sweep is the rows of all steps of one setting.
 #include "app/cost/plan.h"
 
 #include "app/report/combinations.h"
-#include "app/cost/scene_hash.h"
 #include "app/cli/machine.h"
 #include "renderer/base/hash.h"
 
@@ -88,10 +87,11 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 
 // --- rows --------------------------------------------------------------------------------------
 
-// Finds the row of these settings on this path, or adds it. Returns -1 when there is no room.
+// Finds the row of these settings on this path, or adds it. The sweeps have far fewer rows than
+// there is room for.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
     const int known = dip_report_find(report, quality, path, 0);
-    if (known >= 0 || report->row_count == DIP_COST_MAX_ROWS) {
+    if (known >= 0) {
         return known;
     }
     report->rows[report->row_count] = (DipCostRow){.quality = *quality, .path = path};
@@ -112,7 +112,7 @@ static DipCostSweep *begin_sweep(DipCostReport *report, DipSetting setting, int 
 }
 
 static void add_to_sweep(DipCostSweep *sweep, int row) {
-    if (row >= 0 && sweep->row_count < DIP_COST_MAX_SWEEP_ROWS) {
+    if (sweep->row_count < DIP_COST_MAX_SWEEP_ROWS) {
         sweep->rows[sweep->row_count++] = row;
     }
 }
@@ -196,7 +196,7 @@ static bool plan_combinations(DipCostReport *report, DipError *err) {
     predicted->list = options->predict ? calloc(DIP_COST_MAX_ROWS, sizeof *predicted->list) : NULL;
     if (!list || (options->predict && !predicted->list)) {
         free(list);
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        return dip_cost_out_of_memory(err);
     }
     const int count = options->combined
                           ? dip_cost_list_combinations(&options->baseline, options->combined, list,
@@ -299,7 +299,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     *report = (DipCostReport){.options = *options};
     report->rows = calloc(DIP_COST_MAX_ROWS, sizeof *report->rows);
     if (!report->rows) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        return dip_cost_out_of_memory(err);
     }
     if (!report->options.has_combined) {
         report->options.combined = default_combined(&report->options);

@@ -17,7 +17,13 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
 // Fills in the report's scene and its hash, machine, program, threads and size.
 void dip_cost_describe(DipCostReport *report, const DipSession *session);
 
-// Writes the file name of the first model, without its folder.
+// Writes a hash of a scene's content as 32 hexadecimal digits. It depends on everything that
+// affects how the scene looks. The cache of truths (converged pictures) finds a scene's truths by
+// it.
+void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflection, char hex[33]);
+
+// Writes the scene's name: the file name of the first model without its folder, or the name of the
+// gallery's scene with its look.
 void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]);
 
 // The duration of a camera path of the report, and the pose at a time on that path.

@@ -1,12 +1,10 @@
 // Predicting combinations from a few of them.
-#include "app/cost/predict.h"
+#include "app/cost/steps.h"
 
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/fit.h"
 #include "app/report/combinations.h"
-#include "app/report/work.h"
 #include "app/cli/progress.h"
-#include "app/cost/steps.h"
 #include "app/measure/timing/sample.h"
 #include "app/measure/stats/least_squares.h"
 #include "renderer/base/assert.h"
@@ -128,20 +126,15 @@ int dip_cost_training_count(unsigned settings, int count) {
 
 // Writes the terms of all stages and of FLIP; their constant terms are one. Returns their number.
 static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN_TERMS]) {
-    double amounts[DIP_COST_MAX_TERMS], errors[DIP_COST_ERROR_TERMS];
     int count = 0;
     terms[count++] = 1.0;
-    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        dip_cost_terms((DipCostStage)stage, prediction->counters, &prediction->quality, amounts);
-        DIP_ASSERT(count + dip_cost_term_count((DipCostStage)stage) + DIP_COST_ERROR_TERMS <=
-                   DESIGN_TERMS + 2); // Without the constant terms of the stage and of FLIP.
-        for (int t = 1; t < dip_cost_term_count((DipCostStage)stage); t++) {
+    for (int part = 0; part < DIP_COST_PART_COUNT; part++) {
+        double amounts[DIP_COST_MAX_TERMS];
+        dip_cost_terms(part, prediction->counters, &prediction->quality, amounts);
+        DIP_ASSERT(count + dip_cost_term_count(part) - 1 <= DESIGN_TERMS);
+        for (int t = 1; t < dip_cost_term_count(part); t++) {
             terms[count++] = amounts[t];
         }
-    }
-    dip_cost_error_terms(&prediction->quality, errors);
-    for (int t = 1; t < DIP_COST_ERROR_TERMS; t++) {
-        terms[count++] = errors[t];
     }
     return count;
 }
@@ -197,15 +190,15 @@ void dip_cost_predict_others(DipCostReport *report) {
     if (count == 0) {
         return;
     }
-    const DipCostModel times = dip_cost_model_fit(report, rows, count);
-    const DipCostErrorModel errors = dip_cost_error_model_fit(report, rows, count);
+    const DipCostModel times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count);
+    const DipCostModel errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count);
     const double p95 = usual_p95(report, rows, count);
     for (int i = 0; i < predicted->count; i++) {
         DipCostPrediction *p = &predicted->list[i];
         if (p->row < 0) {
-            p->ms = dip_cost_model_ms(&times, p->counters, &p->quality);
+            p->ms = dip_cost_model_value(&times, p->counters, &p->quality);
             p->p95_ms = p95 * p->ms;
-            p->flip = dip_cost_error_model_flip(&errors, &p->quality);
+            p->flip = dip_cost_model_value(&errors, p->counters, &p->quality);
         }
     }
 }
@@ -295,8 +288,9 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
         return false;
     }
     dip_cost_scale_counters(report);
-    predicted->times_left_out = dip_cost_model_leave_one_out(report, rows, count);
-    predicted->errors_left_out = dip_cost_error_model_leave_one_out(report, rows, count);
+    predicted->times_left_out = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, count);
+    predicted->errors_left_out =
+        dip_cost_model_leave_one_out(report, DIP_COST_FLIP_ERROR, rows, count);
     for (int i = 0; i < count; i++) {
         DipCostPrediction *p = &predicted->list[chosen[i]];
         p->ms = dip_cost_ms(report, p->row);

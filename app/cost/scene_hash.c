@@ -1,5 +1,5 @@
 // Hashes every part of a scene in a fixed order.
-#include "app/cost/scene_hash.h"
+#include "app/cost/plan.h"
 
 #include "renderer/base/hash.h"
 

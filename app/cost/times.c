@@ -1,9 +1,14 @@
-// Timing rows beside the baseline of their paths, here or elsewhere, and counting their work.
-// Counters are the same in every run of a frame, so each frame is counted once.
+// Times rows beside the baseline of their paths, here or elsewhere, and counts their work. Counters
+// are the same in every run of a frame, so each frame is counted once.
+//
+// With --starts, the program starts itself several times with --serve, one process after another,
+// and asks each for the frames to time. A process keeps one chance through all its frames: where
+// its memory lies, and which cores its threads get.
 #include "app/cli/drive.h"
 #include "app/cli/interrupt.h"
-#include "app/cost/starts.h"
 #include "app/cost/steps.h"
+#include "app/measure/timing/child.h"
+#include "renderer/base/clock.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,13 +16,17 @@
 #include <string.h>
 
 enum {
-    BASE_COPIES = 3,  // Rounds that draw a frame of the baseline: slow frames or slow moments?
-    BLOCK_ROWS = 4,   // Halves the deviation of ratios against one baseline per round, at its cost.
-    LEAST_SIDE = 64,  // Pixels; smaller pictures have no half size.
+    BASE_COPIES = 3, // Rounds that draw each frame of the baseline, to tell slow frames from slow
+                     // moments.
+    BLOCK_ROWS = 4,  // Rows that share a baseline. Their ratios deviate half as much as with one
+                     // baseline per round, for its time.
+    LEAST_SIDE = 64, // Pixels; smaller pictures have no half size.
+    REQUEST_SIZE = 256,
     SEED_SALT = 0x517 // The order elsewhere is another than that of the report's rows.
 };
 
-// A start may take this share of the time of its rounds.
+// The start of a process may take this share of the time of its rounds. If it takes more, fewer are
+// started.
 static const double most_start = 0.1;
 
 // What is timed: settings on a path of a context's report.
@@ -37,13 +46,9 @@ typedef struct Timing {
     int *base_of;  // [subject]
     bool *counted; // [subject * frames + frame]: the frame's counters are in the sums.
     DipDriverMachine machine;
-    DipTimesFit *fit; // Of subjects elsewhere.
-    DipChild *child;  // The start that draws; NULL: this process does.
+    DipTimesFit *fit; // Times of subjects elsewhere.
+    DipChild *child;  // The process that draws; NULL: this one.
 } Timing;
-
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-}
 
 static void close_timing(Timing *t) {
     dip_times_fit_free(&t->fit);
@@ -64,7 +69,7 @@ static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *er
     t->counted = calloc(values, sizeof *t->counted);
     if (!t->subjects || !t->rows || !t->base_of || !t->counted) {
         close_timing(t);
-        return out_of_memory(err);
+        return dip_cost_out_of_memory(err);
     }
     for (int s = 0; s < count; s++) {
         t->rows[s] = report->base_rows[0];
@@ -117,13 +122,27 @@ static bool average_work(const Timing *t, DipError *err) {
 
 _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is a part");
 
+// Asks the process that draws for a timed frame of a path, by a request of the form
+// "draw PATH FRAME SETTINGS". Writes the frame's counters and its times.
+static bool draw_in_child(const Timing *t, const Subject *s, int frame, DipCounters *counters,
+                          DipTimed *timed, DipError *err) {
+    char settings[REQUEST_SIZE / 2], request[REQUEST_SIZE];
+    DipBenchSample sample;
+    dip_quality_format(s->quality, settings, sizeof settings);
+    snprintf(request, sizeof request, "draw %d %d %s", s->path, frame, settings);
+    if (!dip_child_draw(t->child, request, &sample, timed, err)) {
+        return false;
+    }
+    *counters = sample.counters;
+    return true;
+}
+
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     const Timing *t = context;
     const Subject *s = &t->subjects[turn->subject];
     DipFrame frame;
     if (t->child) {
-        if (!dip_cost_start_draw(t->child, s->quality, s->path, turn->frame, &frame.counters, timed,
-                                 err)) {
+        if (!draw_in_child(t, s, turn->frame, &frame.counters, timed, err)) {
             return false;
         }
     } else {
@@ -136,11 +155,21 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
+// Ends the process that draws, and starts the next one with the command line of this one.
 static bool start(void *context, int index, DipError *err) {
     Timing *t = context;
+    const DipChildDef def = {
+        .program = "/proc/self/exe",
+        .argv = t->cost->start->argv,
+        .argc = t->cost->start->argc,
+        .what = "cost",
+        .count = t->cost->report->path_count,
+        .frames = dip_cost_frame_count(t->cost->report),
+        .key = "--starts",
+    };
     (void)index;
     dip_child_stop(&t->child, dip_interrupted());
-    t->child = dip_cost_start(t->cost, err);
+    t->child = dip_child_start(&def, err);
     return t->child != NULL;
 }
 
@@ -150,7 +179,7 @@ static bool keep_round(void *context, const DipTimed *timed, int count, DipError
                                       err);
 }
 
-// Hands the rounds of the journal to the driver. It skips those that are not the next.
+// Hands the rounds of the journal to the driver, which skips rounds that are not the next.
 static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     const DipCostJournal *journal = t->cost->journal;
     const int rounds = dip_cost_journal_round_count(journal);
@@ -159,7 +188,7 @@ static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
         int count;
         DipTimed *timed = dip_cost_journal_round(journal, i, seed, &count);
         if (!timed) {
-            return out_of_memory(err);
+            return dip_cost_out_of_memory(err);
         }
         dip_driver_resume(driver, timed, count);
         free(timed);
@@ -168,12 +197,12 @@ static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
 }
 
 typedef enum Where {
-    KEPT,     // In the report's starts; the journal keeps everything.
-    HERE,     // In the report's starts.
-    ELSEWHERE // In this process; the report's log does not get the times.
+    KEPT,     // The report's processes draw; the journal and the log keep the times.
+    HERE,     // The report's processes draw; the log keeps the times.
+    ELSEWHERE // This process draws; t->fit gets the times.
 } Where;
 
-// Times the subjects.
+// Times the subjects and counts their work.
 static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const char *progress,
                   DipError *err) {
     DipCostReport *report = t->cost->report;
@@ -307,7 +336,7 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
 
 // --- half the size -------------------------------------------------------------------------------
 
-// The settings that stand for edges, for textures and for both.
+// Lists the baseline, and settings that stand for edges, for textures and for both.
 static void list_smaller(DipCostReport *report) {
     static const struct {
         uint8_t aa, aaa, af; // Steps; 0: as in the baseline.
@@ -339,7 +368,7 @@ bool dip_cost_time_smaller(DipCostContext *cost, DipError *err) {
     report->smaller_height = (report->height + 1) / 2;
     dip_cost_elsewhere_begin(&there, report, report->smaller_width, report->smaller_height,
                              report->paths[0]);
-    if (!dip_cost_context_open(&context, cost->session, &there, NULL, NULL, false, err)) {
+    if (!dip_cost_context_open(&context, cost->session, &there, false, err)) {
         return false;
     }
     list_smaller(report);
@@ -349,4 +378,36 @@ bool dip_cost_time_smaller(DipCostContext *cost, DipError *err) {
                                 "smaller frames timed", &machine, err);
     dip_cost_context_close(&context);
     return done;
+}
+
+// --- the process that is asked -------------------------------------------------------------------
+
+// The time is that of the whole drawing, as in a measurement without starts.
+static bool serve_draw(void *context, const char *request, DipBenchSample *sample, DipError *err) {
+    DipCostContext *cost = context;
+    char settings[REQUEST_SIZE];
+    DipQuality quality;
+    DipFrame frame;
+    int path, index;
+    if (sscanf(request, "draw %d %d %255s", &path, &index, settings) != 3 || path < 0 ||
+        path >= cost->report->path_count || index < 0 ||
+        index >= dip_cost_frame_count(cost->report) ||
+        !dip_quality_parse(settings, &quality, NULL)) {
+        return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
+                                     "'%.60s' is not a request; give draw PATH FRAME SETTINGS",
+                                     request);
+    }
+    const int64_t begin_ns = dip_clock_ns();
+    if (!dip_cost_draw_timed(cost, &quality, path, index, &frame, err)) {
+        return false;
+    }
+    const int64_t ns = dip_clock_ns() - begin_ns;
+    dip_bench_sample_set(sample, &frame, false);
+    sample->ms[DIP_BENCH_STAGE_total] = 1e-6 * (double)ns;
+    return true;
+}
+
+bool dip_cost_serve(DipCostContext *cost, DipError *err) {
+    return dip_child_serve("cost", cost->report->path_count, dip_cost_frame_count(cost->report),
+                           serve_draw, cost, err);
 }

@@ -1,5 +1,6 @@
-// A table of what theory says about each setting, and the check whether the report agrees.
-#include "app/report/order.h"
+// Checks whether error and work follow theory from one step of a sweep to the next. A table holds
+// what theory says about each setting.
+#include "app/report/analysis.h"
 
 #include "app/report/same_pictures.h"
 
@@ -90,14 +91,6 @@ static int first_departure(const DipCostReport *report, const DipCostSweep *swee
     return sweep->row_count;
 }
 
-static bool is_counted(const DipCostReport *report, const DipCostSweep *sweep) {
-    bool timed = true; // only timed frames have counters
-    for (int i = 0; i < sweep->row_count; i++) {
-        timed = timed && dip_cost_is_timed(report, sweep->rows[i]);
-    }
-    return timed;
-}
-
 static bool all_same(const DipCostReport *report, const DipCostSweep *sweep) {
     for (int i = 1; i < sweep->row_count; i++) {
         if (!dip_cost_same_pictures(report, sweep->rows[0], sweep->rows[i])) {
@@ -124,7 +117,7 @@ bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep,
                  theory->idle);
         return true;
     }
-    const bool counted = theory->work != FREE && is_counted(report, sweep);
+    const bool counted = theory->work != FREE && report->rounds > 0; // Timing counts the work.
     const int by_work = counted ? first_departure(report, sweep, theory, true, &judged) : 0;
     const char *error = theory->of_two_frames ? "the error of the mean of two frames" : "FLIP";
     const char *work = counted ? dip_cost_counter_names[theory->counter] : "";

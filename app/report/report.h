@@ -124,7 +124,8 @@ typedef struct DipCostMisses {
     int rows;         // Number of rows; 0 if there are none to compare.
 } DipCostMisses;
 
-// A combination on path 0 whose time and error are predicted from measured rows (predict.h).
+// A combination on path 0 whose time and error are predicted from measured rows
+// (app/cost/predict.c).
 typedef struct DipCostPrediction {
     DipQuality quality;
     double counters[DIP_COST_COUNTER_COUNT]; // Means per frame.
@@ -209,6 +210,11 @@ typedef struct DipCostReport {
     struct DipCostAnalysis *analysis; // Owned; NULL until dip_cost_analyse (analysis.h).
 } DipCostReport;
 
+// Fills *err with DIP_ERROR_MEMORY and returns false.
+static inline bool dip_cost_out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+}
+
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
 // before.
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
@@ -262,17 +268,11 @@ void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, 
 // *viewpoints to the number of these viewpoints.
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints);
 
+// Returns whether a row's errors are known at any viewpoint.
+bool dip_cost_is_judged(const DipCostReport *report, int row);
+
 // Returns the metrics of a row over all judged viewpoints, in one region (0: the whole picture).
 DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
-
-// Returns the mean of a row's FLIP over the judged viewpoints, with the 95 % interval of the mean
-// of all viewpoints that the path could have been cut into: Student's t of the viewpoints' own
-// means. With a single viewpoint there is no interval, and low and high are NAN.
-DipEstimate dip_cost_flip(const DipCostReport *report, int row);
-
-// The same of the difference of two rows of one path, which is far narrower: viewpoints differ more
-// than settings do. Only viewpoints that both rows have count.
-DipEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base);
 
 // The distribution of a row's FLIP over pixels.
 typedef struct DipCostTail {
@@ -288,9 +288,6 @@ DipCostTail dip_cost_row_tail(const DipCostReport *report, int row);
 
 // Returns the sum of the noise floors of a path's truths.
 DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
-
-// Returns the RMS error of a path's truths in linear light. See dip_truth_floor_rmse.
-double dip_cost_floor_rmse(const DipCostReport *report, int path, int region);
 
 // Returns an estimate of the FLIP that the noise of a path's truths alone makes: that of the two
 // halves against each other, times 0.5^0.7, since the truth's error is half of their difference and
@@ -329,10 +326,6 @@ bool dip_cost_is_timed(const DipCostReport *report, int row);
 // The mean time of a row over the frames along the path, in milliseconds per frame.
 double dip_cost_ms(const DipCostReport *report, int row);
 
-// Computes the times of some rows of one path at every timed frame, in milliseconds:
-// ms[i * dip_cost_frame_count + frame] for rows[i]. The means over the frames are dip_cost_ms.
-void dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms);
-
 // Computes the time of a combination that was timed elsewhere, as a subject beside the baseline of
 // path 0, and its stages. The report's times must be estimated.
 void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimesFit *fit, int subject,
@@ -342,6 +335,22 @@ void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimesFit 
 DipEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 
 // --- choosing ----------------------------------------------------------------------------------
+
+// Returns the candidate of a measured row, with its time of a kind; `row` is the report's row.
+DipCandidate dip_candidate_of_row(const DipCostReport *report, int row, DipTimeKind kind);
+
+// Lists report->predicted; `row` is the index there. measured: a combination that was measured
+// later has its measured time and error; otherwise those that were predicted. The caller frees the
+// list even after a failure. Fails with DIP_ERROR_MEMORY.
+bool dip_candidates_of_predictions(const DipCostReport *report, DipTimeKind kind, bool measured,
+                                   DipCandidates *candidates, DipError *err);
+
+// Lists the predictions that a page shows, in order of time: all, or if there are too many those
+// that were measured later and the front of what was predicted. `row` is the index of the
+// prediction. The caller frees the list even after a failure. Returns false when memory runs out.
+enum { DIP_CANDIDATES_LISTED = 500 };
+bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *listed);
+void dip_candidates_free(DipCandidates *candidates);
 
 // Computes report->choice from the times and errors. dip_cost_estimate_times calls it; call it
 // again after errors, budgets or rows have changed. Fails with DIP_ERROR_MEMORY.

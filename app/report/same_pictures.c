@@ -1,4 +1,4 @@
-// Finding rows with the same pictures, and joining them.
+// Finds rows with the same pictures, and joins them.
 #include "app/report/same_pictures.h"
 
 #include <stdlib.h>
@@ -78,5 +78,5 @@ bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
     }
     free(stands);
     free(now);
-    return has_room || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    return has_room || dip_cost_out_of_memory(err);
 }

@@ -1,4 +1,4 @@
-// Green, amber or red.
+// Judges how far other programs disturbed the timing: green, amber or red.
 #include "app/report/verdict.h"
 
 #include <math.h>
@@ -6,8 +6,8 @@
 
 const char *const dip_cost_verdict_names[] = {"green", "amber", "red"};
 
-// Measured on 66 half runs of which the truth was known (quiet, beside one or two busy loops,
-// beside bursts): no loaded run is green, and no green run errs by more than 2.5 %.
+// The limits come from 66 half runs whose true ratios were known (quiet, beside one or two busy
+// loops, beside bursts): no loaded run is green, and no green run errs by more than 2.5 %.
 const DipCostLimits dip_cost_wait_limits = {0.05, 0.20};
 const DipCostLimits dip_cost_spread_limits = {0.05, 0.10};
 const DipCostLimits dip_cost_offset_limits = {0.02, 0.05};
@@ -87,8 +87,9 @@ void dip_cost_judge_machine(DipCostReport *report) {
     signs.wait = report->machine.wait;
     signs.settled = report->machine.settled;
     report->verdict = dip_cost_verdict_of(&signs, report->verdict_reason);
-    // What was drawn twice should cost the same. How far it differs, and how far from round to
-    // round, is what the machine adds to every comparison.
+    // The A/A rows draw what the baseline draws and should take the same time. By how much they
+    // differ, on the whole and from round to round, is the error that the machine adds to every
+    // comparison.
     const double of_rounds = signs.spread / sqrt(report->options.rounds);
     report->doubt = report->verdict == DIP_COST_AMBER ? fmax(signs.offset, of_rounds) : 0.0;
 }

@@ -1,14 +1,14 @@
-// Printing common advice for a terminal, and writing it as JSON.
+// Prints common advice for a terminal, and writes it as JSON.
 #include "app/cost/advise/common_advice.h"
 
 #include "app/files/whole_file.h"
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/format/sections.h"
 #include "app/report/words.h"
 
 #include <math.h>
 
-// The context of all fields.
+// The advice, which is the context of all fields.
 typedef struct Advised {
     const DipCostCommon *common;
     const DipCostCommonAdvice *list; // One for each budget.
@@ -54,12 +54,12 @@ typedef struct Said {
     double flip;
 } Said;
 
-// A report's line of a budget. What is not known is NAN.
+// The line of a report in the table of a budget. Values that are not known are NAN.
 typedef struct Line {
     Said chosen;
     Said alone; // What this report alone would choose.
     bool has_alone;
-    bool same; // It is what was chosen.
+    bool same; // The report alone would choose the same.
     double loss;
 } Line;
 
@@ -70,7 +70,7 @@ double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostComm
     if (advice->all.chosen < 0 || alone < 0) {
         return NAN;
     }
-    const int row = common->rows[advice->all.chosen * common->report_count + report];
+    const int row = dip_cost_common_row(common, advice->all.chosen, report);
     return dip_cost_ranking_flip(r, row) / dip_cost_ranking_flip(r, alone) - 1.0;
 }
 
@@ -86,7 +86,7 @@ static Line line_of(const DipCostCommon *common, const DipCostCommonAdvice *advi
     if (chosen >= 0) {
         const DipCandidate c = dip_cost_common_candidate(common, chosen, report);
         line.chosen = said_of(&c);
-        line.same = common->rows[chosen * common->report_count + report] == alone;
+        line.same = dip_cost_common_row(common, chosen, report) == alone;
     }
     if (alone >= 0) {
         const DipCandidate c =
@@ -181,9 +181,10 @@ static int count_ties(const DipFieldAt *at) {
     return count < DIP_ADVICE_TIES ? count : DIP_ADVICE_TIES;
 }
 
-DIP_GET_ITEM(
-    get_tie,
-    &advised_of(at)->common->qualities[((const DipCostCommonAdvice *)at->item)->all.ties[index]])
+DIP_GET_ITEM(get_tie, &advised_of(at)
+                           ->common->candidates
+                           .list[((const DipCostCommonAdvice *)at->item)->all.ties[index]]
+                           .quality)
 #define LIST(RECORD, COUNT, ITEM)                                                                  \
     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON, .list = &(const DipFieldList) {               \
         .record = &(RECORD), .count = COUNT, .item = ITEM                                          \
@@ -210,7 +211,7 @@ static const DipRecord budget_record = DIP_RECORD("budget", "What to choose for 
                                                   budget_fields, DipCostCommonAdvice, NULL);
 
 DIP_DERIVE(derive_budget_of, dip_time_kind_names[advised_of(at)->common->candidates.kind])
-DIP_DERIVE(derive_combinations, &advised_of(at)->common->count)
+DIP_DERIVE(derive_combinations, &advised_of(at)->common->candidates.count)
 static int count_budgets(const DipFieldAt *at) {
     return advised_of(at)->count;
 }
@@ -247,6 +248,7 @@ static void print_reports(DipForm *form, const Advised *advised) {
         {"path", NULL},    {"width", NULL},   {"height", NULL},
         {"threads", NULL}, {"verdict", NULL}, {"combinations", NULL}};
     const DipCostCommon *common = advised->common;
+    const int count = common->candidates.count;
     dip_form_table(form, &(DipTable){.caption = "The reports.",
                                      .record = &report_record,
                                      .context = (void *)advised,
@@ -259,7 +261,7 @@ static void print_reports(DipForm *form, const Advised *advised) {
         "%d combination%s of settings %s in every report. Times are %s times with their intervals "
         "of 95 %%. Mean FLIP is the mean over the reports. Loss is how much more FLIP the common "
         "choice has than the settings that the report alone would choose.",
-        common->count, dip_cost_plural(common->count), common->count == 1 ? "is" : "are",
+        count, dip_cost_plural(count), count == 1 ? "is" : "are",
         dip_time_kind_names[common->candidates.kind]);
 }
 
@@ -337,7 +339,7 @@ void dip_cost_common_print(const DipCostCommon *common, const DipCostCommonAdvic
             print_nothing(&form, common, &advice[i].all);
         }
         tiers[i] = (DipCostTier){advice[i].all.budget_ms,
-                                 chosen >= 0 ? &common->qualities[chosen] : NULL, -1};
+                                 chosen >= 0 ? &common->candidates.list[chosen].quality : NULL, -1};
     }
     dip_section_tiers(&form, tiers, count);
     print_reports(&form, &advised);

@@ -2,8 +2,7 @@
 #include "app/cost/predict/predict_elsewhere.h"
 
 #include "app/report/format/formats.h"
-#include "app/cost/plan.h"
-#include "app/cost/predict.h"
+#include "app/cost/steps.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -167,8 +166,8 @@ static DipCostModel fit(const DipCostElsewherePrediction *p, const DipCostElsewh
 }
 
 static double predict(const DipCostElsewherePrediction *p, const DipCostModel *model, int index) {
-    return dip_cost_model_ms(model, p->there.predicted.list[index].counters,
-                             &p->list[index].quality);
+    return dip_cost_model_value(model, p->there.predicted.list[index].counters,
+                                &p->list[index].quality);
 }
 
 // Predicts a timed combination from the report and from all others that were timed.
@@ -268,11 +267,10 @@ static void describe_there(DipCostElsewherePrediction *p, const DipSession *sess
 static bool measure(DipCostElsewherePrediction *p, Place *here, Place *there,
                     const DipCostPredictArguments *arguments, DipError *err) {
     DipCostContext base = {.session = NULL}, context = {.session = NULL};
-    const bool done =
-        dip_cost_context_open(&base, &here->session, &p->report, NULL, NULL, false, err) &&
-        dip_cost_context_open(&context, &there->session, &p->there, NULL, NULL, false, err) &&
-        dip_cost_count_combinations(&context, err) && scale_counters(&context, err) &&
-        time_there(p, &base, &context, arguments, err);
+    const bool done = dip_cost_context_open(&base, &here->session, &p->report, false, err) &&
+                      dip_cost_context_open(&context, &there->session, &p->there, false, err) &&
+                      dip_cost_count_combinations(&context, err) && scale_counters(&context, err) &&
+                      time_there(p, &base, &context, arguments, err);
     dip_cost_context_close(&context);
     dip_cost_context_close(&base);
     return done;
@@ -297,7 +295,7 @@ bool dip_cost_predict_there(DipCostElsewherePrediction *p, const DipSession *ses
     if (done) {
         int rows[DIP_COST_MAX_ROWS];
         list_rows(&p->report, rows);
-        p->fit = dip_cost_model_leave_one_out(&p->report, rows, p->report.row_count);
+        p->fit = dip_cost_model_leave_one_out(&p->report, DIP_COST_TIME, rows, p->report.row_count);
         dip_cost_predict_and_judge_there(p);
     }
     dip_pool_destroy(&here.pool);

@@ -11,10 +11,25 @@
 #include "app/cost/steps.h"
 #include "app/report/format/fields.h"
 #include "app/report/fit.h"
-#include "app/cost/predict/predict_options.h"
+#include "app/cost/options.h"
 
 #include <stdio.h>
 
+enum { DIP_COST_MOST_TIMED = 200 };
+
+// The whole command line. Texts are borrowed from argv.
+typedef struct DipCostPredictArguments {
+    DipProgramOptions program;
+    DipSessionOptions session;
+    const char *report; // A cost.json, or a folder that has one.
+    int report_count;
+    int timed;        // Combinations to time there, to predict from; 0: from the report alone.
+    int checked;      // Further combinations to time there, to compare the predictions with.
+    const char *json; // Files to write, or NULL.
+    const char *csv;
+} DipCostPredictArguments;
+
+// A combination of the report.
 typedef struct DipCostPredictedThere {
     DipQuality quality;
     double report_ms; // In the report: measured, or predicted there.

@@ -1,8 +1,10 @@
-// Prices of steps: the difference of two rows of one path, or of two whole times.
+// Finds the price of a step: the difference of two rows of one path, or of two whole times.
 #include "app/report/prices/prices.h"
 
+#include "app/report/combinations.h"
 #include "app/report/prices/question.h"
 #include "app/report/prices/view.h"
+#include "app/report/viewpoints.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -47,17 +49,13 @@ DipPriceTrust dip_price_sum_trust(const DipPriceSum *sum) {
 
 // --- where a price was measured ------------------------------------------------------------------
 
-static int row_on(const DipPriceView *view, int path, const DipQuality *normal) {
-    const DipPriceEntry *entry = dip_price_find(view, path, normal);
-    return entry ? entry->row : -1;
-}
-
 // Finds the path on which a price was measured: path 0 if it has both rows, otherwise the first
 // path that has them. Returns -1 if there is none.
 static int find_path(const DipPriceView *view, const DipPriceQuestion *question) {
     for (int path = 0; path < view->report->path_count; path++) {
-        if (row_on(view, path, &question->with) >= 0 &&
-            row_on(view, path, &question->without) >= 0) {
+        const DipPriceEntry *with = dip_price_find(view, path, &question->with);
+        const DipPriceEntry *without = dip_price_find(view, path, &question->without);
+        if (with && with->row >= 0 && without && without->row >= 0) {
             return path;
         }
     }
@@ -78,16 +76,12 @@ static int find_base_path(const DipPriceView *view, DipSetting setting, const Di
 
 // --- prices --------------------------------------------------------------------------------------
 
-static void take_time(DipPrice *price, const DipPriceWhole *whole) {
-    price->ms = whole->time.value;
-    price->ms_low = whole->time.low;
-    price->ms_high = whole->time.high;
-}
-
 static void fill_base(DipPrice *price, const DipPriceWhole *whole) {
     if (whole->state != DIP_PRICE_UNKNOWN) {
         price->state = DIP_PRICE_BASE;
-        take_time(price, whole);
+        price->ms = whole->time.value;
+        price->ms_low = whole->time.low;
+        price->ms_high = whole->time.high;
     }
     price->has_flip = whole->has_flip;
     price->flip = whole->flip;
@@ -98,7 +92,7 @@ static void fill_base(DipPrice *price, const DipPriceWhole *whole) {
 // times the baseline's time. The interval is that of the rows' own ratio, because both rows share
 // the level of the machine.
 static void fill_step(DipPrice *price, const DipCostReport *report, int row, int without) {
-    const DipEstimate change = dip_cost_flip_change(report, row, without);
+    const DipEstimate change = dip_cost_metric_change(report, row, without, DIP_COST_FLIP);
     if (dip_cost_is_timed(report, row) && dip_cost_is_timed(report, without)) {
         const DipEstimate ratio = dip_cost_ratio(report, row, without);
         const double base_ms = dip_cost_ms(report, without);
@@ -117,7 +111,7 @@ static void fill_step(DipPrice *price, const DipCostReport *report, int row, int
     }
 }
 
-// Returns fill_step's price.
+// Returns the price of the step from one row to another (fill_step), from memory if it is there.
 static const DipPrice *price_of_rows(const DipPriceView *view, int row, int without) {
     DipPriceMemory *memory =
         &view->memories[(row * DIP_COST_MAX_ROWS + without) % DIP_PRICE_MEMORIES];
@@ -175,20 +169,11 @@ static DipPrice answer(const DipPriceView *view, DipSetting setting, const DipQu
 
 // --- companies -----------------------------------------------------------------------------------
 
-// The companies that a price may have, the pane's own first.
-enum { WITHOUT_ADAPTIVE_AA = 1, WITHOUT_AA, COMPANIES };
-
-static DipQuality simpler_company(const DipQuality *base, const DipQuality *quality, int company) {
-    DipQuality simpler = *quality;
-    if (company >= WITHOUT_ADAPTIVE_AA) {
-        simpler.step[DIP_SETTING_AAA] = base->step[DIP_SETTING_AAA];
-        simpler.step[DIP_SETTING_ASD] = base->step[DIP_SETTING_ASD];
-    }
-    if (company >= WITHOUT_AA) {
-        simpler.step[DIP_SETTING_AA] = base->step[DIP_SETTING_AA];
-    }
-    return simpler;
-}
+// The settings that AF's company lacks: none in the pane's own company, then adaptive AA, and then
+// all antialiasing.
+static const unsigned left_out[] = {0, 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
+                                    DIP_PRICE_ANTIALIASING};
+enum { COMPANIES = sizeof left_out / sizeof *left_out };
 
 // Returns how much is known of a price: nothing, its error, a prediction, or a measured time.
 enum { PREDICTED = 2, MEASURED };
@@ -216,11 +201,10 @@ DipPrice dip_price_step(const DipPriceView *view, DipSetting setting, int step,
     const DipQuality *base = &view->base;
     const DipPriceQuestion question = dip_price_question(base, setting, step, quality);
     DipPrice price = answer(view, setting, quality, &question);
-    const bool filters = setting == DIP_SETTING_AF || setting == DIP_SETTING_AAF;
+    const int companies = dip_price_filters(setting) ? COMPANIES : 1;
     DipQuality without = question.without;
-    for (int company = WITHOUT_ADAPTIVE_AA;
-         filters && company < COMPANIES && knowledge(&price) < MEASURED; company++) {
-        const DipQuality pane = simpler_company(base, quality, company);
+    for (int i = 1; i < companies && knowledge(&price) < MEASURED; i++) {
+        const DipQuality pane = dip_cost_take_settings(quality, base, left_out[i]);
         const DipPriceQuestion other = dip_price_question(base, setting, step, &pane);
         const DipPrice otherwise = answer(view, setting, &pane, &other);
         if (knowledge(&otherwise) > knowledge(&price)) {

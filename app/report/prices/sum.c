@@ -1,7 +1,7 @@
-// Whole times of combinations: as measured, as predicted, or prices added up.
+// Finds whole times of combinations: as measured, as predicted, or as the sum of prices.
 #include "app/report/prices/prices.h"
 
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/combinations.h"
 #include "app/report/prices/question.h"
 #include "app/report/prices/view.h"
@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What is added to a whole time: the prices of some settings.
+// The prices of the settings in which a combination differs from the base. They are added to a
+// whole time.
 typedef struct Parts {
     DipPrice prices[DIP_SETTING_COUNT];
     bool is_part[DIP_SETTING_COUNT];
@@ -53,8 +54,8 @@ static DipPriceWhole add_parts(const DipPriceView *view, const DipPriceWhole *wh
     return sum;
 }
 
-// Returns the combination with the settings that path 0 does not have as in the base: those whose
-// price was measured on another path.
+// Returns the combination without the settings whose price was measured on another path than path
+// 0: these get their step in the base.
 static DipQuality without_other_paths(const DipPriceView *view, const DipQuality *normal,
                                       const Parts *parts) {
     DipQuality rest = *normal;
@@ -130,8 +131,8 @@ static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like)
     bool has_times = true, has_errors = true;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         for (int i = 0; settings >> s & 1 && i < dip_setting_info((DipSetting)s)->step_count; i++) {
-            const bool filters = s == DIP_SETTING_AF || s == DIP_SETTING_AAF;
-            const DipPrice price = dip_price_step(view, (DipSetting)s, i, filters ? &plain : like);
+            const DipPrice price = dip_price_step(view, (DipSetting)s, i,
+                                                  dip_price_filters((DipSetting)s) ? &plain : like);
             has_times &= price.needs_company || price.state != DIP_PRICE_UNKNOWN;
             has_errors &= price.needs_company || price.has_flip;
         }

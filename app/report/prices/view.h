@@ -1,32 +1,33 @@
-// What the files of this folder share: finding rows, and whole times. Private to this folder.
+// Declares what the files of this folder share: the view of a report, and whole times of
+// combinations. Private to this folder.
 #ifndef DIP_APP_REPORT_PRICES_VIEW_H
 #define DIP_APP_REPORT_PRICES_VIEW_H
 
 #include "app/report/fit.h"
 #include "app/report/prices/prices.h"
 
-// What a path has of a combination: a row, or one of the report's predictions.
+// A combination on a path: its row in the report, or one of the report's predictions.
 typedef struct DipPriceEntry {
-    uint64_t settings; // Of the settings without what has no effect, a number.
+    uint64_t settings; // A number for the settings of dip_price_normal.
     int path;
     int row;        // -1: none.
     int prediction; // If there is no row.
     int rank;       // Of entries with the same settings and path, the least one counts.
 } DipPriceEntry;
 
-// The report's models. Made when they are first asked for.
+// The report's models. They are made when a prediction first needs them.
 typedef struct DipPriceModel {
     bool is_made;
     DipCostModel times;   // rows is 0 if the report has too few times.
     DipCostMisses misses; // Of predicted times.
-    DipCostErrorModel errors;
+    DipCostModel errors;
 } DipPriceModel;
 
-// Prices that were computed already, since their intervals take a while.
+// A price that was computed before. It is kept, since its interval takes a while.
 typedef struct DipPriceMemory {
     bool is_known;
-    int row;
-    int without;
+    int row;     // With the step,
+    int without; // and without it.
     DipPrice price;
 } DipPriceMemory;
 
@@ -50,19 +51,19 @@ typedef struct DipPriceWhole {
     bool flip_at_floor;
 } DipPriceWhole;
 
-// Returns what a path has of a combination without what has no effect, or NULL.
+// Returns the entry of a combination on a path, or NULL. `normal` is a result of dip_price_normal.
 const DipPriceEntry *dip_price_find(const DipPriceView *view, int path, const DipQuality *normal);
 
 // Returns what is known of an entry, which may be NULL.
 DipPriceWhole dip_price_known(const DipPriceView *view, const DipPriceEntry *entry);
 
-// Predicts a combination without what has no effect by the models. Returns false if the report does
-// not tell enough.
+// Predicts a combination by the models. `normal` is a result of dip_price_normal. Returns false if
+// the report does not tell enough.
 bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPriceWhole *whole);
 
-// Returns the time of a prediction of a kind that missed so far elsewhere. Its error has the
-// standard deviation of a normal distribution with the 90th percentile of the misses, and as many
-// degrees of freedom as there are misses; without misses it is not known.
+// Returns a predicted time with the error that the misses of other predictions of this kind tell.
+// The error has the standard deviation of a normal distribution with the 90th percentile of the
+// misses, and as many degrees of freedom as there are misses. Without misses it is not known.
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 
 #endif

@@ -3,10 +3,9 @@
 #include "app/report/combinations.h"
 #include "app/report/fit.h"
 #include "app/report/analysis.h"
-#include "app/cost/predict.h"
+#include "app/cost/steps.h"
 #include "app/cost/predict/predict_elsewhere.h"
 #include "app/report/same_pictures.h"
-#include "app/report/work.h"
 #include "renderer/catalogue/random.h"
 
 #include <math.h>
@@ -173,10 +172,13 @@ static void leaving_one_out_does_not_promise_too_much(void **state) {
         int chosen[TRAINED];
         make_report(&report, courtyard_flip, 0.03, (uint64_t)seed);
         assert_true(dip_cost_choose_training(&report, TRAINED, chosen, NULL));
-        const DipCostMisses misses = dip_cost_model_leave_one_out(&report, chosen, TRAINED);
+        const DipCostMisses misses =
+            dip_cost_model_leave_one_out(&report, DIP_COST_TIME, chosen, TRAINED);
         assert_int_equal(misses.rows, TRAINED);
         left_out += misses.median / 16.0;
-        flip_left_out += dip_cost_error_model_leave_one_out(&report, chosen, TRAINED).median / 16.0;
+        flip_left_out +=
+            dip_cost_model_leave_one_out(&report, DIP_COST_FLIP_ERROR, chosen, TRAINED).median /
+            16.0;
         train(&report, &times, &errors);
         unseen += times.median / 16.0;
         flip_unseen += errors.median / 16.0;
@@ -356,7 +358,7 @@ static double miss_at_twice_the_size(const DipCostReport *report, const DipCostM
         DipCostRow larger = report->rows[i];
         scale_work(larger.counters, 4.0);
         make_times(&larger, 1.0);
-        misses[i] = fabs(dip_cost_model_ms(model, larger.counters, &larger.quality) /
+        misses[i] = fabs(dip_cost_model_value(model, larger.counters, &larger.quality) /
                              larger.time.mean_ms.value -
                          1.0);
     }
@@ -383,13 +385,13 @@ static void a_smaller_size_tells_the_prices_of_others(void **state) {
         int chosen[TRAINED];
         make_report(&report, courtyard_flip, 0.04, (uint64_t)seed);
         assert_true(dip_cost_choose_training(&report, TRAINED, chosen, NULL));
-        DipCostModel model = dip_cost_model_fit(&report, chosen, TRAINED);
+        DipCostModel model = dip_cost_model_fit(&report, DIP_COST_TIME, chosen, TRAINED);
         without += miss_at_twice_the_size(&report, &model) / 8.0;
         const int rows[] = {0, 40, 80, COMBINATIONS - 1};
         for (int i = 0; i < 4; i++) {
             add_smaller(&report, rows[i]);
         }
-        model = dip_cost_model_fit(&report, chosen, TRAINED);
+        model = dip_cost_model_fit(&report, DIP_COST_TIME, chosen, TRAINED);
         with += miss_at_twice_the_size(&report, &model) / 8.0;
         dip_cost_report_free(&report);
     }
