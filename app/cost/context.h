@@ -1,6 +1,6 @@
-// The cost context: the session, the report, the journal, the reference renderer and the renderers.
-// The steps that make a report (steps.h) use it. A row of the report (report.h) is one
-// combination: quality settings on a camera path. A truth (app/measure/metrics/truth.h) is a
+// Declares the cost context, which the steps that make a report (steps.h) use: the session, the
+// report, the journal, the reference renderer and the renderers. A row of the report (report.h) is
+// one combination: quality settings on a camera path. A truth (app/measure/metrics/truth.h) is a
 // converged picture.
 #ifndef DIP_APP_COST_CONTEXT_H
 #define DIP_APP_COST_CONTEXT_H
@@ -15,17 +15,17 @@
 
 #include <limits.h>
 
-// Everything is borrowed, but for the renderers and what they draw from. Not thread-safe.
+// All is borrowed, except the reference renderer, the gallery and the renderers. Not thread-safe.
 typedef struct DipCostContext {
     const DipSession *session;
     DipCostReport *report;
     DipCostJournal *journal; // NULL for no journal.
     const char *cache;       // Folder of the cached truths; NULL or "" for no cache.
-    DipReference *reference; // NULL for scenes of the gallery, and without truths
-    DipGallery *gallery;     // NULL for models
-    // Indexed by the step of the setting gi (instancing). Renderer [0] draws the rows with gi=off
-    // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows.
-    // They share one renderer so that they are all drawn in the same memory.
+    DipReference *reference; // NULL for scenes of the gallery, and without truths.
+    DipGallery *gallery;     // NULL for models.
+    // Renderer [0] draws the rows with gi=off (without instancing) and keeps the copies of meshes
+    // that these rows need. Renderer [1] draws all other rows, so that they are all drawn in the
+    // same memory.
     DipPainter *renderers[2];
     // The command line with which the program starts itself to time frames in another process;
     // NULL: frames are timed in this process.
@@ -42,8 +42,8 @@ void dip_cost_context_close(DipCostContext *cost);
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err);
 
-// Draws the frame `index` of a row's burst at a viewpoint, the successive frames that are drawn
-// there. Writes the packed pixels and the hash of the picture.
+// Draws the frame `index` of a row's burst at a viewpoint. (A burst is the successive frames that
+// are drawn at a viewpoint.) Writes the packed pixels and the hash of the picture.
 bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int index,
                              uint8_t *rgba8, char hash[33], DipError *err);
 
@@ -65,7 +65,7 @@ bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err
 bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
                            const char *folder, DipError *err);
 
-// What an interrupted command says.
+// The message of a command that was interrupted.
 #define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
 
 // Returns true and fills *err if the user has pressed Ctrl-C. All measurements made before remain

@@ -4,7 +4,6 @@
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/report/page/report_pictures.h"
-#include "app/report/same_pictures.h"
 #include "app/cost/command.h"
 #include "app/cost/steps.h"
 #include "app/files/folder.h"
@@ -134,7 +133,7 @@ static bool run_command(DipSession *session, const void *options_given, DipError
 static void describe_cost(const void *arguments, DipSessionDef *def) {
     def->options = &((const DipCostArguments *)arguments)->session;
     def->scene = true;
-    def->keep_model = true; // The reference renderer draws the converged pictures from the model.
+    def->keep_model = true; // The reference renderer draws the truths from the model.
 }
 
 static const DipExample cost_examples[] = {

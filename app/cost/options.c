@@ -61,7 +61,7 @@ static bool read_combined(void *fields, const DipOptionRow *row, const char *val
     return strcmp(value, "none") == 0 || dip_option_store(&list, value, fields, err);
 }
 
-// Reads a budget, or for --fps the rate that it keeps.
+// Reads a budget in milliseconds, or for --fps a rate in frames a second.
 static bool read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipCostOptions *cost = fields;
     double number;
@@ -84,9 +84,11 @@ void dip_cost_default_budgets(DipCostOptions *options) {
     }
 }
 
-// Distance times the tangent of a degree, over the distance of two pixels. Phone: 1170 pixels on 65
-// mm, seen from 0.3 m. Monitor: 1920 pixels on 531 mm (24 inches), from 0.6 m. UHD: 3840 pixels on
-// 0.7 m, from 0.7 m. Headset: what headsets of 2023 with 2000 pixels per eye state.
+// Reads a way of viewing. Its pixels per degree are the viewer's distance times the tangent of a
+// degree, divided by the width of a pixel. A phone has 1170 pixels on 65 mm and is seen from 0.3 m;
+// a monitor has 1920 pixels on 531 mm (24 inches) and is seen from 0.6 m; UHD is 3840 pixels on 0.7
+// m, seen from 0.7 m. The value of a headset is what the makers of headsets with 2000 pixels per
+// eye stated in 2023.
 static bool read_viewing(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     static const struct {
         const char *name;
@@ -245,7 +247,8 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
         .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
         .timed_frames = 4,
     };
-    // Its place among the options must not matter, so it is looked for before they are read.
+    // --quick sets defaults, so it is looked for before the options are read. Otherwise its place
+    // among them would matter.
     for (int i = 0; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0) {
             all->measure = (DipMeasureOptions){.rounds = 3, .starts = 2};
@@ -268,7 +271,7 @@ void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure
     cost->seed = dip_measure_seed(measure);
 }
 
-// Fewer than two rounds of all starts have no interval.
+// Fails for fewer than two rounds of all starts together, since such times have no interval.
 static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
     const int rounds = measure->rounds * measure->starts;
     return (rounds >= 2 && rounds <= DIP_MEASURE_MOST_ROUNDS) ||

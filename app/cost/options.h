@@ -1,4 +1,4 @@
-// Options of `diptych cost`, and options that other commands on reports share.
+// Declares the options of `diptych cost`, and options that other commands on reports share.
 #ifndef DIP_APP_COST_OPTIONS_H
 #define DIP_APP_COST_OPTIONS_H
 
@@ -25,7 +25,6 @@ extern const DipOptionTable dip_out_option_table;     // For the folder's name, 
 extern const DipOptionTable dip_picture_option_table; // Of DipCostOptions: the kind of pictures.
 extern const DipOptionTable dip_viewing_option_table; // For the pixels per degree, a double.
 extern const DipOptionTable dip_cache_option_table;   // For the folder's name, a text.
-
 extern const DipOptionTable dip_cost_budget_option_table; // Of DipCostOptions: the budgets.
 
 // Gives options without budgets those of 60 and 30 frames a second.

@@ -2,8 +2,8 @@
 // are the same in every run of a frame, so each frame is counted once.
 //
 // With --starts, the program starts itself several times with --serve, one process after another,
-// and asks each for the frames to time. A process keeps one chance through all its frames: where
-// its memory lies, and which cores its threads get.
+// and asks each for the frames to time. Times differ from process to process, since chance decides
+// where a process has its memory and which cores its threads get.
 #include "app/cli/drive.h"
 #include "app/cli/interrupt.h"
 #include "app/cost/steps.h"
@@ -16,35 +16,35 @@
 #include <string.h>
 
 enum {
-    BASE_COPIES = 3, // Rounds that draw each frame of the baseline, to tell slow frames from slow
-                     // moments.
-    BLOCK_ROWS = 4,  // Rows that share a baseline. Their ratios deviate half as much as with one
-                     // baseline per round, for its time.
+    BASE_COPIES = 3, // Rounds in which each frame of the baseline is drawn, to tell slow frames
+                     // from slow moments.
+    BLOCK_ROWS = 4, // Rows that are timed beside one drawing of the baseline. With one for all rows
+                    // of a round, ratios would deviate twice as much.
     LEAST_SIDE = 64, // Pixels; smaller pictures have no half size.
     REQUEST_SIZE = 256,
-    SEED_SALT = 0x517 // The order elsewhere is another than that of the report's rows.
+    SEED_SALT = 0x517 // Gives measurements elsewhere another order than that of the report's rows.
 };
 
 // The start of a process may take this share of the time of its rounds. If it takes more, fewer are
 // started.
 static const double most_start = 0.1;
 
-// What is timed: settings on a path of a context's report.
+// What is timed: settings on a camera path of a context's report.
 typedef struct Subject {
     DipCostContext *cost;
     const DipQuality *quality;
     int path;
-    double *counters; // Sums over the frames, then means; NULL: they are known.
+    double *counters; // Sums over the frames, at the end means; NULL if they are known already.
 } Subject;
 
-// A measurement. The bases are subjects, too.
+// A measurement. Each subject is timed beside another subject, its base.
 typedef struct Timing {
     DipCostContext *cost;
     int count;
     Subject *subjects;
-    int *rows;     // Rows of the subjects in the report's log.
-    int *base_of;  // [subject]
-    bool *counted; // [subject * frames + frame]: the frame's counters are in the sums.
+    int *rows;     // [subject]: its row in the report's log.
+    int *base_of;  // [subject]: its base.
+    bool *counted; // [subject * frames + frame]: whether the frame's counters are in the sums.
     DipDriverMachine machine;
     DipTimesFit *fit; // Times of subjects elsewhere.
     DipChild *child;  // The process that draws; NULL: this one.
@@ -58,7 +58,8 @@ static void close_timing(Timing *t) {
     free(t->counted);
 }
 
-// Begins a measurement. All subjects are the baseline of path 0, and subject 0 is their base.
+// Begins a measurement. For now, all subjects are the baseline of path 0, and subject 0 is the base
+// of all.
 static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *err) {
     const DipCostReport *report = cost->report;
     const size_t size = (size_t)count, values = size * (size_t)dip_cost_frame_count(report);
@@ -78,7 +79,7 @@ static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *er
     return true;
 }
 
-// Makes the subject a row of the report, whose work is counted unless it is known.
+// Makes the subject a row of the report. `counts`: its work is not known yet.
 static void set_row(Timing *t, int subject, int row, bool counts) {
     DipCostRow *timed = &t->cost->report->rows[row];
     t->rows[subject] = row;
@@ -96,8 +97,8 @@ static void count_work(const Timing *t, int subject, int frame, const DipCounter
     }
 }
 
-// Makes means of the sums of count_work. Draws the frames of rounds that the journal had, since the
-// journal has no counters.
+// Makes means of the sums of count_work. Draws the frames whose times came from the journal, since
+// the journal has no counters.
 static bool average_work(const Timing *t, DipError *err) {
     const int frames = dip_cost_frame_count(t->cost->report);
     for (int s = 0; s < t->count; s++) {
@@ -275,32 +276,24 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     return done;
 }
 
-// Times rows of path 0 beside the baseline in as many rounds as dip_cost_time_rows. `counts`: their
-// work is not counted yet.
-static bool time_some(DipCostContext *cost, const int *rows, int count, int block_rows,
-                      uint64_t seed, bool counts, DipError *err) {
+bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int times_before,
+                        DipError *err) {
+    const bool is_new = times_before == 0;
+    const uint64_t seed = is_new ? UINT64_C(0x10000) + (uint64_t)rows[0] : (uint64_t)times_before;
     Timing t;
     if (!open_timing(&t, cost, count + 1, err)) {
         return false;
     }
     for (int i = 0; i < count; i++) {
-        set_row(&t, i + 1, rows[i], counts);
+        set_row(&t, i + 1, rows[i], is_new);
     }
-    const bool done = drive(&t, HERE, block_rows, (uint64_t)cost->report->options.seed + seed,
-                            "frames timed for the advice", err);
+    // Rows that are timed again have a block and a baseline each, since each is compared with a
+    // budget.
+    const bool done =
+        drive(&t, HERE, is_new ? BLOCK_ROWS : 1, (uint64_t)cost->report->options.seed + seed,
+              "frames timed for the advice", err);
     close_timing(&t);
     return done;
-}
-
-bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int times_before,
-                         DipError *err) {
-    // One row per block: two rows that are compared with a budget get a baseline each.
-    return time_some(cost, rows, count, 1, (uint64_t)times_before, false, err);
-}
-
-bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err) {
-    const uint64_t seed = UINT64_C(0x10000) + (uint64_t)rows[0];
-    return time_some(cost, rows, count, BLOCK_ROWS, seed, true, err);
 }
 
 // --- elsewhere -----------------------------------------------------------------------------------
@@ -314,8 +307,7 @@ void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report,
 }
 
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
-                             int count, const char *progress, DipDriverMachine *machine,
-                             DipError *err) {
+                             int count, const char *progress, double *wait, DipError *err) {
     Timing t;
     if (!open_timing(&t, cost, count + 1, err)) {
         return false;
@@ -329,7 +321,7 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
     for (int i = 0; done && i < count; i++) {
         dip_cost_estimate_elsewhere(cost->report, t.fit, i + 1, &rows[i]);
     }
-    *machine = t.machine;
+    *wait = t.machine.wait;
     close_timing(&t);
     return done;
 }
@@ -372,17 +364,17 @@ bool dip_cost_time_smaller(DipCostContext *cost, DipError *err) {
         return false;
     }
     list_smaller(report);
-    DipDriverMachine machine;
-    const bool done =
-        dip_cost_time_elsewhere(cost, &context, report->smaller, report->smaller_count,
-                                "smaller frames timed", &machine, err);
+    double wait;
+    const bool done = dip_cost_time_elsewhere(
+        cost, &context, report->smaller, report->smaller_count, "smaller frames timed", &wait, err);
     dip_cost_context_close(&context);
     return done;
 }
 
 // --- the process that is asked -------------------------------------------------------------------
 
-// The time is that of the whole drawing, as in a measurement without starts.
+// Draws the frame of a request. Its time is that of the whole drawing, as in a measurement without
+// --starts.
 static bool serve_draw(void *context, const char *request, DipBenchSample *sample, DipError *err) {
     DipCostContext *cost = context;
     char settings[REQUEST_SIZE];

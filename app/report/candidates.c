@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The least standard error of a time's logarithm: two runs on a quiet machine differ by as much.
+// No time's logarithm has a smaller standard error, since two runs on a quiet machine differ by as
+// much.
 static const double least_error = 0.002;
 
 // Returns a time without the error of the level that all rows share. A time whose error is not

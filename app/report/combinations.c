@@ -51,7 +51,7 @@ DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with
 
 // --- composed work -------------------------------------------------------------------------------
 
-// The groups of settings; the first are those of samples.
+// The groups of settings. The first group is the settings of samples.
 static const unsigned groups[] = {
     1u << DIP_SETTING_AA | 1u << DIP_SETTING_TAA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
     1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
@@ -76,8 +76,9 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
     return dip_quality_equal(&rest, base) ? count : -1;
 }
 
-// Multiplies the counters by the factors between a combination and the base. Work that the base
-// lacks has no factor, so the combination's own work counts.
+// Multiplies each counter by the factor from the base's counter to that of a combination (`of`).
+// Where the base's counter is 0, there is no factor, and the combination's own counter is taken.
+// Returns false if the combination was not counted.
 static bool apply(const double *of, const double *base, double *counters) {
     for (int c = 0; of && c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);

@@ -16,6 +16,10 @@ int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, Di
 // Returns `from` with the settings of `mask` (bit s: setting s) taken from `with`.
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask);
 
+// Temporal AA does nothing without AA, and advanced AF nothing without AF. Where the other setting
+// is off, reports and prices measure them beside these steps of it.
+enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4 };
+
 // --- composed work -------------------------------------------------------------------------------
 
 // Groups of settings change the work nearly independently of each other: the settings of samples

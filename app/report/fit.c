@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-// How often the combinations that were timed there count together, for each time that the report's
-// rows count together. From 3 to 100 it matters little: 6 combinations of the courtyard, at two
-// sizes and on three other paths, then predict the others about as well.
+// All combinations that were timed there count this many times as much as all rows of the report.
+// Any value from 3 to 100 does about as well: it was tried with 6 combinations of the courtyard, at
+// two sizes and on three other paths, which predicted the others.
 static const double there_weight = 30.0;
 
 // Without a ridge, rows that do not tell two terms of FLIP apart would give them great prices of
@@ -20,13 +20,13 @@ typedef struct Sample {
     const double *counters;
     const double *stage_ms;
     const DipQuality *quality;
-    double whole; // The frame's time or FLIP; 0 if it is not known.
+    double whole; // The time of the frame, or its FLIP; 0 if it is not known.
 } Sample;
 
 // The equations of the parts that make up the time or FLIP.
 typedef struct Equations {
     DipCostModelled what;
-    int first, end; // The parts.
+    int first, end; // The parts from `first` to end - 1.
     DipNormalEquations parts[DIP_COST_PART_COUNT];
     int known; // Number of rows that were added.
 } Equations;
@@ -44,6 +44,12 @@ static Sample sample_of(const DipCostReport *report, DipCostModelled what, int r
     const double whole =
         what == DIP_COST_TIME ? sum_stages(r->stage_ms) : dip_cost_row_metrics(report, row, 0).flip;
     return (Sample){r->counters, r->stage_ms, &r->quality, whole};
+}
+
+// Returns the sample of rows[index]; without `rows`, that of the row with this index.
+static Sample sample_at(const DipCostReport *report, DipCostModelled what, const int *rows,
+                        int index) {
+    return sample_of(report, what, rows ? rows[index] : index);
 }
 
 static Sample elsewhere_sample(const DipCostElsewhere *row) {
@@ -81,8 +87,8 @@ static void enlarge_scale(const Sample *sample, int part, double scale[DIP_COST_
     }
 }
 
-// Starts the equations of a part with the greatest amount of each term. Amounts of FLIP are at most
-// 1.
+// Starts the equations of a part with the greatest amount of each term. The amounts of FLIP's terms
+// are at most 1.
 static void begin_part(Equations *equations, const DipCostReport *report, const int *rows,
                        int count, int part) {
     double scale[DIP_COST_MAX_TERMS];
@@ -90,7 +96,7 @@ static void begin_part(Equations *equations, const DipCostReport *report, const 
         scale[t] = part == DIP_COST_PART_FLIP;
     }
     for (int r = 0; r < count; r++) {
-        const Sample sample = sample_of(report, equations->what, rows[r]);
+        const Sample sample = sample_at(report, equations->what, rows, r);
         enlarge_scale(&sample, part, scale);
     }
     for (int i = 0; i < report->smaller_count; i++) {
@@ -100,7 +106,7 @@ static void begin_part(Equations *equations, const DipCostReport *report, const 
     dip_normal_equations_begin(&equations->parts[part], dip_cost_term_count(part), scale);
 }
 
-// Makes the equations of some rows, and for times of the combinations at a smaller size, too.
+// Makes the equations of some rows. Those of times also get the combinations at a smaller size.
 static void begin(Equations *equations, const DipCostReport *report, DipCostModelled what,
                   const int *rows, int count) {
     const bool is_time = what == DIP_COST_TIME;
@@ -115,7 +121,7 @@ static void begin(Equations *equations, const DipCostReport *report, DipCostMode
         add_elsewhere(equations, report->smaller, report->smaller_count, 1.0);
     }
     for (int r = 0; r < count; r++) {
-        const Sample sample = sample_of(report, what, rows[r]);
+        const Sample sample = sample_at(report, what, rows, r);
         equations->known += add(equations, &sample, 1.0);
     }
 }
@@ -199,7 +205,7 @@ DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, DipCostM
     DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
     begin(&equations, report, what, rows, count);
     for (int r = 0; r < count; r++) {
-        const Sample sample = sample_of(report, what, rows[r]);
+        const Sample sample = sample_at(report, what, rows, r);
         if (add(&equations, &sample, -1.0)) {
             const DipCostModel others = solve(&equations);
             add(&equations, &sample, 1.0);
@@ -221,8 +227,8 @@ int dip_cost_fit_rows(const DipCostReport *report, int rows[DIP_COST_MAX_ROWS]) 
     return count < 2 * dip_cost_term_count(DIP_COST_STAGE_raster) ? 0 : count;
 }
 
-// R2 compares the fit with a constant: the one time that fits all rows best. The errors of both are
-// relative errors.
+// Computes R2 and the misses. R2 compares the fit with a constant, the one time that fits all rows
+// best, by their relative errors.
 static void judge_fit(const DipCostReport *report, const DipCostModel *model, const int *rows,
                       DipCostFit *fit) {
     double misses[DIP_COST_MAX_ROWS];

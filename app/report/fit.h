@@ -52,7 +52,7 @@ typedef struct DipCostModel {
 // Fits prices to the rows whose value is known (for a time: with its stages), by least squares of
 // deviations relative to the row's whole value, so that slow rows have no more weight than fast
 // ones. Prices of work are also fitted to the combinations that the report has timed at half its
-// size.
+// size. Here and below, `rows` may be NULL for rows 0 to count - 1.
 DipCostModel dip_cost_model_fit(const DipCostReport *report, DipCostModelled what, const int *rows,
                                 int count);
 

@@ -160,7 +160,7 @@ void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]
              spread, widened);
 }
 
-// --- errors ------------------------------------------------------------------------------------
+// --- errors --------------------------------------------------------------------------------------
 
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints) {
     DipMetricSums sums = {0};

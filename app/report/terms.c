@@ -5,21 +5,21 @@
 
 #include <math.h>
 
-// What the formulas see. 1 stands for true.
+// The values that the formulas of terms use. For yes or no, they are 1 or 0.
 typedef struct Work {
     const double *counters;
     double samples;  // Per pixel.
     double several;  // Several samples per pixel.
     double groups;   // Sample groups per pixel, each with its own test of alpha-clipped surfaces.
     double adaptive; // Adaptive AA.
-    double probes;   // Most probes of a texture read.
+    double probes;   // Greatest number of probes of one texture read.
     double anisotropic; // Anisotropic filtering.
     double exact;       // Advanced AF.
     double full_levels; // The finest mip levels are read.
     double raw;         // Colour textures are not compressed.
     double compressed;  // opt=standard or opt=advanced.
     double advanced;    // opt=advanced.
-    double biased[3];   // miplod is at most quality, at most performance, high-performance.
+    double biased[3];   // miplod is quality or coarser, performance or coarser, high-performance.
     double temporal;    // Temporal AA.
     double coloured;    // Mip levels are shown as colours.
 } Work;
@@ -77,8 +77,9 @@ typedef struct Work {
     X("pass", C(passes))                                                                           \
     X("tile", C(tiles_drawn))
 
-// Edges, the edges of alpha-clipped surfaces, textures, and products of two terms where one error
-// hides a part of another error in the same place.
+// The first terms are of edges, then those of the edges of alpha-clipped surfaces, of textures, and
+// of the other settings. The last ones are products of two terms, since one error hides a part of
+// another error in the same place.
 #define FLIP_TERMS(X)                                                                              \
     X("picture", 1.0)                                                                              \
     X("one sample", 1.0 - w->several)                                                              \

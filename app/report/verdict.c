@@ -20,33 +20,32 @@ static DipCostVerdict judge(double sign, const DipCostLimits *limits) {
 }
 
 DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_COST_REASON]) {
-    const DipCostVerdict by_wait = judge(signs->wait, &dip_cost_wait_limits);
-    const DipCostVerdict by_spread = judge(signs->spread, &dip_cost_spread_limits);
-    const DipCostVerdict by_offset = judge(signs->offset, &dip_cost_offset_limits);
+    const double wait = 100.0 * signs->wait, offset = 100.0 * (exp(signs->offset) - 1.0);
+    const struct {
+        DipCostVerdict verdict;
+        const char *reason;
+        double percent;
+    } found[] = {
+        {judge(signs->wait, &dip_cost_wait_limits),
+         "The threads waited %.0f %% of their time for a core, which other programs held.", wait},
+        {judge(signs->spread, &dip_cost_spread_limits),
+         "The baseline was timed twice in every round, and the two times differed by %.0f %% from "
+         "round to round.",
+         100.0 * fmin(signs->spread, 10.0)},
+        {judge(signs->offset, &dip_cost_offset_limits),
+         "The baseline was timed twice, as if it were two settings, and the two differ by %.0f %%.",
+         offset},
+    };
     DipCostVerdict verdict = DIP_COST_GREEN;
     snprintf(reason, DIP_COST_REASON,
              "The threads waited %.1f %% of their time for a core, and the baseline, timed twice, "
              "differed by %.1f %%.",
-             100.0 * signs->wait, 100.0 * (exp(signs->offset) - 1.0));
-    if (by_wait > verdict) {
-        verdict = by_wait;
-        snprintf(reason, DIP_COST_REASON,
-                 "The threads waited %.0f %% of their time for a core, which other programs held.",
-                 100.0 * signs->wait);
-    }
-    if (by_spread > verdict) {
-        verdict = by_spread;
-        snprintf(reason, DIP_COST_REASON,
-                 "The baseline was timed twice in every round, and the two times differed by %.0f "
-                 "%% from round to round.",
-                 100.0 * fmin(signs->spread, 10.0));
-    }
-    if (by_offset > verdict) {
-        verdict = by_offset;
-        snprintf(reason, DIP_COST_REASON,
-                 "The baseline was timed twice, as if it were two settings, and the two differ by "
-                 "%.0f %%.",
-                 100.0 * (exp(signs->offset) - 1.0));
+             wait, offset);
+    for (size_t i = 0; i < sizeof found / sizeof *found; i++) {
+        if (found[i].verdict > verdict) {
+            verdict = found[i].verdict;
+            snprintf(reason, DIP_COST_REASON, found[i].reason, found[i].percent);
+        }
     }
     if (signs->disturbed > most_disturbed && verdict < DIP_COST_RED) {
         verdict = DIP_COST_RED;

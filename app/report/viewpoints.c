@@ -1,5 +1,5 @@
 // Computes metrics with intervals over the viewpoints of a path.
-#include "app/report/viewpoints.h"
+#include "app/report/report.h"
 
 #include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/truth.h"

@@ -19,7 +19,8 @@ static int find_row(const DipCostReport *report, const DipQuality *quality) {
     return row >= 0 && dip_cost_is_judged(report, row) ? row : -1;
 }
 
-// Starts with the combinations of the first report, and those that another row stands for.
+// Lists the combinations of the first report. Some have no row of their own, because another row,
+// which draws the same pictures, stands for them.
 static bool begin_match(DipCostCommon *common, DipError *err) {
     const DipCostReport *report = &common->reports[0];
     const DipCandidates *own = &report->choice.candidates;
@@ -82,7 +83,7 @@ static bool check_report(const DipCostCommon *common, int index, DipError *err) 
     return true;
 }
 
-// The time that a combination surely keeps within in one report.
+// Returns the time that a combination surely does not exceed in one report.
 static double bound_of(const DipCandidate *candidate) {
     const DipEstimate time = dip_estimate_widen(&candidate->time, candidate->common_error);
     return time.high;

@@ -1,6 +1,6 @@
-// Common advice: one choice of settings for several reports. Each report may have another scene,
-// camera path, size or machine. Only combinations of settings that every report has measured can be
-// chosen.
+// Makes common advice: one choice of settings for several reports. Each report may have another
+// scene, camera path, size or machine. Only combinations of settings that every report has measured
+// can be chosen.
 #ifndef DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 #define DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 

@@ -7,7 +7,6 @@
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/cost/merge/merge_machines.h"
-#include "app/report/same_pictures.h"
 #include "app/files/folder.h"
 #include "renderer/base/assert.h"
 
@@ -119,7 +118,8 @@ static bool check_scene(const DipCostReport *report, const DipSession *session, 
                          report->scene, here.scene);
 }
 
-// Writes the report, with pictures that are drawn here: pictures have the same bits everywhere.
+// Writes the report with pictures that this process draws, since pictures have the same bits on
+// every machine.
 static bool write_with_pictures(DipCostReport *report, DipSession *session,
                                 const Arguments *arguments, DipError *err) {
     char cache[PATH_MAX];

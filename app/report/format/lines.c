@@ -1,8 +1,6 @@
 // Lists lines, and derives what they show.
 #include "app/report/format/lines.h"
 
-#include "app/report/viewpoints.h"
-
 #include <math.h>
 #include <stdio.h>
 

@@ -2,27 +2,27 @@
 #include "app/report/prices/view.h"
 
 #include "app/report/combinations.h"
-#include "app/report/prices/question.h"
 
 #include <math.h>
 
 enum {
     MOST_MISSES = 32, // Number of rows that are predicted to see how far predictions miss.
-    LEAST_JUDGED = 16 // Number of rows with errors that a model of errors needs.
+    LEAST_JUDGED = 16 // Least number of rows with errors for a model of errors.
 };
 
 // The 90th percentile of the size of a standard normal variable.
 static const double normal_p90 = 1.6449;
 
-// Misses of a few rows may all happen to be tiny.
+// No predicted time's logarithm has a smaller standard error, since the misses of a few rows may
+// all happen to be tiny.
 static const double least_error = 0.002;
 
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses) {
     return dip_estimate_make(ms, fmax(log1p(misses->p90) / normal_p90, least_error), misses->rows);
 }
 
-// The counters of a row of path 0 that differs from the base in one group at most, so that no row
-// is composed from itself; see DipWorkFind.
+// Returns the counters of a row of path 0 for dip_work_compose. The row differs from the base in
+// one group at most, so that no row is composed from itself.
 static const double *find_counters(const void *context, const DipQuality *quality) {
     const DipPriceView *view = context;
     const bool plain = dip_work_count_groups(&view->base, quality) <= 1;

@@ -1,14 +1,13 @@
-// What each step of each setting costs in time and gains in accuracy, and what whole combinations
-// of settings take. A price is a view of a report, and it does not matter whether the report was
-// read from a file or is being filled by the preview (dip_cost_is_view).
+// Tells what each step of each setting costs in time and gains in accuracy, and how long whole
+// combinations of settings take. A price is a view of a report. It does not matter whether the
+// report was read from a file or is being filled by the preview (dip_cost_is_view).
 //
 // A step's price is the difference between the step and the base, on a path on which both were
 // measured. The base has the settings of the report's baseline. A setting that has no effect alone
 // is priced beside its company: the settings that it needs, which both the base and the step get
-// (adaptive AA beside the AA of the pane, advanced AF beside AF). AF and advanced AF are also
-// priced beside the antialiasing of the pane, so that prices add up (question.h). If that price is
-// not known, the price beside the same AA without adaptive AA stands for it, or else the price
-// without antialiasing.
+// (view.h). AF and advanced AF are also priced beside the antialiasing of the pane, so that prices
+// add up. If that price is not known, the price beside the same AA without adaptive AA stands for
+// it, or else the price without antialiasing.
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
 // models of times and errors (fit.h) from its composed work (combinations.h). With too few rows for
@@ -20,7 +19,7 @@
 #include "app/report/report.h"
 
 typedef enum DipPriceState {
-    DIP_PRICE_UNKNOWN,   // Not measured (yet).
+    DIP_PRICE_UNKNOWN,   // The time was not measured, at least not yet.
     DIP_PRICE_BASE,      // The step is the base: ms and flip are its own time and error.
     DIP_PRICE_MEASURED,  // Measured along a path.
     DIP_PRICE_PREDICTED, // From a report's model (docs/cost.md): the combination was not timed.
@@ -46,7 +45,7 @@ typedef struct DipPrice {
     double ms_low;
     double ms_high;
     double without_ms; // The whole time without the step; 0 for the base.
-    bool has_flip;     // The error is known. (The truth takes longer than the times.)
+    bool has_flip;     // The error is known. (The preview has times before it has errors.)
     double flip;       // What the step adds to the base's FLIP; of the base itself: its FLIP.
     bool flip_at_floor;
     bool needs_company; // The step does nothing with the quality that the price was asked for;
@@ -70,11 +69,11 @@ typedef struct DipPriceSum {
     bool has_flip;
     double flip;
     double base_ms;
-    // Each setting's own price at its step. The group size (asd) has no part of its own: that of
-    // adaptive AA holds it.
+    // Each setting's own price at its step. The group size (asd) has no part of its own: its price
+    // is in the part of adaptive AA.
     double parts_ms[DIP_SETTING_COUNT];
     DipPriceTrust parts_trust[DIP_SETTING_COUNT];
-    double together_ms; // What the sum adds to the base and the parts; it may be negative.
+    double together_ms; // By how much ms exceeds the base and the parts; it may be negative.
     bool doubtful;      // As in DipPrice.
 } DipPriceSum;
 
@@ -117,11 +116,20 @@ typedef enum DipPricesKnown {
 
 // Lists what can be chosen from a report that has not measured combinations along a path: the
 // combinations of aa, aaa, af, aaf, opt and miplod, measured or predicted, with the other settings
-// of the base. Waits until all steps are known that the combination `like` could take, since
-// settings that need others, such as adaptive AA, are priced beside them. The caller frees
-// candidates->list, which is NULL unless the result is KNOWN. Takes some milliseconds. Without
-// memory the times stay unknown.
+// of the base. The list is NULL, and the result is not KNOWN, until all steps are known that the
+// combination `like` could take, since settings that need others, such as adaptive AA, are priced
+// beside them. The caller frees candidates->list. Takes some milliseconds. When memory runs out,
+// the result is NO_TIMES.
 DipPricesKnown dip_price_candidates(const DipPriceView *view, const DipQuality *like,
                                     DipCandidates *candidates);
+
+// Lists the combinations that must be timed so that every step has a price, and so that the whole
+// times of both panes and of every combination one step away from the requested pane are known. The
+// base and the panes come first, then the steps in the order of their distance from those of the
+// requested pane, and at the end the steps of filtering without antialiasing. Writes at most `room`
+// combinations; returns their number.
+enum { DIP_PRICE_MAX_WANTED = 96 };
+int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
+                          const DipQuality *requested, DipQuality *list, int room);
 
 #endif

@@ -1,13 +1,10 @@
 // Finds the company of each setting, and lists the combinations that prices are made of.
-#include "app/report/prices/question.h"
+#include "app/report/prices/view.h"
 
 #include "app/report/combinations.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-
-// Company for a pane that has none: the steps that `diptych cost` sweeps with.
-enum { COMPANY_AA = 2, COMPANY_AF = 4 };
 
 // Returns whether adaptive AA with these settings divides the samples into two groups or more.
 static bool has_groups(const DipQuality *quality) {
@@ -39,7 +36,7 @@ static void keep_company(DipPriceQuestion *question, DipSetting company, uint8_t
     question->with.step[company] = question->without.step[company] = step;
 }
 
-// Compares the step with another step of the same setting.
+// Asks for the difference between the step and another step of the same setting.
 static void ask_alone(DipPriceQuestion *question, DipSetting setting, int step, uint8_t other) {
     question->with.step[setting] = (uint8_t)step;
     question->without.step[setting] = other;
@@ -58,7 +55,7 @@ static void keep_samples(DipPriceQuestion *question, int asd, const DipQuality *
         snprintf(question->needs, sizeof question->needs, "AA %.8sx", aa->steps[step]);
     }
     if (quality->step[DIP_SETTING_AA] == 0 && asd == 0) {
-        try.step[DIP_SETTING_AA] = COMPANY_AA;
+        try.step[DIP_SETTING_AA] = DIP_COST_COMPANY_AA;
         need(question, "AA");
     }
     question->without.step[DIP_SETTING_AA] = try.step[DIP_SETTING_AA];
@@ -100,11 +97,11 @@ DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, 
         ask_group_size(&question, step, quality);
         break;
     case DIP_SETTING_TAA:
-        keep_company(&question, DIP_SETTING_AA, COMPANY_AA, quality, "AA");
+        keep_company(&question, DIP_SETTING_AA, DIP_COST_COMPANY_AA, quality, "AA");
         ask_alone(&question, setting, step, 0);
         break;
     case DIP_SETTING_AAF:
-        keep_company(&question, DIP_SETTING_AF, COMPANY_AF, quality, "AF");
+        keep_company(&question, DIP_SETTING_AF, DIP_COST_COMPANY_AF, quality, "AF");
         ask_alone(&question, setting, step, 0);
         break;
     default:

@@ -2,9 +2,7 @@
 #include "app/report/prices/prices.h"
 
 #include "app/report/combinations.h"
-#include "app/report/prices/question.h"
 #include "app/report/prices/view.h"
-#include "app/report/viewpoints.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,8 +12,8 @@
 // The widest interval that holds 0 and stands for a price of 0, as a share of the time without the
 // step. A wider interval comes from a busy machine or from a prediction, and tells nothing.
 static const double widest_zero = 0.2;
-// The widest interval of a time that is not doubtful, as a share of the time; and the interval that
-// is always narrow enough, because the panel shows times to a tenth of a millisecond.
+// The widest interval of a time that is not doubtful, as a share of the time. An interval of
+// narrow_ms is always narrow enough, because the panel shows times to a tenth of a millisecond.
 static const double widest_share = 0.5;
 static const double narrow_ms = 0.2;
 static const double least_shown_ms = 0.05; // Smaller times would be shown as 0.0.
@@ -62,7 +60,8 @@ static int find_path(const DipPriceView *view, const DipPriceQuestion *question)
     return -1;
 }
 
-// The path of the base's own step is the path of the setting's other steps.
+// Finds the path for the base's own step: the path on which the setting's other steps were
+// measured.
 static int find_base_path(const DipPriceView *view, DipSetting setting, const DipQuality *pane) {
     for (int step = 0; step < dip_setting_info(setting)->step_count; step++) {
         const DipPriceQuestion question = dip_price_question(&view->base, setting, step, pane);
@@ -88,9 +87,9 @@ static void fill_base(DipPrice *price, const DipPriceWhole *whole) {
     price->flip_at_floor = whole->flip_at_floor;
 }
 
-// The time is the difference of the rows' times, that is of their ratios to the path's baseline,
-// times the baseline's time. The interval is that of the rows' own ratio, because both rows share
-// the level of the machine.
+// Makes a price of two rows of one path. Its time is the difference of the rows' times. The
+// interval comes from the ratio of the two rows, because both share the machine's speed in this
+// run.
 static void fill_step(DipPrice *price, const DipCostReport *report, int row, int without) {
     const DipEstimate change = dip_cost_metric_change(report, row, without, DIP_COST_FLIP);
     if (dip_cost_is_timed(report, row) && dip_cost_is_timed(report, without)) {
@@ -122,7 +121,7 @@ static const DipPrice *price_of_rows(const DipPriceView *view, int row, int with
     return &memory->price;
 }
 
-// Makes a price of two whole times, of which one at least is predicted. Their errors count as
+// Makes a price of two whole times, at least one of which is predicted. Their errors count as
 // independent.
 static void fill_difference(DipPrice *price, const DipPriceWhole *with,
                             const DipPriceWhole *without) {
@@ -169,13 +168,14 @@ static DipPrice answer(const DipPriceView *view, DipSetting setting, const DipQu
 
 // --- companies -----------------------------------------------------------------------------------
 
-// The settings that AF's company lacks: none in the pane's own company, then adaptive AA, and then
-// all antialiasing.
+// AF and advanced AF are priced beside three companies in turn: that of the pane, the same without
+// adaptive AA, and the same without antialiasing. These settings are left out of each.
 static const unsigned left_out[] = {0, 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
                                     DIP_PRICE_ANTIALIASING};
 enum { COMPANIES = sizeof left_out / sizeof *left_out };
 
-// Returns how much is known of a price: nothing, its error, a prediction, or a measured time.
+// Returns how much is known of a price: 0 for nothing, 1 for its error alone, then a predicted
+// time, and a measured time.
 enum { PREDICTED = 2, MEASURED };
 
 static int knowledge(const DipPrice *price) {

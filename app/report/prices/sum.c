@@ -3,7 +3,6 @@
 
 #include "app/report/report.h"
 #include "app/report/combinations.h"
-#include "app/report/prices/question.h"
 #include "app/report/prices/view.h"
 
 #include <math.h>
@@ -123,8 +122,8 @@ static const unsigned settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA |
                                  1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF |
                                  1u << DIP_SETTING_OPT | 1u << DIP_SETTING_MIPLOD;
 
-// Returns how much is known of the steps that a combination could take. Filtering is priced without
-// antialiasing, since it is added to any.
+// Returns how much is known of the steps that a combination could take. Steps of filtering must
+// have a price without antialiasing, from which the price beside any antialiasing can be guessed.
 static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like) {
     DipQuality plain = *like;
     plain.step[DIP_SETTING_AA] = view->base.step[DIP_SETTING_AA];
@@ -140,7 +139,8 @@ static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like)
     return !has_times ? DIP_PRICES_NO_TIMES : has_errors ? DIP_PRICES_KNOWN : DIP_PRICES_NO_ERRORS;
 }
 
-// Adds a combination if its time and its error are known. All share the error of the base's level.
+// Adds a combination if its time and its error are known. All combinations share the error of the
+// base's time.
 static void add_candidate(const DipPriceView *view, const DipQuality *quality,
                           DipCandidates *candidates) {
     const DipCostReport *report = view->report;

@@ -1,8 +1,6 @@
 // Makes the view of a report, in which combinations are found by their settings.
 #include "app/report/prices/view.h"
 
-#include "app/report/prices/question.h"
-
 #include <stdlib.h>
 #include <string.h>
 

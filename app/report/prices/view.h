@@ -1,12 +1,12 @@
-// Declares what the files of this folder share: the view of a report, and whole times of
-// combinations. Private to this folder.
+// Declares what the files of this folder share: the view of a report, whole times of combinations,
+// and the two combinations whose difference is a price. Private to this folder.
 #ifndef DIP_APP_REPORT_PRICES_VIEW_H
 #define DIP_APP_REPORT_PRICES_VIEW_H
 
 #include "app/report/fit.h"
 #include "app/report/prices/prices.h"
 
-// A combination on a path: its row in the report, or one of the report's predictions.
+// A combination on a path, with its row in the report or with one of the report's predictions.
 typedef struct DipPriceEntry {
     uint64_t settings; // A number for the settings of dip_price_normal.
     int path;
@@ -18,16 +18,16 @@ typedef struct DipPriceEntry {
 // The report's models. They are made when a prediction first needs them.
 typedef struct DipPriceModel {
     bool is_made;
-    DipCostModel times;   // rows is 0 if the report has too few times.
-    DipCostMisses misses; // Of predicted times.
-    DipCostModel errors;
+    DipCostModel times;   // times.rows is 0 if the report has too few times.
+    DipCostMisses misses; // How far `times` misses measured times.
+    DipCostModel errors;  // errors.rows is 0 if the report has too few errors.
 } DipPriceModel;
 
 // A price that was computed before. It is kept, since its interval takes a while.
 typedef struct DipPriceMemory {
     bool is_known;
-    int row;     // With the step,
-    int without; // and without it.
+    int row;     // The row with the step,
+    int without; // and the row without it.
     DipPrice price;
 } DipPriceMemory;
 
@@ -36,7 +36,7 @@ enum { DIP_PRICE_MEMORIES = 1021 };
 struct DipPriceView {
     const DipCostReport *report;
     DipQuality base;
-    DipPriceEntry *entries; // By settings and path. Owned.
+    DipPriceEntry *entries; // In order of settings and path. Owned.
     int count;
     DipPriceModel *model;     // Owned.
     DipPriceMemory *memories; // [DIP_PRICE_MEMORIES]; owned.
@@ -65,5 +65,44 @@ bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPr
 // The error has the standard deviation of a normal distribution with the 90th percentile of the
 // misses, and as many degrees of freedom as there are misses. Without misses it is not known.
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
+
+// --- questions -----------------------------------------------------------------------------------
+
+// The two combinations of settings whose difference is the price of a step: one with the step and
+// one without.
+//
+// A setting that does nothing alone is priced beside its company: other settings, which both
+// combinations have. Temporal AA and adaptive AA are priced beside the AA of the pane, advanced AF
+// beside the AF of the pane. The group sizes of adaptive AA are priced together with adaptive AA,
+// against the same AA without it.
+//
+// AF and advanced AF also have the antialiasing of the pane as company. They cost more where
+// antialiasing shades more fragments, so their prices without it would not add up to the time of
+// the whole combination: the courtyard in 8x AA with adaptive AA and AF 16x takes 11 % more than
+// that sum.
+typedef struct DipPriceQuestion {
+    DipQuality with;    // The base, the company and the step.
+    DipQuality without; // The base and the company.
+    bool is_base;       // The step is that of the base, so both combinations are equal.
+    char needs[24];     // What the pane lacks for the step to do anything: "AF", or "".
+} DipPriceQuestion;
+
+// The settings of antialiasing, which AF and advanced AF have as company (bit s: setting s).
+enum { DIP_PRICE_ANTIALIASING = 1 << DIP_SETTING_AA | 1 << DIP_SETTING_AAA | 1 << DIP_SETTING_ASD };
+
+// Returns whether the setting is AF or advanced AF.
+static inline bool dip_price_filters(DipSetting setting) {
+    return setting == DIP_SETTING_AF || setting == DIP_SETTING_AAF;
+}
+
+// base: the settings that prices start from. quality: the other settings of the pane. If the pane
+// lacks the company, the question has company that makes the step do something.
+DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, int step,
+                                    const DipQuality *quality);
+
+// Returns settings that draw the same picture. Settings that have no effect get their step in
+// `base`: advanced AF without AF, temporal AA without samples, adaptive AA with one group of
+// samples, and group sizes without adaptive AA. Mip colours get it too, because they have no price.
+DipQuality dip_price_normal(const DipQuality *base, const DipQuality *quality);
 
 #endif

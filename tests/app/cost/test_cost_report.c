@@ -6,7 +6,6 @@
 #include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/verdict.h"
-#include "app/report/viewpoints.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>

@@ -5,7 +5,6 @@
 #include "app/report/analysis.h"
 #include "app/cost/steps.h"
 #include "app/cost/predict/predict_elsewhere.h"
-#include "app/report/same_pictures.h"
 #include "renderer/catalogue/random.h"
 
 #include <math.h>
