@@ -31,9 +31,14 @@ static int representative(const DipCostReport *report, int row) {
     return best;
 }
 
-// Gives the rows in the log their new numbers, and drops the frames of rows that are gone.
+// Gives the rows in the predictions and in the log their new numbers. A prediction gets the row
+// that stands for its own. The log loses the frames of rows that are gone.
 static void renumber(DipCostReport *report, const int *stands, const int *now) {
     const int first = report->combined_first;
+    for (int i = 0; i < report->predicted.count; i++) {
+        int *row = &report->predicted.list[i].row;
+        *row = *row < first ? *row : now[stands[*row - first] - first];
+    }
     size_t kept = 0;
     for (size_t i = 0; i < (size_t)report->log_count; i++) {
         DipTimed timed = report->log[i];

@@ -305,6 +305,7 @@ static void combinations_with_the_same_pictures_are_one_row(void **state) {
         const DipQuality *q = &report.rows[i].quality;
         snprintf(report.rows[i].pictures[0], 33, "aa %d af %d aaf %d", q->step[DIP_SETTING_AA],
                  q->step[DIP_SETTING_AF], q->step[DIP_SETTING_AAF]);
+        report.predicted.list[i].row = i; // All were measured after they had been predicted.
     }
     assert_true(dip_cost_join_same_pictures(&report, NULL));
     assert_int_equal(report.row_count, 5 * 9);
@@ -318,6 +319,11 @@ static void combinations_with_the_same_pictures_are_one_row(void **state) {
         assert_int_equal(q->step[DIP_SETTING_AA], stands->step[DIP_SETTING_AA]);
         assert_int_equal(q->step[DIP_SETTING_AF], stands->step[DIP_SETTING_AF]);
         assert_int_equal(q->step[DIP_SETTING_AAF], stands->step[DIP_SETTING_AAF]);
+    }
+    for (int i = 0; i < report.predicted.count; i++) { // Their rows follow.
+        const DipCostPrediction *p = &report.predicted.list[i];
+        assert_true(p->row >= 0 && p->row < report.row_count);
+        assert_int_equal(dip_report_find_same(&report, &p->quality, 0), p->row);
     }
     dip_cost_report_free(&report);
 }
