@@ -195,10 +195,14 @@ static int read_index(double value) {
     return value >= 0.0 && value <= INT_MAX ? (int)value : -1;
 }
 
-int dip_cost_journal_round_count(const DipCostJournal *journal) {
-    int skip = INT_MAX;
-    find(journal, "round", journal->plan, &skip);
-    return INT_MAX - skip;
+int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed) {
+    int none = 0, all = INT_MAX;
+    const char *first = find(journal, "round", journal->plan, &none);
+    if (first && seed) {
+        *seed = read_index(strtod(first, NULL));
+    }
+    find(journal, "round", journal->plan, &all);
+    return INT_MAX - all;
 }
 
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count) {
@@ -224,14 +228,6 @@ DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int s
     }
     free(values);
     return timed;
-}
-
-void dip_cost_journal_seed(const DipCostJournal *journal, int *seed) {
-    int skip = 0;
-    const char *text = find(journal, "round", journal->plan, &skip);
-    if (text) {
-        *seed = read_index(strtod(text, NULL));
-    }
 }
 
 bool dip_cost_journal_add_round(DipCostJournal *journal, int seed, const DipTimed *timed, int count,

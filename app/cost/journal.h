@@ -39,15 +39,14 @@ bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
                           const DipCostBurstErrors *errors, DipError *err);
 
 // Returns the number of rounds with the journal's own plan hash that it had when it was opened.
-int dip_cost_journal_round_count(const DipCostJournal *journal);
+// Sets *seed to the seed of the first of these rounds, if there are any. `seed` may be NULL.
+int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed);
 
 // Returns the frames of one of these rounds, in the order in which they were stored. *count is 0 if
 // the round had another seed. The caller frees the frames. Returns NULL when memory runs out.
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count);
 
-// Sets *seed to the seed of the first of these rounds, if there are any.
-void dip_cost_journal_seed(const DipCostJournal *journal, int *seed);
-
+// Stores a round with the journal's plan hash for the next run.
 bool dip_cost_journal_add_round(DipCostJournal *journal, int seed, const DipTimed *timed, int count,
                                 DipError *err);
 

@@ -20,13 +20,12 @@ enum {
                      // from slow moments.
     BLOCK_ROWS = 4, // Rows that are timed beside one drawing of the baseline. With one for all rows
                     // of a round, ratios would deviate twice as much.
-    LEAST_SIDE = 64, // Pixels; smaller pictures have no half size.
+    LEAST_SIDE = 64, // Pixels. Smaller pictures are not timed at half their size.
     REQUEST_SIZE = 256,
     SEED_SALT = 0x517 // Gives measurements elsewhere another order than that of the report's rows.
 };
 
-// The start of a process may take this share of the time of its rounds. If it takes more, fewer are
-// started.
+// If a process takes more than this share of the time of its rounds to start, only two are started.
 static const double most_start = 0.1;
 
 // What is timed: settings on a camera path of a context's report.
@@ -183,7 +182,7 @@ static bool keep_round(void *context, const DipTimed *timed, int count, DipError
 // Hands the rounds of the journal to the driver, which skips rounds that are not the next.
 static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     const DipCostJournal *journal = t->cost->journal;
-    const int rounds = dip_cost_journal_round_count(journal);
+    const int rounds = dip_cost_journal_round_count(journal, NULL);
     const int seed = t->cost->report->options.seed;
     for (int i = 0; i < rounds; i++) {
         int count;
@@ -264,7 +263,7 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
         t.base_of[r] = report->base_rows[report->rows[r].path];
     }
     if (!report->options.has_seed) {
-        dip_cost_journal_seed(cost->journal, &report->options.seed);
+        dip_cost_journal_round_count(cost->journal, &report->options.seed);
     }
     dip_cost_log_clear(report);
     bool done = drive(&t, KEPT, BLOCK_ROWS, (uint64_t)report->options.seed, "frames timed", err);

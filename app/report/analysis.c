@@ -47,8 +47,9 @@ static DipCostInteraction interaction(const DipCostReport *report, DipSetting a,
     return sum;
 }
 
-int dip_cost_interactions(const DipCostReport *report,
-                          DipCostInteraction list[DIP_COST_MAX_INTERACTIONS]) {
+// Lists the interactions of all pairs of combined settings. Returns their number.
+static int list_interactions(const DipCostReport *report,
+                             DipCostInteraction list[DIP_COST_MAX_INTERACTIONS]) {
     int count = 0;
     for (int a = 0; a < DIP_SETTING_COUNT; a++) {
         for (int b = a + 1; b < DIP_SETTING_COUNT; b++) {
@@ -70,7 +71,7 @@ bool dip_cost_analyse(DipCostReport *report, DipError *err) {
     }
     analysis->fit = dip_cost_fit(report);
     if (report->predicted.count == 0) {
-        analysis->interaction_count = dip_cost_interactions(report, analysis->interactions);
+        analysis->interaction_count = list_interactions(report, analysis->interactions);
     }
     return true;
 }

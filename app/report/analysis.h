@@ -25,14 +25,10 @@ typedef struct DipCostInteraction {
     double time;
 } DipCostInteraction;
 
-// Computes the interactions of all pairs of combined settings. Returns their number.
-int dip_cost_interactions(const DipCostReport *report,
-                          DipCostInteraction list[DIP_COST_MAX_INTERACTIONS]);
-
 typedef struct DipCostAnalysis {
     DipCostFit fit;
-    // None if combinations were predicted: those that are measured are good ones, so means over
-    // them mislead.
+    // Of all pairs of combined settings. There are none if combinations were predicted: only good
+    // combinations are then measured, so means over them mislead.
     DipCostInteraction interactions[DIP_COST_MAX_INTERACTIONS];
     int interaction_count;
 } DipCostAnalysis;

@@ -96,14 +96,6 @@ static bool read_parts(const Arguments *arguments, DipCostReport *report, DipCos
     return true;
 }
 
-static int count_missing(const DipCostReport *report) {
-    int count = 0;
-    for (int p = 0; p < report->options.places; p++) {
-        count += !report->rows[0].judged[p];
-    }
-    return count;
-}
-
 // --- writing -------------------------------------------------------------------------------------
 
 // Fails if the session shows another scene than the parts.
@@ -142,7 +134,10 @@ static bool run(DipSession *session, const void *all, DipError *err) {
     DipCostMachines machines = {0};
     bool done = dip_folder_make(arguments->out, "--out", err) &&
                 read_parts(arguments, &report, &machines, err);
-    const int missing = done ? count_missing(&report) : 0;
+    int missing = 0;
+    for (int p = 0; done && p < report.options.places; p++) {
+        missing += !report.rows[0].judged[p];
+    }
     if (missing > 0) {
         printf("%d of %d viewpoints are missing: no part has them\n", missing,
                report.options.places);

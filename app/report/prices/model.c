@@ -83,10 +83,10 @@ static DipCostMisses find_misses(const DipPriceView *view, const int *rows, int 
 }
 
 static void make(const DipPriceView *view) {
-    DipPriceModel *model = view->model;
+    DipPriceKept *model = view->kept;
     const DipCostReport *report = view->report;
     int rows[DIP_COST_MAX_ROWS];
-    *model = (DipPriceModel){.is_made = true};
+    model->has_models = true;
     int count = dip_cost_fit_rows(report, rows);
     if (count == 0) {
         return;
@@ -105,9 +105,9 @@ static void make(const DipPriceView *view) {
 }
 
 bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPriceWhole *whole) {
-    const DipPriceModel *model = view->model;
+    const DipPriceKept *model = view->kept;
     double counters[DIP_COST_COUNTER_COUNT];
-    if (!model->is_made) {
+    if (!model->has_models) {
         make(view);
     }
     if (model->times.rows == 0 || !compose(view, normal, counters)) {

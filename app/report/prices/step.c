@@ -113,7 +113,7 @@ static void fill_step(DipPrice *price, const DipCostReport *report, int row, int
 // Returns the price of the step from one row to another (fill_step), from memory if it is there.
 static const DipPrice *price_of_rows(const DipPriceView *view, int row, int without) {
     DipPriceMemory *memory =
-        &view->memories[(row * DIP_COST_MAX_ROWS + without) % DIP_PRICE_MEMORIES];
+        &view->kept->memories[(row * DIP_COST_MAX_ROWS + without) % DIP_PRICE_MEMORIES];
     if (!memory->is_known || memory->row != row || memory->without != without) {
         *memory = (DipPriceMemory){.is_known = true, .row = row, .without = without};
         fill_step(&memory->price, view->report, row, without);

@@ -8,10 +8,9 @@ DipPriceView *dip_price_view_create(const DipCostReport *report, DipError *err) 
     DipPriceView *view = calloc(1, sizeof *view);
     if (view) {
         view->report = report;
-        view->model = calloc(1, sizeof *view->model);
-        view->memories = calloc(DIP_PRICE_MEMORIES, sizeof *view->memories);
+        view->kept = malloc(sizeof *view->kept);
     }
-    if (!view || !view->model || !view->memories || !dip_price_view_update(view, NULL)) {
+    if (!view || !view->kept || !dip_price_view_update(view, NULL)) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
         dip_price_view_destroy(&view);
     }
@@ -21,8 +20,7 @@ DipPriceView *dip_price_view_create(const DipCostReport *report, DipError *err) 
 void dip_price_view_destroy(DipPriceView **view) {
     if (*view) {
         free((*view)->entries);
-        free((*view)->model);
-        free((*view)->memories);
+        free((*view)->kept);
         free(*view);
         *view = NULL;
     }
@@ -59,8 +57,7 @@ bool dip_price_view_update(DipPriceView *view, DipError *err) {
     const int most = report->row_count + report->same_count + predicted->count;
     view->base = dip_price_normal(&report->options.baseline, &report->options.baseline);
     view->count = 0;
-    view->model->is_made = false;
-    memset(view->memories, 0, DIP_PRICE_MEMORIES * sizeof *view->memories);
+    memset(view->kept, 0, sizeof *view->kept);
     free(view->entries);
     view->entries = malloc((size_t)(most + 1) * sizeof *view->entries);
     if (!view->entries) {

@@ -15,15 +15,7 @@ typedef struct DipPriceEntry {
     int rank;       // Of entries with the same settings and path, the least one counts.
 } DipPriceEntry;
 
-// The report's models. They are made when a prediction first needs them.
-typedef struct DipPriceModel {
-    bool is_made;
-    DipCostModel times;   // times.rows is 0 if the report has too few times.
-    DipCostMisses misses; // How far `times` misses measured times.
-    DipCostModel errors;  // errors.rows is 0 if the report has too few errors.
-} DipPriceModel;
-
-// A price that was computed before. It is kept, since its interval takes a while.
+// A price of one row minus another that was computed before.
 typedef struct DipPriceMemory {
     bool is_known;
     int row;     // The row with the step,
@@ -33,13 +25,22 @@ typedef struct DipPriceMemory {
 
 enum { DIP_PRICE_MEMORIES = 1021 };
 
+// What was computed from the report and is kept until it changes, since it takes a while. The
+// models are made when a prediction first needs them.
+typedef struct DipPriceKept {
+    bool has_models;
+    DipCostModel times;   // times.rows is 0 if the report has too few times.
+    DipCostMisses misses; // How far `times` misses measured times.
+    DipCostModel errors;  // errors.rows is 0 if the report has too few errors.
+    DipPriceMemory memories[DIP_PRICE_MEMORIES];
+} DipPriceKept;
+
 struct DipPriceView {
     const DipCostReport *report;
     DipQuality base;
     DipPriceEntry *entries; // In order of settings and path. Owned.
     int count;
-    DipPriceModel *model;     // Owned.
-    DipPriceMemory *memories; // [DIP_PRICE_MEMORIES]; owned.
+    DipPriceKept *kept; // Owned.
 };
 
 // The whole time and error of a combination.

@@ -268,9 +268,9 @@ static void counters_are_scaled_to_the_timed_frames(void **state) {
 // FLIP = .1 - .02 (aa) - .03 (af) + .005 if both, and time = 4 * 2 (aa) * 1.5 (af) * 1.1 if both.
 static void interactions_are_what_both_add(void **state) {
     (void)state;
-    DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
     DipCostReport report;
     make_report(&report, courtyard_flip, 0.0, 1);
+    report.predicted.count = 0; // All combinations were measured.
     for (int i = 0; i < COMBINATIONS; i++) {
         const DipQuality *q = &report.rows[i].quality;
         const bool aa = q->step[DIP_SETTING_AA] != 0;
@@ -279,9 +279,10 @@ static void interactions_are_what_both_add(void **state) {
         report.rows[i].time.mean_ms.value =
             4.0 * (aa ? 2.0 : 1.0) * (af ? 1.5 : 1.0) * (aa && af ? 1.1 : 1.0);
     }
-    const int count = dip_cost_interactions(&report, list);
+    assert_true(dip_cost_analyse(&report, NULL));
+    const DipCostInteraction *list = report.analysis->interactions;
     int found = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < report.analysis->interaction_count; i++) {
         if (list[i].a == DIP_SETTING_AA && list[i].b == DIP_SETTING_AF) {
             assert_true(fabs(list[i].flip - 0.005) < 1e-12);
             assert_true(fabs(list[i].time - 1.1) < 1e-12);
