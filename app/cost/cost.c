@@ -119,7 +119,10 @@ static bool run_command(DipSession *session, const void *options_given, DipError
     const DipCostArguments *arguments = options_given;
     DipCostReport report;
     DipCostOptions options = arguments->cost;
-    dip_cost_set_measure(&options, &arguments->measure);
+    options.rounds = arguments->measure.rounds * arguments->measure.starts;
+    options.starts = arguments->measure.starts;
+    options.has_seed = arguments->measure.has_seed;
+    options.seed = dip_measure_seed(&arguments->measure);
     if (!arguments->serve.serve) {
         dip_interrupt_watch(); // A process that serves ends with the one that started it.
     }

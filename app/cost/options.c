@@ -264,13 +264,6 @@ bool dip_cost_check_out(const char *out, DipError *err) {
                                 "there is no folder for the report; give one with --out DIR");
 }
 
-void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure) {
-    cost->rounds = measure->rounds * measure->starts;
-    cost->starts = measure->starts;
-    cost->has_seed = measure->has_seed;
-    cost->seed = dip_measure_seed(measure);
-}
-
 // Fails for fewer than two rounds of all starts together, since such times have no interval.
 static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
     const int rounds = measure->rounds * measure->starts;

@@ -33,9 +33,6 @@ void dip_cost_default_budgets(DipCostOptions *options);
 // Fails if no folder was given with --out.
 bool dip_cost_check_out(const char *out, DipError *err);
 
-// Copies rounds, starts and seed into the options.
-void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure);
-
 void dip_cost_options_default(void *arguments, int argc, char *const *argv);
 bool dip_cost_options_check(const void *arguments, DipError *err);
 
