@@ -230,7 +230,6 @@ static void print_reports(DipForm *form, const Advised *advised) {
         {"path", NULL},    {"width", NULL},   {"height", NULL},
         {"threads", NULL}, {"verdict", NULL}, {"combinations", NULL}};
     const DipCostCommon *common = advised->common;
-    const int count = common->candidates.count;
     dip_form_table(form, &(DipTable){.caption = "The reports.",
                                      .record = &report_record,
                                      .context = (void *)advised,
@@ -243,8 +242,8 @@ static void print_reports(DipForm *form, const Advised *advised) {
         "%d combination%s of settings %s in every report. Times are %s times with their intervals "
         "of 95 %%. Mean FLIP is the mean over the reports. Loss is how much more FLIP the common "
         "choice has than the settings that the report alone would choose.",
-        count, dip_cost_plural(count), count == 1 ? "is" : "are",
-        dip_time_kind_names[common->candidates.kind]);
+        common->candidates.count, dip_cost_plural(common->candidates.count),
+        common->candidates.count == 1 ? "is" : "are", dip_time_kind_names[common->candidates.kind]);
 }
 
 // Says what stands in the way of better settings.
