@@ -1,9 +1,8 @@
-// Makes the advice for each time budget surer (app/report/choice.h). Combinations that may fit a
-// budget, and would then be better than the advised one, are timed again until it is clear whether
-// they fit, but not more often than MOST_RACES times.
+// Makes the advice for each time budget surer (app/report/choice.h). Some combinations would be
+// better than the advised one, if they fit the budget. They are timed again until it is clear
+// whether they fit, but at most MOST_RACES times.
 #include "app/cost/steps.h"
 
-#include "app/report/verdict.h"
 #include "app/cli/progress.h"
 
 #include <math.h>
@@ -18,8 +17,8 @@ static bool is_undecided(const DipCandidate *candidate, double budget_ms) {
     return fits > 1.0 - DIP_SURELY_FITS && fits < DIP_SURELY_FITS;
 }
 
-// Lists the rows that are undecided and whose FLIP is at least 1 % below that of the row chosen so
-// far: those of least FLIP first, at most MOST_AGAIN. Returns their number.
+// Lists the undecided rows whose FLIP is at least 1 % below that of the row advised so far. The
+// rows of least FLIP come first, and there are at most MOST_AGAIN. Returns their number.
 static int list_undecided(const DipCostReport *report, int budget, int rows[MOST_AGAIN]) {
     const DipCandidates *candidates = &report->choice.candidates;
     const DipCandidate *chosen = dip_cost_chosen(report, budget);
@@ -44,6 +43,7 @@ static int list_undecided(const DipCostReport *report, int budget, int rows[MOST
     return count;
 }
 
+// Times the undecided rows of a budget again until there are none.
 static bool race(DipCostContext *cost, int budget, DipError *err) {
     for (int i = 1; i <= MOST_RACES; i++) {
         int rows[MOST_AGAIN];
@@ -51,7 +51,7 @@ static bool race(DipCostContext *cost, int budget, DipError *err) {
         if (count == 0) {
             break;
         }
-        if (!dip_cost_time_again(cost, rows, count, i, err) ||
+        if (!dip_cost_time_more(cost, rows, count, i, err) ||
             !dip_cost_estimate_times(cost->report, err)) {
             return false;
         }

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { SAMPLES = 8 }; // Of a pixel, with the best settings.
+enum { SAMPLES = 8 }; // Samples of a pixel with the best settings.
 
 // Compresses the textures if the settings of any row of the report need it. This is done before any
 // frame is drawn or timed.
@@ -41,9 +41,8 @@ static bool open_source(DipCostContext *cost, bool judges, DipError *err) {
 }
 
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
-                           DipCostJournal *journal, const char *cache, bool judges, DipError *err) {
-    *cost =
-        (DipCostContext){.session = session, .report = report, .journal = journal, .cache = cache};
+                           bool judges, DipError *err) {
+    *cost = (DipCostContext){.session = session, .report = report};
     const DipRendererDef def = {
         .pool = session->pool,
         .isa = session->isa,
@@ -133,7 +132,7 @@ DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost) {
 
 // --- truths --------------------------------------------------------------------------------------
 
-// Returns how many times wider and higher the picture is drawn.
+// Returns how many times wider and higher the truth of a gallery scene is drawn.
 static int scale_of(const DipTruthDef *def) {
     const int longer = def->width > def->height ? def->width : def->height;
     int scale = 2;
@@ -159,11 +158,11 @@ static void average(const DipFrame *frame, int scale, int width, int height, dou
     }
 }
 
-// The reference renderer cannot draw the gallery's scenes: the same pipeline draws the scene
-// several times as wide and high, with the best settings, and the pixels are averaged in linear
-// light. Such a truth shows what more samples would give, at least def->samples for each pixel, as
-// far as the greatest size of a frame allows. It cannot show a fault that the pipeline has at every
-// size. The two halves have different sample patterns.
+// Draws one half of the truth of a gallery scene, which the reference renderer cannot draw.
+// Instead, the pipeline draws the scene several times as wide and high, with the best settings, and
+// the pixels are averaged in linear light. Such a truth shows what more samples would give: at
+// least def->samples for each pixel, as far as the greatest size of a frame allows. It cannot show
+// a fault that the pipeline has at every size. The two halves have different sample patterns.
 static bool draw_gallery_truth(const DipTruthDef *def, int half, double *rgb_lin, DipError *err) {
     const DipCostContext *cost = def->context;
     const int scale = scale_of(def);
@@ -212,10 +211,11 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
         .samples = report->options.samples,
         .pixels_per_degree = report->options.pixels_per_degree,
     };
-    const bool got = dip_truth_get(truth, &def, cost->cache, cost->session->pool,
+    const char *cache = cost->cache && cost->cache[0] ? cost->cache : NULL;
+    const bool got = dip_truth_get(truth, &def, cache, cost->session->pool,
                                    progress ? progress : go_on, context, err);
     if (!got) {
-        dip_cost_interrupted(err); // Says how to go on.
+        dip_cost_interrupted(err); // After Ctrl-C, the error says how to continue.
     }
     return got;
 }

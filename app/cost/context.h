@@ -1,6 +1,6 @@
-// The cost context: the session, the report, the journal, the reference renderer and the renderers.
-// The steps that make a report (steps.h) use it. A row of the report (report.h) is one
-// combination: quality settings on a camera path. A truth (app/measure/metrics/truth.h) is a
+// Declares the cost context, which the steps that make a report (steps.h) use: the session, the
+// report, the journal, the reference renderer and the renderers. A row of the report (report.h) is
+// one combination: quality settings on a camera path. A truth (app/measure/metrics/truth.h) is a
 // converged picture.
 #ifndef DIP_APP_COST_CONTEXT_H
 #define DIP_APP_COST_CONTEXT_H
@@ -13,34 +13,37 @@
 #include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
 
-// Session, report and journal are borrowed. Not thread-safe.
+#include <limits.h>
+
+// All is borrowed, except the reference renderer, the gallery and the renderers. Not thread-safe.
 typedef struct DipCostContext {
     const DipSession *session;
     DipCostReport *report;
-    DipCostJournal *journal;
-    const char *cache;       // Folder of the cached truths; NULL for no cache.
-    DipReference *reference; // NULL for scenes of the gallery, and without truths
-    DipGallery *gallery;     // NULL for models
-    // Indexed by the step of the setting gi (instancing). Renderer [0] draws the rows with gi=off
-    // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows.
-    // They share one renderer so that they are all drawn in the same memory.
+    DipCostJournal *journal; // NULL for no journal.
+    const char *cache;       // Folder of the cached truths; NULL or "" for no cache.
+    DipReference *reference; // NULL for scenes of the gallery, and without truths.
+    DipGallery *gallery;     // NULL for models.
+    // Renderer [0] draws the rows with gi=off (without instancing) and keeps the copies of meshes
+    // that these rows need. Renderer [1] draws all other rows, so that they are all drawn in the
+    // same memory.
     DipPainter *renderers[2];
-    // The command line that a start of the measurement gets (starts.h); NULL: frames are timed
-    // here.
+    // The command line with which the program starts itself to time frames in another process;
+    // NULL: frames are timed in this process.
     const DipServeOptions *start;
 } DipCostContext;
 
-// Opens the context of a report. Without `judges`, it has no truths: it draws and times only.
+// Opens the context of a report, without a journal, a cache and `start`, which the caller may set.
+// Without `judges`, the context has no truths: it draws and times only.
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
-                           DipCostJournal *journal, const char *cache, bool judges, DipError *err);
+                           bool judges, DipError *err);
 void dip_cost_context_close(DipCostContext *cost);
 
 // Draws the timed frame `index`, 0..dip_cost_frame_count - 1, of a path.
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err);
 
-// Draws the frame `index` of a row's burst at a viewpoint, the successive frames that are drawn
-// there. Writes the packed pixels and the hash of the picture.
+// Draws the frame `index` of a row's burst at a viewpoint. (A burst is the successive frames that
+// are drawn at a viewpoint.) Writes the packed pixels and the hash of the picture.
 bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int index,
                              uint8_t *rgba8, char hash[33], DipError *err);
 
@@ -53,7 +56,16 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
                             DipTruthProgress *progress, void *context, DipTruth *truth,
                             DipError *err);
 
-// What an interrupted command says.
+// Finds the folder of the cached truths: `given` (--cache) if it is not NULL, otherwise the user's
+// cache folder. Makes the folder. Writes "" if there is no cache.
+bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err);
+
+// Writes cost.html, cost.csv and cost.json into a folder that exists. The source draws the pictures
+// of the page; it is not used with --pictures none.
+bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
+                           const char *folder, DipError *err);
+
+// The message of a command that was interrupted.
 #define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
 
 // Returns true and fills *err if the user has pressed Ctrl-C. All measurements made before remain

@@ -1,20 +1,15 @@
-// `diptych cost`: drawing the truths (converged pictures), measuring errors and times, writing the
-// report.
-#include "app/cost/cost.h"
-
+// The command `diptych cost`: draws the truths (converged pictures), measures errors and times, and
+// writes the report.
 #include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/report/page/report_pictures.h"
-#include "app/report/same_pictures.h"
 #include "app/cost/command.h"
-#include "app/cost/starts.h"
 #include "app/cost/steps.h"
 #include "app/files/folder.h"
 #include "app/cli/interrupt.h"
 #include "renderer/base/assert.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <time.h>
 
@@ -81,11 +76,12 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     }
     dip_cost_plan_hash(report, session, plan);
     DipCostJournal *journal = dip_cost_journal_open(arguments->out, plan, err);
-    if (!journal || !dip_cost_context_open(&cost, session, report, journal, cache[0] ? cache : NULL,
-                                           true, err)) {
+    if (!journal || !dip_cost_context_open(&cost, session, report, true, err)) {
         dip_cost_journal_close(&journal, false);
         return false;
     }
+    cost.journal = journal;
+    cost.cache = cache;
     cost.start = &arguments->serve;
     bool done = measure(&cost, err);
     if (done) {
@@ -111,7 +107,7 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
 // Times frames for the process that started this one.
 static bool serve(DipSession *session, DipCostReport *report, DipError *err) {
     DipCostContext cost;
-    if (!dip_cost_context_open(&cost, session, report, NULL, NULL, false, err)) {
+    if (!dip_cost_context_open(&cost, session, report, false, err)) {
         return false;
     }
     const bool done = dip_cost_serve(&cost, err);
@@ -123,9 +119,12 @@ static bool run_command(DipSession *session, const void *options_given, DipError
     const DipCostArguments *arguments = options_given;
     DipCostReport report;
     DipCostOptions options = arguments->cost;
-    dip_cost_set_measure(&options, &arguments->measure);
+    options.rounds = arguments->measure.rounds * arguments->measure.starts;
+    options.starts = arguments->measure.starts;
+    options.has_seed = arguments->measure.has_seed;
+    options.seed = dip_measure_seed(&arguments->measure);
     if (!arguments->serve.serve) {
-        dip_interrupt_watch(); // A start ends with the process that started it.
+        dip_interrupt_watch(); // A process that serves ends with the one that started it.
     }
     const bool done = dip_cost_plan(&report, session, &options, err) &&
                       (arguments->serve.serve ? serve(session, &report, err)
@@ -137,7 +136,7 @@ static bool run_command(DipSession *session, const void *options_given, DipError
 static void describe_cost(const void *arguments, DipSessionDef *def) {
     def->options = &((const DipCostArguments *)arguments)->session;
     def->scene = true;
-    def->keep_model = true; // The reference renderer draws the converged pictures from the model.
+    def->keep_model = true; // The reference renderer draws the truths from the model.
 }
 
 static const DipExample cost_examples[] = {

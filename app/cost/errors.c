@@ -13,17 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-}
+// --- truths --------------------------------------------------------------------------------------
 
-// --- truths ------------------------------------------------------------------------------------
-
-enum { STEPS_PER_TRUTH = 1000 }; // steps of the progress display
+enum { STEPS_PER_TRUTH = 1000 }; // Steps of the progress display.
 
 typedef struct TruthProgress {
     DipProgress progress;
-    int64_t before; // progress steps of the truths that are complete
+    int64_t before; // Steps of the truths that are complete.
 } TruthProgress;
 
 static bool show_truth(void *context, double done) {
@@ -83,15 +79,15 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
     return made;
 }
 
-// --- judging -----------------------------------------------------------------------------------
+// --- judging -------------------------------------------------------------------------------------
 
 // A row's pictures of one burst (the successive frames at a viewpoint), and their errors.
 typedef struct Burst {
-    uint8_t *rgba8; // owned; one frame after another, without padding between lines
+    uint8_t *rgba8; // One frame after another, without padding between lines. Borrowed.
     int row;
-    char key[33]; // hash of the pictures and of their truths
-    char
-        journal[33]; // hash of the key and of the program's file: another build may judge otherwise
+    char key[33];     // Hash of the pictures and of their truths.
+    char journal[33]; // Hash of the key and of the program's file, since another build may judge
+                      // differently.
     DipCostBurstErrors errors;
     bool failed;
 } Burst;
@@ -102,10 +98,11 @@ typedef struct Judge {
     int viewpoint;
     DipTruth truths[DIP_COST_MAX_BURST];
     DipFlipAnalysis analyses[DIP_COST_MAX_BURST];
-    DipMeter *meters; // one per thread
+    DipMeter *meters; // One per thread.
     int meter_count;
-    Burst *bursts;  // the bursts that are judged together
-    int burst_room; // greatest number of bursts: two per thread
+    Burst *bursts;     // Those that are judged together.
+    uint8_t *pictures; // Of all bursts.
+    int burst_room;    // Greatest number of bursts: two per thread.
     int burst_count;
     DipProgress progress;
     int64_t done;
@@ -119,38 +116,36 @@ static void close_judge(Judge *j) {
     for (int i = 0; j->meters && i < j->meter_count; i++) {
         dip_meter_free(&j->meters[i]);
     }
-    for (int i = 0; j->bursts && i < j->burst_room; i++) {
-        free(j->bursts[i].rgba8);
-    }
     for (int i = 0; i < DIP_COST_MAX_BURST; i++) {
         dip_flip_analysis_free(&j->analyses[i]);
     }
     free(j->meters);
     free(j->bursts);
+    free(j->pictures);
 }
 
 static bool open_judge(Judge *j, DipCostContext *cost, DipError *err) {
     const DipCostReport *report = cost->report;
-    const double ppd = report->options.pixels_per_degree;
+    const int burst = report->options.burst;
     *j = (Judge){.cost = cost, .meter_count = report->threads, .burst_room = 2 * report->threads};
+    const size_t burst_bytes = picture_bytes(j) * (size_t)burst;
     j->meters = calloc((size_t)j->meter_count, sizeof *j->meters);
     j->bursts = calloc((size_t)j->burst_room, sizeof *j->bursts);
-    bool made = j->meters && j->bursts;
+    j->pictures = malloc((size_t)j->burst_room * burst_bytes);
+    bool made = j->meters && j->bursts && j->pictures;
     for (int i = 0; made && i < j->meter_count; i++) {
-        made = dip_meter_init(&j->meters[i],
-                              report->options.burst > 1 ? DIP_METER_BURSTS : DIP_METER_PICTURES,
-                              report->width, report->height, ppd);
+        made = dip_meter_init(&j->meters[i], burst > 1 ? DIP_METER_BURSTS : DIP_METER_PICTURES,
+                              report->width, report->height, report->options.pixels_per_degree);
     }
     for (int i = 0; made && i < j->burst_room; i++) {
-        j->bursts[i].rgba8 = malloc(picture_bytes(j) * (size_t)report->options.burst);
-        made = j->bursts[i].rgba8 != NULL;
+        j->bursts[i].rgba8 = j->pictures + (size_t)i * burst_bytes;
     }
-    for (int i = 0; made && i < report->options.burst; i++) {
+    for (int i = 0; made && i < burst; i++) {
         made = dip_flip_analysis_init(&j->meters[0].flip, &j->analyses[i]);
     }
     if (!made) {
         close_judge(j);
-        return out_of_memory(err);
+        return dip_cost_out_of_memory(err);
     }
     return true;
 }
@@ -160,6 +155,7 @@ static DipSrgbPicture picture_of(const Judge *j, const uint8_t *rgba8) {
     return (DipSrgbPicture){rgba8, (size_t)report->width * 4, report->width, report->height};
 }
 
+// Measures the errors of one burst, on one thread.
 static void judge_burst(void *context, int index, int worker) {
     Judge *j = context;
     Burst *drawn = &j->bursts[index];
@@ -179,6 +175,7 @@ static void judge_burst(void *context, int index, int worker) {
     drawn->errors.tail = dip_flip_tail_result(&meter->tail);
 }
 
+// Puts the errors of a burst into the report.
 static void keep_errors(const Judge *j, const Burst *drawn) {
     DipCostRow *row = &j->cost->report->rows[drawn->row];
     row->viewpoints[j->viewpoint] = drawn->errors.sums;
@@ -187,12 +184,13 @@ static void keep_errors(const Judge *j, const Burst *drawn) {
     memcpy(row->pictures[j->viewpoint], drawn->key, sizeof drawn->key);
 }
 
+// Judges the collected bursts on all threads, and keeps their errors.
 static bool judge_bursts(Judge *j, DipError *err) {
     dip_pool_run(j->cost->session->pool, j->burst_count, judge_burst, j);
     for (int i = 0; i < j->burst_count; i++) {
         const Burst *drawn = &j->bursts[i];
         if (drawn->failed) {
-            return out_of_memory(err);
+            return dip_cost_out_of_memory(err);
         }
         keep_errors(j, drawn);
         if (!dip_cost_journal_add(j->cost->journal, drawn->journal, &drawn->errors, err)) {
@@ -203,7 +201,7 @@ static bool judge_bursts(Judge *j, DipError *err) {
     return true;
 }
 
-// Draws a row's burst and computes its key.
+// Draws a row's burst and computes its two hashes.
 static bool draw_burst(Judge *j, int row, Burst *drawn, DipError *err) {
     const DipCostReport *report = j->cost->report;
     DipHash hash = dip_hash_begin(0);
@@ -225,6 +223,8 @@ static bool draw_burst(Judge *j, int row, Burst *drawn, DipError *err) {
     return true;
 }
 
+// Judges all rows of the path at the viewpoint whose errors are not known yet. Errors that the
+// journal has are taken from there.
 static bool judge_rows(Judge *j, DipError *err) {
     DipCostReport *report = j->cost->report;
     bool judged = true;
@@ -245,6 +245,7 @@ static bool judge_rows(Judge *j, DipError *err) {
     return judged && judge_bursts(j, err);
 }
 
+// Gets the truths of the viewpoint, and judges the rows against them.
 static bool judge_viewpoint(Judge *j, DipError *err) {
     const int burst = j->cost->report->options.burst;
     int got = 0;

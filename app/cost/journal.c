@@ -1,5 +1,5 @@
-// The journal is a text file. Each line has a kind, a key, numbers in exact hexadecimal notation,
-// and a checksum: "errors KEY v v ... CHECK" or "round PLAN v v ... CHECK".
+// Reads and writes the journal, a text file. Each line has a kind, a key, numbers in exact
+// hexadecimal notation, and a checksum: "errors KEY v v ... CHECK" or "round PLAN v v ... CHECK".
 #include "app/cost/journal.h"
 
 #include "renderer/base/file.h"
@@ -16,16 +16,17 @@
 #include <unistd.h>
 
 enum {
-    CHECK = DIP_HASH_HEX_SIZE, // Letters of " CHECK".
+    CHECK = DIP_HASH_HEX_SIZE, // Number of letters of " CHECK".
     ERROR_VALUES = DIP_METRIC_SUM_COUNT + DIP_FLIP_TAIL_COUNT,
-    TIMED_VALUES = 10 + DIP_TIMED_PARTS // A round has its seed, and then these of each frame.
+    TIMED_VALUES = 10 + DIP_TIMED_PARTS // Numbers of each frame. They follow the seed of the round.
 };
 
 struct DipCostJournal {
     char file[PATH_MAX];
     char plan[33];
     FILE *out;
-    // What the file had when it was opened: good lines without their checksums, between zeros.
+    // The content of the file when it was opened: its good lines without their checksums. Each line
+    // ends with a zero.
     char *text;
     size_t size;
 };
@@ -115,7 +116,7 @@ static void put(FILE *out, DipHash *hash, const char *text) {
     fputs(text, out);
 }
 
-// Writes a line, for the next run.
+// Writes a line for the next run.
 static bool append(const DipCostJournal *journal, const char *kind, const char *key,
                    const double *values, int count, DipError *err) {
     DipHash hash = dip_hash_begin(0);
@@ -132,8 +133,8 @@ static bool append(const DipCostJournal *journal, const char *kind, const char *
            io_fault(journal, err);
 }
 
-// Returns the numbers of a line with this kind and key, or NULL; of the first one if *skip is 0.
-// *skip sinks by the number of lines that it passes over.
+// Finds a line with this kind and key, after *skip other such lines, and returns the text of its
+// numbers. Returns NULL if there are too few lines; *skip is then lower by their number.
 static const char *find(const DipCostJournal *journal, const char *kind, const char *key,
                         int *skip) {
     char head[64];
@@ -189,15 +190,19 @@ _Static_assert(offsetof(DipTimed, parts_ms) == offsetof(DipTimed, ms) + 4 * size
                "the times follow one another");
 enum { TIMES_SIZE = (TIMED_VALUES - 6) * sizeof(double) };
 
-// Returns -1 for what is no index. Such a frame fits no round.
+// Returns -1 for a number that is no index. A frame with such an index fits no round.
 static int read_index(double value) {
     return value >= 0.0 && value <= INT_MAX ? (int)value : -1;
 }
 
-int dip_cost_journal_round_count(const DipCostJournal *journal) {
-    int skip = INT_MAX;
-    find(journal, "round", journal->plan, &skip);
-    return INT_MAX - skip;
+int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed) {
+    int none = 0, all = INT_MAX;
+    const char *first = find(journal, "round", journal->plan, &none);
+    if (first && seed) {
+        *seed = read_index(strtod(first, NULL));
+    }
+    find(journal, "round", journal->plan, &all);
+    return INT_MAX - all;
 }
 
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count) {
@@ -223,14 +228,6 @@ DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int s
     }
     free(values);
     return timed;
-}
-
-void dip_cost_journal_seed(const DipCostJournal *journal, int *seed) {
-    int skip = 0;
-    const char *text = find(journal, "round", journal->plan, &skip);
-    if (text) {
-        *seed = read_index(strtod(text, NULL));
-    }
 }
 
 bool dip_cost_journal_add_round(DipCostJournal *journal, int seed, const DipTimed *timed, int count,

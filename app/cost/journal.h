@@ -1,9 +1,9 @@
-// The journal of an unfinished report: a file in the report's folder with every measurement made so
-// far. The next run continues from the journal. A measurement is either the errors of one burst or
-// the times of one round (app/measure/timing/driver.h). A burst is the successive frames that are
-// drawn at a viewpoint; its errors are measured against truths (converged pictures). Each line of
-// the file is one measurement and its checksum. The program may be ended at any time, because the
-// next run drops a line that was cut short.
+// Keeps the journal of an unfinished report: a file in the report's folder with every measurement
+// made so far. The next run continues from the journal. A measurement is either the errors of one
+// burst or the times of one round (app/measure/timing/driver.h). A burst is the successive frames
+// that are drawn at a viewpoint; its errors are measured against truths (converged pictures). Each
+// line of the file is one measurement and its checksum. The program may be ended at any time,
+// because the next run drops a line that was cut short.
 #ifndef DIP_APP_COST_JOURNAL_H
 #define DIP_APP_COST_JOURNAL_H
 
@@ -39,15 +39,14 @@ bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
                           const DipCostBurstErrors *errors, DipError *err);
 
 // Returns the number of rounds with the journal's own plan hash that it had when it was opened.
-int dip_cost_journal_round_count(const DipCostJournal *journal);
+// Sets *seed to the seed of the first of these rounds, if there are any. `seed` may be NULL.
+int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed);
 
-// Returns the frames of such a round, in the order in which they were stored: 0 of them if the
-// seed is another. The caller frees them. Returns NULL when memory runs out.
+// Returns the frames of one of these rounds, in the order in which they were stored. *count is 0 if
+// the round had another seed. The caller frees the frames. Returns NULL when memory runs out.
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count);
 
-// Sets *seed to that of the first of these rounds, if there are any.
-void dip_cost_journal_seed(const DipCostJournal *journal, int *seed);
-
+// Stores a round with the journal's plan hash for the next run.
 bool dip_cost_journal_add_round(DipCostJournal *journal, int seed, const DipTimed *timed, int count,
                                 DipError *err);
 

@@ -1,4 +1,5 @@
-// The options of `diptych cost` and `cost merge`.
+// Reads and checks the options of `diptych cost`, and declares options that other commands on
+// reports share.
 #include "app/cost/options.h"
 
 #include "app/measure/metrics/truth.h"
@@ -60,7 +61,7 @@ static bool read_combined(void *fields, const DipOptionRow *row, const char *val
     return strcmp(value, "none") == 0 || dip_option_store(&list, value, fields, err);
 }
 
-// Reads a budget, or for --fps the rate that it keeps.
+// Reads a budget in milliseconds, or for --fps a rate in frames a second.
 static bool read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipCostOptions *cost = fields;
     double number;
@@ -83,9 +84,11 @@ void dip_cost_default_budgets(DipCostOptions *options) {
     }
 }
 
-// Distance times the tangent of a degree, over the distance of two pixels. Phone: 1170 pixels on 65
-// mm, seen from 0.3 m. Monitor: 1920 pixels on 531 mm (24 inches), from 0.6 m. UHD: 3840 pixels on
-// 0.7 m, from 0.7 m. Headset: what headsets of 2023 with 2000 pixels per eye state.
+// Reads a way of viewing. Its pixels per degree are the viewer's distance times the tangent of a
+// degree, divided by the width of a pixel. A phone has 1170 pixels on 65 mm and is seen from 0.3 m;
+// a monitor has 1920 pixels on 531 mm (24 inches) and is seen from 0.6 m; UHD is 3840 pixels on 0.7
+// m, seen from 0.7 m. The value of a headset is what the makers of headsets with 2000 pixels per
+// eye stated in 2023.
 static bool read_viewing(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     static const struct {
         const char *name;
@@ -199,18 +202,18 @@ static const DipOptionRow time_rows[] = {
              "wrong. The report is written all the same."},
 };
 
-static const DipOptionTable out_table = DIP_OPTION_TABLE("What to measure", out_rows);
+const DipOptionTable dip_out_option_table = DIP_OPTION_TABLE("What to measure", out_rows);
 static const DipOptionTable quick_table = DIP_OPTION_TABLE("What to measure", quick_rows);
 static const DipOptionTable choice_table = DIP_OPTION_TABLE("What to measure", choice_rows);
 static const DipOptionTable error_table = DIP_OPTION_TABLE("Errors", error_rows);
 static const DipOptionTable time_table = DIP_OPTION_TABLE("Times", time_rows);
-static const DipOptionTable picture_table = DIP_OPTION_TABLE("Pictures", picture_rows);
+const DipOptionTable dip_picture_option_table = DIP_OPTION_TABLE("Pictures", picture_rows);
 const DipOptionTable dip_cost_budget_option_table = DIP_OPTION_TABLE("Budgets", budget_rows);
 const DipOptionTable dip_viewing_option_table = DIP_OPTION_TABLE("Errors", viewing_rows);
 const DipOptionTable dip_cache_option_table = DIP_OPTION_TABLE("Pictures", cache_rows);
 
 static const DipOptionPart cost_parts[] = {
-    {&out_table, offsetof(DipCostArguments, out)},
+    {&dip_out_option_table, offsetof(DipCostArguments, out)},
     {&quick_table, offsetof(DipCostArguments, quick)},
     {&choice_table, offsetof(DipCostArguments, cost)},
     {&dip_cost_budget_option_table, offsetof(DipCostArguments, cost)},
@@ -220,7 +223,7 @@ static const DipOptionPart cost_parts[] = {
     {&dip_measure_option_table, offsetof(DipCostArguments, measure)},
     {&dip_starts_option_table, offsetof(DipCostArguments, measure)},
     {&dip_serve_option_table, offsetof(DipCostArguments, serve)},
-    {&picture_table, offsetof(DipCostArguments, cost)},
+    {&dip_picture_option_table, offsetof(DipCostArguments, cost)},
     {&dip_cache_option_table, offsetof(DipCostArguments, cost.cache)},
     {&dip_scene_option_table, offsetof(DipCostArguments, session)},
     {&dip_path_option_table, offsetof(DipCostArguments, session)},
@@ -228,16 +231,7 @@ static const DipOptionPart cost_parts[] = {
     {&dip_threads_option_table, offsetof(DipCostArguments, session)},
     {&dip_program_option_table, offsetof(DipCostArguments, program)},
 };
-static const DipOptionPart merge_parts[] = {
-    {&out_table, offsetof(DipCostMergeArguments, out)},
-    {&picture_table, offsetof(DipCostMergeArguments, cost)},
-    {&dip_cache_option_table, offsetof(DipCostMergeArguments, cost.cache)},
-    {&dip_scene_option_table, offsetof(DipCostMergeArguments, session)},
-    {&dip_threads_option_table, offsetof(DipCostMergeArguments, session)},
-    {&dip_program_option_table, offsetof(DipCostMergeArguments, program)},
-};
 const DipOptionParts dip_cost_option_parts = {cost_parts, DIP_ARRAY_COUNT(cost_parts)};
-const DipOptionParts dip_cost_merge_option_parts = {merge_parts, DIP_ARRAY_COUNT(merge_parts)};
 
 // --- defaults and checks -------------------------------------------------------------------------
 
@@ -253,7 +247,8 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
         .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
         .timed_frames = 4,
     };
-    // Its place among the options must not matter, so it is looked for before they are read.
+    // --quick sets defaults, so it is looked for before the options are read. Otherwise its place
+    // among them would matter.
     for (int i = 0; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0) {
             all->measure = (DipMeasureOptions){.rounds = 3, .starts = 2};
@@ -264,19 +259,12 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
     }
 }
 
-static bool check_out(const char *out, DipError *err) {
+bool dip_cost_check_out(const char *out, DipError *err) {
     return out || dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--out",
                                 "there is no folder for the report; give one with --out DIR");
 }
 
-void dip_cost_set_measure(DipCostOptions *cost, const DipMeasureOptions *measure) {
-    cost->rounds = measure->rounds * measure->starts;
-    cost->starts = measure->starts;
-    cost->has_seed = measure->has_seed;
-    cost->seed = dip_measure_seed(measure);
-}
-
-// Fewer than two rounds of all starts have no interval.
+// Fails for fewer than two rounds of all starts together, since such times have no interval.
 static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
     const int rounds = measure->rounds * measure->starts;
     return (rounds >= 2 && rounds <= DIP_MEASURE_MOST_ROUNDS) ||
@@ -288,7 +276,7 @@ static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
 bool dip_cost_options_check(const void *arguments, DipError *err) {
     const DipCostArguments *all = arguments;
     const DipCostOptions *cost = &all->cost;
-    if (!check_out(all->out, err) || !check_rounds(&all->measure, err)) {
+    if (!dip_cost_check_out(all->out, err) || !check_rounds(&all->measure, err)) {
         return false;
     }
     if (cost->end_place > cost->places) {
@@ -308,14 +296,4 @@ bool dip_cost_options_check(const void *arguments, DipError *err) {
                              "--errors-only and --part, or --predict");
     }
     return dip_session_options_check(&all->session, err);
-}
-
-bool dip_cost_merge_options_check(const void *arguments, DipError *err) {
-    const DipCostMergeArguments *all = arguments;
-    return check_out(all->out, err) &&
-           (all->part_count > 0 ||
-            dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost merge",
-                          "there are no parts to join; give the cost.json of each: cost merge "
-                          "--out DIR PART/cost.json...")) &&
-           dip_session_options_check(&all->session, err);
 }

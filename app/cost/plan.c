@@ -1,9 +1,8 @@
-// Making the rows and the sweeps of a report. A row is one combination of settings on a camera
+// Makes the rows and the sweeps of a report. A row is one combination of settings on a camera
 // path; a sweep is the rows of all steps of one setting.
 #include "app/cost/plan.h"
 
 #include "app/report/combinations.h"
-#include "app/cost/scene_hash.h"
 #include "app/cli/machine.h"
 #include "renderer/base/hash.h"
 
@@ -11,50 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-// For each setting: the camera path that was made for it, and the other setting that it needs.
-// While the other setting is off, all steps of this setting draw the same picture.
-typedef struct SettingPlan {
-    DipCategory category;
-    DipSetting needs; // the other setting, or this setting itself if it needs no other
-    int needed_step;
-} SettingPlan;
-
-static const SettingPlan plans[DIP_SETTING_COUNT] = {
-    [DIP_SETTING_AA] = {DIP_CATEGORY_AA, DIP_SETTING_AA, 0},
-    [DIP_SETTING_TAA] = {DIP_CATEGORY_TAA, DIP_SETTING_AA, 2},
-    [DIP_SETTING_AAA] = {DIP_CATEGORY_AAA, DIP_SETTING_AA, 0},
-    [DIP_SETTING_ASD] = {DIP_CATEGORY_AAA, DIP_SETTING_AA, 0},
-    [DIP_SETTING_AF] = {DIP_CATEGORY_AF, DIP_SETTING_AF, 0},
-    [DIP_SETTING_AAF] = {DIP_CATEGORY_AAF, DIP_SETTING_AF, 4},
-    [DIP_SETTING_OPT] = {DIP_CATEGORY_CAI, DIP_SETTING_OPT, 0},
-    [DIP_SETTING_MIPLOD] = {DIP_CATEGORY_MIPLOD, DIP_SETTING_MIPLOD, 0},
-    [DIP_SETTING_GI] = {DIP_CATEGORY_GI, DIP_SETTING_GI, 0},
-    [DIP_SETTING_MIPDEBUG] = {DIP_CATEGORY_DEFAULT, DIP_SETTING_MIPDEBUG, 0},
+// The camera path that was made for each setting.
+static const DipCategory categories[DIP_SETTING_COUNT] = {
+    [DIP_SETTING_AA] = DIP_CATEGORY_AA,   [DIP_SETTING_TAA] = DIP_CATEGORY_TAA,
+    [DIP_SETTING_AAA] = DIP_CATEGORY_AAA, [DIP_SETTING_AF] = DIP_CATEGORY_AF,
+    [DIP_SETTING_AAF] = DIP_CATEGORY_AAF, [DIP_SETTING_OPT] = DIP_CATEGORY_CAI,
+    [DIP_SETTING_GI] = DIP_CATEGORY_GI,   [DIP_SETTING_MIPLOD] = DIP_CATEGORY_MIPLOD,
 };
 
-// --- paths -------------------------------------------------------------------------------------
-
-static int slot_of(const DipSession *session, int category) {
-    return session->track.categories[category].path ? category : 0;
-}
-
-// Adds the camera path of a category and returns its index. Categories with the same path and field
-// of view share one entry. The entry has the name of the first of these categories.
-static int add_path(DipCostReport *report, const DipSession *session, int category) {
-    const DipCamCategory *slot = &session->track.categories[slot_of(session, category)];
-    for (int p = 0; p < report->path_count; p++) {
-        for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
-            const DipCamCategory *known = &session->track.categories[c];
-            if (strcmp(dip_session_category(c), report->paths[p]) == 0 &&
-                known->path == slot->path && known->fov_y_deg == slot->fov_y_deg) {
-                return p;
-            }
-        }
-    }
-    snprintf(report->paths[report->path_count], sizeof report->paths[0], "%s",
-             dip_session_category(slot_of(session, category)));
-    return report->path_count++;
-}
+// --- paths ---------------------------------------------------------------------------------------
 
 static const DipCamCategory *slot_of_path(const DipCostReport *report, const DipSession *session,
                                           int path) {
@@ -64,6 +28,23 @@ static const DipCamCategory *slot_of_path(const DipCostReport *report, const Dip
         }
     }
     return &session->track.categories[0];
+}
+
+// Adds the camera path of a category, or of the first category if it has none, and returns its
+// index. Categories with the same path and field of view share one entry. The entry has the name of
+// the first of these categories.
+static int add_path(DipCostReport *report, const DipSession *session, int category) {
+    const int own = session->track.categories[category].path ? category : 0;
+    const DipCamCategory *slot = &session->track.categories[own];
+    for (int p = 0; p < report->path_count; p++) {
+        const DipCamCategory *known = slot_of_path(report, session, p);
+        if (known->path == slot->path && known->fov_y_deg == slot->fov_y_deg) {
+            return p;
+        }
+    }
+    snprintf(report->paths[report->path_count], sizeof report->paths[0], "%s",
+             dip_session_category(own));
+    return report->path_count++;
 }
 
 int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session,
@@ -86,23 +67,17 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
            frame * INT64_C(1000000000) / 30;
 }
 
-// --- rows --------------------------------------------------------------------------------------
+// --- rows ----------------------------------------------------------------------------------------
 
-// Finds the row of these settings on this path, or adds it. Returns -1 when there is no room.
+// Finds the row of these settings on this path, or adds it. The sweeps have far fewer rows than
+// there is room for.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
     const int known = dip_report_find(report, quality, path, 0);
-    if (known >= 0 || report->row_count == DIP_COST_MAX_ROWS) {
+    if (known >= 0) {
         return known;
     }
     report->rows[report->row_count] = (DipCostRow){.quality = *quality, .path = path};
     return report->row_count++;
-}
-
-static void refuse(DipCostReport *report, const char *what, const char *why) {
-    if (report->refused_count < DIP_COST_MAX_REFUSED) {
-        snprintf(report->refused[report->refused_count++], DIP_COST_REASON, "%.100s: %.380s", what,
-                 why);
-    }
 }
 
 static DipCostSweep *begin_sweep(DipCostReport *report, DipSetting setting, int path, int base) {
@@ -112,17 +87,20 @@ static DipCostSweep *begin_sweep(DipCostReport *report, DipSetting setting, int 
 }
 
 static void add_to_sweep(DipCostSweep *sweep, int row) {
-    if (row >= 0 && sweep->row_count < DIP_COST_MAX_SWEEP_ROWS) {
+    if (sweep->row_count < DIP_COST_MAX_SWEEP_ROWS) {
         sweep->rows[sweep->row_count++] = row;
     }
 }
 
+// Adds a sweep of all steps of a setting that the renderer accepts.
 static void plan_setting(DipCostReport *report, const DipSession *session, DipSetting setting) {
     const DipSettingInfo *info = dip_setting_info(setting);
-    const SettingPlan *plan = &plans[setting];
     DipQuality base = report->options.baseline;
-    if (plan->needs != setting && base.step[plan->needs] == 0) {
-        base.step[plan->needs] = (uint8_t)plan->needed_step;
+    if (setting == DIP_SETTING_TAA && base.step[DIP_SETTING_AA] == 0) {
+        base.step[DIP_SETTING_AA] = DIP_COST_COMPANY_AA;
+    }
+    if (setting == DIP_SETTING_AAF && base.step[DIP_SETTING_AF] == 0) {
+        base.step[DIP_SETTING_AF] = DIP_COST_COMPANY_AF;
     }
     DipQuality steps[DIP_MAX_STEPS];
     int count = 0;
@@ -132,16 +110,15 @@ static void plan_setting(DipCostReport *report, const DipSession *session, DipSe
         steps[count].step[setting] = (uint8_t)step;
         if (dip_quality_check(&steps[count], &err)) {
             count++;
-        } else {
-            char what[DIP_COST_TEXT];
-            snprintf(what, sizeof what, "%s=%s", info->key, info->steps[step]);
-            refuse(report, what, err.message);
+        } else if (report->refused_count < DIP_COST_MAX_REFUSED) {
+            snprintf(report->refused[report->refused_count++], DIP_COST_REASON,
+                     "%.50s=%.49s: %.380s", info->key, info->steps[step], err.message);
         }
     }
     if (count < 2) {
         return;
     }
-    const int path = add_path(report, session, plan->category);
+    const int path = add_path(report, session, categories[setting]);
     DipCostSweep *sweep = begin_sweep(report, setting, path, add_row(report, &base, path));
     for (int i = 0; i < count; i++) {
         add_to_sweep(sweep, add_row(report, &steps[i], path));
@@ -160,7 +137,7 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
         if (!dip_quality_check(&base, NULL)) {
             continue;
         }
-        const int path = add_path(report, session, plans[DIP_SETTING_AAA].category);
+        const int path = add_path(report, session, categories[DIP_SETTING_AAA]);
         const int base_row = add_row(report, &base, path);
         DipCostSweep *sweep = begin_sweep(report, DIP_SETTING_AAA, path, base_row);
         add_to_sweep(sweep, base_row);
@@ -176,8 +153,9 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     }
 }
 
-// Adds two rows with the baseline's settings on each path: the one beside which the path's rows are
-// timed, unless a sweep has it already, and the A/A row.
+// Adds two rows with the baseline's settings on each path. The path's rows are timed beside the
+// first, which a sweep may have added already. The second is the A/A row: it is timed as if it were
+// another setting.
 static void add_base_rows(DipCostReport *report) {
     for (int path = 0; path < report->path_count; path++) {
         report->base_rows[path] = add_row(report, &report->options.baseline, path);
@@ -186,9 +164,10 @@ static void add_base_rows(DipCostReport *report) {
     }
 }
 
-// --- combinations ------------------------------------------------------------------------------
+// --- combinations --------------------------------------------------------------------------------
 
-// Adds the combinations as rows, or as predictions, of which only a few become rows later.
+// Adds the combinations as rows, or with --predict as predictions, a few of which become rows
+// later.
 static bool plan_combinations(DipCostReport *report, DipError *err) {
     const DipCostOptions *options = &report->options;
     DipCostPredictions *predicted = &report->predicted;
@@ -196,7 +175,7 @@ static bool plan_combinations(DipCostReport *report, DipError *err) {
     predicted->list = options->predict ? calloc(DIP_COST_MAX_ROWS, sizeof *predicted->list) : NULL;
     if (!list || (options->predict && !predicted->list)) {
         free(list);
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        return dip_cost_out_of_memory(err);
     }
     const int count = options->combined
                           ? dip_cost_list_combinations(&options->baseline, options->combined, list,
@@ -218,7 +197,7 @@ static bool plan_combinations(DipCostReport *report, DipError *err) {
                                 DIP_COST_MAX_ROWS);
 }
 
-// --- the whole ---------------------------------------------------------------------------------
+// --- the whole -----------------------------------------------------------------------------------
 
 void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]) {
     const char *file = dip_session_scene_file(session);
@@ -231,28 +210,20 @@ void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]) {
     snprintf(name, DIP_COST_TEXT, "%s", slash ? slash + 1 : file);
 }
 
-// Hashes what stands for a scene of the gallery: its name and the build of the program, whose code
-// the scene is.
-static void hash_gallery(const char *name, char hex[33]) {
-    char build[33];
-    DipHash hash = dip_hash_begin(0);
-    dip_machine_build(build);
-    dip_hash_text(&hash, name);
-    dip_hash_text(&hash, build);
-    dip_hash_hex(&hash, hex);
-}
-
 void dip_cost_describe(DipCostReport *report, const DipSession *session) {
     dip_cost_scene_name(session, report->scene);
-    if (session->shows_gallery) {
-        hash_gallery(report->scene, report->scene_hash);
+    dip_machine_build(report->build);
+    if (session->shows_gallery) { // A scene of the gallery is code of this build.
+        DipHash hash = dip_hash_begin(0);
+        dip_hash_text(&hash, report->scene);
+        dip_hash_text(&hash, report->build);
+        dip_hash_hex(&hash, report->scene_hash);
     } else {
         dip_cost_scene_hash(&session->scene_def, &session->reflection, report->scene_hash);
     }
     dip_machine_processor(report->processor, sizeof report->processor);
     snprintf(report->isa, sizeof report->isa, "%s", dip_isa_name(session->isa));
     snprintf(report->version, sizeof report->version, "%s", DIP_VERSION);
-    dip_machine_build(report->build);
     report->threads = dip_pool_thread_count(session->pool);
     report->width = session->pane_size.width;
     report->height = session->pane_size.height;
@@ -299,7 +270,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     *report = (DipCostReport){.options = *options};
     report->rows = calloc(DIP_COST_MAX_ROWS, sizeof *report->rows);
     if (!report->rows) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        return dip_cost_out_of_memory(err);
     }
     if (!report->options.has_combined) {
         report->options.combined = default_combined(&report->options);

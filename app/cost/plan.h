@@ -8,19 +8,24 @@
 #include "app/report/report.h"
 #include "app/session/session.h"
 
-// A sweep is all steps of one setting. Fills in the rows and sweeps of an empty report and
-// allocates its memory. Steps that the renderer refuses are left out and listed with the reason.
-// Free the report even after a failure.
+// Fills in the rows and sweeps of an empty report and allocates its memory. (A sweep is all steps
+// of one setting.) Steps that the renderer refuses are left out and listed with the reason. Free
+// the report even after a failure.
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
                    DipError *err);
 
 // Fills in the report's scene and its hash, machine, program, threads and size.
 void dip_cost_describe(DipCostReport *report, const DipSession *session);
 
-// Writes the file name of the first model, without its folder.
+// Writes a hash of a scene's content as 32 hexadecimal digits. It depends on everything that
+// affects how the scene looks. The cache of truths (converged pictures) knows a scene by this hash.
+void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflection, char hex[33]);
+
+// Writes the scene's name: the file name of the first model without its folder, or the name of the
+// gallery's scene with its look.
 void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]);
 
-// The duration of a camera path of the report, and the pose at a time on that path.
+// These return the duration of a camera path of the report, and the pose at a time on that path.
 int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session, int path);
 DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,
                       int64_t time_ns);

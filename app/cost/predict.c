@@ -1,12 +1,10 @@
-// Predicting combinations from a few of them.
-#include "app/cost/predict.h"
+// Chooses which combinations to measure, measures them, and predicts all others from them.
+#include "app/cost/steps.h"
 
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/fit.h"
 #include "app/report/combinations.h"
-#include "app/report/work.h"
 #include "app/cli/progress.h"
-#include "app/cost/steps.h"
 #include "app/measure/timing/sample.h"
 #include "app/measure/stats/least_squares.h"
 #include "renderer/base/assert.h"
@@ -16,16 +14,12 @@
 #include <string.h>
 
 enum {
-    COUNTED_FRAMES = 8, // Frames of path 0 that are counted, spread evenly.
+    COUNTED_FRAMES = 8, // Frames of path 0, spread evenly, whose work is counted.
     DESIGN_TERMS = DIP_LEAST_SQUARES_MAX_TERMS,
-    MOST_PROMISING = 24, // Combinations that are measured in one go.
+    MOST_PROMISING = 24, // Combinations that are measured in one go after the first ones.
     MOST_GOES = 3,
-    PER_BUDGET = 6
+    PER_BUDGET = 6 // Combinations of least FLIP that are measured for each budget.
 };
-
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-}
 
 // --- counting work -------------------------------------------------------------------------------
 
@@ -34,7 +28,7 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
     memset(counters, 0, DIP_COUNTER_COUNT * sizeof *counters);
     for (int k = 0; k < frames; k++) {
         DipFrame frame;
-        // The middle of the k-th of equal parts.
+        // The path is divided into equal parts; this is the middle of part k.
         const int index = dip_cost_frame_count(cost->report) * (2 * k + 1) / (2 * frames);
         if (dip_cost_interrupted(err) ||
             !dip_cost_draw_timed(cost, quality, 0, index, &frame, err)) {
@@ -48,16 +42,16 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
     return true;
 }
 
-// The counters of a listed combination; see DipWorkFind.
+// Returns the counters of a listed combination for dip_work_compose.
 static const double *find(const void *context, const DipQuality *quality) {
     const DipCostPredictions *predicted = context;
     const int found = dip_report_find_predicted(predicted, quality);
     return found >= 0 ? predicted->list[found].counters : NULL;
 }
 
-// True if the combination is composed rather than drawn: of many combinations, those that have
-// neither the baseline's antialiasing nor its filtering. A list from which combinations with the
-// same pictures were joined can lack what a combination is composed of.
+// True if the combination is composed rather than drawn: if there are many combinations, and this
+// one has neither the baseline's antialiasing nor its filtering. A list from which combinations
+// with the same pictures were joined can lack those that a combination is composed of.
 static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
     const DipQuality *baseline = &report->options.baseline;
     const unsigned settings = dip_cost_sampling_settings();
@@ -112,7 +106,7 @@ void dip_cost_scale_counters(DipCostReport *report) {
     }
 }
 
-// --- the rows to measure first -----------------------------------------------------------------
+// --- the rows to measure first -------------------------------------------------------------------
 
 int dip_cost_training_count(unsigned settings, int count) {
     const unsigned main = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD |
@@ -128,20 +122,15 @@ int dip_cost_training_count(unsigned settings, int count) {
 
 // Writes the terms of all stages and of FLIP; their constant terms are one. Returns their number.
 static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN_TERMS]) {
-    double amounts[DIP_COST_MAX_TERMS], errors[DIP_COST_ERROR_TERMS];
     int count = 0;
     terms[count++] = 1.0;
-    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        dip_cost_terms((DipCostStage)stage, prediction->counters, &prediction->quality, amounts);
-        DIP_ASSERT(count + dip_cost_term_count((DipCostStage)stage) + DIP_COST_ERROR_TERMS <=
-                   DESIGN_TERMS + 2); // Without the constant terms of the stage and of FLIP.
-        for (int t = 1; t < dip_cost_term_count((DipCostStage)stage); t++) {
+    for (int part = 0; part < DIP_COST_PART_COUNT; part++) {
+        double amounts[DIP_COST_MAX_TERMS];
+        dip_cost_terms(part, prediction->counters, &prediction->quality, amounts);
+        DIP_ASSERT(count + dip_cost_term_count(part) - 1 <= DESIGN_TERMS);
+        for (int t = 1; t < dip_cost_term_count(part); t++) {
             terms[count++] = amounts[t];
         }
-    }
-    dip_cost_error_terms(&prediction->quality, errors);
-    for (int t = 1; t < DIP_COST_ERROR_TERMS; t++) {
-        terms[count++] = errors[t];
     }
     return count;
 }
@@ -150,7 +139,7 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
     const DipCostPredictions *predicted = &report->predicted;
     double *matrix = malloc((size_t)predicted->count * DESIGN_TERMS * sizeof *matrix);
     if (!matrix) {
-        return out_of_memory(err);
+        return dip_cost_out_of_memory(err);
     }
     int terms = 0, given = 0;
     for (int i = 0; i < predicted->count; i++) {
@@ -168,7 +157,7 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
     return true;
 }
 
-// --- predicting --------------------------------------------------------------------------------
+// --- predicting ----------------------------------------------------------------------------------
 
 static int list_rows(const DipCostPredictions *predicted, int rows[DIP_COST_MAX_ROWS]) {
     int count = 0;
@@ -180,7 +169,8 @@ static int list_rows(const DipCostPredictions *predicted, int rows[DIP_COST_MAX_
     return count;
 }
 
-// Returns the usual 95th percentile of a frame's time over its mean, along path 0.
+// Returns by how much the 95th percentile of the frames' times usually exceeds their mean, as a
+// factor: the median over some rows of path 0.
 static double usual_p95(const DipCostReport *report, const int *rows, int count) {
     double ratios[DIP_COST_MAX_ROWS];
     for (int i = 0; i < count; i++) {
@@ -197,21 +187,22 @@ void dip_cost_predict_others(DipCostReport *report) {
     if (count == 0) {
         return;
     }
-    const DipCostModel times = dip_cost_model_fit(report, rows, count);
-    const DipCostErrorModel errors = dip_cost_error_model_fit(report, rows, count);
+    const DipCostModel times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count);
+    const DipCostModel errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count);
     const double p95 = usual_p95(report, rows, count);
     for (int i = 0; i < predicted->count; i++) {
         DipCostPrediction *p = &predicted->list[i];
         if (p->row < 0) {
-            p->ms = dip_cost_model_ms(&times, p->counters, &p->quality);
+            p->ms = dip_cost_model_value(&times, p->counters, &p->quality);
             p->p95_ms = p95 * p->ms;
-            p->flip = dip_cost_error_model_flip(&errors, &p->quality);
+            p->flip = dip_cost_model_value(&errors, p->counters, &p->quality);
         }
     }
 }
 
-// --- what is worth measuring -------------------------------------------------------------------
+// --- what is worth measuring ---------------------------------------------------------------------
 
+// The combinations that should be measured: indices of report->predicted.
 typedef struct Promising {
     const DipCostPrediction *predictions;
     int *list;
@@ -219,33 +210,20 @@ typedef struct Promising {
     int most;
 } Promising;
 
+// Adds a combination unless it is measured or listed already, or the list is full.
 static void add_promising(Promising *promising, int index) {
+    bool needed = promising->predictions[index].row < 0 && promising->count < promising->most;
     for (int i = 0; i < promising->count; i++) {
-        if (promising->list[i] == index) {
-            return;
-        }
+        needed = needed && promising->list[i] != index;
     }
-    if (promising->predictions[index].row < 0 && promising->count < promising->most) {
+    if (needed) {
         promising->list[promising->count++] = index;
     }
 }
 
 static int compare_losses(const void *a, const void *b) {
-    const DipCandidate *x = a;
-    const DipCandidate *y = b;
+    const DipCandidate *x = a, *y = b;
     return (x->loss > y->loss) - (x->loss < y->loss);
-}
-
-// Adds the candidates of least FLIP that may be within a budget, until PER_BUDGET of them are
-// listed or measured. The candidates are in order of their loss.
-static void add_near_budget(Promising *promising, const DipCandidates *all, double budget_ms) {
-    int seen = 0;
-    for (int i = 0; i < all->count && seen < PER_BUDGET; i++) {
-        if (all->list[i].time.value <= 1.08 * budget_ms) {
-            add_promising(promising, all->list[i].row);
-            seen++;
-        }
-    }
 }
 
 int dip_cost_list_promising(const DipCostReport *report, int most, int *list, DipError *err) {
@@ -258,7 +236,13 @@ int dip_cost_list_promising(const DipCostReport *report, int most, int *list, Di
     }
     qsort(all.list, (size_t)all.count, sizeof *all.list, compare_losses);
     for (int b = 0; b < options->budget_count; b++) {
-        add_near_budget(&promising, &all, options->budgets_ms[b]);
+        // PER_BUDGET of the candidates that may be within the budget: those of least FLIP.
+        for (int i = 0, seen = 0; i < all.count && seen < PER_BUDGET; i++) {
+            if (all.list[i].time.value <= 1.08 * options->budgets_ms[b]) {
+                add_promising(&promising, all.list[i].row);
+                seen++;
+            }
+        }
     }
     const int count = dip_front(&all, DIP_CLEARLY_BETTER, front);
     for (int i = 0; i < count; i++) {
@@ -268,9 +252,9 @@ int dip_cost_list_promising(const DipCostReport *report, int most, int *list, Di
     return promising.count;
 }
 
-// --- the whole ---------------------------------------------------------------------------------
+// --- the whole -----------------------------------------------------------------------------------
 
-// Makes rows of some combinations.
+// Adds rows for some combinations of report->predicted, and lists the rows.
 static bool add_rows(DipCostReport *report, const int *list, int count, int *rows, DipError *err) {
     for (int i = 0; i < count; i++) {
         DipCostPrediction *p = &report->predicted.list[list[i]];
@@ -283,6 +267,7 @@ static bool add_rows(DipCostReport *report, const int *list, int count, int *row
     return true;
 }
 
+// Measures the combinations that tell most about all others, and predicts the others.
 static bool measure_training(DipCostContext *cost, DipError *err) {
     DipCostReport *report = cost->report;
     DipCostPredictions *predicted = &report->predicted;
@@ -295,8 +280,9 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
         return false;
     }
     dip_cost_scale_counters(report);
-    predicted->times_left_out = dip_cost_model_leave_one_out(report, rows, count);
-    predicted->errors_left_out = dip_cost_error_model_leave_one_out(report, rows, count);
+    predicted->times_left_out = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, count);
+    predicted->errors_left_out =
+        dip_cost_model_leave_one_out(report, DIP_COST_FLIP_ERROR, rows, count);
     for (int i = 0; i < count; i++) {
         DipCostPrediction *p = &predicted->list[chosen[i]];
         p->ms = dip_cost_ms(report, p->row);
@@ -307,7 +293,8 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
     return true;
 }
 
-// Compares the rows that were measured after they had been predicted with their predictions.
+// Compares the rows from first_row on, which were measured after they had been predicted, with
+// their predictions.
 static void judge_predictions(DipCostReport *report, int first_row) {
     DipCostPredictions *predicted = &report->predicted;
     double times[DIP_COST_MAX_ROWS], errors[DIP_COST_MAX_ROWS];
@@ -339,7 +326,8 @@ bool dip_cost_predict(DipCostContext *cost, DipError *err) {
             break;
         }
         if (!add_rows(report, list, count, rows, err) || !dip_cost_judge(cost, err) ||
-            !dip_cost_time_added(cost, rows, count, err) || !dip_cost_estimate_times(report, err)) {
+            !dip_cost_time_more(cost, rows, count, 0, err) ||
+            !dip_cost_estimate_times(report, err)) {
             return false;
         }
         dip_cost_predict_others(report);

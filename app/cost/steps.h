@@ -1,5 +1,5 @@
-// The functions that make a report, in the order in which they run. Each fills in its part of the
-// report and shows its progress on standard error. A row of the report is one combination of
+// Declares the functions that make a report, in the order in which they run. Each fills in a part
+// of the report and shows its progress on standard error. A row of the report is one combination of
 // settings on a camera path.
 #ifndef DIP_APP_COST_STEPS_H
 #define DIP_APP_COST_STEPS_H
@@ -23,15 +23,12 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err);
 // no smaller ones. Comes after dip_cost_time_rows.
 bool dip_cost_time_smaller(DipCostContext *cost, DipError *err);
 
-// Times rows of path 0 again, each next to the baseline, in as many rounds as dip_cost_time_rows,
-// and joins the times to those before. `times_before` is how often the rows were timed before. The
+// Times rows of path 0 beside the baseline after dip_cost_time_rows, in as many rounds, and joins
+// the times to those before. `times_before` is how often the rows were timed before. With 0, they
+// were added since, and their work is counted, too. The journal does not keep these times. The
 // caller estimates the report's times again.
-bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int times_before,
-                         DipError *err);
-
-// Times rows of path 0 for the first time, which were added after dip_cost_time_rows, and counts
-// their work. The journal does not keep these times. The caller estimates the report's times again.
-bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err);
+bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int times_before,
+                        DipError *err);
 
 // Ranks the combinations of report->predicted: counts their work on a few frames, measures the few
 // that tell most about all others, predicts the times and errors of all, and measures those that
@@ -43,24 +40,65 @@ bool dip_cost_predict(DipCostContext *cost, DipError *err);
 // red.
 bool dip_cost_advise(DipCostContext *cost, DipError *err);
 
+// Answers requests for timed frames on standard input until it is closed. dip_cost_time_rows starts
+// processes that do so (--starts).
+bool dip_cost_serve(DipCostContext *cost, DipError *err);
+
+// --- predicting ----------------------------------------------------------------------------------
+
+// Draws this many timed frames of path 0, spread evenly, and writes the means of their counters.
+bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames, double *counters,
+                    DipError *err);
+
+// Fills in the counters of all of report->predicted: means over a few frames. Up to
+// DIP_COST_MOST_COUNTED combinations are drawn one by one. Of more, only those are drawn that have
+// the baseline's antialiasing or the baseline's filtering. The counters of any other combination
+// are then composed: those with its antialiasing and the baseline's filtering, times those with the
+// baseline's antialiasing and its filtering, over those of the baseline. Shows its progress on
+// standard error.
+bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
+
+// Scales the counters of combinations that were not measured to the frames that are timed. The
+// factor of each counter comes from the measured combinations, whose work was counted on both. Then
+// gives the measured combinations the counters of their rows.
+void dip_cost_scale_counters(DipCostReport *report);
+
+// Returns how many combinations are measured to predict `count` combinations of these settings
+// (bit s: setting s): 16 for antialiasing and anisotropic filtering, and two more for every further
+// step of every further setting; at most `count`.
+int dip_cost_training_count(unsigned settings, int count);
+
+// Chooses the combinations to measure: those that tell most about the prices of work and about
+// FLIP (a D-optimal design). `chosen` has room for `count` indices of report->predicted; the first
+// is the baseline if it is one of the combinations. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err);
+
+// Predicts the time and FLIP of every combination of report->predicted that has no row, from all
+// combinations that have one.
+void dip_cost_predict_others(DipCostReport *report);
+
+// Lists the combinations without a row that should be measured: those on the thinned Pareto front
+// of predicted (or measured) time and FLIP, and for each budget of the options the few of least
+// FLIP whose predicted time is at most 8 % above the budget. Returns their number, at most `most`,
+// or -1 and fills *err.
+int dip_cost_list_promising(const DipCostReport *report, int most, int *list, DipError *err);
+
 // --- elsewhere -----------------------------------------------------------------------------------
 
 // Combinations can be timed elsewhere than a report's rows: at another size, on another camera path
 // or with another number of threads. `cost` is the context of the report, and `there` is a context
 // without truths for the other place.
 
-// Fills in a report without rows for a place with this size, on the camera path of this category,
-// which times as many frames as `report`. Its predicted combinations, if it gets any, are the
-// caller's to free.
+// Makes *there a report without rows for this size and the camera path of this category. It times
+// as many frames as `report`. The caller frees the predicted combinations that it adds to *there.
 void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report, int width,
                               int height, const char *path);
 
 // Times the combinations of `rows` there, each beside the baseline of the report's path 0, and
-// fills in their times and counters. `progress` names what is timed: "smaller frames timed".
-// *machine gets what the timing tells about the machine, except whether it settled. Fails with
-// MEMORY, as the renderer does, and with RUNTIME after Ctrl-C or if too many frames were disturbed.
+// fills in their times and counters. `progress` names what is timed: "smaller frames timed". *wait
+// gets the share of their time that threads waited for a core. Fails with MEMORY, as the renderer
+// does, and with RUNTIME after Ctrl-C or if too many frames were disturbed.
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
-                             int count, const char *progress, DipDriverMachine *machine,
-                             DipError *err);
+                             int count, const char *progress, double *wait, DipError *err);
 
 #endif

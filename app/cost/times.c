@@ -1,9 +1,14 @@
-// Timing rows beside the baseline of their paths, here or elsewhere, and counting their work.
-// Counters are the same in every run of a frame, so each frame is counted once.
+// Times rows beside the baseline of their paths, here or elsewhere, and counts their work. Counters
+// are the same in every run of a frame, so each frame is counted once.
+//
+// With --starts, the program starts itself several times with --serve, one process after another,
+// and asks each for the frames to time. Times differ from process to process, since chance decides
+// where a process has its memory and which cores its threads get.
 #include "app/cli/drive.h"
 #include "app/cli/interrupt.h"
-#include "app/cost/starts.h"
 #include "app/cost/steps.h"
+#include "app/measure/timing/child.h"
+#include "renderer/base/clock.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,39 +16,38 @@
 #include <string.h>
 
 enum {
-    BASE_COPIES = 3,  // Rounds that draw a frame of the baseline: slow frames or slow moments?
-    BLOCK_ROWS = 4,   // Halves the deviation of ratios against one baseline per round, at its cost.
-    LEAST_SIDE = 64,  // Pixels; smaller pictures have no half size.
-    SEED_SALT = 0x517 // The order elsewhere is another than that of the report's rows.
+    BASE_COPIES = 3, // Rounds in which each frame of the baseline is drawn, to tell slow frames
+                     // from slow moments.
+    BLOCK_ROWS = 4, // Rows that are timed beside one drawing of the baseline. With one for all rows
+                    // of a round, ratios would deviate twice as much.
+    LEAST_SIDE = 64, // Pixels. Smaller pictures are not timed at half their size.
+    REQUEST_SIZE = 256,
+    SEED_SALT = 0x517 // Gives measurements elsewhere another order than that of the report's rows.
 };
 
-// A start may take this share of the time of its rounds.
+// If a process takes more than this share of the time of its rounds to start, only two are started.
 static const double most_start = 0.1;
 
-// What is timed: settings on a path of a context's report.
+// What is timed: settings on a camera path of a context's report.
 typedef struct Subject {
     DipCostContext *cost;
     const DipQuality *quality;
     int path;
-    double *counters; // Sums over the frames, then means; NULL: they are known.
+    double *counters; // Sums over the frames, at the end means; NULL if they are known already.
 } Subject;
 
-// A measurement. The bases are subjects, too.
+// A measurement. Each subject is timed beside another subject, its base.
 typedef struct Timing {
     DipCostContext *cost;
     int count;
     Subject *subjects;
-    int *rows;     // Rows of the subjects in the report's log.
-    int *base_of;  // [subject]
-    bool *counted; // [subject * frames + frame]: the frame's counters are in the sums.
+    int *rows;     // [subject]: its row in the report's log.
+    int *base_of;  // [subject]: its base.
+    bool *counted; // [subject * frames + frame]: whether the frame's counters are in the sums.
     DipDriverMachine machine;
-    DipTimesFit *fit; // Of subjects elsewhere.
-    DipChild *child;  // The start that draws; NULL: this process does.
+    DipTimesFit *fit; // Times of subjects elsewhere.
+    DipChild *child;  // The process that draws; NULL: this one.
 } Timing;
-
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-}
 
 static void close_timing(Timing *t) {
     dip_times_fit_free(&t->fit);
@@ -53,7 +57,8 @@ static void close_timing(Timing *t) {
     free(t->counted);
 }
 
-// Begins a measurement. All subjects are the baseline of path 0, and subject 0 is their base.
+// Begins a measurement. For now, all subjects are the baseline of path 0, and subject 0 is the base
+// of all.
 static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *err) {
     const DipCostReport *report = cost->report;
     const size_t size = (size_t)count, values = size * (size_t)dip_cost_frame_count(report);
@@ -64,7 +69,7 @@ static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *er
     t->counted = calloc(values, sizeof *t->counted);
     if (!t->subjects || !t->rows || !t->base_of || !t->counted) {
         close_timing(t);
-        return out_of_memory(err);
+        return dip_cost_out_of_memory(err);
     }
     for (int s = 0; s < count; s++) {
         t->rows[s] = report->base_rows[0];
@@ -73,7 +78,7 @@ static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *er
     return true;
 }
 
-// Makes the subject a row of the report, whose work is counted unless it is known.
+// Makes the subject a row of the report. `counts`: its work is not known yet.
 static void set_row(Timing *t, int subject, int row, bool counts) {
     DipCostRow *timed = &t->cost->report->rows[row];
     t->rows[subject] = row;
@@ -91,8 +96,8 @@ static void count_work(const Timing *t, int subject, int frame, const DipCounter
     }
 }
 
-// Makes means of the sums of count_work. Draws the frames of rounds that the journal had, since the
-// journal has no counters.
+// Makes means of the sums of count_work. Draws the frames whose times came from the journal, since
+// the journal has no counters.
 static bool average_work(const Timing *t, DipError *err) {
     const int frames = dip_cost_frame_count(t->cost->report);
     for (int s = 0; s < t->count; s++) {
@@ -117,13 +122,27 @@ static bool average_work(const Timing *t, DipError *err) {
 
 _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is a part");
 
+// Asks the process that draws for a timed frame of a path, by a request of the form
+// "draw PATH FRAME SETTINGS". Writes the frame's counters and its times.
+static bool draw_in_child(const Timing *t, const Subject *s, int frame, DipCounters *counters,
+                          DipTimed *timed, DipError *err) {
+    char settings[REQUEST_SIZE / 2], request[REQUEST_SIZE];
+    DipBenchSample sample;
+    dip_quality_format(s->quality, settings, sizeof settings);
+    snprintf(request, sizeof request, "draw %d %d %s", s->path, frame, settings);
+    if (!dip_child_draw(t->child, request, &sample, timed, err)) {
+        return false;
+    }
+    *counters = sample.counters;
+    return true;
+}
+
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     const Timing *t = context;
     const Subject *s = &t->subjects[turn->subject];
     DipFrame frame;
     if (t->child) {
-        if (!dip_cost_start_draw(t->child, s->quality, s->path, turn->frame, &frame.counters, timed,
-                                 err)) {
+        if (!draw_in_child(t, s, turn->frame, &frame.counters, timed, err)) {
             return false;
         }
     } else {
@@ -136,11 +155,21 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
+// Ends the process that draws, and starts the next one with the command line of this one.
 static bool start(void *context, int index, DipError *err) {
     Timing *t = context;
+    const DipChildDef def = {
+        .program = "/proc/self/exe",
+        .argv = t->cost->start->argv,
+        .argc = t->cost->start->argc,
+        .what = "cost",
+        .count = t->cost->report->path_count,
+        .frames = dip_cost_frame_count(t->cost->report),
+        .key = "--starts",
+    };
     (void)index;
     dip_child_stop(&t->child, dip_interrupted());
-    t->child = dip_cost_start(t->cost, err);
+    t->child = dip_child_start(&def, err);
     return t->child != NULL;
 }
 
@@ -150,16 +179,16 @@ static bool keep_round(void *context, const DipTimed *timed, int count, DipError
                                       err);
 }
 
-// Hands the rounds of the journal to the driver. It skips those that are not the next.
+// Hands the rounds of the journal to the driver, which skips rounds that are not the next.
 static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     const DipCostJournal *journal = t->cost->journal;
-    const int rounds = dip_cost_journal_round_count(journal);
+    const int rounds = dip_cost_journal_round_count(journal, NULL);
     const int seed = t->cost->report->options.seed;
     for (int i = 0; i < rounds; i++) {
         int count;
         DipTimed *timed = dip_cost_journal_round(journal, i, seed, &count);
         if (!timed) {
-            return out_of_memory(err);
+            return dip_cost_out_of_memory(err);
         }
         dip_driver_resume(driver, timed, count);
         free(timed);
@@ -168,12 +197,12 @@ static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
 }
 
 typedef enum Where {
-    KEPT,     // In the report's starts; the journal keeps everything.
-    HERE,     // In the report's starts.
-    ELSEWHERE // In this process; the report's log does not get the times.
+    KEPT,     // The report's processes draw; the journal and the log keep the times.
+    HERE,     // The report's processes draw; the log keeps the times.
+    ELSEWHERE // This process draws; t->fit gets the times.
 } Where;
 
-// Times the subjects.
+// Times the subjects and counts their work.
 static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const char *progress,
                   DipError *err) {
     DipCostReport *report = t->cost->report;
@@ -234,7 +263,7 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
         t.base_of[r] = report->base_rows[report->rows[r].path];
     }
     if (!report->options.has_seed) {
-        dip_cost_journal_seed(cost->journal, &report->options.seed);
+        dip_cost_journal_round_count(cost->journal, &report->options.seed);
     }
     dip_cost_log_clear(report);
     bool done = drive(&t, KEPT, BLOCK_ROWS, (uint64_t)report->options.seed, "frames timed", err);
@@ -246,32 +275,24 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     return done;
 }
 
-// Times rows of path 0 beside the baseline in as many rounds as dip_cost_time_rows. `counts`: their
-// work is not counted yet.
-static bool time_some(DipCostContext *cost, const int *rows, int count, int block_rows,
-                      uint64_t seed, bool counts, DipError *err) {
+bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int times_before,
+                        DipError *err) {
+    const bool is_new = times_before == 0;
+    const uint64_t seed = is_new ? UINT64_C(0x10000) + (uint64_t)rows[0] : (uint64_t)times_before;
     Timing t;
     if (!open_timing(&t, cost, count + 1, err)) {
         return false;
     }
     for (int i = 0; i < count; i++) {
-        set_row(&t, i + 1, rows[i], counts);
+        set_row(&t, i + 1, rows[i], is_new);
     }
-    const bool done = drive(&t, HERE, block_rows, (uint64_t)cost->report->options.seed + seed,
-                            "frames timed for the advice", err);
+    // Rows that are timed again have a block and a baseline each, since each is compared with a
+    // budget.
+    const bool done =
+        drive(&t, HERE, is_new ? BLOCK_ROWS : 1, (uint64_t)cost->report->options.seed + seed,
+              "frames timed for the advice", err);
     close_timing(&t);
     return done;
-}
-
-bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int times_before,
-                         DipError *err) {
-    // One row per block: two rows that are compared with a budget get a baseline each.
-    return time_some(cost, rows, count, 1, (uint64_t)times_before, false, err);
-}
-
-bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err) {
-    const uint64_t seed = UINT64_C(0x10000) + (uint64_t)rows[0];
-    return time_some(cost, rows, count, BLOCK_ROWS, seed, true, err);
 }
 
 // --- elsewhere -----------------------------------------------------------------------------------
@@ -285,8 +306,7 @@ void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report,
 }
 
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
-                             int count, const char *progress, DipDriverMachine *machine,
-                             DipError *err) {
+                             int count, const char *progress, double *wait, DipError *err) {
     Timing t;
     if (!open_timing(&t, cost, count + 1, err)) {
         return false;
@@ -300,14 +320,14 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
     for (int i = 0; done && i < count; i++) {
         dip_cost_estimate_elsewhere(cost->report, t.fit, i + 1, &rows[i]);
     }
-    *machine = t.machine;
+    *wait = t.machine.wait;
     close_timing(&t);
     return done;
 }
 
 // --- half the size -------------------------------------------------------------------------------
 
-// The settings that stand for edges, for textures and for both.
+// Lists the baseline, and settings that stand for edges, for textures and for both.
 static void list_smaller(DipCostReport *report) {
     static const struct {
         uint8_t aa, aaa, af; // Steps; 0: as in the baseline.
@@ -339,14 +359,46 @@ bool dip_cost_time_smaller(DipCostContext *cost, DipError *err) {
     report->smaller_height = (report->height + 1) / 2;
     dip_cost_elsewhere_begin(&there, report, report->smaller_width, report->smaller_height,
                              report->paths[0]);
-    if (!dip_cost_context_open(&context, cost->session, &there, NULL, NULL, false, err)) {
+    if (!dip_cost_context_open(&context, cost->session, &there, false, err)) {
         return false;
     }
     list_smaller(report);
-    DipDriverMachine machine;
-    const bool done =
-        dip_cost_time_elsewhere(cost, &context, report->smaller, report->smaller_count,
-                                "smaller frames timed", &machine, err);
+    double wait;
+    const bool done = dip_cost_time_elsewhere(
+        cost, &context, report->smaller, report->smaller_count, "smaller frames timed", &wait, err);
     dip_cost_context_close(&context);
     return done;
+}
+
+// --- the process that is asked -------------------------------------------------------------------
+
+// Draws the frame of a request. Its time is that of the whole drawing, as in a measurement without
+// --starts.
+static bool serve_draw(void *context, const char *request, DipBenchSample *sample, DipError *err) {
+    DipCostContext *cost = context;
+    char settings[REQUEST_SIZE];
+    DipQuality quality;
+    DipFrame frame;
+    int path, index;
+    if (sscanf(request, "draw %d %d %255s", &path, &index, settings) != 3 || path < 0 ||
+        path >= cost->report->path_count || index < 0 ||
+        index >= dip_cost_frame_count(cost->report) ||
+        !dip_quality_parse(settings, &quality, NULL)) {
+        return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
+                                     "'%.60s' is not a request; give draw PATH FRAME SETTINGS",
+                                     request);
+    }
+    const int64_t begin_ns = dip_clock_ns();
+    if (!dip_cost_draw_timed(cost, &quality, path, index, &frame, err)) {
+        return false;
+    }
+    const int64_t ns = dip_clock_ns() - begin_ns;
+    dip_bench_sample_set(sample, &frame, false);
+    sample->ms[DIP_BENCH_STAGE_total] = 1e-6 * (double)ns;
+    return true;
+}
+
+bool dip_cost_serve(DipCostContext *cost, DipError *err) {
+    return dip_child_serve("cost", cost->report->path_count, dip_cost_frame_count(cost->report),
+                           serve_draw, cost, err);
 }

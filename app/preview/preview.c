@@ -1,8 +1,7 @@
 // Opens the display and runs the loop.
 #include "app/preview/preview.h"
 
-#include "app/cost/cost.h"
-#include "app/cost/plan.h"
+#include "app/cost/context.h"
 #include "app/display/sdl/sdl_display.h"
 #include "app/display/terminal/terminal_display.h"
 #include "app/cli/log.h"

@@ -1,9 +1,12 @@
 // What is computed from a whole report for its readers, once, before it is written: how times
-// follow from work, and which settings do more or less together than alone. Forms only read it.
+// follow from work, which settings do more or less together than alone, and whether error and work
+// follow theory from step to step. Forms only read the results.
 #ifndef DIP_APP_REPORT_ANALYSIS_H
 #define DIP_APP_REPORT_ANALYSIS_H
 
 #include "app/report/fit.h"
+
+#include <stddef.h>
 
 enum { DIP_COST_MAX_INTERACTIONS = DIP_SETTING_COUNT * (DIP_SETTING_COUNT - 1) / 2 };
 
@@ -22,14 +25,10 @@ typedef struct DipCostInteraction {
     double time;
 } DipCostInteraction;
 
-// Computes the interactions of all pairs of combined settings. Returns their number.
-int dip_cost_interactions(const DipCostReport *report,
-                          DipCostInteraction list[DIP_COST_MAX_INTERACTIONS]);
-
 typedef struct DipCostAnalysis {
     DipCostFit fit;
-    // None if combinations were predicted: those that are measured are good ones, so means over
-    // them mislead.
+    // Of all pairs of combined settings. There are none if combinations were predicted: only good
+    // combinations are then measured, so means over them mislead.
     DipCostInteraction interactions[DIP_COST_MAX_INTERACTIONS];
     int interaction_count;
 } DipCostAnalysis;
@@ -37,5 +36,12 @@ typedef struct DipCostAnalysis {
 // Fills in report->analysis. Call it once nothing is measured any more. Fails with
 // DIP_ERROR_MEMORY.
 bool dip_cost_analyse(DipCostReport *report, DipError *err);
+
+// Writes a sentence about a sweep (all steps of one setting). If error and work follow theory, the
+// sentence says what falls or rises from step to step. Otherwise it names the step that departs
+// from theory and gives a likely reason. Times are not checked, because they depend on the machine.
+// Returns false if the steps' errors are unknown or theory says nothing about the setting.
+bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep, char *text,
+                         size_t size_bytes);
 
 #endif

@@ -1,34 +1,27 @@
-// Lists of candidates, and the choice that a report derives from its measurements.
-#include "app/report/candidates.h"
+// Lists the candidates of a report: combinations with a time and an error. Then makes the choice
+// that the report derives from its measurements.
+#include "app/report/report.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// The least standard error of a time's logarithm: two runs on a quiet machine differ by as much.
+// No time's logarithm has a smaller standard error, since two runs on a quiet machine differ by as
+// much.
 static const double least_error = 0.002;
 
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-}
-
-// Returns a time without the error of the level that all rows share. What is not known stays so.
+// Returns a time without the error of the level that all rows share. A time whose error is not
+// known keeps no interval.
 static DipEstimate time_of_kind(const DipPathEstimate *time, DipTimeKind kind, int rounds) {
-    const DipEstimate times[DIP_TIME_KIND_COUNT] = {
-        [DIP_TIME_P95] = time->p95_ms,
-        [DIP_TIME_MEAN] = time->mean_ms,
-        [DIP_TIME_WORST] = time->worst_ms,
-    };
-    const double errors[DIP_TIME_KIND_COUNT] = {
-        [DIP_TIME_P95] = time->p95_error,
-        [DIP_TIME_MEAN] = time->ratio_error,
-        [DIP_TIME_WORST] = time->worst_error,
-    };
-    const DipEstimate *whole = &times[kind];
-    if (isnan(whole->log_error)) {
-        return dip_estimate_unknown(whole->value);
-    }
-    return dip_estimate_make(whole->value, hypot(errors[kind], least_error),
-                             whole->degrees >= 1.0 ? whole->degrees : rounds - 1);
+    const DipEstimate whole = kind == DIP_TIME_P95    ? time->p95_ms
+                              : kind == DIP_TIME_MEAN ? time->mean_ms
+                                                      : time->worst_ms;
+    const double error = kind == DIP_TIME_P95    ? time->p95_error
+                         : kind == DIP_TIME_MEAN ? time->ratio_error
+                                                 : time->worst_error;
+    return isnan(whole.log_error)
+               ? dip_estimate_unknown(whole.value)
+               : dip_estimate_make(whole.value, hypot(error, least_error),
+                                   whole.degrees >= 1.0 ? whole.degrees : rounds - 1);
 }
 
 DipCandidate dip_candidate_of_row(const DipCostReport *report, int row, DipTimeKind kind) {
@@ -48,22 +41,7 @@ static bool begin(const DipCostReport *report, DipTimeKind kind, int room,
     *candidates = (DipCandidates){.list = calloc((size_t)room + 1, sizeof *candidates->list),
                                   .kind = kind,
                                   .disturbed = report->verdict == DIP_COST_RED};
-    return candidates->list || out_of_memory(err);
-}
-
-bool dip_candidates_of(const DipCostReport *report, DipTimeKind kind, DipCandidates *candidates,
-                       DipError *err) {
-    if (!begin(report, kind, report->row_count - report->combined_first, candidates, err)) {
-        return false;
-    }
-    for (int r = report->combined_first; r < report->row_count; r++) {
-        int viewpoints;
-        dip_cost_row_sums(report, r, &viewpoints);
-        if (viewpoints > 0 && dip_cost_is_timed(report, r)) {
-            candidates->list[candidates->count++] = dip_candidate_of_row(report, r, kind);
-        }
-    }
-    return true;
+    return candidates->list || dip_cost_out_of_memory(err);
 }
 
 bool dip_candidates_of_predictions(const DipCostReport *report, DipTimeKind kind, bool measured,
@@ -95,50 +73,12 @@ void dip_candidates_free(DipCandidates *candidates) {
     *candidates = (DipCandidates){0};
 }
 
-// --- the choice of a report ----------------------------------------------------------------------
-
-void dip_cost_choice_free(DipCostChoice *choice) {
-    dip_candidates_free(&choice->candidates);
-    free(choice->front);
-    *choice = (DipCostChoice){.knee = -1};
-}
-
-bool dip_cost_choose(DipCostReport *report, DipError *err) {
-    DipCostChoice *choice = &report->choice;
-    dip_cost_choice_free(choice);
-    if (report->rounds == 0) {
-        return true;
-    }
-    if (!dip_candidates_of(report, report->options.budget_of, &choice->candidates, err)) {
-        return false;
-    }
-    choice->front = calloc((size_t)choice->candidates.count + 1, sizeof *choice->front);
-    if (!choice->front) {
-        return out_of_memory(err);
-    }
-    choice->front_count = dip_front(&choice->candidates, DIP_CLEARLY_BETTER, choice->front);
-    choice->knee = dip_front_knee(&choice->candidates, choice->front, choice->front_count);
-    choice->advice_count = choice->candidates.count > 0 ? report->options.budget_count : 0;
-    for (int i = 0; i < choice->advice_count; i++) {
-        choice->advice[i] = dip_advise(&choice->candidates, report->options.budgets_ms[i]);
-    }
-    return true;
-}
-
-const DipCandidate *dip_cost_chosen(const DipCostReport *report, int budget) {
-    const DipCostChoice *choice = &report->choice;
-    const int chosen = budget < choice->advice_count ? choice->advice[budget].chosen : -1;
-    return chosen >= 0 ? &choice->candidates.list[chosen] : NULL;
-}
-
 static int compare_times(const void *a, const void *b) {
-    const DipCandidate *x = a;
-    const DipCandidate *y = b;
+    const DipCandidate *x = a, *y = b;
     return (x->time.value > y->time.value) - (x->time.value < y->time.value);
 }
 
 bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *all) {
-    const DipCostPrediction *list = report->predicted.list;
     int front[DIP_COST_MAX_ROWS];
     bool is_best[DIP_COST_MAX_ROWS] = {false};
     if (!dip_candidates_of_predictions(report, report->options.budget_of, false, all, NULL)) {
@@ -150,12 +90,55 @@ bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *all) {
     }
     const int count = all->count;
     all->count = 0;
-    for (int i = 0; i < count; i++) {
-        if ((count <= DIP_CANDIDATES_LISTED || is_best[i] || list[i].row >= 0) &&
-            all->count < DIP_CANDIDATES_LISTED) {
+    for (int i = 0; i < count && all->count < DIP_CANDIDATES_LISTED; i++) {
+        if (count <= DIP_CANDIDATES_LISTED || is_best[i] || report->predicted.list[i].row >= 0) {
             all->list[all->count++] = all->list[i];
         }
     }
     qsort(all->list, (size_t)all->count, sizeof *all->list, compare_times);
     return true;
+}
+
+// --- the choice of a report ----------------------------------------------------------------------
+
+void dip_cost_choice_free(DipCostChoice *choice) {
+    dip_candidates_free(&choice->candidates);
+    free(choice->front);
+    *choice = (DipCostChoice){.knee = -1};
+}
+
+bool dip_cost_choose(DipCostReport *report, DipError *err) {
+    DipCostChoice *choice = &report->choice;
+    DipCandidates *all = &choice->candidates;
+    const DipTimeKind kind = report->options.budget_of;
+    const int first = report->combined_first;
+    dip_cost_choice_free(choice);
+    if (report->rounds == 0) {
+        return true;
+    }
+    if (!begin(report, kind, report->row_count - first, all, err)) {
+        return false;
+    }
+    for (int r = first; r < report->row_count; r++) {
+        if (dip_cost_is_judged(report, r)) {
+            all->list[all->count++] = dip_candidate_of_row(report, r, kind);
+        }
+    }
+    choice->front = calloc((size_t)all->count + 1, sizeof *choice->front);
+    if (!choice->front) {
+        return dip_cost_out_of_memory(err);
+    }
+    choice->front_count = dip_front(all, DIP_CLEARLY_BETTER, choice->front);
+    choice->knee = dip_front_knee(all, choice->front, choice->front_count);
+    choice->advice_count = all->count > 0 ? report->options.budget_count : 0;
+    for (int i = 0; i < choice->advice_count; i++) {
+        choice->advice[i] = dip_advise(all, report->options.budgets_ms[i]);
+    }
+    return true;
+}
+
+const DipCandidate *dip_cost_chosen(const DipCostReport *report, int budget) {
+    const DipCostChoice *choice = &report->choice;
+    const int chosen = budget < choice->advice_count ? choice->advice[budget].chosen : -1;
+    return chosen >= 0 ? &choice->candidates.list[chosen] : NULL;
 }

@@ -1,4 +1,4 @@
-// The front, its knee, and the advice for a budget.
+// Computes the Pareto front of candidates, its knee, and the advice for a budget.
 #include "app/report/choice.h"
 
 #include <math.h>
@@ -66,25 +66,26 @@ double dip_candidate_fits(const DipCandidate *candidate, double budget_ms) {
 }
 
 static bool overlap(const DipEstimate *a, const DipEstimate *b) {
-    return a->low <= b->high && b->low <= a->high; // False if an end is not known.
+    return a->low <= b->high && b->low <= a->high; // False for an end that is not known (NAN).
 }
 
-// Candidates that surely fit a budget and whose loss is at most this.
+// The alike candidates of a budget: those that surely fit it and whose loss is at most `most_loss`.
 typedef struct Alike {
     const DipCandidates *all;
     double budget_ms;
     double most_loss;
 } Alike;
 
-// Returns whether a candidate belongs to them. What takes longer than the budget fits with less
-// than a half.
+// Returns whether a candidate is alike. The cheap comparison of the times comes first: a candidate
+// that takes longer than the budget fits it with a probability below a half.
 static bool contains(const Alike *alike, int index) {
     const DipCandidate *c = &alike->all->list[index];
     return c->loss <= alike->most_loss && c->time.value <= alike->budget_ms &&
            dip_candidate_fits(c, alike->budget_ms) >= DIP_SURELY_FITS;
 }
 
-// Finds those within 1 % of the least loss. Returns the fastest one, or -1.
+// Sets most_loss to 1 % above the least loss of what surely fits. Returns the fastest of the alike
+// candidates, or -1.
 static int find_alike(Alike *alike) {
     int fastest = -1;
     for (int i = 0; i < alike->all->count; i++) {
@@ -102,8 +103,8 @@ static int find_alike(Alike *alike) {
     return fastest;
 }
 
-// Returns the one with the fewest changes among those whose intervals overlap with the fastest
-// one's.
+// Returns the alike candidate with the fewest settings off their defaults, among those whose time
+// cannot be told from that of the fastest: the intervals of their times overlap.
 static int choose(const Alike *alike, int fastest) {
     const DipCandidate *list = alike->all->list;
     int best = fastest;
@@ -118,7 +119,7 @@ static int choose(const Alike *alike, int fastest) {
     return best;
 }
 
-// Lists the others.
+// Lists the alike candidates that were not chosen, the fastest first.
 static void list_ties(const Alike *alike, DipAdvice *advice) {
     const DipCandidate *list = alike->all->list;
     for (int i = 0; i < alike->all->count; i++) {

@@ -1,5 +1,9 @@
-// Lists combinations of settings.
+// Lists combinations of settings, and composes the counters of a combination from those of the base
+// and of one combination for each group of settings.
 #include "app/report/combinations.h"
+
+#include <math.h>
+#include <string.h>
 
 typedef struct List {
     unsigned settings;
@@ -35,11 +39,6 @@ int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, Di
     return all.count;
 }
 
-unsigned dip_cost_sampling_settings(void) {
-    return 1u << DIP_SETTING_AA | 1u << DIP_SETTING_TAA | 1u << DIP_SETTING_AAA |
-           1u << DIP_SETTING_ASD;
-}
-
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask) {
     DipQuality taken = *from;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
@@ -48,4 +47,65 @@ DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with
         }
     }
     return taken;
+}
+
+// --- composed work -------------------------------------------------------------------------------
+
+// The groups of settings. The first group is the settings of samples.
+static const unsigned groups[] = {
+    1u << DIP_SETTING_AA | 1u << DIP_SETTING_TAA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
+    1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
+    1u << DIP_SETTING_OPT,
+    1u << DIP_SETTING_MIPLOD,
+    1u << DIP_SETTING_GI,
+};
+enum { GROUPS = sizeof groups / sizeof *groups };
+
+unsigned dip_cost_sampling_settings(void) {
+    return groups[0];
+}
+
+int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
+    DipQuality rest = *quality;
+    int count = 0;
+    for (int g = 0; g < GROUPS; g++) {
+        const DipQuality without = dip_cost_take_settings(&rest, base, groups[g]);
+        count += !dip_quality_equal(&without, &rest);
+        rest = without;
+    }
+    return dip_quality_equal(&rest, base) ? count : -1;
+}
+
+// Multiplies each counter by the factor from the base's counter to that of a combination (`of`).
+// Where the base's counter is 0, there is no factor, and the combination's own counter is taken.
+// Returns false if the combination was not counted.
+static bool apply(const double *of, const double *base, double *counters) {
+    for (int c = 0; of && c < DIP_COST_COUNTER_COUNT; c++) {
+        counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);
+    }
+    return of != NULL;
+}
+
+bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
+                      const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]) {
+    const double *of_base = find(context, base);
+    if (!of_base || dip_work_count_groups(base, quality) < 0) {
+        return false;
+    }
+    memcpy(counters, of_base, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    const DipQuality sampling = dip_cost_take_settings(base, quality, groups[0]);
+    const DipQuality filtering = dip_cost_take_settings(base, quality, ~groups[0]);
+    if (!apply(find(context, &sampling), of_base, counters)) {
+        return false;
+    }
+    const double *of_filtering = find(context, &filtering);
+    if (of_filtering) {
+        return apply(of_filtering, of_base, counters);
+    }
+    bool known = true;
+    for (int g = 1; known && g < GROUPS; g++) {
+        const DipQuality alone = dip_cost_take_settings(base, quality, groups[g]);
+        known = apply(find(context, &alone), of_base, counters);
+    }
+    return known;
 }

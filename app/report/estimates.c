@@ -1,4 +1,4 @@
-// Computing the times of a report's rows from its log of timed frames, and the verdict on the
+// Computes the times of a report's rows from its log of timed frames, and the verdict on the
 // machine.
 #include "app/report/report.h"
 
@@ -6,15 +6,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-int dip_cost_frame_count(const DipCostReport *report) {
-    return dip_cost_is_view(report) ? 1 : report->options.rounds * report->options.timed_frames;
-}
-
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-}
 
 // --- the log -------------------------------------------------------------------------------------
 
@@ -30,7 +21,7 @@ bool dip_cost_log_add(DipCostReport *report, const DipTimes *times, const int *r
     const size_t count = (size_t)report->log_count + (size_t)times->count;
     DipTimed *log = realloc(report->log, (count + 1) * sizeof *log);
     if (!log) {
-        return out_of_memory(err);
+        return dip_cost_out_of_memory(err);
     }
     int block = 0;
     for (int i = 0; i < report->log_count; i++) {
@@ -51,7 +42,7 @@ bool dip_cost_log_add(DipCostReport *report, const DipTimes *times, const int *r
 static DipTimesFit *fit_rows(const DipCostReport *report, DipError *err) {
     int *base_of = malloc(((size_t)report->row_count + 1) * sizeof *base_of);
     if (!base_of) {
-        out_of_memory(err);
+        dip_cost_out_of_memory(err);
         return NULL;
     }
     const int starts = report->starts > 0 ? report->starts : 1;
@@ -75,15 +66,7 @@ static DipTimesFit *fit_rows(const DipCostReport *report, DipError *err) {
 
 // --- rows ----------------------------------------------------------------------------------------
 
-bool dip_cost_is_timed(const DipCostReport *report, int row) {
-    return report->rounds > 0 && row < report->row_count;
-}
-
-double dip_cost_ms(const DipCostReport *report, int row) {
-    return report->rows[row].time.mean_ms.value;
-}
-
-// Adds the doubt that the verdict on the machine leaves.
+// Widens an interval by the doubt that an amber verdict on the machine adds.
 static DipEstimate doubted(const DipCostReport *report, DipEstimate estimate) {
     return report->doubt > 0.0 ? dip_estimate_widen(&estimate, report->doubt) : estimate;
 }
@@ -92,16 +75,8 @@ DipEstimate dip_cost_ratio(const DipCostReport *report, int row, int base) {
     return doubted(report, dip_times_ratio_of(report->fit, row, base));
 }
 
-void dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms) {
-    const size_t frames = (size_t)dip_cost_frame_count(report);
-    for (int i = 0; i < count; i++) {
-        memcpy(ms + (size_t)i * frames, dip_times_frames(report->fit, rows[i]),
-               frames * sizeof *ms);
-    }
-}
-
-// Computes how a mean time divides into the stages. Times that were read from a file have no parts;
-// then the stages keep the times that the file has.
+// Computes how a mean time divides into the stages. If the log came from a file, its times have no
+// parts, and the stages keep the times that the file has.
 static void divide_into_stages(const DipTimesFit *fit, int subject, double mean_ms,
                                double stage_ms[DIP_COST_STAGE_COUNT]) {
     const double *shares = dip_times_shares(fit, subject);
@@ -123,7 +98,8 @@ void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimesFit 
     divide_into_stages(fit, subject, row->ms.value, row->stage_ms);
 }
 
-// An estimate's own error; 0 if it has none beside the level's.
+// Returns the part of an estimate's error that does not come from the error of the level; 0 if
+// there is none.
 static double without_level(DipEstimate estimate, double level_error) {
     const double own = estimate.log_error * estimate.log_error - level_error * level_error;
     return own > 0.0 ? sqrt(own) : 0.0;

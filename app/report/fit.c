@@ -1,153 +1,182 @@
-// The model of times, stage by stage.
+// Fits the models of times and of FLIP, and judges them.
 #include "app/report/fit.h"
 
 #include "app/measure/stats/least_squares.h"
 #include "renderer/base/assert.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-// How often the combinations that were timed there count together, for each time that the report's
-// rows count together. From 3 to 100 it matters little: 6 combinations of the courtyard, at two
-// sizes and on three other paths, then predict the others about as well.
+// All combinations that were timed there count this many times as much as all rows of the report.
+// Any value from 3 to 100 does about as well: it was tried with 6 combinations of the courtyard, at
+// two sizes and on three other paths, which predicted the others.
 static const double there_weight = 30.0;
 
-// The equations of all stages.
-typedef struct Equations {
-    DipNormalEquations stages[DIP_COST_STAGE_COUNT];
-} Equations;
+// Without a ridge, rows that do not tell two terms of FLIP apart would give them great prices of
+// opposite sign.
+static const double flip_ridge = 1e-5;
 
 // What a row, or a combination that was timed elsewhere, tells about prices.
 typedef struct Sample {
     const double *counters;
     const double *stage_ms;
     const DipQuality *quality;
+    double whole; // The time of the frame, or its FLIP; 0 if it is not known.
 } Sample;
 
-static Sample sample_of(const DipCostRow *row) {
-    return (Sample){row->counters, row->stage_ms, &row->quality};
-}
+// The equations of the parts that make up the time or FLIP.
+typedef struct Equations {
+    DipCostModelled what;
+    int first, end; // The parts from `first` to end - 1.
+    DipNormalEquations parts[DIP_COST_PART_COUNT];
+    int known; // Number of rows that were added.
+} Equations;
 
-static Sample elsewhere_sample(const DipCostElsewhere *row) {
-    return (Sample){row->counters, row->stage_ms, &row->quality};
-}
-
-static void enlarge_scale(const Sample *sample, DipCostStage stage,
-                          double scale[DIP_COST_MAX_TERMS]) {
-    double amounts[DIP_COST_MAX_TERMS];
-    dip_cost_terms(stage, sample->counters, sample->quality, amounts);
-    for (int t = 0; t < dip_cost_term_count(stage); t++) {
-        scale[t] = fmax(scale[t], amounts[t]);
-    }
-}
-
-static double whole_of(const Sample *sample) {
+static double sum_stages(const double stage_ms[DIP_COST_STAGE_COUNT]) {
     double ms = 0.0;
     for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        ms += sample->stage_ms[stage];
+        ms += stage_ms[stage];
     }
     return ms;
 }
 
-static double whole_ms(const DipCostRow *row) {
-    const Sample sample = sample_of(row);
-    return whole_of(&sample);
+static Sample sample_of(const DipCostReport *report, DipCostModelled what, int row) {
+    const DipCostRow *r = &report->rows[row];
+    const double whole =
+        what == DIP_COST_TIME ? sum_stages(r->stage_ms) : dip_cost_row_metrics(report, row, 0).flip;
+    return (Sample){r->counters, r->stage_ms, &r->quality, whole};
 }
 
-// Adds a sample `weight` times. A weight of -1 takes it away.
-static void add(Equations *equations, const Sample *sample, double weight) {
-    const double ms = whole_of(sample);
-    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        double amounts[DIP_COST_MAX_TERMS];
-        dip_cost_terms((DipCostStage)stage, sample->counters, sample->quality, amounts);
-        dip_normal_equations_add(&equations->stages[stage], amounts, sample->stage_ms[stage],
-                                 weight / (ms * ms));
+// Returns the sample of rows[index]; without `rows`, that of the row with this index.
+static Sample sample_at(const DipCostReport *report, DipCostModelled what, const int *rows,
+                        int index) {
+    return sample_of(report, what, rows ? rows[index] : index);
+}
+
+static Sample elsewhere_sample(const DipCostElsewhere *row) {
+    return (Sample){row->counters, row->stage_ms, &row->quality, sum_stages(row->stage_ms)};
+}
+
+// Adds a sample `weight` times, if its value is known. A weight of -1 takes it away.
+static bool add(Equations *equations, const Sample *sample, double weight) {
+    double amounts[DIP_COST_MAX_TERMS];
+    if (!(sample->whole > 0.0)) {
+        return false;
     }
+    for (int part = equations->first; part < equations->end; part++) {
+        const double value = part == DIP_COST_PART_FLIP ? sample->whole : sample->stage_ms[part];
+        dip_cost_terms(part, sample->counters, sample->quality, amounts);
+        dip_normal_equations_add(&equations->parts[part], amounts, value,
+                                 weight / (sample->whole * sample->whole));
+    }
+    return true;
 }
 
-static void add_row(Equations *equations, const DipCostRow *row, double weight) {
-    const Sample sample = sample_of(row);
-    add(equations, &sample, weight);
-}
-
-// Adds combinations that were timed elsewhere.
 static void add_elsewhere(Equations *equations, const DipCostElsewhere *list, int count,
                           double weight) {
     for (int i = 0; i < count; i++) {
         const Sample sample = elsewhere_sample(&list[i]);
-        if (whole_of(&sample) > 0.0) {
-            add(equations, &sample, weight);
-        }
+        add(equations, &sample, weight);
     }
 }
 
-// Starts the equations of some rows, and adds the combinations that were timed at a smaller size.
-static void begin(Equations *equations, const DipCostReport *report, const int *rows, int count) {
-    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        double scale[DIP_COST_MAX_TERMS] = {0};
-        for (int r = 0; r < count; r++) {
-            const Sample sample = sample_of(&report->rows[rows[r]]);
-            enlarge_scale(&sample, (DipCostStage)stage, scale);
-        }
-        for (int i = 0; i < report->smaller_count; i++) {
-            const Sample sample = elsewhere_sample(&report->smaller[i]);
-            enlarge_scale(&sample, (DipCostStage)stage, scale);
-        }
-        dip_normal_equations_begin(&equations->stages[stage],
-                                   dip_cost_term_count((DipCostStage)stage), scale);
+static void enlarge_scale(const Sample *sample, int part, double scale[DIP_COST_MAX_TERMS]) {
+    double amounts[DIP_COST_MAX_TERMS];
+    dip_cost_terms(part, sample->counters, sample->quality, amounts);
+    for (int t = 0; t < dip_cost_term_count(part); t++) {
+        scale[t] = fmax(scale[t], amounts[t]);
     }
-    add_elsewhere(equations, report->smaller, report->smaller_count, 1.0);
 }
 
-static DipCostModel solve(const Equations *equations, int rows) {
-    DipCostModel model = {.rows = rows};
-    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        dip_least_squares_nonnegative(&equations->stages[stage], model.price_ms[stage]);
+// Starts the equations of a part with the greatest amount of each term. The amounts of FLIP's terms
+// are at most 1.
+static void begin_part(Equations *equations, const DipCostReport *report, const int *rows,
+                       int count, int part) {
+    double scale[DIP_COST_MAX_TERMS];
+    for (int t = 0; t < DIP_COST_MAX_TERMS; t++) {
+        scale[t] = part == DIP_COST_PART_FLIP;
+    }
+    for (int r = 0; r < count; r++) {
+        const Sample sample = sample_at(report, equations->what, rows, r);
+        enlarge_scale(&sample, part, scale);
+    }
+    for (int i = 0; i < report->smaller_count; i++) {
+        const Sample sample = elsewhere_sample(&report->smaller[i]);
+        enlarge_scale(&sample, part, scale);
+    }
+    dip_normal_equations_begin(&equations->parts[part], dip_cost_term_count(part), scale);
+}
+
+// Makes the equations of some rows. Those of times also get the combinations at a smaller size.
+static void begin(Equations *equations, const DipCostReport *report, DipCostModelled what,
+                  const int *rows, int count) {
+    const bool is_time = what == DIP_COST_TIME;
+    equations->what = what;
+    equations->first = is_time ? 0 : DIP_COST_PART_FLIP;
+    equations->end = is_time ? DIP_COST_STAGE_COUNT : DIP_COST_PART_COUNT;
+    equations->known = 0;
+    for (int part = equations->first; part < equations->end; part++) {
+        begin_part(equations, report, rows, count, part);
+    }
+    if (is_time) {
+        add_elsewhere(equations, report->smaller, report->smaller_count, 1.0);
+    }
+    for (int r = 0; r < count; r++) {
+        const Sample sample = sample_at(report, what, rows, r);
+        equations->known += add(equations, &sample, 1.0);
+    }
+}
+
+static DipCostModel solve(const Equations *equations) {
+    DipCostModel model = {.what = equations->what, .rows = equations->known};
+    for (int part = equations->first; part < equations->end; part++) {
+        const DipNormalEquations *e = &equations->parts[part];
+        if (part == DIP_COST_PART_FLIP) {
+            dip_least_squares_ridge(e, flip_ridge * e->left[0][0], model.prices[part]);
+        } else {
+            dip_least_squares_nonnegative(e, model.prices[part]);
+        }
     }
     return model;
 }
 
-static bool is_known(const DipCostRow *row) {
-    return whole_ms(row) > 0.0;
+DipCostModel dip_cost_model_fit(const DipCostReport *report, DipCostModelled what, const int *rows,
+                                int count) {
+    Equations equations;
+    begin(&equations, report, what, rows, count);
+    return solve(&equations);
 }
 
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
                                       const DipCostElsewhere *there, int there_count) {
     Equations equations;
-    int known = 0;
-    begin(&equations, report, rows, count);
-    for (int r = 0; r < count; r++) {
-        if (is_known(&report->rows[rows[r]])) {
-            add_row(&equations, &report->rows[rows[r]], 1.0);
-            known++;
-        }
-    }
+    begin(&equations, report, DIP_COST_TIME, rows, count);
     add_elsewhere(&equations, there, there_count,
-                  there_weight * (known + report->smaller_count) / there_count);
-    return solve(&equations, known + there_count);
+                  there_weight * (equations.known + report->smaller_count) / there_count);
+    equations.known += there_count;
+    return solve(&equations);
 }
 
-DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count) {
-    return dip_cost_model_fit_there(report, rows, count, NULL, 0);
-}
-
-double dip_cost_model_ms(const DipCostModel *model, const double counters[DIP_COST_COUNTER_COUNT],
-                         const DipQuality *quality) {
-    double ms = 0.0;
-    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+double dip_cost_model_value(const DipCostModel *model,
+                            const double counters[DIP_COST_COUNTER_COUNT],
+                            const DipQuality *quality) {
+    const bool is_time = model->what == DIP_COST_TIME;
+    double value = 0.0;
+    for (int part = is_time ? 0 : DIP_COST_PART_FLIP;
+         part < (is_time ? DIP_COST_STAGE_COUNT : DIP_COST_PART_COUNT); part++) {
         double amounts[DIP_COST_MAX_TERMS];
-        dip_cost_terms((DipCostStage)stage, counters, quality, amounts);
-        for (int t = 0; t < dip_cost_term_count((DipCostStage)stage); t++) {
-            ms += amounts[t] * model->price_ms[stage][t];
+        dip_cost_terms(part, counters, quality, amounts);
+        for (int t = 0; t < dip_cost_term_count(part); t++) {
+            value += amounts[t] * model->prices[part][t];
         }
     }
-    return ms;
+    return is_time ? value : fmax(value, 0.0);
 }
 
 // --- misses --------------------------------------------------------------------------------------
 
-static double miss_of(const DipCostModel *model, const DipCostRow *row) {
-    return fabs(dip_cost_model_ms(model, row->counters, &row->quality) / whole_ms(row) - 1.0);
+static double miss_of(const DipCostModel *model, const Sample *sample) {
+    return fabs(dip_cost_model_value(model, sample->counters, sample->quality) / sample->whole -
+                1.0);
 }
 
 DipCostMisses dip_cost_misses_of(double *misses, int count) {
@@ -168,135 +197,19 @@ DipCostMisses dip_cost_misses_of(double *misses, int count) {
     };
 }
 
-DipCostMisses dip_cost_model_misses(const DipCostReport *report, const DipCostModel *model,
-                                    const int *rows, int count) {
-    double misses[DIP_COST_MAX_ROWS];
-    int known = 0;
-    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
-    for (int r = 0; r < count; r++) {
-        if (is_known(&report->rows[rows[r]])) {
-            misses[known++] = miss_of(model, &report->rows[rows[r]]);
-        }
-    }
-    return dip_cost_misses_of(misses, known);
-}
-
-DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows,
-                                           int count) {
+DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, DipCostModelled what,
+                                           const int *rows, int count) {
     Equations equations;
     double misses[DIP_COST_MAX_ROWS];
     int known = 0;
     DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
-    begin(&equations, report, rows, count);
+    begin(&equations, report, what, rows, count);
     for (int r = 0; r < count; r++) {
-        if (is_known(&report->rows[rows[r]])) {
-            add_row(&equations, &report->rows[rows[r]], 1.0);
-        }
-    }
-    for (int r = 0; r < count; r++) {
-        const DipCostRow *row = &report->rows[rows[r]];
-        if (is_known(row)) {
-            add_row(&equations, row, -1.0);
-            const DipCostModel others = solve(&equations, count - 1);
-            add_row(&equations, row, 1.0);
-            misses[known++] = miss_of(&others, row);
-        }
-    }
-    return dip_cost_misses_of(misses, known);
-}
-
-// --- errors --------------------------------------------------------------------------------------
-
-// Without it, rows that do not tell two terms apart would give them great coefficients of opposite
-// sign.
-static const double error_ridge = 1e-5;
-
-// FLIP of a row, or 0 if the row was not judged.
-static double flip_of(const DipCostReport *report, int row) {
-    int viewpoints;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    return viewpoints > 0 ? dip_metrics_of(&sums, 0).flip : 0.0;
-}
-
-static void add_error(DipNormalEquations *equations, const DipQuality *quality, double flip,
-                      double sign) {
-    double terms[DIP_COST_ERROR_TERMS];
-    dip_cost_error_terms(quality, terms);
-    dip_normal_equations_add(equations, terms, flip, sign / (flip * flip));
-}
-
-static int begin_errors(DipNormalEquations *equations, const DipCostReport *report, const int *rows,
-                        int count) {
-    double scale[DIP_COST_ERROR_TERMS];
-    int known = 0;
-    for (int t = 0; t < DIP_COST_ERROR_TERMS; t++) {
-        scale[t] = 1.0; // Terms are at most 1.
-    }
-    dip_normal_equations_begin(equations, DIP_COST_ERROR_TERMS, scale);
-    for (int r = 0; r < count; r++) {
-        const double flip = flip_of(report, rows[r]);
-        if (flip > 0.0) {
-            add_error(equations, &report->rows[rows[r]].quality, flip, 1.0);
-            known++;
-        }
-    }
-    return known;
-}
-
-static DipCostErrorModel solve_errors(const DipNormalEquations *equations, int rows) {
-    DipCostErrorModel model = {.rows = rows};
-    dip_least_squares_ridge(equations, error_ridge * equations->left[0][0], model.coefficients);
-    return model;
-}
-
-DipCostErrorModel dip_cost_error_model_fit(const DipCostReport *report, const int *rows,
-                                           int count) {
-    DipNormalEquations equations;
-    const int known = begin_errors(&equations, report, rows, count);
-    return solve_errors(&equations, known);
-}
-
-double dip_cost_error_model_flip(const DipCostErrorModel *model, const DipQuality *quality) {
-    double terms[DIP_COST_ERROR_TERMS];
-    double flip = 0.0;
-    dip_cost_error_terms(quality, terms);
-    for (int t = 0; t < DIP_COST_ERROR_TERMS; t++) {
-        flip += terms[t] * model->coefficients[t];
-    }
-    return fmax(flip, 0.0);
-}
-
-DipCostMisses dip_cost_error_model_misses(const DipCostReport *report,
-                                          const DipCostErrorModel *model, const int *rows,
-                                          int count) {
-    double misses[DIP_COST_MAX_ROWS];
-    int known = 0;
-    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
-    for (int r = 0; r < count; r++) {
-        const double flip = flip_of(report, rows[r]);
-        if (flip > 0.0) {
-            misses[known++] =
-                fabs(dip_cost_error_model_flip(model, &report->rows[rows[r]].quality) / flip - 1.0);
-        }
-    }
-    return dip_cost_misses_of(misses, known);
-}
-
-DipCostMisses dip_cost_error_model_leave_one_out(const DipCostReport *report, const int *rows,
-                                                 int count) {
-    DipNormalEquations equations;
-    double misses[DIP_COST_MAX_ROWS];
-    int known = 0;
-    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
-    const int judged = begin_errors(&equations, report, rows, count);
-    for (int r = 0; r < count; r++) {
-        const DipQuality *quality = &report->rows[rows[r]].quality;
-        const double flip = flip_of(report, rows[r]);
-        if (flip > 0.0) {
-            add_error(&equations, quality, flip, -1.0);
-            const DipCostErrorModel others = solve_errors(&equations, judged - 1);
-            add_error(&equations, quality, flip, 1.0);
-            misses[known++] = fabs(dip_cost_error_model_flip(&others, quality) / flip - 1.0);
+        const Sample sample = sample_at(report, what, rows, r);
+        if (add(&equations, &sample, -1.0)) {
+            const DipCostModel others = solve(&equations);
+            add(&equations, &sample, 1.0);
+            misses[known++] = miss_of(&others, &sample);
         }
     }
     return dip_cost_misses_of(misses, known);
@@ -304,21 +217,31 @@ DipCostMisses dip_cost_error_model_leave_one_out(const DipCostReport *report, co
 
 // --- the fit of a whole report -------------------------------------------------------------------
 
-// R2 compares the fit with a constant: the one time that fits all rows best. The errors of both are
-// relative errors.
+int dip_cost_fit_rows(const DipCostReport *report, int rows[DIP_COST_MAX_ROWS]) {
+    int count = 0;
+    for (int r = 0; report->rounds > 0 && r < report->row_count; r++) {
+        if (sum_stages(report->rows[r].stage_ms) > 0.0) {
+            rows[count++] = r;
+        }
+    }
+    return count < 2 * dip_cost_term_count(DIP_COST_STAGE_raster) ? 0 : count;
+}
+
+// Computes R2 and the misses. R2 compares the fit with a constant, the one time that fits all rows
+// best, by their relative errors.
 static void judge_fit(const DipCostReport *report, const DipCostModel *model, const int *rows,
                       DipCostFit *fit) {
     double misses[DIP_COST_MAX_ROWS];
     double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
     for (int r = 0; r < fit->rows; r++) {
-        const double ms = whole_ms(&report->rows[rows[r]]);
+        const double ms = sample_of(report, DIP_COST_TIME, rows[r]).whole;
         sum += 1.0 / ms;
         weight += 1.0 / (ms * ms);
     }
     for (int r = 0; r < fit->rows; r++) {
-        const DipCostRow *row = &report->rows[rows[r]];
-        const double off = sum / weight / whole_ms(row) - 1.0;
-        misses[r] = miss_of(model, row);
+        const Sample sample = sample_of(report, DIP_COST_TIME, rows[r]);
+        const double off = sum / weight / sample.whole - 1.0;
+        misses[r] = miss_of(model, &sample);
         all += off * off;
         left += misses[r] * misses[r];
     }
@@ -327,25 +250,20 @@ static void judge_fit(const DipCostReport *report, const DipCostModel *model, co
 }
 
 DipCostFit dip_cost_fit(const DipCostReport *report) {
-    DipCostFit fit = {0};
     int rows[DIP_COST_MAX_ROWS];
-    for (int r = 0; report->rounds > 0 && r < report->row_count; r++) {
-        if (is_known(&report->rows[r])) {
-            rows[fit.rows++] = r;
-        }
+    DipCostFit fit = {.rows = dip_cost_fit_rows(report, rows)};
+    if (fit.rows == 0) {
+        return fit;
     }
-    if (fit.rows < 2 * dip_cost_term_count(DIP_COST_STAGE_raster)) {
-        return (DipCostFit){0};
-    }
-    const DipCostModel model = dip_cost_model_fit(report, rows, fit.rows);
+    const DipCostModel model = dip_cost_model_fit(report, DIP_COST_TIME, rows, fit.rows);
     for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        for (int t = 0; t < dip_cost_term_count((DipCostStage)stage); t++) {
+        for (int t = 0; t < dip_cost_term_count(stage); t++) {
             fit.stages[fit.count] = dip_cost_stage_names[stage];
-            fit.names[fit.count] = dip_cost_term_name((DipCostStage)stage, t);
-            fit.ns[fit.count++] = 1e6 * model.price_ms[stage][t];
+            fit.names[fit.count] = dip_cost_term_name(stage, t);
+            fit.ns[fit.count++] = 1e6 * model.prices[stage][t];
         }
     }
     judge_fit(report, &model, rows, &fit);
-    fit.others = dip_cost_model_leave_one_out(report, rows, fit.rows);
+    fit.others = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, fit.rows);
     return fit;
 }

@@ -1,70 +1,85 @@
-// The model of times: each stage of a frame takes the sum of its terms (terms.h), amounts of work
-// times prices. The prices come from measured rows. (A row is one combination of settings on a
-// camera path, report.h.) The model explains how time follows from work, and predicts the times of
-// combinations that were not measured.
+// Two models of a combination of settings: of the mean time of a frame, and of FLIP. Both are sums
+// of terms. A term is an amount times a price, and the prices are fitted to measured rows. (A row
+// is one combination of settings on a camera path, report.h.) The models explain how time follows
+// from work, and predict combinations that were not measured.
 #ifndef DIP_APP_REPORT_FIT_H
 #define DIP_APP_REPORT_FIT_H
 
 #include "app/report/report.h"
-#include "app/report/terms.h"
+
+// --- terms ---------------------------------------------------------------------------------------
+
+// What is modelled: the time of each stage of a frame (DipCostStage), and FLIP after them.
+//
+// A term of a stage is one kind of work. Its amount comes from the exact counters of a frame and
+// from the settings. No counter tells which reads miss the processor's caches. Reads that miss them
+// more often than others therefore have terms of their own: those of all mip levels
+// (miplod=high-quality), those of uncompressed textures, and those of advanced AF's probes.
+//
+// The terms of FLIP come from the settings alone, since the error of antialiasing and that of
+// filtering nearly add up. There are terms for antialiasing, for the clipping of alpha-clipped
+// surfaces, for anisotropic filtering and for the other settings, and products of two terms where
+// one error hides a part of the other. Each amount is 0 to 1.
+enum {
+    DIP_COST_PART_FLIP = DIP_COST_STAGE_COUNT,
+    DIP_COST_PART_COUNT,
+    DIP_COST_MAX_TERMS = 27 // Greatest number of terms of one part.
+};
+
+int dip_cost_term_count(int part);
+
+// Returns the name of a term: "texel fetched". Static storage.
+const char *dip_cost_term_name(int part, int term);
+
+// Computes the amounts of a part's terms. The amount of the first term is always 1. `counters` are
+// those of a frame that was drawn with these settings, or their means over several frames.
+void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
+                    const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
+
+// --- models --------------------------------------------------------------------------------------
+
+typedef enum DipCostModelled {
+    DIP_COST_TIME, // In milliseconds: the sum of the stages' times, each a sum of its terms.
+    DIP_COST_FLIP_ERROR
+} DipCostModelled;
 
 typedef struct DipCostModel {
-    double price_ms[DIP_COST_STAGE_COUNT][DIP_COST_MAX_TERMS]; // Per unit of work; never negative.
+    DipCostModelled what;
+    double prices[DIP_COST_PART_COUNT][DIP_COST_MAX_TERMS]; // Of time: never negative.
     int rows; // Number of rows that the prices come from; 0 if there are none.
 } DipCostModel;
 
-// Fits prices to rows whose times and stages are known, and to the combinations that the report has
-// timed at half its size. Chooses for each stage the prices >= 0 with the least sum of squared
-// deviations. Each deviation is relative to the row's whole time, so that slow rows have no more
-// weight than fast ones.
-DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count);
+// Fits prices to the rows whose value is known (for a time: with its stages), by least squares of
+// deviations relative to the row's whole value, so that slow rows have no more weight than fast
+// ones. Prices of work are also fitted to the combinations that the report has timed at half its
+// size. Here and below, `rows` may be NULL for rows 0 to count - 1.
+DipCostModel dip_cost_model_fit(const DipCostReport *report, DipCostModelled what, const int *rows,
+                                int count);
 
-// Fits prices as dip_cost_model_fit does, and also to combinations that were timed at another size,
-// on another camera path or with other threads ("there"). The prices are to hold there: all these
-// combinations together count 30 times as much as all rows of the report. The rows decide only what
-// the combinations leave open.
+// Fits prices of work also to combinations that were timed at another size, on another camera path
+// or with other threads ("there"). The prices are to hold there: all these combinations together
+// count 30 times as much as all rows of the report. The rows decide only what the combinations
+// leave open.
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
                                       const DipCostElsewhere *there, int there_count);
 
-// Returns the mean time of a frame with these counters and settings, in milliseconds.
-double dip_cost_model_ms(const DipCostModel *model, const double counters[DIP_COST_COUNTER_COUNT],
-                         const DipQuality *quality);
+// Returns the mean time of a frame with these counters and settings, or FLIP, which is never
+// negative and does not depend on the counters.
+double dip_cost_model_value(const DipCostModel *model,
+                            const double counters[DIP_COST_COUNTER_COUNT],
+                            const DipQuality *quality);
 
 // A miss is |predicted / measured - 1|. Summarises misses, and sorts them.
 DipCostMisses dip_cost_misses_of(double *misses, int count);
 
-// Returns the misses of a model at rows to which it was not fitted.
-DipCostMisses dip_cost_model_misses(const DipCostReport *report, const DipCostModel *model,
-                                    const int *rows, int count);
-
 // Predicts each of the rows from all others (leave one out), and returns the misses.
-DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows, int count);
-
-// --- errors --------------------------------------------------------------------------------------
-
-// The model of FLIP: a sum of terms of the settings alone (dip_cost_error_terms), since the error
-// of antialiasing and that of filtering nearly add up.
-typedef struct DipCostErrorModel {
-    double coefficients[DIP_COST_ERROR_TERMS];
-    int rows; // Number of rows that the model comes from; 0 if there are none.
-} DipCostErrorModel;
-
-// Fits the model to rows whose FLIP is known, by least squares of relative deviations.
-DipCostErrorModel dip_cost_error_model_fit(const DipCostReport *report, const int *rows, int count);
-
-double dip_cost_error_model_flip(const DipCostErrorModel *model, const DipQuality *quality);
-
-// These two do for FLIP what the functions of the model of times above do for times.
-DipCostMisses dip_cost_error_model_misses(const DipCostReport *report,
-                                          const DipCostErrorModel *model, const int *rows,
-                                          int count);
-DipCostMisses dip_cost_error_model_leave_one_out(const DipCostReport *report, const int *rows,
-                                                 int count);
+DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, DipCostModelled what,
+                                           const int *rows, int count);
 
 // --- the fit of a whole report -------------------------------------------------------------------
 
-// The model of all rows of a report, in the form in which the report shows it.
-enum { DIP_COST_FIT_MAX_TERMS = DIP_COST_ALL_TERMS };
+// The model of the times of all rows of a report, in the form in which the report shows it.
+enum { DIP_COST_FIT_MAX_TERMS = DIP_COST_STAGE_COUNT * DIP_COST_MAX_TERMS };
 
 typedef struct DipCostFit {
     const char *stages[DIP_COST_FIT_MAX_TERMS]; // The stage of each term.
@@ -79,5 +94,9 @@ typedef struct DipCostFit {
 } DipCostFit;
 
 DipCostFit dip_cost_fit(const DipCostReport *report);
+
+// Lists the rows to which a report's model of times can be fitted. Returns their number; 0 if there
+// are too few for a model.
+int dip_cost_fit_rows(const DipCostReport *report, int rows[DIP_COST_MAX_ROWS]);
 
 #endif

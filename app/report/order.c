@@ -1,23 +1,22 @@
-// A table of what theory says about each setting, and the check whether the report agrees.
-#include "app/report/order.h"
-
-#include "app/report/same_pictures.h"
+// Checks whether error and work follow theory from one step of a sweep to the next. A table holds
+// what theory says about each setting.
+#include "app/report/analysis.h"
 
 #include <stdio.h>
 
 // How a value changes from one step of a setting to the next. FREE means that theory says nothing.
-// The steps have the order of DIP_SETTING_LIST, but the steps of adaptive AA go from few sample
-// groups to many.
+// The steps have the order of DIP_SETTING_LIST, except those of adaptive AA, which go from few
+// sample groups to many.
 typedef enum Trend { FREE, FALLS, RISES, STAYS } Trend;
 
 typedef struct Theory {
     DipSetting setting;
     Trend error;
-    bool of_two_frames; // true: the error is the RMSE of the mean of two frames; false: it is FLIP
-    Trend work;         // trend of `counter`; a step with equal work also follows the trend
+    bool of_two_frames; // true: the error is the RMSE of the mean of two frames; false: it is FLIP.
+    Trend work;         // Trend of `counter`; a step with equal work also follows the trend.
     int counter;
-    const char *why;  // the likely reason if a step does not follow the trend
-    const char *idle; // what the path does not show if all steps draw the same pictures
+    const char *why;  // The likely reason if a step does not follow the trend.
+    const char *idle; // What the path does not show if all steps draw the same pictures.
 } Theory;
 
 #define FEW_VIEWPOINTS                                                                             \
@@ -90,14 +89,6 @@ static int first_departure(const DipCostReport *report, const DipCostSweep *swee
     return sweep->row_count;
 }
 
-static bool is_counted(const DipCostReport *report, const DipCostSweep *sweep) {
-    bool timed = true; // only timed frames have counters
-    for (int i = 0; i < sweep->row_count; i++) {
-        timed = timed && dip_cost_is_timed(report, sweep->rows[i]);
-    }
-    return timed;
-}
-
 static bool all_same(const DipCostReport *report, const DipCostSweep *sweep) {
     for (int i = 1; i < sweep->row_count; i++) {
         if (!dip_cost_same_pictures(report, sweep->rows[0], sweep->rows[i])) {
@@ -124,24 +115,23 @@ bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep,
                  theory->idle);
         return true;
     }
-    const bool counted = theory->work != FREE && is_counted(report, sweep);
-    const int by_work = counted ? first_departure(report, sweep, theory, true, &judged) : 0;
+    const bool counted = theory->work != FREE && report->rounds > 0; // Timing counts the work.
+    const int by_work =
+        counted ? first_departure(report, sweep, theory, true, &judged) : sweep->row_count;
     const char *error = theory->of_two_frames ? "the error of the mean of two frames" : "FLIP";
-    const char *work = counted ? dip_cost_counter_names[theory->counter] : "";
+    char work[DIP_COST_TEXT], step[DIP_COST_TEXT];
+    snprintf(work, sizeof work, "the counter %s", dip_cost_counter_names[theory->counter]);
     const bool error_departs = by_error < sweep->row_count;
-    const bool work_departs = counted && by_work < sweep->row_count;
-    if (!error_departs && !work_departs) {
+    if (!error_departs && by_work == sweep->row_count) {
         snprintf(text, size_bytes, "As theory says: %s %s from step to step%s%s%s%s.", error,
-                 trend_words[theory->error], counted ? ", and the counter " : "", work,
+                 trend_words[theory->error], counted ? ", and " : "", counted ? work : "",
                  counted ? " " : "", counted ? trend_words[theory->work] : "");
         return true;
     }
-    char step[DIP_COST_TEXT];
     const Trend expected = error_departs ? theory->error : theory->work;
     dip_cost_step_text(report, sweep, sweep->rows[error_departs ? by_error : by_work], step);
-    snprintf(text, size_bytes,
-             "Not as theory says: at step \"%s\", %s%s should %s but does not. %s.", step,
-             error_departs ? "" : "the counter ", error_departs ? error : work,
+    snprintf(text, size_bytes, "Not as theory says: at step \"%s\", %s should %s but does not. %s.",
+             step, error_departs ? error : work,
              expected == FALLS   ? "fall"
              : expected == RISES ? "rise"
                                  : "stay the same",

@@ -1,4 +1,4 @@
-// Allocating the memory of a report, and computing values from its measurements.
+// Allocates the memory of a report, finds its rows, and computes errors from its measurements.
 #include "app/report/report.h"
 
 #include "app/measure/metrics/truth.h"
@@ -44,7 +44,7 @@ bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
     for (int r = 0; r < report->row_count; r++) {
         made = alloc_row(report, &report->rows[r]) && made;
     }
-    return made || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    return made || dip_cost_out_of_memory(err);
 }
 
 int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, int path,
@@ -57,7 +57,7 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
     DipCostRow *row = &report->rows[report->row_count++]; // Freed with the others if this fails.
     *row = (DipCostRow){.quality = *quality, .path = path};
     if (!alloc_row(report, row)) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        dip_cost_out_of_memory(err);
         return -1;
     }
     return report->row_count - 1;
@@ -160,7 +160,7 @@ void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]
              spread, widened);
 }
 
-// --- errors ------------------------------------------------------------------------------------
+// --- errors --------------------------------------------------------------------------------------
 
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints) {
     DipMetricSums sums = {0};
@@ -172,6 +172,12 @@ DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewp
         }
     }
     return sums;
+}
+
+bool dip_cost_is_judged(const DipCostReport *report, int row) {
+    int viewpoints;
+    dip_cost_row_sums(report, row, &viewpoints);
+    return viewpoints > 0;
 }
 
 DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region) {
@@ -212,11 +218,6 @@ DipMetricSums dip_cost_floor(const DipCostReport *report, int path) {
         }
     }
     return sums;
-}
-
-double dip_cost_floor_rmse(const DipCostReport *report, int path, int region) {
-    const DipMetricSums sums = dip_cost_floor(report, path);
-    return dip_truth_floor_rmse(&sums, region);
 }
 
 bool dip_cost_at_floor(const DipCostReport *report, int row) {

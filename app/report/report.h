@@ -1,6 +1,6 @@
-// A cost report: its measurements, and the values computed from them. Errors are measured against
-// truths (converged pictures, app/measure/metrics/truth.h), at a few viewpoints of each camera
-// path. Times are measured along each path, each beside a time of the path's baseline
+// Declares a cost report: its measurements, and the values that are computed from them. Errors are
+// measured against truths (converged pictures, app/measure/metrics/truth.h), at a few viewpoints of
+// each camera path. Times are measured along each path, each beside a time of the path's baseline
 // (app/measure/timing/driver.h).
 #ifndef DIP_APP_REPORT_REPORT_H
 #define DIP_APP_REPORT_REPORT_H
@@ -45,7 +45,7 @@ enum {
     DIP_COST_MAX_REFUSED = 24,
     DIP_COST_MAX_ROWS = 4096,
     DIP_COST_MAX_SMALLER = 4,
-    DIP_COST_MOST_COUNTED = 256, // Combinations whose work is counted one by one.
+    DIP_COST_MOST_COUNTED = 256, // The work of so many combinations is counted one by one.
     DIP_COST_TEXT = 160,
     DIP_COST_REASON = 512
 };
@@ -61,8 +61,8 @@ typedef struct DipPathEstimate {
     double ratio_error;
     double p95_error;
     double worst_error;
-    double level_error;
-    int used; // Number of frames that were not disturbed.
+    double level_error; // Standard error of the logarithm of that level; NAN if it is not known.
+    int used;           // Number of frames that were not disturbed.
 } DipPathEstimate;
 
 // One measured combination: quality settings on a camera path.
@@ -94,15 +94,17 @@ typedef struct DipCostSweep {
     int row_count;
 } DipCostSweep;
 
-// What the measurements choose (app/report/choice.h), for the time that budgets are meant for.
+// What is chosen from the measurements (app/report/choice.h), by the kind of time that budgets are
+// meant for.
 typedef struct DipCostChoice {
-    DipCandidates candidates; // Combinations with a time and an error, by rows. The list is owned.
+    DipCandidates
+        candidates; // Combinations with a time and an error; `row` is the report's. Owned.
     // The thinned front (DIP_CLEARLY_BETTER) in order of time: indices of candidates. Owned.
     int *front;
     int front_count;
     int knee;                               // Index in the front, or -1.
-    DipAdvice advice[DIP_COST_MAX_BUDGETS]; // For the first of options.budgets_ms.
-    int advice_count;                       // All budgets, or 0 without candidates.
+    DipAdvice advice[DIP_COST_MAX_BUDGETS]; // One for each of options.budgets_ms.
+    int advice_count;                       // Number of budgets, or 0 without candidates.
 } DipCostChoice;
 
 // A combination that was timed elsewhere than the rows: at another size, on another camera path or
@@ -124,26 +126,29 @@ typedef struct DipCostMisses {
     int rows;         // Number of rows; 0 if there are none to compare.
 } DipCostMisses;
 
-// A combination on path 0 whose time and error are predicted from measured rows (predict.h).
+// A combination on path 0 whose time and error are predicted from measured rows
+// (app/cost/predict.c).
 typedef struct DipCostPrediction {
     DipQuality quality;
     double counters[DIP_COST_COUNTER_COUNT]; // Means per frame.
-    double ms;                               // Mean time of a frame.
-    double p95_ms;                           // 95th percentile of the frames along the path.
-    double flip;                             // Mean FLIP of the viewpoints.
-    // All three keep their predicted values when the combination is measured later.
-    int row; // The row that measured it later, or -1.
+    // These three keep their predicted values when the combination is measured later.
+    double ms;     // Mean time of a frame.
+    double p95_ms; // 95th percentile of the frames along the path.
+    double flip;   // Mean FLIP of the viewpoints.
+    int row;       // The row that measured the combination later, or -1.
 } DipCostPrediction;
 
 // All combinations that --predict ranks, and how well it did.
 typedef struct DipCostPredictions {
     DipCostPrediction *list; // Owned; NULL if nothing was predicted.
     int count;
-    int trained;                   // Number of rows that were measured to predict all others.
-    DipCostMisses times_left_out;  // Each of these rows predicted from the others: mean times,
-    DipCostMisses errors_left_out; // and FLIP.
-    DipCostMisses times;  // Rows that were measured after they had been predicted: mean times,
-    DipCostMisses errors; // and FLIP.
+    int trained; // Number of rows that were measured to predict all others.
+    // Misses of these rows, each predicted from the others: of mean times, and of FLIP.
+    DipCostMisses times_left_out;
+    DipCostMisses errors_left_out;
+    // Misses of rows that were measured after they had been predicted.
+    DipCostMisses times;
+    DipCostMisses errors;
 } DipCostPredictions;
 
 // How quiet the machine was while times were taken.
@@ -179,7 +184,7 @@ typedef struct DipCostReport {
     int base_rows[DIP_COST_MAX_PATHS];
     int same_rows[DIP_COST_MAX_PATHS];
     int combined_first; // Rows from this index on are the combinations, on path 0.
-    DipCostSame *same;  // Combinations that another row stands for (same_pictures.h). Owned.
+    DipCostSame *same;  // Combinations that another row stands for, with the same pictures. Owned.
     int same_count;
     DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];
     int sweep_count;
@@ -189,9 +194,9 @@ typedef struct DipCostReport {
     DipDriverMachine machine; // What the timing tells about the machine.
     DipTimed *log; // Every timed frame; a frame's subject is its row. Owned; NULL without times.
     int log_count;
-    int starts;       // Process starts of the log, each with rounds / starts rounds; 0 or more.
-    DipTimesFit *fit; // Computed from the log. Owned; NULL without times.
-    double doubt;     // Error of the logarithm of all times that an amber verdict adds.
+    int starts;             // Number of processes that timed the log, each rounds / starts rounds.
+    DipTimesFit *fit;       // Computed from the log. Owned; NULL without times.
+    double doubt;           // What an amber verdict adds to the error of each time's logarithm.
     DipCostVerdict verdict; // Valid if the report has times.
     char verdict_reason[DIP_COST_REASON];
     // Noise floors of the truths, [path * options.places + viewpoint]. Both arrays are owned.
@@ -209,6 +214,11 @@ typedef struct DipCostReport {
     struct DipCostAnalysis *analysis; // Owned; NULL until dip_cost_analyse (analysis.h).
 } DipCostReport;
 
+// Fills *err with DIP_ERROR_MEMORY and returns false.
+static inline bool dip_cost_out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+}
+
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
 // before.
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
@@ -222,8 +232,8 @@ void dip_cost_report_free(DipCostReport *report);
 // Returns the first row from `first` on with these settings on a path, or -1.
 int dip_report_find(const DipCostReport *report, const DipQuality *quality, int path, int first);
 
-// The same on path 0; otherwise the row that stands for these settings, since it draws the same
-// pictures, or -1.
+// Returns the first row from `first` on with these settings on path 0, otherwise the row that
+// stands for them because it draws the same pictures, or -1.
 int dip_report_find_same(const DipCostReport *report, const DipQuality *quality, int first);
 
 // Returns the index of the prediction of these settings, or -1.
@@ -234,7 +244,7 @@ void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]
 
 void dip_cost_row_free(DipCostRow *row);
 
-// --- texts -------------------------------------------------------------------------------------
+// --- texts ---------------------------------------------------------------------------------------
 
 // Writes the settings that differ from the defaults, "aa=4,af=16", or "defaults".
 static inline void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]) {
@@ -246,8 +256,8 @@ static inline const char *dip_cost_plural(int count) {
     return count == 1 ? "" : "s";
 }
 
-// Writes the sweep's setting, and the others that differ from their defaults in its base: "Adaptive
-// AA with aa=4". Reports that were read have their titles from here, too.
+// Writes the sweep's setting, and the other settings that are off their defaults in its base:
+// "Adaptive AA with aa=4".
 void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep,
                           char text[DIP_COST_TEXT]);
 
@@ -256,32 +266,49 @@ void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep
 void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
                         char text[DIP_COST_TEXT]);
 
-// --- errors ------------------------------------------------------------------------------------
+// --- errors --------------------------------------------------------------------------------------
 
 // Returns the sum of a row's errors over all judged viewpoints (those whose errors are known). Sets
 // *viewpoints to the number of these viewpoints.
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints);
 
+// Returns whether a row's errors are known at any viewpoint.
+bool dip_cost_is_judged(const DipCostReport *report, int row);
+
 // Returns the metrics of a row over all judged viewpoints, in one region (0: the whole picture).
 DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
 
-// Returns the mean of a row's FLIP over the judged viewpoints, with the 95 % interval of the mean
-// of all viewpoints that the path could have been cut into: Student's t of the viewpoints' own
-// means. With a single viewpoint there is no interval, and low and high are NAN.
-DipEstimate dip_cost_flip(const DipCostReport *report, int row);
+// Metrics of the whole picture.
+typedef enum DipCostMetric {
+    DIP_COST_RMSE,
+    DIP_COST_PSNR,
+    DIP_COST_SSIM,
+    DIP_COST_FLIP,
+    DIP_COST_FLICKER,
+    DIP_COST_METRIC_COUNT
+} DipCostMetric;
 
-// The same of the difference of two rows of one path, which is far narrower: viewpoints differ more
-// than settings do. Only viewpoints that both rows have count.
-DipEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base);
+// Returns a row's metric over all judged viewpoints, with the 95 % interval of the metric over all
+// viewpoints that the path could be cut into. For FLIP and SSIM the interval is Student's t of the
+// viewpoints' own means. The other metrics come from a mean of squares, which is positive and
+// skewed: Student's t of its logarithm, whose standard error is that of the mean over the mean.
+// With a single viewpoint there is no interval, and low and high are NAN.
+DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric);
+
+// Returns the mean of a row's metric at the viewpoints minus that of another row of the same path,
+// with Student's interval. It is far narrower than that of a row, since viewpoints differ more than
+// settings do. Only viewpoints that both rows have count.
+DipEstimate dip_cost_metric_change(const DipCostReport *report, int row, int base,
+                                   DipCostMetric metric);
 
 // The distribution of a row's FLIP over pixels.
 typedef struct DipCostTail {
-    // The percentiles are means over the viewpoints. The worst block is that of the viewpoint with
-    // the worst one.
+    // The percentiles are means over the viewpoints. The worst block is the worst of all
+    // viewpoints.
     DipFlipTail flip;
-    int worst_viewpoint;
-    int viewpoints; // Number of viewpoints whose distribution is known; 0: the others are not
-                    // valid.
+    int worst_viewpoint; // The viewpoint of the worst block.
+    int viewpoints; // Number of viewpoints whose distribution is known; if 0, the other members
+                    // are not valid.
 } DipCostTail;
 
 DipCostTail dip_cost_row_tail(const DipCostReport *report, int row);
@@ -289,34 +316,51 @@ DipCostTail dip_cost_row_tail(const DipCostReport *report, int row);
 // Returns the sum of the noise floors of a path's truths.
 DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
 
-// Returns the RMS error of a path's truths in linear light. See dip_truth_floor_rmse.
-double dip_cost_floor_rmse(const DipCostReport *report, int path, int region);
-
-// Returns an estimate of the FLIP that the noise of a path's truths alone makes: that of the two
-// halves against each other, times 0.5^0.7, since the truth's error is half of their difference and
-// FLIP grows with the 0.7th power of differences. Rows whose FLIP is below it are equally good as
-// far as this truth can tell.
+// Returns an estimate of the FLIP that the noise of a path's truths alone makes. It is the FLIP of
+// the truths' two halves against each other, times 0.5^0.7, since the truth's error is half of
+// their difference and FLIP grows with the 0.7th power of differences. Rows whose FLIP is below the
+// estimate are equally good as far as these truths can tell.
 double dip_cost_floor_flip(const DipCostReport *report, int path);
+
+// Returns estimates of the errors of a path's truths themselves. A truth is the mean of two halves,
+// whose noise is independent, so the mean square of its noise is a quarter of the mean square of
+// the difference of the halves. That is half of their RMSE, 6.02 dB more than their PSNR, and a
+// quarter of their 1 - SSIM, since 1 - SSIM is proportional to the noise's variance as long as it
+// is small. FLIP is dip_cost_floor_flip.
+DipMetrics dip_cost_floor_metrics(const DipCostReport *report, int path);
 
 // Returns a row's FLIP for ranking: at least dip_cost_floor_flip.
 double dip_cost_ranking_flip(const DipCostReport *report, int row);
 
-// True if a row's error is too small to tell from the truth's own noise.
+// Returns whether a row's error is too small to be told from the truth's own noise.
 bool dip_cost_at_floor(const DipCostReport *report, int row);
 
-// --- times -------------------------------------------------------------------------------------
+// Returns whether two rows of one path are known to have the same pictures (by hash) at every
+// viewpoint. False if a viewpoint of either row has not been judged.
+bool dip_cost_same_pictures(const DipCostReport *report, int a, int b);
 
-// Returns whether the report is of one picture instead of camera paths: every round of its log
-// draws the same frame. So the preview measures.
+// Makes combinations with the same pictures one row. (Where a setting changes nothing in a scene,
+// for example adaptive AA without alpha-clipped surfaces, several combinations draw the same
+// pictures.) The combination with the fewest settings off their defaults stays, and the others are
+// listed in report->same. Call it once every viewpoint has been judged. If the report has times,
+// estimate them again afterwards. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err);
+
+// --- times ---------------------------------------------------------------------------------------
+
+// Returns whether the report is of one picture instead of camera paths, as the preview measures it:
+// every round of its log draws the same frame.
 static inline bool dip_cost_is_view(const DipCostReport *report) {
     return report->rounds > 0 && report->options.timed_frames == 0;
 }
 
-// Number of frames that are timed along a path.
-int dip_cost_frame_count(const DipCostReport *report);
+// Returns the number of frames that are timed along a path.
+static inline int dip_cost_frame_count(const DipCostReport *report) {
+    return dip_cost_is_view(report) ? 1 : report->options.rounds * report->options.timed_frames;
+}
 
-// Adds timed frames to the report's log. rows[subject] is the row of a subject. Their rounds and
-// starts are those of the log. Fails with DIP_ERROR_MEMORY.
+// Adds timed frames to the report's log, which must have as many rounds and starts as `times`.
+// rows[subject] is the row of a subject. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_log_add(DipCostReport *report, const DipTimes *times, const int *rows, DipError *err);
 void dip_cost_log_clear(DipCostReport *report);
 
@@ -324,14 +368,15 @@ void dip_cost_log_clear(DipCostReport *report);
 // choice. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_estimate_times(DipCostReport *report, DipError *err);
 
-bool dip_cost_is_timed(const DipCostReport *report, int row);
+// Returns whether the report has a time of a row.
+static inline bool dip_cost_is_timed(const DipCostReport *report, int row) {
+    return report->rounds > 0 && row < report->row_count;
+}
 
-// The mean time of a row over the frames along the path, in milliseconds per frame.
-double dip_cost_ms(const DipCostReport *report, int row);
-
-// Computes the times of some rows of one path at every timed frame, in milliseconds:
-// ms[i * dip_cost_frame_count + frame] for rows[i]. The means over the frames are dip_cost_ms.
-void dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms);
+// Returns the mean time of a row over the frames along the path, in milliseconds per frame.
+static inline double dip_cost_ms(const DipCostReport *report, int row) {
+    return report->rows[row].time.mean_ms.value;
+}
 
 // Computes the time of a combination that was timed elsewhere, as a subject beside the baseline of
 // path 0, and its stages. The report's times must be estimated.
@@ -341,7 +386,23 @@ void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimesFit 
 // Returns the ratio of the times of two rows of one path. A row's ratio to itself has no interval.
 DipEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 
-// --- choosing ----------------------------------------------------------------------------------
+// --- choosing ------------------------------------------------------------------------------------
+
+// Returns the candidate of a measured row, with its time of a kind; `row` is the report's row.
+DipCandidate dip_candidate_of_row(const DipCostReport *report, int row, DipTimeKind kind);
+
+// Lists report->predicted; `row` is the index there. measured: a combination that was measured
+// later has its measured time and error; otherwise those that were predicted. The caller frees the
+// list even after a failure. Fails with DIP_ERROR_MEMORY.
+bool dip_candidates_of_predictions(const DipCostReport *report, DipTimeKind kind, bool measured,
+                                   DipCandidates *candidates, DipError *err);
+
+// Lists the predictions that a page shows, in order of time: all, or if there are too many those
+// that were measured later and the front of what was predicted. `row` is the index of the
+// prediction. The caller frees the list even after a failure. Returns false when memory runs out.
+enum { DIP_CANDIDATES_LISTED = 500 };
+bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *listed);
+void dip_candidates_free(DipCandidates *candidates);
 
 // Computes report->choice from the times and errors. dip_cost_estimate_times calls it; call it
 // again after errors, budgets or rows have changed. Fails with DIP_ERROR_MEMORY.

@@ -1,5 +1,5 @@
-// What a report measures: the settings, viewpoints, frames and budgets that the command line asks
-// for.
+// Declares what a report measures: the settings, viewpoints, frames and budgets that the command
+// line asks for.
 #ifndef DIP_APP_REPORT_REPORT_PLAN_H
 #define DIP_APP_REPORT_REPORT_PLAN_H
 
@@ -34,9 +34,10 @@ typedef struct DipCostOptions {
                      // viewpoints.
     int samples;     // Samples per pixel in each half of the converged picture; a square number.
     double pixels_per_degree;
-    int rounds;       // Of all starts.
-    int starts;       // Processes that draw the timed frames, one after another; 1: this one.
-    int timed_frames; // Of each round along a path; 0: see dip_cost_is_view.
+    int rounds;       // Number of rounds of all processes together.
+    int starts;       // Number of processes that draw the timed frames, one after another. If it is
+                      // 1, this process draws them.
+    int timed_frames; // Frames of each round along a path; 0 for a single picture (report.h).
     bool errors_only;
     bool predict; // Measure a few combinations and predict all others.
     bool has_seed;

@@ -1,5 +1,5 @@
-// Finding rows with the same pictures, and joining them.
-#include "app/report/same_pictures.h"
+// Finds rows with the same pictures, and joins them.
+#include "app/report/report.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -31,9 +31,14 @@ static int representative(const DipCostReport *report, int row) {
     return best;
 }
 
-// Gives the log the rows' new numbers, and drops what it has of rows that are gone.
-static void renumber_log(DipCostReport *report, const int *stands, const int *now) {
+// Gives the rows in the predictions and in the log their new numbers. A prediction gets the row
+// that stands for its own. The log loses the frames of rows that are gone.
+static void renumber(DipCostReport *report, const int *stands, const int *now) {
     const int first = report->combined_first;
+    for (int i = 0; i < report->predicted.count; i++) {
+        int *row = &report->predicted.list[i].row;
+        *row = *row < first ? *row : now[stands[*row - first] - first];
+    }
     size_t kept = 0;
     for (size_t i = 0; i < (size_t)report->log_count; i++) {
         DipTimed timed = report->log[i];
@@ -54,29 +59,30 @@ bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
     free(report->same);
     report->same = calloc((size_t)count + 1, sizeof *report->same);
     report->same_count = 0;
-    const bool has_room = stands && now && report->same;
-    int kept = first;
-    for (int i = 0; has_room && i < count; i++) {
+    if (!stands || !now || !report->same) {
+        free(stands);
+        free(now);
+        return dip_cost_out_of_memory(err);
+    }
+    for (int i = 0; i < count; i++) {
         stands[i] = representative(report, first + i);
     }
-    for (int i = 0; has_room && i < count; i++) {
+    report->row_count = first;
+    for (int i = 0; i < count; i++) {
         DipCostRow *row = &report->rows[first + i];
         if (stands[i] == first + i) {
-            now[i] = kept;
-            report->rows[kept++] = *row;
+            now[i] = report->row_count;
+            report->rows[report->row_count++] = *row;
         } else {
             report->same[report->same_count++] = (DipCostSame){row->quality, stands[i]};
             dip_cost_row_free(row);
         }
     }
-    for (int i = 0; has_room && i < report->same_count; i++) {
+    for (int i = 0; i < report->same_count; i++) {
         report->same[i].row = now[report->same[i].row - first];
     }
-    if (has_room) {
-        renumber_log(report, stands, now);
-        report->row_count = kept;
-    }
+    renumber(report, stands, now);
     free(stands);
     free(now);
-    return has_room || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    return true;
 }

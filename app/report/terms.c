@@ -1,21 +1,27 @@
-// The terms of each stage, as lists of names and formulas.
-#include "app/report/terms.h"
+// Lists the terms of each stage of a frame and of FLIP, by their names and formulas.
+#include "app/report/fit.h"
 
 #include "renderer/base/assert.h"
 
 #include <math.h>
 
-// What the formulas see.
+// The values that the formulas of terms use. For yes or no, they are 1 or 0.
 typedef struct Work {
     const double *counters;
-    double samples;     // Per pixel.
-    double several;     // 1 with several samples per pixel.
-    double adaptive;    // 1 with adaptive AA.
-    double anisotropic; // 1 with anisotropic filtering.
-    double full_levels; // 1 if the finest mip levels are read.
-    double raw;         // 1 if colour textures are not compressed.
-    double advanced;    // 1 with opt=advanced.
-    double exact;       // 1 with advanced AF.
+    double samples;  // Per pixel.
+    double several;  // Several samples per pixel.
+    double groups;   // Sample groups per pixel, each with its own test of alpha-clipped surfaces.
+    double adaptive; // Adaptive AA.
+    double probes;   // Greatest number of probes of one texture read.
+    double anisotropic; // Anisotropic filtering.
+    double exact;       // Advanced AF.
+    double full_levels; // The finest mip levels are read.
+    double raw;         // Colour textures are not compressed.
+    double compressed;  // opt=standard or opt=advanced.
+    double advanced;    // opt=advanced.
+    double biased[3];   // miplod is quality or coarser, performance or coarser, high-performance.
+    double temporal;    // Temporal AA.
+    double coloured;    // Mip levels are shown as colours.
 } Work;
 
 #define C(name) (w->counters[DIP_COST_COUNTER_##name])
@@ -71,108 +77,95 @@ typedef struct Work {
     X("pass", C(passes))                                                                           \
     X("tile", C(tiles_drawn))
 
-#define COUNT(name, formula)  +1
-#define NAME(name, formula)   name,
-#define AMOUNT(name, formula) *amounts++ = formula;
+// The first terms are of edges, then those of the edges of alpha-clipped surfaces, of textures, and
+// of the other settings. The last ones are products of two terms, since one error hides a part of
+// another error in the same place.
+#define FLIP_TERMS(X)                                                                              \
+    X("picture", 1.0)                                                                              \
+    X("one sample", 1.0 - w->several)                                                              \
+    X("per sample", 1.0 / w->samples)                                                              \
+    X("several samples, per group", w->several / w->groups)                                        \
+    X("several samples, per root of the groups", w->several / sqrt(w->groups))                     \
+    X("one probe", 1.0 - w->anisotropic)                                                           \
+    X("per probe", 1.0 / w->probes)                                                                \
+    X("per square of the probes", 1.0 / (w->probes * w->probes))                                   \
+    X("advanced AF, beyond one probe", w->anisotropic * w->exact * (1.0 - 1.0 / w->probes))        \
+    X("advanced AF, per probe", w->anisotropic * w->exact / w->probes)                             \
+    X("compressed textures", w->compressed)                                                        \
+    X("opt=advanced", w->advanced)                                                                 \
+    X("miplod=quality", w->biased[0])                                                              \
+    X("miplod=performance", w->biased[1])                                                          \
+    X("miplod=high-performance", w->biased[2])                                                     \
+    X("temporal AA", w->temporal)                                                                  \
+    X("mip colours", w->coloured)                                                                  \
+    X("one sample, per probe", (1.0 - w->several) / w->probes)                                     \
+    X("several samples, per group and probe", w->several / (w->groups * w->probes))                \
+    X("one sample, one probe", (1.0 - w->several) * (1.0 - w->anisotropic))                        \
+    X("miplod=quality, per probe", w->biased[0] / w->probes)                                       \
+    X("miplod=performance, per probe", w->biased[1] / w->probes)                                   \
+    X("miplod=high-performance, per probe", w->biased[2] / w->probes)                              \
+    X("compressed textures, per probe", w->compressed / w->probes)                                 \
+    X("opt=advanced, per probe", w->advanced / w->probes)                                          \
+    X("compressed textures, miplod=quality", w->compressed * w->biased[0])                         \
+    X("compressed textures, miplod=high-performance", w->compressed * w->biased[2])
 
-static const int counts[DIP_COST_STAGE_COUNT] = {
-    [DIP_COST_STAGE_geometry] = 0 GEOMETRY_TERMS(COUNT),
-    [DIP_COST_STAGE_raster] = 0 RASTER_TERMS(COUNT),
-    [DIP_COST_STAGE_shading] = 0 SHADING_TERMS(COUNT),
-    [DIP_COST_STAGE_resolve] = 0 RESOLVE_TERMS(COUNT),
-    [DIP_COST_STAGE_rest] = 0 REST_TERMS(COUNT),
-};
+// All parts that are modelled: X(index of the part, its list of terms).
+#define PARTS(X)                                                                                   \
+    X(DIP_COST_STAGE_geometry, GEOMETRY_TERMS)                                                     \
+    X(DIP_COST_STAGE_raster, RASTER_TERMS)                                                         \
+    X(DIP_COST_STAGE_shading, SHADING_TERMS)                                                       \
+    X(DIP_COST_STAGE_resolve, RESOLVE_TERMS)                                                       \
+    X(DIP_COST_STAGE_rest, REST_TERMS)                                                             \
+    X(DIP_COST_PART_FLIP, FLIP_TERMS)
 
-static const char *const names[DIP_COST_STAGE_COUNT][DIP_COST_MAX_TERMS] = {
-    [DIP_COST_STAGE_geometry] = {GEOMETRY_TERMS(NAME)},
-    [DIP_COST_STAGE_raster] = {RASTER_TERMS(NAME)},
-    [DIP_COST_STAGE_shading] = {SHADING_TERMS(NAME)},
-    [DIP_COST_STAGE_resolve] = {RESOLVE_TERMS(NAME)},
-    [DIP_COST_STAGE_rest] = {REST_TERMS(NAME)},
-};
+#define COUNT(name, formula)     +1
+#define NAME(name, formula)      name,
+#define AMOUNT(name, formula)    *amounts++ = formula;
+#define COUNT_PART(index, TERMS) [index] = 0 TERMS(COUNT),
+#define NAME_PART(index, TERMS)  [index] = {TERMS(NAME)},
+#define ADD_PART(index, TERMS)                                                                     \
+    case index:                                                                                    \
+        TERMS(AMOUNT) break;
 
-int dip_cost_term_count(DipCostStage stage) {
-    return counts[stage];
+static const int counts[DIP_COST_PART_COUNT] = {PARTS(COUNT_PART)};
+static const char *const names[DIP_COST_PART_COUNT][DIP_COST_MAX_TERMS] = {PARTS(NAME_PART)};
+
+int dip_cost_term_count(int part) {
+    return counts[part];
 }
 
-const char *dip_cost_term_name(DipCostStage stage, int term) {
-    DIP_ASSERT(term >= 0 && term < counts[stage]);
-    return names[stage][term];
+const char *dip_cost_term_name(int part, int term) {
+    DIP_ASSERT(term >= 0 && term < counts[part]);
+    return names[part][term];
 }
 
-void dip_cost_terms(DipCostStage stage, const double counters[DIP_COST_COUNTER_COUNT],
+void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
                     const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]) {
+    const int level = quality->step[DIP_SETTING_MIPLOD];
+    const double samples = dip_quality_sample_count(quality);
+    const double probes = dip_quality_max_anisotropy(quality);
     const Work work = {
         .counters = counters,
-        .samples = dip_quality_sample_count(quality),
-        .several = dip_quality_sample_count(quality) > 1,
+        .samples = samples,
+        .several = samples > 1.0,
+        .groups = samples / dip_quality_samples_per_group(quality),
         .adaptive = quality->step[DIP_SETTING_AAA] != 0,
-        .anisotropic = dip_quality_max_anisotropy(quality) > 1,
-        .full_levels = quality->step[DIP_SETTING_MIPLOD] == DIP_MIPLOD_HIGH_QUALITY,
-        .raw = !dip_quality_compresses(quality),
-        .advanced = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
+        .probes = probes,
+        .anisotropic = probes > 1.0,
         .exact = quality->step[DIP_SETTING_AAF] != 0,
+        .full_levels = level == DIP_MIPLOD_HIGH_QUALITY,
+        .raw = !dip_quality_compresses(quality),
+        .compressed = quality->step[DIP_SETTING_OPT] != DIP_OPT_OFF,
+        .advanced = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
+        .biased = {level <= DIP_MIPLOD_QUALITY, level <= DIP_MIPLOD_PERFORMANCE,
+                   level <= DIP_MIPLOD_HIGH_PERFORMANCE},
+        .temporal = quality->step[DIP_SETTING_TAA] != 0,
+        .coloured = quality->step[DIP_SETTING_MIPDEBUG] != 0,
     };
     const Work *const w = &work;
-    switch (stage) {
-    case DIP_COST_STAGE_geometry:
-        GEOMETRY_TERMS(AMOUNT) break;
-    case DIP_COST_STAGE_raster:
-        RASTER_TERMS(AMOUNT) break;
-    case DIP_COST_STAGE_shading:
-        SHADING_TERMS(AMOUNT) break;
-    case DIP_COST_STAGE_resolve:
-        RESOLVE_TERMS(AMOUNT) break;
+    switch (part) {
+        PARTS(ADD_PART)
     default:
-        REST_TERMS(AMOUNT) break;
-    }
-}
-
-void dip_cost_error_terms(const DipQuality *quality, double terms[DIP_COST_ERROR_TERMS]) {
-    const double samples = dip_quality_sample_count(quality);
-    const double groups = samples / dip_quality_samples_per_group(quality);
-    const double probes = dip_quality_max_anisotropy(quality);
-    const double several = samples > 1.0;
-    const double anisotropic = probes > 1.0;
-    const double exact = anisotropic && quality->step[DIP_SETTING_AAF];
-    const int level = quality->step[DIP_SETTING_MIPLOD];
-    const double biased[3] = {level <= DIP_MIPLOD_QUALITY, level <= DIP_MIPLOD_PERFORMANCE,
-                              level <= DIP_MIPLOD_HIGH_PERFORMANCE};
-    const double compressed = quality->step[DIP_SETTING_OPT] != DIP_OPT_OFF;
-    const double advanced = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
-    const double values[DIP_COST_ERROR_TERMS] = {
-        1.0,
-        // Edges, and the edges of alpha-clipped surfaces, which have a decision per sample group.
-        1.0 - several,
-        1.0 / samples,
-        several / groups,
-        several / sqrt(groups),
-        // Textures.
-        1.0 - anisotropic,
-        1.0 / probes,
-        1.0 / (probes * probes),
-        exact * (1.0 - 1.0 / probes),
-        exact / probes,
-        compressed,
-        advanced,
-        biased[0],
-        biased[1],
-        biased[2],
-        quality->step[DIP_SETTING_TAA] != 0,
-        quality->step[DIP_SETTING_MIPDEBUG] != 0,
-        // An error hides a part of another error in the same place.
-        (1.0 - several) / probes,
-        several / (groups * probes),
-        (1.0 - several) * (1.0 - anisotropic),
-        biased[0] / probes,
-        biased[1] / probes,
-        biased[2] / probes,
-        compressed / probes,
-        advanced / probes,
-        compressed * biased[0],
-        compressed * biased[2],
-    };
-    for (int t = 0; t < DIP_COST_ERROR_TERMS; t++) {
-        terms[t] = values[t];
+        DIP_ASSERT(false);
     }
 }

@@ -1,4 +1,4 @@
-// Green, amber or red.
+// Judges how far other programs disturbed the timing: green, amber or red.
 #include "app/report/verdict.h"
 
 #include <math.h>
@@ -6,8 +6,8 @@
 
 const char *const dip_cost_verdict_names[] = {"green", "amber", "red"};
 
-// Measured on 66 half runs of which the truth was known (quiet, beside one or two busy loops,
-// beside bursts): no loaded run is green, and no green run errs by more than 2.5 %.
+// The limits come from 66 half runs whose true ratios were known (quiet, beside one or two busy
+// loops, beside bursts): no loaded run is green, and no green run errs by more than 2.5 %.
 const DipCostLimits dip_cost_wait_limits = {0.05, 0.20};
 const DipCostLimits dip_cost_spread_limits = {0.05, 0.10};
 const DipCostLimits dip_cost_offset_limits = {0.02, 0.05};
@@ -20,33 +20,32 @@ static DipCostVerdict judge(double sign, const DipCostLimits *limits) {
 }
 
 DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_COST_REASON]) {
-    const DipCostVerdict by_wait = judge(signs->wait, &dip_cost_wait_limits);
-    const DipCostVerdict by_spread = judge(signs->spread, &dip_cost_spread_limits);
-    const DipCostVerdict by_offset = judge(signs->offset, &dip_cost_offset_limits);
+    const double wait = 100.0 * signs->wait, offset = 100.0 * (exp(signs->offset) - 1.0);
+    const struct {
+        DipCostVerdict verdict;
+        const char *reason;
+        double percent;
+    } found[] = {
+        {judge(signs->wait, &dip_cost_wait_limits),
+         "The threads waited %.0f %% of their time for a core, which other programs held.", wait},
+        {judge(signs->spread, &dip_cost_spread_limits),
+         "The baseline was timed twice in every round, and the two times differed by %.0f %% from "
+         "round to round.",
+         100.0 * fmin(signs->spread, 10.0)},
+        {judge(signs->offset, &dip_cost_offset_limits),
+         "The baseline was timed twice, as if it were two settings, and the two differ by %.0f %%.",
+         offset},
+    };
     DipCostVerdict verdict = DIP_COST_GREEN;
     snprintf(reason, DIP_COST_REASON,
              "The threads waited %.1f %% of their time for a core, and the baseline, timed twice, "
              "differed by %.1f %%.",
-             100.0 * signs->wait, 100.0 * (exp(signs->offset) - 1.0));
-    if (by_wait > verdict) {
-        verdict = by_wait;
-        snprintf(reason, DIP_COST_REASON,
-                 "The threads waited %.0f %% of their time for a core, which other programs held.",
-                 100.0 * signs->wait);
-    }
-    if (by_spread > verdict) {
-        verdict = by_spread;
-        snprintf(reason, DIP_COST_REASON,
-                 "The baseline was timed twice in every round, and the two times differed by %.0f "
-                 "%% from round to round.",
-                 100.0 * fmin(signs->spread, 10.0));
-    }
-    if (by_offset > verdict) {
-        verdict = by_offset;
-        snprintf(reason, DIP_COST_REASON,
-                 "The baseline was timed twice, as if it were two settings, and the two differ by "
-                 "%.0f %%.",
-                 100.0 * (exp(signs->offset) - 1.0));
+             wait, offset);
+    for (size_t i = 0; i < sizeof found / sizeof *found; i++) {
+        if (found[i].verdict > verdict) {
+            verdict = found[i].verdict;
+            snprintf(reason, DIP_COST_REASON, found[i].reason, found[i].percent);
+        }
     }
     if (signs->disturbed > most_disturbed && verdict < DIP_COST_RED) {
         verdict = DIP_COST_RED;
@@ -87,8 +86,9 @@ void dip_cost_judge_machine(DipCostReport *report) {
     signs.wait = report->machine.wait;
     signs.settled = report->machine.settled;
     report->verdict = dip_cost_verdict_of(&signs, report->verdict_reason);
-    // What was drawn twice should cost the same. How far it differs, and how far from round to
-    // round, is what the machine adds to every comparison.
+    // The A/A rows draw what the baseline draws and should take the same time. By how much they
+    // differ, on the whole and from round to round, is the error that the machine adds to every
+    // comparison.
     const double of_rounds = signs.spread / sqrt(report->options.rounds);
     report->doubt = report->verdict == DIP_COST_AMBER ? fmax(signs.offset, of_rounds) : 0.0;
 }

@@ -1,7 +1,8 @@
-// Intervals over viewpoints.
-#include "app/report/viewpoints.h"
+// Computes metrics with intervals over the viewpoints of a path.
+#include "app/report/report.h"
 
 #include "app/measure/metrics/difference.h"
+#include "app/measure/metrics/truth.h"
 
 #include <math.h>
 
@@ -37,52 +38,23 @@ static double metric_of(double mean, DipCostMetric metric) {
 
 // --- spread --------------------------------------------------------------------------------------
 
-// A value of each viewpoint that counts.
-typedef struct Values {
-    const DipCostReport *report;
-    int row;
-    int base; // Row whose metric is subtracted; -1: the values are the means of the metric.
-    DipCostMetric metric;
-} Values;
-
-// Returns false if the viewpoint does not count.
-static bool value_at(const Values *v, int viewpoint, double *value) {
-    const DipCostRow *row = &v->report->rows[v->row];
-    const DipCostRow *base = v->base >= 0 ? &v->report->rows[v->base] : row;
-    if (!row->judged[viewpoint] || !base->judged[viewpoint]) {
-        return false;
-    }
-    *value = mean_of(&row->viewpoints[viewpoint], v->metric);
-    if (v->base >= 0) {
-        *value = metric_of(*value, v->metric) -
-                 metric_of(mean_of(&base->viewpoints[viewpoint], v->metric), v->metric);
-    }
-    return true;
-}
-
-// The mean of the values, and half of the width of its 95 % interval: NAN for fewer than two.
+// The mean of the viewpoints' values, and half of the width of its 95 % interval.
 typedef struct Spread {
     double mean; // NAN without values.
-    double half;
+    double half; // NAN for fewer than two values.
 } Spread;
 
-static Spread spread_of(const Values *v) {
-    double sum = 0.0, squares = 0.0, value;
-    int count = 0;
-    for (int p = 0; p < v->report->options.places; p++) {
-        if (value_at(v, p, &value)) {
-            sum += value;
-            count++;
-        }
+static Spread spread_of(const double *values, int count) {
+    double sum = 0.0, squares = 0.0;
+    for (int i = 0; i < count; i++) {
+        sum += values[i];
     }
     const double mean = count > 0 ? sum / count : NAN;
     if (count < 2) {
         return (Spread){mean, NAN};
     }
-    for (int p = 0; p < v->report->options.places; p++) {
-        if (value_at(v, p, &value)) {
-            squares += (value - mean) * (value - mean);
-        }
+    for (int i = 0; i < count; i++) {
+        squares += (values[i] - mean) * (values[i] - mean);
     }
     const double variance = squares / (count - 1);
     return (Spread){mean, dip_student_quantile(0.975, count - 1) * sqrt(variance / count)};
@@ -101,7 +73,15 @@ static DipEstimate between(double value, double low, double high) {
 }
 
 DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric) {
-    const Spread s = spread_of(&(Values){report, row, -1, metric});
+    const DipCostRow *r = &report->rows[row];
+    double means[DIP_COST_MAX_PLACES];
+    int count = 0;
+    for (int p = 0; p < report->options.places; p++) {
+        if (r->judged[p]) {
+            means[count++] = mean_of(&r->viewpoints[p], metric);
+        }
+    }
+    const Spread s = spread_of(means, count);
     const double value = metric_of(s.mean, metric);
     if (isnan(s.half)) {
         return dip_estimate_unknown(value);
@@ -118,23 +98,24 @@ DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric 
 
 DipEstimate dip_cost_metric_change(const DipCostReport *report, int row, int base,
                                    DipCostMetric metric) {
-    const Spread s = spread_of(&(Values){report, row, base, metric});
+    const DipCostRow *r = &report->rows[row], *b = &report->rows[base];
+    double changes[DIP_COST_MAX_PLACES];
+    int count = 0;
+    for (int p = 0; p < report->options.places; p++) {
+        if (r->judged[p] && b->judged[p]) {
+            changes[count++] = metric_of(mean_of(&r->viewpoints[p], metric), metric) -
+                               metric_of(mean_of(&b->viewpoints[p], metric), metric);
+        }
+    }
+    const Spread s = spread_of(changes, count);
     return between(s.mean, s.mean - s.half, s.mean + s.half);
-}
-
-DipEstimate dip_cost_flip(const DipCostReport *report, int row) {
-    return dip_cost_metric(report, row, DIP_COST_FLIP);
-}
-
-DipEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base) {
-    return dip_cost_metric_change(report, row, base, DIP_COST_FLIP);
 }
 
 DipMetrics dip_cost_floor_metrics(const DipCostReport *report, int path) {
     const DipMetricSums sums = dip_cost_floor(report, path);
     const DipMetrics halves = dip_metrics_of(&sums, 0);
     return (DipMetrics){
-        .rmse_lin = dip_cost_floor_rmse(report, path, 0),
+        .rmse_lin = dip_truth_floor_rmse(&sums, 0),
         .psnr_db = halves.psnr_db + 20.0 * log10(2.0),
         .ssim = 1.0 - (1.0 - halves.ssim) / 4.0,
         .flip = dip_cost_floor_flip(report, path),

@@ -1,18 +1,14 @@
-// How numbers of a choice are written, wherever they show: in a terminal, a page or the panel.
+// Writes numbers of a choice as people read them, in a terminal, a page or the panel.
 #ifndef DIP_APP_REPORT_WORDS_H
 #define DIP_APP_REPORT_WORDS_H
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { DIP_NUMBER_BYTES = 24, DIP_BUDGET_BYTES = 64 };
 
-// Writes a value with this number of decimals. A change has its sign. What rounds to no change has
-// none, so "-0" never shows. `minus` is the sign of what is less: "-", or U+2212 for the panel.
-// Values beyond 9,999,999 are cut to it.
+// Writes a value with this number of decimals. A change has a sign even if it is positive. A value
+// that rounds to 0 has no sign, so "-0" never shows. `minus` is the sign of negative values: "-",
+// or U+2212 for the panel. Values beyond 9,999,999 are cut to that number.
 void dip_number_text(double value, int decimals, bool change, const char *minus,
                      char text[DIP_NUMBER_BYTES]);
 
@@ -28,12 +24,8 @@ void dip_budget_ms_text(double budget_ms, char text[DIP_NUMBER_BYTES]);
 // rates of displays, otherwise "Within 8 ms a frame".
 void dip_budget_text(double budget_ms, char text[DIP_BUDGET_BYTES]);
 
-// Writes the probability that something fits a budget: "99 %", "unknown". Only what is certain in
-// three digits is 100 % or 0 %.
+// Writes the probability that something fits a budget: "99 %", "unknown". Only a probability that
+// is certain in three digits is written as 100 % or 0 %.
 void dip_fits_text(double fits, char text[DIP_NUMBER_BYTES]);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -1,11 +1,35 @@
 // The command `diptych cost advise`: one choice of settings for several reports.
-#include "app/cost/advise/advise_options.h"
+#include "app/cost/advise/common_advice.h"
 #include "app/cost/command.h"
+#include "app/cost/options.h"
 #include "renderer/base/assert.h"
 
 #include <stdlib.h>
 
-static bool advise(const DipCostAdviseArguments *arguments, const DipCostCommon *common,
+// The whole command line. Texts are borrowed from argv.
+typedef struct Arguments {
+    DipProgramOptions program;
+    DipCostOptions cost; // Only the budgets and budget_of are used.
+    const char *reports[DIP_COST_MAX_COMMON_REPORTS];
+    int report_count;
+    const char *json; // File for the advice, or NULL.
+} Arguments;
+
+static const DipOptionPart parts[] = {
+    {&dip_cost_budget_option_table, offsetof(Arguments, cost)},
+    {&dip_json_option_table, offsetof(Arguments, json)},
+    {&dip_program_option_table, offsetof(Arguments, program)},
+};
+static const DipOptionParts option_parts = {parts, DIP_ARRAY_COUNT(parts)};
+
+static bool check(const void *arguments, DipError *err) {
+    return ((const Arguments *)arguments)->report_count > 0 ||
+           dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost advise",
+                         "there are no reports; give the cost.json of each: cost advise "
+                         "REPORT...");
+}
+
+static bool advise(const Arguments *arguments, const DipCostCommon *common,
                    DipCostCommonAdvice *advice, DipError *err) {
     DipCostOptions budgets = arguments->cost;
     dip_cost_default_budgets(&budgets);
@@ -19,7 +43,7 @@ static bool advise(const DipCostAdviseArguments *arguments, const DipCostCommon 
 
 static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     (void)session;
-    const DipCostAdviseArguments *arguments = all_arguments;
+    const Arguments *arguments = all_arguments;
     DipCostCommon common = {.reports = NULL};
     DipCostCommonAdvice *advice = calloc(DIP_COST_MAX_BUDGETS, sizeof *advice);
     const bool done =
@@ -58,10 +82,10 @@ const DipCommand dip_cost_advise_command = {
         "that was too busy.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),
-    .parts = &dip_cost_advise_option_parts,
-    .operands = {offsetof(DipCostAdviseArguments, reports),
-                 offsetof(DipCostAdviseArguments, report_count), DIP_COST_MAX_COMMON_REPORTS},
-    .options_size = sizeof(DipCostAdviseArguments),
-    .check = dip_cost_advise_options_check,
+    .parts = &option_parts,
+    .operands = {offsetof(Arguments, reports), offsetof(Arguments, report_count),
+                 DIP_COST_MAX_COMMON_REPORTS},
+    .options_size = sizeof(Arguments),
+    .check = check,
     .run = run,
 };

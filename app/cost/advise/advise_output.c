@@ -1,14 +1,14 @@
-// Printing common advice for a terminal, and writing it as JSON.
+// Prints common advice for a terminal, and writes it as JSON.
 #include "app/cost/advise/common_advice.h"
 
 #include "app/files/whole_file.h"
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/format/sections.h"
 #include "app/report/words.h"
 
 #include <math.h>
 
-// The context of all fields.
+// The advice, which is the context of all fields.
 typedef struct Advised {
     const DipCostCommon *common;
     const DipCostCommonAdvice *list; // One for each budget.
@@ -48,18 +48,13 @@ static int count_reports(const DipFieldAt *at) {
 
 // --- what a report says about a choice -----------------------------------------------------------
 
-typedef struct Said {
-    DipQuality quality;
-    DipEstimate ms;
-    double flip;
-} Said;
-
-// A report's line of a budget. What is not known is NAN.
+// The line of a report in the table of a budget. Values that are not known are NAN. The times have
+// the error that all combinations of the report share.
 typedef struct Line {
-    Said chosen;
-    Said alone; // What this report alone would choose.
+    DipCandidate chosen;
+    DipCandidate alone; // What this report alone would choose.
     bool has_alone;
-    bool same; // It is what was chosen.
+    bool same; // The report alone would choose the same.
     double loss;
 } Line;
 
@@ -70,28 +65,28 @@ double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostComm
     if (advice->all.chosen < 0 || alone < 0) {
         return NAN;
     }
-    const int row = common->rows[advice->all.chosen * common->report_count + report];
+    const int row = dip_cost_common_row(common, advice->all.chosen, report);
     return dip_cost_ranking_flip(r, row) / dip_cost_ranking_flip(r, alone) - 1.0;
 }
 
-static Said said_of(const DipCandidate *c) {
-    return (Said){c->quality, dip_estimate_widen(&c->time, c->common_error), c->flip};
+static DipCandidate candidate_of(const DipCostCommon *common, int report, int row) {
+    DipCandidate c = dip_candidate_of_row(&common->reports[report], row, common->candidates.kind);
+    c.time = dip_estimate_widen(&c.time, c.common_error);
+    return c;
 }
 
 static Line line_of(const DipCostCommon *common, const DipCostCommonAdvice *advice, int report) {
-    const int chosen = advice->all.chosen, alone = advice->alone[report];
-    Line line = {.chosen = {.ms = dip_estimate_unknown(NAN), .flip = NAN},
+    const int alone = advice->alone[report];
+    Line line = {.chosen = {.time = dip_estimate_unknown(NAN), .flip = NAN},
                  .has_alone = alone >= 0,
                  .loss = dip_cost_common_share_lost(common, advice, report)};
-    if (chosen >= 0) {
-        const DipCandidate c = dip_cost_common_candidate(common, chosen, report);
-        line.chosen = said_of(&c);
-        line.same = common->rows[chosen * common->report_count + report] == alone;
+    if (advice->all.chosen >= 0) {
+        const int row = dip_cost_common_row(common, advice->all.chosen, report);
+        line.chosen = candidate_of(common, report, row);
+        line.same = row == alone;
     }
-    if (alone >= 0) {
-        const DipCandidate c =
-            dip_candidate_of_row(&common->reports[report], alone, common->candidates.kind);
-        line.alone = said_of(&c);
+    if (line.has_alone) {
+        line.alone = candidate_of(common, report, alone);
     }
     return line;
 }
@@ -107,18 +102,18 @@ static const void *derive_alone(const DipFieldAt *at, DipFieldScratch *scratch) 
 }
 
 static const DipField alone_fields[] = {
-    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, Said, quality)},
+    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCandidate, quality)},
     {"ms", NULL, "ms", "Their time, of the kind that the budget is meant for.",
-     DIP_FACT(ESTIMATE, Said, ms)},
-    {"flip", NULL, NULL, "Their mean FLIP in this report.", DIP_FACT(NUMBER, Said, flip)},
+     DIP_FACT(ESTIMATE, DipCandidate, time)},
+    {"flip", NULL, NULL, "Their mean FLIP in this report.", DIP_FACT(NUMBER, DipCandidate, flip)},
 };
-static const DipRecord alone_record =
-    DIP_RECORD("choice alone", "What a report alone would choose.", alone_fields, Said, NULL);
+static const DipRecord alone_record = DIP_RECORD(
+    "choice alone", "What a report alone would choose.", alone_fields, DipCandidate, NULL);
 
 static const DipField line_fields[] = {
     {"number", "report", NULL, "Its number.", .kind = DIP_FIELD_WHOLE, .derive = derive_number},
     {"ms", "time", "ms", "Time of the chosen settings, of the kind that the budget is meant for.",
-     DIP_FACT(ESTIMATE, Line, chosen.ms), .digits = 2},
+     DIP_FACT(ESTIMATE, Line, chosen.time), .digits = 2},
     {"flip", "FLIP", NULL, "FLIP of the chosen settings.", DIP_FACT(NUMBER, Line, chosen.flip),
      .digits = 4},
     {"alone", NULL, NULL, "What this report alone would choose.", DIP_FACT(RECORD, Line, alone),
@@ -132,58 +127,46 @@ static const DipRecord line_record =
     DIP_RECORD("choice in a report", "What a report says about a budget.", line_fields, Line, NULL);
 
 DIP_GET_ITEM(get_line, DIP_MADE(Line, (line_of(advised_of(at)->common, at->item, index))))
+
 // --- budgets -------------------------------------------------------------------------------------
 
-typedef struct Choice {
-    DipQuality quality;
-    double flip;
-    double fits;
-    int report;
-} Choice;
+// Returns the common choice of an item that is the advice for a budget.
+static const DipAdvice *all_of(const DipFieldAt *at) {
+    return &((const DipCostCommonAdvice *)at->item)->all;
+}
 
+// Returns the candidate with this index, or NULL if it is -1.
+static const DipCandidate *candidate_at(const DipFieldAt *at, int index) {
+    return index >= 0 ? &advised_of(at)->common->candidates.list[index] : NULL;
+}
+
+DIP_DERIVE(derive_fits,
+           DIP_MADE(double, dip_candidate_fits(at->item, all_of(at->owner)->budget_ms)))
 static const DipField choice_fields[] = {
-    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, Choice, quality)},
-    {"mean_flip", NULL, NULL, "FLIP, as a mean over the reports.", DIP_FACT(NUMBER, Choice, flip)},
+    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCandidate, quality)},
+    {"mean_flip", NULL, NULL, "FLIP, as a mean over the reports.",
+     DIP_FACT(NUMBER, DipCandidate, flip)},
     {"fits", NULL, NULL, "Probability of being within the budget in every report.",
-     DIP_FACT(NUMBER, Choice, fits)},
+     DIP_DERIVED(NUMBER, derive_fits)},
     {"limited_by_report", NULL, NULL, "Index of the report in which it may take longest.",
-     DIP_FACT(WHOLE, Choice, report)},
+     DIP_FACT(WHOLE, DipCandidate, report)},
 };
 static const DipRecord choice_record =
-    DIP_RECORD("common choice", "Settings for all reports.", choice_fields, Choice, NULL);
+    DIP_RECORD("common choice", "Settings for all reports.", choice_fields, DipCandidate, NULL);
 
-static const void *derive_choice(const DipFieldAt *at, int index, double fits,
-                                 DipFieldScratch *scratch) {
-    if (index < 0) {
-        return NULL;
-    }
-    const DipCandidate *c = &advised_of(at)->common->candidates.list[index];
-    *(Choice *)scratch = (Choice){c->quality, c->flip, fits, c->report};
-    return scratch;
-}
-
-static const void *derive_chosen(const DipFieldAt *at, DipFieldScratch *scratch) {
-    const DipAdvice *all = &((const DipCostCommonAdvice *)at->item)->all;
-    return derive_choice(at, all->chosen, all->fits, scratch);
-}
-
-static const void *derive_next(const DipFieldAt *at, DipFieldScratch *scratch) {
-    const DipAdvice *all = &((const DipCostCommonAdvice *)at->item)->all;
-    return derive_choice(at, all->next, all->next_fits, scratch);
-}
+DIP_DERIVE(derive_chosen, candidate_at(at, all_of(at)->chosen))
+DIP_DERIVE(derive_next, candidate_at(at, all_of(at)->next))
+DIP_GET_ITEM(get_tie, &candidate_at(at, all_of(at)->ties[index])->quality)
 
 static bool has_next(const DipFieldAt *at) {
-    return ((const DipCostCommonAdvice *)at->item)->all.next >= 0;
+    return all_of(at)->next >= 0;
 }
 
 static int count_ties(const DipFieldAt *at) {
-    const int count = ((const DipCostCommonAdvice *)at->item)->all.tie_count;
+    const int count = all_of(at)->tie_count;
     return count < DIP_ADVICE_TIES ? count : DIP_ADVICE_TIES;
 }
 
-DIP_GET_ITEM(
-    get_tie,
-    &advised_of(at)->common->qualities[((const DipCostCommonAdvice *)at->item)->all.ties[index]])
 #define LIST(RECORD, COUNT, ITEM)                                                                  \
     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON, .list = &(const DipFieldList) {               \
         .record = &(RECORD), .count = COUNT, .item = ITEM                                          \
@@ -210,7 +193,7 @@ static const DipRecord budget_record = DIP_RECORD("budget", "What to choose for 
                                                   budget_fields, DipCostCommonAdvice, NULL);
 
 DIP_DERIVE(derive_budget_of, dip_time_kind_names[advised_of(at)->common->candidates.kind])
-DIP_DERIVE(derive_combinations, &advised_of(at)->common->count)
+DIP_DERIVE(derive_combinations, &advised_of(at)->common->candidates.count)
 static int count_budgets(const DipFieldAt *at) {
     return advised_of(at)->count;
 }
@@ -259,8 +242,8 @@ static void print_reports(DipForm *form, const Advised *advised) {
         "%d combination%s of settings %s in every report. Times are %s times with their intervals "
         "of 95 %%. Mean FLIP is the mean over the reports. Loss is how much more FLIP the common "
         "choice has than the settings that the report alone would choose.",
-        common->count, dip_cost_plural(common->count), common->count == 1 ? "is" : "are",
-        dip_time_kind_names[common->candidates.kind]);
+        common->candidates.count, dip_cost_plural(common->candidates.count),
+        common->candidates.count == 1 ? "is" : "are", dip_time_kind_names[common->candidates.kind]);
 }
 
 // Says what stands in the way of better settings.
@@ -337,7 +320,7 @@ void dip_cost_common_print(const DipCostCommon *common, const DipCostCommonAdvic
             print_nothing(&form, common, &advice[i].all);
         }
         tiers[i] = (DipCostTier){advice[i].all.budget_ms,
-                                 chosen >= 0 ? &common->qualities[chosen] : NULL, -1};
+                                 chosen >= 0 ? &common->candidates.list[chosen].quality : NULL, -1};
     }
     dip_section_tiers(&form, tiers, count);
     print_reports(&form, &advised);

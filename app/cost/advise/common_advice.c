@@ -1,7 +1,7 @@
-// Matching the combinations of several reports, and choosing among them.
+// Matches the combinations of several reports, and chooses among them.
 #include "app/cost/advise/common_advice.h"
 
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/format/formats.h"
 
 #include <stdlib.h>
@@ -13,75 +13,48 @@ static bool out_of_memory(DipError *err) {
 
 // --- matching ------------------------------------------------------------------------------------
 
-// A combination of one report.
-typedef struct Entry {
-    DipQuality quality;
-    int row;
-} Entry;
-
-static int compare_entries(const void *a, const void *b) {
-    return memcmp(&((const Entry *)a)->quality, &((const Entry *)b)->quality, sizeof(DipQuality));
+// Returns the row of a combination in a report, or -1 if the report has no time or no error of it.
+static int find_row(const DipCostReport *report, const DipQuality *quality) {
+    const int row = dip_report_find_same(report, quality, report->combined_first);
+    return row >= 0 && dip_cost_is_judged(report, row) ? row : -1;
 }
 
-// Lists the combinations of a report that have times and errors, and those that another row stands
-// for. Returns NULL and fills *err when memory runs out. The caller frees the list.
-static Entry *list_entries(const DipCostReport *report, int *count, DipError *err) {
-    const DipCandidates *all = &report->choice.candidates;
-    Entry *entries =
-        malloc(((size_t)all->count + (size_t)report->same_count + 1) * sizeof *entries);
-    *count = 0;
-    for (int i = 0; entries && i < all->count; i++) {
-        entries[(*count)++] = (Entry){all->list[i].quality, all->list[i].row};
-    }
-    for (int i = 0; entries && i < report->same_count; i++) {
-        int viewpoints;
-        dip_cost_row_sums(report, report->same[i].row, &viewpoints);
-        if (viewpoints > 0) {
-            entries[(*count)++] = (Entry){report->same[i].quality, report->same[i].row};
-        }
-    }
-    if (!entries) {
-        out_of_memory(err);
-    }
-    return entries;
-}
-
-static bool begin_match(DipCostCommon *common, const Entry *entries, int count, DipError *err) {
-    const size_t room = (size_t)count + 1;
-    free(common->qualities); // The lists of an earlier match go.
-    free(common->rows);
-    free(common->candidates.list);
-    common->qualities = malloc(room * sizeof *common->qualities);
-    common->rows = malloc(room * (size_t)common->report_count * sizeof *common->rows);
-    common->candidates.list = malloc(room * sizeof *common->candidates.list);
-    if (!common->qualities || !common->rows || !common->candidates.list) {
+// Lists the combinations of the first report. Some have no row of their own, because another row,
+// which draws the same pictures, stands for them.
+static bool begin_match(DipCostCommon *common, DipError *err) {
+    const DipCostReport *report = &common->reports[0];
+    const DipCandidates *own = &report->choice.candidates;
+    DipCandidates *all = &common->candidates;
+    dip_candidates_free(all); // The list of an earlier match.
+    all->list = malloc(((size_t)own->count + (size_t)report->same_count) * sizeof *all->list);
+    if (!all->list) {
         return out_of_memory(err);
     }
-    for (int i = 0; i < count; i++) {
-        common->qualities[i] = entries[i].quality;
-        common->rows[i * common->report_count] = entries[i].row;
+    memcpy(all->list, own->list, (size_t)own->count * sizeof *all->list);
+    all->count = own->count;
+    all->kind = report->options.budget_of;
+    for (int i = 0; i < report->same_count; i++) {
+        if (find_row(report, &report->same[i].quality) >= 0) {
+            all->list[all->count++] = (DipCandidate){.quality = report->same[i].quality};
+        }
     }
-    common->count = count;
     return true;
 }
 
 // Keeps the combinations that this report has, too.
-static void keep_matches(DipCostCommon *common, int report, Entry *entries, int count) {
-    const int reports = common->report_count;
+static bool keep_matches(DipCostCommon *common, int index, DipError *err) {
+    DipCandidates *all = &common->candidates;
     int kept = 0;
-    qsort(entries, (size_t)count, sizeof *entries, compare_entries);
-    for (int i = 0; i < common->count; i++) {
-        const Entry wanted = {common->qualities[i], -1};
-        const Entry *found =
-            bsearch(&wanted, entries, (size_t)count, sizeof *entries, compare_entries);
-        if (found) {
-            common->qualities[kept] = common->qualities[i];
-            memmove(common->rows + kept * reports, common->rows + i * reports,
-                    (size_t)report * sizeof *common->rows);
-            common->rows[kept++ * reports + report] = found->row;
+    for (int i = 0; i < all->count; i++) {
+        if (find_row(&common->reports[index], &all->list[i].quality) >= 0) {
+            all->list[kept++] = all->list[i];
         }
     }
-    common->count = kept;
+    all->count = kept;
+    return kept > 0 ||
+           dip_error_set(err, DIP_ERROR_CONFLICT, common->names[index], 0, NULL,
+                         "has measured no combination of settings that all reports before it "
+                         "have, too");
 }
 
 // Checks that a report can be used beside the first one.
@@ -110,33 +83,16 @@ static bool check_report(const DipCostCommon *common, int index, DipError *err) 
     return true;
 }
 
-static bool match_report(DipCostCommon *common, int index, DipError *err) {
-    int count;
-    Entry *entries = list_entries(&common->reports[index], &count, err);
-    bool done = entries != NULL;
-    if (done && index == 0) {
-        done = begin_match(common, entries, count, err);
-    } else if (done) {
-        keep_matches(common, index, entries, count);
-    }
-    free(entries);
-    if (done && common->count == 0) {
-        return dip_error_set(err, DIP_ERROR_CONFLICT, common->names[index], 0, NULL,
-                             "has measured no combination of settings that all reports before it "
-                             "have, too");
-    }
-    return done;
-}
-
-// The time that a combination surely keeps within in one report.
+// Returns the time that a combination surely does not exceed in one report.
 static double bound_of(const DipCandidate *candidate) {
     const DipEstimate time = dip_estimate_widen(&candidate->time, candidate->common_error);
     return time.high;
 }
 
-// Returns the candidate that stands for a combination: its means of FLIP, and its time in the
+// Fills in the candidate that stands for a combination: its means of FLIP, and its time in the
 // report in which it may take longest.
-static DipCandidate join(const DipCostCommon *common, int combination) {
+static void join(DipCostCommon *common, int combination) {
+    DipCandidate *to = &common->candidates.list[combination];
     DipCandidate joined = {.time = dip_estimate_unknown(0.0)};
     double loss = 0.0, flip = 0.0;
     for (int i = 0; i < common->report_count; i++) {
@@ -148,24 +104,22 @@ static DipCandidate join(const DipCostCommon *common, int combination) {
             joined.report = i;
         }
     }
-    joined.quality = common->qualities[combination];
+    joined.quality = to->quality;
     joined.loss = loss;
     joined.flip = flip;
     joined.row = combination;
-    return joined;
+    *to = joined;
 }
 
 bool dip_cost_common_match(DipCostCommon *common, DipError *err) {
     for (int i = 0; i < common->report_count; i++) {
         if (!dip_cost_choose(&common->reports[i], err) || !check_report(common, i, err) ||
-            !match_report(common, i, err)) {
+            (i == 0 && !begin_match(common, err)) || !keep_matches(common, i, err)) {
             return false;
         }
     }
-    common->candidates.count = common->count;
-    common->candidates.kind = common->reports[0].options.budget_of;
-    for (int c = 0; c < common->count; c++) {
-        common->candidates.list[c] = join(common, c);
+    for (int c = 0; c < common->candidates.count; c++) {
+        join(common, c);
     }
     return true;
 }
@@ -194,18 +148,20 @@ void dip_cost_common_free(DipCostCommon *common) {
         dip_cost_report_free(&common->reports[i]);
     }
     free(common->reports);
-    free(common->qualities);
-    free(common->rows);
-    free(common->candidates.list);
+    dip_candidates_free(&common->candidates);
     *common = (DipCostCommon){0};
 }
 
 // --- advice --------------------------------------------------------------------------------------
 
+int dip_cost_common_row(const DipCostCommon *common, int combination, int report) {
+    return find_row(&common->reports[report], &common->candidates.list[combination].quality);
+}
+
 DipCandidate dip_cost_common_candidate(const DipCostCommon *common, int combination, int report) {
-    return dip_candidate_of_row(&common->reports[report],
-                                common->rows[combination * common->report_count + report],
-                                common->reports[report].options.budget_of);
+    const DipCostReport *of = &common->reports[report];
+    return dip_candidate_of_row(of, dip_cost_common_row(common, combination, report),
+                                of->options.budget_of);
 }
 
 void dip_cost_common_advise(const DipCostCommon *common, double budget_ms,

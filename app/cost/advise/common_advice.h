@@ -1,27 +1,19 @@
-// Common advice: one choice of settings for several reports. Each report may have another scene,
-// camera path, size or machine. Only combinations of settings that every report has measured can be
-// chosen.
+// Makes common advice: one choice of settings for several reports. Each report may have another
+// scene, camera path, size or machine. Only combinations of settings that every report has measured
+// can be chosen.
 #ifndef DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 #define DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 
 #include "app/report/format/fields.h"
 #include "app/report/report.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { DIP_COST_MAX_COMMON_REPORTS = 64 };
 
-// The reports, and the combinations that every report has measured. In a report, a combination that
-// draws the same pictures as another one has the row of that other one.
+// The reports, and the combinations that every report has measured.
 typedef struct DipCostCommon {
     const char *names[DIP_COST_MAX_COMMON_REPORTS]; // As on the command line. Borrowed.
     DipCostReport *reports;                         // Owned.
     int report_count;
-    DipQuality *qualities; // [combination]. Owned.
-    int *rows;             // [combination * report_count + report]: its row. Owned.
-    int count;             // Number of combinations.
     // The combinations as candidates: their mean FLIP over the reports, and their time in the
     // report in which they may take longest. `row` is the combination. The list is owned.
     DipCandidates candidates;
@@ -41,12 +33,16 @@ typedef struct DipCostCommonAdvice {
 bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int count,
                           DipTimeKind budget_of, DipError *err);
 
-// Finds the common combinations of common->reports. Takes the place of the second half of
-// dip_cost_common_read, and fails for the same reasons.
+// Lists the common combinations of reports that already stand in common->reports. Fails for the
+// same reasons as dip_cost_common_read.
 bool dip_cost_common_match(DipCostCommon *common, DipError *err);
 void dip_cost_common_free(DipCostCommon *common);
 
-// The time and error of a combination in one report.
+// Returns the row of a combination in one report: its own, or that of a combination that draws the
+// same pictures.
+int dip_cost_common_row(const DipCostCommon *common, int combination, int report);
+
+// Returns the time and error of a combination in one report.
 DipCandidate dip_cost_common_candidate(const DipCostCommon *common, int combination, int report);
 
 // Chooses the common settings for a budget (dip_advise), and those that each report would choose
@@ -65,14 +61,10 @@ double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostComm
 void dip_cost_common_print(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                            int count, FILE *out);
 
-// Writes the same to a file. Fails with DIP_ERROR_MEMORY, or DIP_ERROR_IO if the file cannot be
-// written.
-extern const DipRecord dip_cost_common_record; // Of the file.
+// Writes the same to a file as JSON. Fails with DIP_ERROR_MEMORY, or DIP_ERROR_IO if the file
+// cannot be written.
+extern const DipRecord dip_cost_common_record; // The fields of the file.
 bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                                 int count, const char *file, DipError *err);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

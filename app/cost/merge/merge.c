@@ -1,19 +1,29 @@
-// `diptych cost merge`: joins the viewpoints that several machines have judged into one report.
-#include "app/cost/cost.h"
-
+// The command `diptych cost merge`: joins the viewpoints that several machines have judged into one
+// report.
 #include "app/cost/command.h"
 #include "app/cost/context.h"
+#include "app/cost/options.h"
 #include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/cost/merge/merge_machines.h"
-#include "app/report/same_pictures.h"
 #include "app/files/folder.h"
 #include "renderer/base/assert.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
+
+// The whole command line. Texts are borrowed from argv.
+typedef struct Arguments {
+    DipProgramOptions program;
+    DipSessionOptions session; // The scene, from which the pictures of the page are drawn.
+    const char *out;
+    DipCostOptions cost; // Only the kind of pictures and the cache are used.
+    const char *parts[DIP_COST_MAX_PARTS];
+    int part_count;
+} Arguments;
+
+// --- joining -------------------------------------------------------------------------------------
 
 // True if two reports are parts of the same report: if they have the same scene, size, paths, rows
 // and truths (converged pictures). Their machines and times may differ.
@@ -54,10 +64,10 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
     }
 }
 
-// Reads all parts and joins them in one report. The report's times, budgets and machine come from
+// Reads all parts and joins them into one report. The report's times, budgets and machine come from
 // the first part that has times, because times of several machines cannot be mixed.
-static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *report,
-                       DipCostMachines *machines, DipError *err) {
+static bool read_parts(const Arguments *arguments, DipCostReport *report, DipCostMachines *machines,
+                       DipError *err) {
     if (!dip_cost_read_report(arguments->parts[0], report, err)) {
         return false;
     }
@@ -86,14 +96,6 @@ static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *re
     return true;
 }
 
-static int count_missing(const DipCostReport *report) {
-    int count = 0;
-    for (int p = 0; p < report->options.places; p++) {
-        count += !report->rows[0].judged[p];
-    }
-    return count;
-}
-
 // --- writing -------------------------------------------------------------------------------------
 
 // Fails if the session shows another scene than the parts.
@@ -108,30 +110,36 @@ static bool check_scene(const DipCostReport *report, const DipSession *session, 
                          report->scene, here.scene);
 }
 
-// Writes the report, with pictures that are drawn here: pictures have the same bits everywhere.
+// Writes the report with pictures that this process draws, since pictures have the same bits on
+// every machine.
 static bool write_with_pictures(DipCostReport *report, DipSession *session,
-                                const DipCostMergeArguments *arguments, DipError *err) {
+                                const Arguments *arguments, DipError *err) {
     char cache[PATH_MAX];
     DipCostContext cost;
     if (!check_scene(report, session, err) ||
         !dip_cost_find_cache(arguments->cost.cache, cache, err) ||
-        !dip_cost_context_open(&cost, session, report, NULL, cache[0] ? cache : NULL, true, err)) {
+        !dip_cost_context_open(&cost, session, report, true, err)) {
         return false;
     }
+    cost.cache = cache;
     const DipCostFrameSource source = dip_cost_drawn_frames(&cost);
     const bool written = dip_cost_write_report(report, &source, arguments->out, err);
     dip_cost_context_close(&cost);
     return written;
 }
 
-static bool run_merge(DipSession *session, const void *all, DipError *err) {
-    const DipCostMergeArguments *arguments = all;
+static bool run(DipSession *session, const void *all, DipError *err) {
+    const Arguments *arguments = all;
     DipCostReport report = {0};
     DipCostMachines machines = {0};
     bool done = dip_folder_make(arguments->out, "--out", err) &&
                 read_parts(arguments, &report, &machines, err);
-    if (done && count_missing(&report) > 0) {
-        printf("%d of %d viewpoints are missing: no part has them\n", count_missing(&report),
+    int missing = 0;
+    for (int p = 0; done && p < report.options.places; p++) {
+        missing += !report.rows[0].judged[p];
+    }
+    if (missing > 0) {
+        printf("%d of %d viewpoints are missing: no part has them\n", missing,
                report.options.places);
     }
     report.options.pictures = arguments->cost.pictures;
@@ -151,14 +159,34 @@ static bool run_merge(DipSession *session, const void *all, DipError *err) {
 
 // --- the command ---------------------------------------------------------------------------------
 
-static void describe_merge(const void *arguments, DipSessionDef *def) {
-    const DipCostMergeArguments *merge = arguments;
+static const DipOptionPart parts[] = {
+    {&dip_out_option_table, offsetof(Arguments, out)},
+    {&dip_picture_option_table, offsetof(Arguments, cost)},
+    {&dip_cache_option_table, offsetof(Arguments, cost.cache)},
+    {&dip_scene_option_table, offsetof(Arguments, session)},
+    {&dip_threads_option_table, offsetof(Arguments, session)},
+    {&dip_program_option_table, offsetof(Arguments, program)},
+};
+static const DipOptionParts option_parts = {parts, DIP_ARRAY_COUNT(parts)};
+
+static bool check(const void *arguments, DipError *err) {
+    const Arguments *all = arguments;
+    return dip_cost_check_out(all->out, err) &&
+           (all->part_count > 0 ||
+            dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost merge",
+                          "there are no parts to join; give the cost.json of each: cost merge "
+                          "--out DIR PART/cost.json...")) &&
+           dip_session_options_check(&all->session, err);
+}
+
+static void describe(const void *arguments, DipSessionDef *def) {
+    const Arguments *merge = arguments;
     def->options = &merge->session;
     def->scene = merge->cost.pictures != DIP_COST_PICTURES_NONE;
     def->keep_model = def->scene; // The reference renderer draws the converged pictures.
 }
 
-static const DipExample merge_examples[] = {
+static const DipExample examples[] = {
     {"diptych cost merge --out report part0/cost.json part1/cost.json",
      "joins the parts that two machines measured"},
 };
@@ -173,13 +201,12 @@ const DipCommand dip_cost_merge_command = {
             "times of different machines cannot be mixed. If several reports have times, a table "
             "compares their machines. The pictures of the page are drawn from the scene, which you "
             "name as for `cost`; with --pictures none no scene is needed.",
-    .examples = merge_examples,
-    .example_count = DIP_ARRAY_COUNT(merge_examples),
-    .parts = &dip_cost_merge_option_parts,
-    .operands = {offsetof(DipCostMergeArguments, parts),
-                 offsetof(DipCostMergeArguments, part_count), DIP_COST_MAX_PARTS},
-    .options_size = sizeof(DipCostMergeArguments),
-    .check = dip_cost_merge_options_check,
-    .describe_session = describe_merge,
-    .run = run_merge,
+    .examples = examples,
+    .example_count = DIP_ARRAY_COUNT(examples),
+    .parts = &option_parts,
+    .operands = {offsetof(Arguments, parts), offsetof(Arguments, part_count), DIP_COST_MAX_PARTS},
+    .options_size = sizeof(Arguments),
+    .check = check,
+    .describe_session = describe,
+    .run = run,
 };

@@ -1,4 +1,4 @@
-// The table of machines.
+// Collects what the parts tell about their machines, and prints it as a table.
 #include "app/cost/merge/merge_machines.h"
 
 #include "app/files/put.h"

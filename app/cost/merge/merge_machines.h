@@ -1,5 +1,5 @@
-// A table that compares the machines whose times `diptych cost merge` finds in its parts. The
-// merged report has the times of only one of them.
+// Makes a table that compares the machines whose times `diptych cost merge` finds in its parts. The
+// merged report has the times of only one of these machines.
 #ifndef DIP_APP_COST_MERGE_MERGE_MACHINES_H
 #define DIP_APP_COST_MERGE_MERGE_MACHINES_H
 
@@ -23,8 +23,8 @@ typedef struct DipCostMachine {
 typedef struct DipCostMachines {
     DipCostMachine list[DIP_COST_MAX_PARTS];
     int count;
-    // Names of the compared ratios: the last step of the first sweep of each setting (or the first
-    // step, if the last one is the sweep's base) over the base, "aa 8 / none".
+    // Names of the compared ratios, "aa 8 / none": the time of the last step of a setting's first
+    // sweep (of its first step, if the last one is the sweep's base) over that of the base.
     char rows[DIP_COST_MACHINE_ROWS][DIP_COST_TEXT];
     int row_count;
 } DipCostMachines;

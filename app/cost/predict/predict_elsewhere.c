@@ -1,18 +1,14 @@
-// Counting and timing combinations there, and predicting from prices.
+// Counts the work of combinations at another place ("there"), times a few of them, and predicts all
+// from prices of work.
 #include "app/cost/predict/predict_elsewhere.h"
 
 #include "app/report/format/formats.h"
-#include "app/cost/plan.h"
-#include "app/cost/predict.h"
+#include "app/cost/steps.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost predict", "out of memory");
-}
 
 // --- the report ----------------------------------------------------------------------------------
 
@@ -41,58 +37,54 @@ static bool check_report(const DipCostReport *report, const DipSession *session,
                report->paths[0]);
 }
 
-// Adds the combinations of path 0: those that were measured, then those that were predicted.
+static void add_combination(DipCostElsewherePrediction *p, const DipQuality *quality, double ms) {
+    p->list[p->count++] =
+        (DipCostPredictedThere){.quality = *quality, .report_ms = ms, .timed = -1};
+    p->there.predicted.list[p->there.predicted.count++] =
+        (DipCostPrediction){.quality = *quality, .row = -1};
+}
+
+// Lists the report's combinations of path 0: those that were measured, then those that were
+// predicted.
 static bool list_combinations(DipCostElsewherePrediction *p, const char *name, DipError *err) {
     const DipCostReport *report = &p->report;
     const size_t most = (size_t)report->row_count + (size_t)report->predicted.count + 1;
     p->list = calloc(most, sizeof *p->list);
     p->there.predicted.list = calloc(most, sizeof *p->there.predicted.list);
     if (!p->list || !p->there.predicted.list) {
-        return out_of_memory(err);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost predict", "out of memory");
     }
     for (int r = report->combined_first; r < report->row_count; r++) {
         if (report->rows[r].path == 0) {
-            p->list[p->count++] = (DipCostPredictedThere){.quality = report->rows[r].quality,
-                                                          .report_ms = dip_cost_ms(report, r),
-                                                          .timed = -1};
+            add_combination(p, &report->rows[r].quality, dip_cost_ms(report, r));
         }
     }
     for (int i = 0; i < report->predicted.count; i++) {
-        if (report->predicted.list[i].row < 0) {
-            p->list[p->count++] =
-                (DipCostPredictedThere){.quality = report->predicted.list[i].quality,
-                                        .report_ms = report->predicted.list[i].ms,
-                                        .timed = -1};
+        const DipCostPrediction *prediction = &report->predicted.list[i];
+        if (prediction->row < 0) {
+            add_combination(p, &prediction->quality, prediction->ms);
         }
     }
-    for (int i = 0; i < p->count; i++) {
-        p->there.predicted.list[i] = (DipCostPrediction){.quality = p->list[i].quality, .row = -1};
-    }
-    p->there.predicted.count = p->count;
     return p->count > 0 ||
            dip_error_set(err, DIP_ERROR_MISSING, name, 0, NULL,
                          "has no combinations of settings; measure the report with --combine or "
                          "--predict");
 }
 
-// --- predicting ----------------------------------------------------------------------------------
+// --- counting ------------------------------------------------------------------------------------
 
-static const DipCostPrediction *find_baseline(const DipCostReport *report) {
-    const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);
-    return &report->predicted.list[found >= 0 ? found : 0];
-}
-
-// Frames that are counted are a few of those that are timed. The work of the baseline in all of
-// them tells by how much the few differ from all.
+// Only a few of the frames that are timed were counted. The work of one combination, the baseline
+// if it is listed, is counted in all of them. It tells by how much the few differ from all.
 static bool scale_counters(DipCostContext *there, DipError *err) {
     DipCostReport *report = there->report;
+    const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);
+    const DipCostPrediction few = report->predicted.list[found >= 0 ? found : 0];
     double all[DIP_COST_COUNTER_COUNT];
-    const DipCostPrediction baseline = *find_baseline(report);
-    if (!dip_cost_count(there, &baseline.quality, dip_cost_frame_count(report), all, err)) {
+    if (!dip_cost_count(there, &few.quality, dip_cost_frame_count(report), all, err)) {
         return false;
     }
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-        const double scale = baseline.counters[c] > 0.0 ? all[c] / baseline.counters[c] : 1.0;
+        const double scale = few.counters[c] > 0.0 ? all[c] / few.counters[c] : 1.0;
         for (int i = 0; i < report->predicted.count; i++) {
             report->predicted.list[i].counters[c] *= scale;
         }
@@ -107,7 +99,8 @@ static void add_timed(DipCostElsewherePrediction *p, int index) {
     p->timed[p->list[index].timed].quality = p->list[index].quality;
 }
 
-// Chooses what to time: what tells most, and then every so-maniest of the others.
+// Chooses the combinations to time: those that tell most about all, and then those to check, spread
+// evenly over the others.
 static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, DipError *err) {
     int chosen[DIP_COST_MAX_ROWS];
     const int most = timed < p->count ? timed : p->count;
@@ -123,7 +116,7 @@ static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, 
     int seen = 0;
     for (int i = 0; i < p->count; i++) {
         if (p->list[i].timed < 0) {
-            // The k-th of `wanted` equal parts begins at its first whole index.
+            // The others are divided into `wanted` equal parts, and the first of each is taken.
             if (p->checked_count < wanted &&
                 (int64_t)seen * wanted >= (int64_t)p->checked_count * left) {
                 add_timed(p, i);
@@ -137,38 +130,25 @@ static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, 
 
 static bool time_there(DipCostElsewherePrediction *p, DipCostContext *here, DipCostContext *there,
                        const DipCostPredictArguments *arguments, DipError *err) {
-    DipDriverMachine machine = {.wait = 0.0};
     if (!choose_timed(p, arguments->timed, arguments->checked, err)) {
         return false;
     }
     const int count = p->timed_count + p->checked_count;
-    if (count > 0 &&
-        !dip_cost_time_elsewhere(here, there, p->timed, count, "frames timed", &machine, err)) {
-        return false;
-    }
-    p->wait = machine.wait;
-    return true;
+    return count == 0 ||
+           dip_cost_time_elsewhere(here, there, p->timed, count, "frames timed", &p->wait, err);
 }
 
 // --- predicting and judging ----------------------------------------------------------------------
 
-static void list_rows(const DipCostReport *report, int rows[DIP_COST_MAX_ROWS]) {
-    for (int r = 0; r < report->row_count; r++) {
-        rows[r] = r;
-    }
-}
-
 // Fits prices to all rows of the report, on all of its paths, and to combinations timed there.
 static DipCostModel fit(const DipCostElsewherePrediction *p, const DipCostElsewhere *timed,
                         int count) {
-    int rows[DIP_COST_MAX_ROWS];
-    list_rows(&p->report, rows);
-    return dip_cost_model_fit_there(&p->report, rows, p->report.row_count, timed, count);
+    return dip_cost_model_fit_there(&p->report, NULL, p->report.row_count, timed, count);
 }
 
 static double predict(const DipCostElsewherePrediction *p, const DipCostModel *model, int index) {
-    return dip_cost_model_ms(model, p->there.predicted.list[index].counters,
-                             &p->list[index].quality);
+    return dip_cost_model_value(model, p->there.predicted.list[index].counters,
+                                &p->list[index].quality);
 }
 
 // Predicts a timed combination from the report and from all others that were timed.
@@ -184,21 +164,15 @@ static double predict_left_out(const DipCostElsewherePrediction *p, int index) {
     return predict(p, &model, index);
 }
 
-static void predict_all(DipCostElsewherePrediction *p) {
-    const DipCostModel as_is = fit(p, NULL, 0);
-    const DipCostModel fitted = fit(p, p->timed, p->timed_count);
-    for (int i = 0; i < p->count; i++) {
-        p->list[i].as_is_ms = predict(p, &as_is, i);
-        p->list[i].ms = predict(p, &fitted, i);
-    }
-}
-
 void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
+    const DipCostModel as_is_model = fit(p, NULL, 0);
+    const DipCostModel fitted_model = fit(p, p->timed, p->timed_count);
     double as_is[2][DIP_COST_MOST_TIMED], fitted[2][DIP_COST_MOST_TIMED], logs[DIP_COST_MOST_TIMED];
-    int count[2] = {0, 0};
-    predict_all(p);
+    int count[2] = {0, 0}; // [0]: combinations that were timed to predict from; [1]: checked ones.
     for (int i = 0; i < p->count; i++) {
-        const DipCostPredictedThere *c = &p->list[i];
+        DipCostPredictedThere *c = &p->list[i];
+        c->as_is_ms = predict(p, &as_is_model, i);
+        c->ms = predict(p, &fitted_model, i);
         if (c->timed >= 0) {
             const double ms = p->timed[c->timed].ms.value;
             const bool checked = c->timed >= p->timed_count;
@@ -219,11 +193,11 @@ void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
 
 // --- the whole -----------------------------------------------------------------------------------
 
-// A session as the report was measured, or as it is to be predicted: the same scene with other
-// threads and another instruction set. `pool` is owned, or NULL if the session's is the right one.
+// A session for the place where the report was measured, or for the place that is predicted: the
+// same scene with other threads and another instruction set.
 typedef struct Place {
     DipSession session;
-    DipPool *pool;
+    DipPool *pool; // Owned; NULL if the pool of the command's session has the right threads.
 } Place;
 
 static bool open_place(Place *place, const DipSession *session, int threads, DipIsa isa,
@@ -268,11 +242,10 @@ static void describe_there(DipCostElsewherePrediction *p, const DipSession *sess
 static bool measure(DipCostElsewherePrediction *p, Place *here, Place *there,
                     const DipCostPredictArguments *arguments, DipError *err) {
     DipCostContext base = {.session = NULL}, context = {.session = NULL};
-    const bool done =
-        dip_cost_context_open(&base, &here->session, &p->report, NULL, NULL, false, err) &&
-        dip_cost_context_open(&context, &there->session, &p->there, NULL, NULL, false, err) &&
-        dip_cost_count_combinations(&context, err) && scale_counters(&context, err) &&
-        time_there(p, &base, &context, arguments, err);
+    const bool done = dip_cost_context_open(&base, &here->session, &p->report, false, err) &&
+                      dip_cost_context_open(&context, &there->session, &p->there, false, err) &&
+                      dip_cost_count_combinations(&context, err) && scale_counters(&context, err) &&
+                      time_there(p, &base, &context, arguments, err);
     dip_cost_context_close(&context);
     dip_cost_context_close(&base);
     return done;
@@ -295,9 +268,7 @@ bool dip_cost_predict_there(DipCostElsewherePrediction *p, const DipSession *ses
                            arguments->session.has_isa ? session->isa : isa, err) &&
                 measure(p, &here, &there, arguments, err);
     if (done) {
-        int rows[DIP_COST_MAX_ROWS];
-        list_rows(&p->report, rows);
-        p->fit = dip_cost_model_leave_one_out(&p->report, rows, p->report.row_count);
+        p->fit = dip_cost_model_leave_one_out(&p->report, DIP_COST_TIME, NULL, p->report.row_count);
         dip_cost_predict_and_judge_there(p);
     }
     dip_pool_destroy(&here.pool);
@@ -309,5 +280,4 @@ void dip_cost_predict_there_free(DipCostElsewherePrediction *p) {
     dip_cost_report_free(&p->report);
     dip_cost_report_free(&p->there);
     free(p->list);
-    p->list = NULL;
 }

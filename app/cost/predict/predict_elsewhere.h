@@ -2,29 +2,44 @@
 // another number of threads or another instruction set ("there").
 //
 // A combination is a set of quality settings on the camera path. The report's model of times
-// (fit.h) knows the price of each kind of work. The work is counted there, and the sum of work
-// times price is the prediction "as it is". If some combinations are timed there, prices are fitted
-// anew to them and to the report, and predict all others.
+// (fit.h) knows the price of each kind of work. The work of each combination is counted there, and
+// the sum of work times price is the prediction from the report "as it is". If some combinations
+// are timed there, prices are fitted anew to them and to the report, and predict all others.
 #ifndef DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 #define DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 
 #include "app/cost/steps.h"
 #include "app/report/format/fields.h"
 #include "app/report/fit.h"
-#include "app/cost/predict/predict_options.h"
+#include "app/cost/options.h"
 
 #include <stdio.h>
 
+enum { DIP_COST_MOST_TIMED = 200 };
+
+// The whole command line. Texts are borrowed from argv.
+typedef struct DipCostPredictArguments {
+    DipProgramOptions program;
+    DipSessionOptions session;
+    const char *report; // A cost.json, or a folder that has one.
+    int report_count;
+    int timed;        // Combinations to time there, to predict from; 0: from the report alone.
+    int checked;      // Further combinations to time there, to compare the predictions with.
+    const char *json; // Files to write, or NULL.
+    const char *csv;
+} DipCostPredictArguments;
+
+// A combination of the report.
 typedef struct DipCostPredictedThere {
     DipQuality quality;
-    double report_ms; // In the report: measured, or predicted there.
-    double as_is_ms;  // Predicted from the report alone.
-    double ms;        // Predicted from the report and from what was timed there.
-    int timed;        // Index in `timed`, or -1.
+    double report_ms; // Mean time of a frame in the report, which measured or predicted it.
+    double as_is_ms;  // Mean time there, predicted from the report alone.
+    double ms;        // The same, predicted from the report and from what was timed there.
+    int timed;        // Index in the prediction's `timed`; -1 if it was not timed there.
 } DipCostPredictedThere;
 
-// All times are milliseconds of the report, whatever the machine's speed is today, because what is
-// timed is timed beside the report's baseline.
+// All times are milliseconds of the report, whatever the machine's speed is today, because each
+// combination is timed beside the report's baseline.
 typedef struct DipCostElsewherePrediction {
     DipCostReport report;
     DipCostReport there;         // Size, path and threads; no rows.
@@ -32,17 +47,18 @@ typedef struct DipCostElsewherePrediction {
     DipCostPredictedThere *list; // Owned; `count` of them, in the order of the report.
     int count;
     DipCostElsewhere timed[2 * DIP_COST_MOST_TIMED];
-    int timed_count;           // The first ones, to which prices are fitted.
-    int checked_count;         // The others, to which they are not.
-    double factor;             // The usual quotient of the former's times and as_is_ms; 1 without.
-    DipCostMisses timed_as_is; // Of those to which prices are fitted: how far as_is_ms misses,
-    DipCostMisses timed_left_out; // and each with prices fitted to the others.
-    DipCostMisses checked_as_is;
-    DipCostMisses checked_fitted;
+    int timed_count;   // Prices are fitted to this many of them, the first ones.
+    int checked_count; // The others are only compared with their predictions.
+    double factor;     // Median of time / as_is_ms of those to which prices are fitted; 1 if none.
+    DipCostMisses timed_as_is;    // How far as_is_ms misses those to which prices are fitted,
+    DipCostMisses timed_left_out; // and how far prices fitted to the others miss each.
+    DipCostMisses checked_as_is;  // How far as_is_ms misses the others,
+    DipCostMisses checked_fitted; // and how far ms does.
     double wait; // Share of their time that threads waited for a core while times were taken.
 } DipCostElsewherePrediction;
 
-// Reads the report, and counts, predicts and times. Shows progress. Free the prediction even after
+// Reads the report, counts the work of its combinations there, times a few and predicts all. Shows
+// its progress on standard error. Free the prediction even after
 // a failure. Fails as dip_cost_read_report and the renderer do; with CONFLICT if the session shows
 // another scene than the report; with MISSING if the report has no times or no combinations.
 bool dip_cost_predict_there(DipCostElsewherePrediction *prediction, const DipSession *session,
@@ -53,8 +69,12 @@ void dip_cost_predict_there_free(DipCostElsewherePrediction *prediction);
 // Needs the report's rows, the counters of `there`, the list and the timed combinations.
 void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *prediction);
 
+// Prints the prediction for a terminal.
 void dip_cost_predict_there_print(const DipCostElsewherePrediction *prediction, FILE *out);
-extern const DipRecord dip_cost_prediction_record; // DipCostElsewherePrediction
+
+// Writes the prediction to a file. Fails with DIP_ERROR_MEMORY, or DIP_ERROR_IO if the file cannot
+// be written.
+extern const DipRecord dip_cost_prediction_record; // The fields of DipCostElsewherePrediction.
 bool dip_cost_predict_there_write_json(const DipCostElsewherePrediction *prediction,
                                        const char *file, DipError *err);
 bool dip_cost_predict_there_write_csv(const DipCostElsewherePrediction *prediction,

@@ -1,4 +1,4 @@
-// Printing predictions of times elsewhere, and writing them as JSON and CSV.
+// Prints predictions of times elsewhere, and writes them as JSON and CSV.
 #include "app/cost/predict/predict_elsewhere.h"
 
 #include "app/files/whole_file.h"

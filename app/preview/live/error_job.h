@@ -52,7 +52,7 @@ typedef struct DipErrorJob DipErrorJob;
 
 // Everything is borrowed. The job sets the renderer's time to the time of each still. It shares the
 // last level of each truth with `diptych cost` through the folder `cache`, where scene_hash
-// (scene_hash.h) stands for the scene; if the folder is NULL, there is no cache.
+// (app/cost/plan.h) stands for the scene; if the folder is NULL, there is no cache.
 DipErrorJob *dip_error_job_create(DipReference *reference, const char *scene_hash,
                                   const char *cache, DipError *err);
 void dip_error_job_destroy(DipErrorJob **job);

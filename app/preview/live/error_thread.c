@@ -3,7 +3,7 @@
 
 #include "app/preview/live/error_thread.h"
 
-#include "app/cost/scene_hash.h"
+#include "app/cost/plan.h"
 
 #include "app/preview/live/processor_share.h"
 

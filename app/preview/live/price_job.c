@@ -4,7 +4,7 @@
 #include "app/cost/context.h"
 #include "app/measure/timing/driver.h"
 #include "app/measure/timing/sample.h"
-#include "app/report/prices/question.h"
+#include "app/report/prices/prices.h"
 #include "renderer/base/clock.h"
 
 #include <math.h>

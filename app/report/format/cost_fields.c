@@ -4,7 +4,6 @@
 #include "app/measure/stats/estimate.h"
 #include "app/report/choice.h"
 #include "app/report/analysis.h"
-#include "app/report/viewpoints.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,8 +1,6 @@
 // Lists lines, and derives what they show.
 #include "app/report/format/lines.h"
 
-#include "app/report/viewpoints.h"
-
 #include <math.h>
 #include <stdio.h>
 
@@ -105,7 +103,8 @@ static const void *derive_change_flip(const DipFieldAt *at, DipFieldScratch *scr
     if (!line->before) {
         return NULL;
     }
-    *(DipEstimate *)scratch = dip_cost_flip_change(report_of(at), line->row, line->before->row);
+    *(DipEstimate *)scratch =
+        dip_cost_metric_change(report_of(at), line->row, line->before->row, DIP_COST_FLIP);
     return scratch;
 }
 

@@ -3,7 +3,6 @@
 
 #include "app/report/analysis.h"
 #include "app/report/format/formats.h"
-#include "app/report/order.h"
 #include "app/report/words.h"
 
 #include <math.h>

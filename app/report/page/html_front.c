@@ -3,7 +3,7 @@
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 
 #include <math.h>
 #include <stdlib.h>

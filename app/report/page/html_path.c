@@ -85,11 +85,11 @@ static bool alloc_lines(Lines *lines) {
 static void fill_times(Lines *lines) {
     const int frames = lines->frames;
     const int step = (frames + MOST_FRAMES - 1) / MOST_FRAMES;
-    dip_cost_frame_times(lines->report, lines->rows, lines->count, lines->ms);
     lines->frames = (frames + step - 1) / step;
     for (int i = 0; i < lines->count; i++) {
+        const double *ms = dip_times_frames(lines->report->fit, lines->rows[i]);
         for (int f = 0; f < lines->frames; f++) {
-            lines->ms[i * lines->frames + f] = lines->ms[i * frames + f * step];
+            lines->ms[i * lines->frames + f] = ms[f * step];
             lines->positions[f] = 100.0 * f * step / frames;
         }
     }

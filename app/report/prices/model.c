@@ -2,28 +2,27 @@
 #include "app/report/prices/view.h"
 
 #include "app/report/combinations.h"
-#include "app/report/prices/question.h"
-#include "app/report/work.h"
 
 #include <math.h>
 
 enum {
     MOST_MISSES = 32, // Number of rows that are predicted to see how far predictions miss.
-    LEAST_JUDGED = 16 // Number of rows with errors that a model of errors needs.
+    LEAST_JUDGED = 16 // Least number of rows with errors for a model of errors.
 };
 
 // The 90th percentile of the size of a standard normal variable.
 static const double normal_p90 = 1.6449;
 
-// Misses of a few rows may all happen to be tiny.
+// No predicted time's logarithm has a smaller standard error, since the misses of a few rows may
+// all happen to be tiny.
 static const double least_error = 0.002;
 
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses) {
     return dip_estimate_make(ms, fmax(log1p(misses->p90) / normal_p90, least_error), misses->rows);
 }
 
-// The counters of a row of path 0 that differs from the base in one group at most, so that no row
-// is composed from itself; see DipWorkFind.
+// Returns the counters of a row of path 0 for dip_work_compose. The row differs from the base in
+// one group at most, so that no row is composed from itself.
 static const double *find_counters(const void *context, const DipQuality *quality) {
     const DipPriceView *view = context;
     const bool plain = dip_work_count_groups(&view->base, quality) <= 1;
@@ -45,7 +44,7 @@ static bool are_alike(const DipQuality *a, const DipQuality *b) {
     return dip_quality_equal(&other, b);
 }
 
-// Predicts a row from the rows that are not like it, as a combination that was never run. Returns
+// Predicts a row from the rows that are not like it, as if the combination was never run. Returns
 // the miss, or a negative value if the row's work cannot be composed.
 static double miss_of(const DipPriceView *view, const int *rows, int count, int row) {
     const DipCostRow *left_out = &view->report->rows[row];
@@ -62,8 +61,9 @@ static double miss_of(const DipPriceView *view, const int *rows, int count, int 
             others[other_count++] = rows[i];
         }
     }
-    const DipCostModel times = dip_cost_model_fit(view->report, others, other_count);
-    return fabs(dip_cost_model_ms(&times, counters, &normal) / left_out->time.mean_ms.value - 1.0);
+    const DipCostModel times = dip_cost_model_fit(view->report, DIP_COST_TIME, others, other_count);
+    return fabs(dip_cost_model_value(&times, counters, &normal) / left_out->time.mean_ms.value -
+                1.0);
 }
 
 // Predicts up to MOST_MISSES rows that differ from the base in two groups or more. Without such
@@ -79,60 +79,48 @@ static DipCostMisses find_misses(const DipPriceView *view, const int *rows, int 
         }
     }
     return known > 0 ? dip_cost_misses_of(misses, known)
-                     : dip_cost_model_leave_one_out(view->report, rows, count);
-}
-
-// Lists the rows that the model of times is fitted to, or those of errors. Returns their number.
-static int list_rows(const DipCostReport *report, bool timed, int rows[DIP_COST_MAX_ROWS]) {
-    int count = 0;
-    for (int r = 0; r < report->row_count; r++) {
-        double staged_ms = 0.0;
-        int viewpoints;
-        for (int s = 0; s < DIP_COST_STAGE_COUNT; s++) {
-            staged_ms += report->rows[r].stage_ms[s];
-        }
-        dip_cost_row_sums(report, r, &viewpoints);
-        if (timed ? report->rounds > 0 && staged_ms > 0.0
-                  : report->rows[r].path == 0 && viewpoints > 0) {
-            rows[count++] = r;
-        }
-    }
-    return count;
+                     : dip_cost_model_leave_one_out(view->report, DIP_COST_TIME, rows, count);
 }
 
 static void make(const DipPriceView *view) {
-    DipPriceModel *model = view->model;
+    DipPriceKept *model = view->kept;
+    const DipCostReport *report = view->report;
     int rows[DIP_COST_MAX_ROWS];
-    *model = (DipPriceModel){.is_made = true};
-    int count = list_rows(view->report, true, rows);
-    if (count < 2 * dip_cost_term_count(DIP_COST_STAGE_raster)) {
+    model->has_models = true;
+    int count = dip_cost_fit_rows(report, rows);
+    if (count == 0) {
         return;
     }
     model->misses = find_misses(view, rows, count);
-    model->times = dip_cost_model_fit(view->report, rows, count);
-    count = list_rows(view->report, false, rows);
+    model->times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count);
+    count = 0;
+    for (int r = 0; r < report->row_count; r++) {
+        if (report->rows[r].path == 0 && dip_cost_is_judged(report, r)) {
+            rows[count++] = r;
+        }
+    }
     if (count >= LEAST_JUDGED) {
-        model->errors = dip_cost_error_model_fit(view->report, rows, count);
+        model->errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count);
     }
 }
 
 bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPriceWhole *whole) {
-    const DipPriceModel *model = view->model;
+    const DipPriceKept *model = view->kept;
     double counters[DIP_COST_COUNTER_COUNT];
-    if (!model->is_made) {
+    if (!model->has_models) {
         make(view);
     }
     if (model->times.rows == 0 || !compose(view, normal, counters)) {
         return false;
     }
-    const double ms = dip_cost_model_ms(&model->times, counters, normal);
+    const double ms = dip_cost_model_value(&model->times, counters, normal);
     *whole = (DipPriceWhole){
         .state = DIP_PRICE_PREDICTED,
         .time = dip_price_predicted_time(ms, &model->misses),
         .has_flip = model->errors.rows > 0,
     };
     if (whole->has_flip) {
-        whole->flip = dip_cost_error_model_flip(&model->errors, normal);
+        whole->flip = dip_cost_model_value(&model->errors, counters, normal);
     }
     return true;
 }

@@ -1,11 +1,10 @@
 // Finds the company of each setting, and lists the combinations that prices are made of.
-#include "app/report/prices/question.h"
+#include "app/report/prices/view.h"
+
+#include "app/report/combinations.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-
-// Company for a pane that has none: the steps that `diptych cost` sweeps with.
-enum { COMPANY_AA = 2, COMPANY_AF = 4 };
 
 // Returns whether adaptive AA with these settings divides the samples into two groups or more.
 static bool has_groups(const DipQuality *quality) {
@@ -37,6 +36,13 @@ static void keep_company(DipPriceQuestion *question, DipSetting company, uint8_t
     question->with.step[company] = question->without.step[company] = step;
 }
 
+// Asks for the difference between the step and another step of the same setting.
+static void ask_alone(DipPriceQuestion *question, DipSetting setting, int step, uint8_t other) {
+    question->with.step[setting] = (uint8_t)step;
+    question->without.step[setting] = other;
+    question->is_base = step == other;
+}
+
 // Gives both combinations AA without adaptive AA: the pane's AA if it can be divided into groups of
 // this size, otherwise the fewest samples that can.
 static void keep_samples(DipPriceQuestion *question, int asd, const DipQuality *quality) {
@@ -49,7 +55,7 @@ static void keep_samples(DipPriceQuestion *question, int asd, const DipQuality *
         snprintf(question->needs, sizeof question->needs, "AA %.8sx", aa->steps[step]);
     }
     if (quality->step[DIP_SETTING_AA] == 0 && asd == 0) {
-        try.step[DIP_SETTING_AA] = COMPANY_AA;
+        try.step[DIP_SETTING_AA] = DIP_COST_COMPANY_AA;
         need(question, "AA");
     }
     question->without.step[DIP_SETTING_AA] = try.step[DIP_SETTING_AA];
@@ -58,19 +64,14 @@ static void keep_samples(DipPriceQuestion *question, int asd, const DipQuality *
     question->with = question->without;
 }
 
-static void turn_adaptive_on(DipPriceQuestion *question, int asd) {
-    question->with.step[DIP_SETTING_AAA] = 1;
-    question->with.step[DIP_SETTING_ASD] = (uint8_t)asd;
-}
-
 static void ask_adaptive(DipPriceQuestion *question, int step, const DipQuality *quality) {
-    const bool idle = quality->step[DIP_SETTING_AA] != 0 && !has_groups(quality);
     const int asd = has_groups(quality) ? quality->step[DIP_SETTING_ASD] : 0;
     keep_samples(question, asd, quality);
     question->is_base = step == 0;
     if (!question->is_base) {
-        turn_adaptive_on(question, asd);
-        if (idle) {
+        question->with.step[DIP_SETTING_AAA] = 1;
+        question->with.step[DIP_SETTING_ASD] = (uint8_t)asd;
+        if (quality->step[DIP_SETTING_AA] != 0 && !has_groups(quality)) {
             need(question, "smaller groups");
         }
     }
@@ -78,25 +79,10 @@ static void ask_adaptive(DipPriceQuestion *question, int step, const DipQuality 
 
 static void ask_group_size(DipPriceQuestion *question, int step, const DipQuality *quality) {
     keep_samples(question, step, quality);
-    turn_adaptive_on(question, step);
+    question->with.step[DIP_SETTING_AAA] = 1;
+    question->with.step[DIP_SETTING_ASD] = (uint8_t)step;
     if (!question->needs[0] && quality->step[DIP_SETTING_AAA] == 0) {
         need(question, "adaptive AA");
-    }
-}
-
-// AF and advanced AF cost more where antialiasing shades more fragments.
-static bool is_filtering(DipSetting setting) {
-    return setting == DIP_SETTING_AF || setting == DIP_SETTING_AAF;
-}
-
-// Gives both combinations the antialiasing of the pane.
-static void keep_antialiasing(DipPriceQuestion *question, const DipQuality *base,
-                              const DipQuality *quality) {
-    static const DipSetting settings[] = {DIP_SETTING_AA, DIP_SETTING_AAA, DIP_SETTING_ASD};
-    const DipQuality pane = dip_price_normal(base, quality);
-    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
-        question->with.step[settings[i]] = pane.step[settings[i]];
-        question->without.step[settings[i]] = pane.step[settings[i]];
     }
 }
 
@@ -111,24 +97,23 @@ DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, 
         ask_group_size(&question, step, quality);
         break;
     case DIP_SETTING_TAA:
-    case DIP_SETTING_AAF: {
-        const bool taa = setting == DIP_SETTING_TAA;
-        keep_company(&question, taa ? DIP_SETTING_AA : DIP_SETTING_AF,
-                     taa ? COMPANY_AA : COMPANY_AF, quality, taa ? "AA" : "AF");
-        question.without.step[setting] = 0;
-        question.with.step[setting] = (uint8_t)step;
-        question.is_base = step == 0;
+        keep_company(&question, DIP_SETTING_AA, DIP_COST_COMPANY_AA, quality, "AA");
+        ask_alone(&question, setting, step, 0);
         break;
-    }
+    case DIP_SETTING_AAF:
+        keep_company(&question, DIP_SETTING_AF, DIP_COST_COMPANY_AF, quality, "AF");
+        ask_alone(&question, setting, step, 0);
+        break;
     default:
-        question.with.step[setting] = (uint8_t)step;
-        question.is_base = step == base->step[setting];
+        ask_alone(&question, setting, step, base->step[setting]);
         break;
     }
     if (question.is_base) {
         question.needs[0] = '\0';
-    } else if (is_filtering(setting)) {
-        keep_antialiasing(&question, base, quality);
+    } else if (dip_price_filters(setting)) {
+        const DipQuality pane = dip_price_normal(base, quality);
+        question.with = dip_cost_take_settings(&question.with, &pane, DIP_PRICE_ANTIALIASING);
+        question.without = dip_cost_take_settings(&question.without, &pane, DIP_PRICE_ANTIALIASING);
     }
     return question;
 }
@@ -166,21 +151,10 @@ static void want_steps_of(Wanted *wanted, const DipQuality *pane, DipSetting set
     }
 }
 
-static void want_steps(Wanted *wanted, const DipQuality *pane, int distance) {
-    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        if (s != DIP_SETTING_MIPDEBUG) {
-            want_steps_of(wanted, pane, (DipSetting)s, distance);
-        }
-    }
-}
-
-// Adds the combinations of filtering without antialiasing, from which sums of other combinations
-// are guessed.
+// Adds the combinations of filtering without antialiasing, from which the times of other
+// combinations are guessed.
 static void want_filtering_alone(Wanted *wanted, const DipQuality *pane) {
-    DipQuality plain = *pane;
-    plain.step[DIP_SETTING_AA] = wanted->base->step[DIP_SETTING_AA];
-    plain.step[DIP_SETTING_AAA] = wanted->base->step[DIP_SETTING_AAA];
-    plain.step[DIP_SETTING_ASD] = wanted->base->step[DIP_SETTING_ASD];
+    const DipQuality plain = dip_cost_take_settings(pane, wanted->base, DIP_PRICE_ANTIALIASING);
     for (int distance = 0; distance < DIP_MAX_STEPS; distance++) {
         want_steps_of(wanted, &plain, DIP_SETTING_AF, distance);
         want_steps_of(wanted, &plain, DIP_SETTING_AAF, distance);
@@ -208,7 +182,11 @@ int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
     want(&wanted, requested);
     want(&wanted, current);
     for (int distance = 0; distance < DIP_MAX_STEPS; distance++) {
-        want_steps(&wanted, requested, distance);
+        for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+            if (s != DIP_SETTING_MIPDEBUG) {
+                want_steps_of(&wanted, requested, (DipSetting)s, distance);
+            }
+        }
     }
     want_neighbours(&wanted, requested);
     want_filtering_alone(&wanted, requested);

@@ -1,7 +1,7 @@
-// Prices of steps: the difference of two rows of one path, or of two whole times.
+// Finds the price of a step: the difference of two rows of one path, or of two whole times.
 #include "app/report/prices/prices.h"
 
-#include "app/report/prices/question.h"
+#include "app/report/combinations.h"
 #include "app/report/prices/view.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@
 // The widest interval that holds 0 and stands for a price of 0, as a share of the time without the
 // step. A wider interval comes from a busy machine or from a prediction, and tells nothing.
 static const double widest_zero = 0.2;
-// The widest interval of a time that is not doubtful, as a share of the time; and the interval that
-// is always narrow enough, because the panel shows times to a tenth of a millisecond.
+// The widest interval of a time that is not doubtful, as a share of the time. An interval of
+// narrow_ms is always narrow enough, because the panel shows times to a tenth of a millisecond.
 static const double widest_share = 0.5;
 static const double narrow_ms = 0.2;
 static const double least_shown_ms = 0.05; // Smaller times would be shown as 0.0.
@@ -47,24 +47,21 @@ DipPriceTrust dip_price_sum_trust(const DipPriceSum *sum) {
 
 // --- where a price was measured ------------------------------------------------------------------
 
-static int row_on(const DipPriceView *view, int path, const DipQuality *normal) {
-    const DipPriceEntry *entry = dip_price_find(view, path, normal);
-    return entry ? entry->row : -1;
-}
-
 // Finds the path on which a price was measured: path 0 if it has both rows, otherwise the first
 // path that has them. Returns -1 if there is none.
 static int find_path(const DipPriceView *view, const DipPriceQuestion *question) {
     for (int path = 0; path < view->report->path_count; path++) {
-        if (row_on(view, path, &question->with) >= 0 &&
-            row_on(view, path, &question->without) >= 0) {
+        const DipPriceEntry *with = dip_price_find(view, path, &question->with);
+        const DipPriceEntry *without = dip_price_find(view, path, &question->without);
+        if (with && with->row >= 0 && without && without->row >= 0) {
             return path;
         }
     }
     return -1;
 }
 
-// The path of the base's own step is the path of the setting's other steps.
+// Finds the path for the base's own step: the path on which the setting's other steps were
+// measured.
 static int find_base_path(const DipPriceView *view, DipSetting setting, const DipQuality *pane) {
     for (int step = 0; step < dip_setting_info(setting)->step_count; step++) {
         const DipPriceQuestion question = dip_price_question(&view->base, setting, step, pane);
@@ -78,27 +75,23 @@ static int find_base_path(const DipPriceView *view, DipSetting setting, const Di
 
 // --- prices --------------------------------------------------------------------------------------
 
-static void take_time(DipPrice *price, const DipPriceWhole *whole) {
-    price->ms = whole->time.value;
-    price->ms_low = whole->time.low;
-    price->ms_high = whole->time.high;
-}
-
 static void fill_base(DipPrice *price, const DipPriceWhole *whole) {
     if (whole->state != DIP_PRICE_UNKNOWN) {
         price->state = DIP_PRICE_BASE;
-        take_time(price, whole);
+        price->ms = whole->time.value;
+        price->ms_low = whole->time.low;
+        price->ms_high = whole->time.high;
     }
     price->has_flip = whole->has_flip;
     price->flip = whole->flip;
     price->flip_at_floor = whole->flip_at_floor;
 }
 
-// The time is the difference of the rows' times, that is of their ratios to the path's baseline,
-// times the baseline's time. The interval is that of the rows' own ratio, because both rows share
-// the level of the machine.
+// Makes a price of two rows of one path. Its time is the difference of the rows' times. The
+// interval comes from the ratio of the two rows, because both share the machine's speed in this
+// run.
 static void fill_step(DipPrice *price, const DipCostReport *report, int row, int without) {
-    const DipEstimate change = dip_cost_flip_change(report, row, without);
+    const DipEstimate change = dip_cost_metric_change(report, row, without, DIP_COST_FLIP);
     if (dip_cost_is_timed(report, row) && dip_cost_is_timed(report, without)) {
         const DipEstimate ratio = dip_cost_ratio(report, row, without);
         const double base_ms = dip_cost_ms(report, without);
@@ -117,10 +110,10 @@ static void fill_step(DipPrice *price, const DipCostReport *report, int row, int
     }
 }
 
-// Returns fill_step's price.
+// Returns the price of the step from one row to another (fill_step), from memory if it is there.
 static const DipPrice *price_of_rows(const DipPriceView *view, int row, int without) {
     DipPriceMemory *memory =
-        &view->memories[(row * DIP_COST_MAX_ROWS + without) % DIP_PRICE_MEMORIES];
+        &view->kept->memories[(row * DIP_COST_MAX_ROWS + without) % DIP_PRICE_MEMORIES];
     if (!memory->is_known || memory->row != row || memory->without != without) {
         *memory = (DipPriceMemory){.is_known = true, .row = row, .without = without};
         fill_step(&memory->price, view->report, row, without);
@@ -128,7 +121,7 @@ static const DipPrice *price_of_rows(const DipPriceView *view, int row, int with
     return &memory->price;
 }
 
-// Makes a price of two whole times, of which one at least is predicted. Their errors count as
+// Makes a price of two whole times, at least one of which is predicted. Their errors count as
 // independent.
 static void fill_difference(DipPrice *price, const DipPriceWhole *with,
                             const DipPriceWhole *without) {
@@ -175,22 +168,14 @@ static DipPrice answer(const DipPriceView *view, DipSetting setting, const DipQu
 
 // --- companies -----------------------------------------------------------------------------------
 
-// The companies that a price may have, the pane's own first.
-enum { WITHOUT_ADAPTIVE_AA = 1, WITHOUT_AA, COMPANIES };
+// AF and advanced AF are priced beside three companies in turn: that of the pane, the same without
+// adaptive AA, and the same without antialiasing. These settings are left out of each.
+static const unsigned left_out[] = {0, 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
+                                    DIP_PRICE_ANTIALIASING};
+enum { COMPANIES = sizeof left_out / sizeof *left_out };
 
-static DipQuality simpler_company(const DipQuality *base, const DipQuality *quality, int company) {
-    DipQuality simpler = *quality;
-    if (company >= WITHOUT_ADAPTIVE_AA) {
-        simpler.step[DIP_SETTING_AAA] = base->step[DIP_SETTING_AAA];
-        simpler.step[DIP_SETTING_ASD] = base->step[DIP_SETTING_ASD];
-    }
-    if (company >= WITHOUT_AA) {
-        simpler.step[DIP_SETTING_AA] = base->step[DIP_SETTING_AA];
-    }
-    return simpler;
-}
-
-// Returns how much is known of a price: nothing, its error, a prediction, or a measured time.
+// Returns how much is known of a price: 0 for nothing, 1 for its error alone, then a predicted
+// time, and a measured time.
 enum { PREDICTED = 2, MEASURED };
 
 static int knowledge(const DipPrice *price) {
@@ -216,11 +201,10 @@ DipPrice dip_price_step(const DipPriceView *view, DipSetting setting, int step,
     const DipQuality *base = &view->base;
     const DipPriceQuestion question = dip_price_question(base, setting, step, quality);
     DipPrice price = answer(view, setting, quality, &question);
-    const bool filters = setting == DIP_SETTING_AF || setting == DIP_SETTING_AAF;
+    const int companies = dip_price_filters(setting) ? COMPANIES : 1;
     DipQuality without = question.without;
-    for (int company = WITHOUT_ADAPTIVE_AA;
-         filters && company < COMPANIES && knowledge(&price) < MEASURED; company++) {
-        const DipQuality pane = simpler_company(base, quality, company);
+    for (int i = 1; i < companies && knowledge(&price) < MEASURED; i++) {
+        const DipQuality pane = dip_cost_take_settings(quality, base, left_out[i]);
         const DipPriceQuestion other = dip_price_question(base, setting, step, &pane);
         const DipPrice otherwise = answer(view, setting, &pane, &other);
         if (knowledge(&otherwise) > knowledge(&price)) {

@@ -1,16 +1,16 @@
-// Whole times of combinations: as measured, as predicted, or prices added up.
+// Finds whole times of combinations: as measured, as predicted, or as the sum of prices.
 #include "app/report/prices/prices.h"
 
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/combinations.h"
-#include "app/report/prices/question.h"
 #include "app/report/prices/view.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// What is added to a whole time: the prices of some settings.
+// The prices of the settings in which a combination differs from the base. They are added to a
+// whole time.
 typedef struct Parts {
     DipPrice prices[DIP_SETTING_COUNT];
     bool is_part[DIP_SETTING_COUNT];
@@ -53,8 +53,8 @@ static DipPriceWhole add_parts(const DipPriceView *view, const DipPriceWhole *wh
     return sum;
 }
 
-// Returns the combination with the settings that path 0 does not have as in the base: those whose
-// price was measured on another path.
+// Returns the combination without the settings whose price was measured on another path than path
+// 0: these get their step in the base.
 static DipQuality without_other_paths(const DipPriceView *view, const DipQuality *normal,
                                       const Parts *parts) {
     DipQuality rest = *normal;
@@ -122,16 +122,16 @@ static const unsigned settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA |
                                  1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF |
                                  1u << DIP_SETTING_OPT | 1u << DIP_SETTING_MIPLOD;
 
-// Returns how much is known of the steps that a combination could take. Filtering is priced without
-// antialiasing, since it is added to any.
+// Returns how much is known of the steps that a combination could take. Steps of filtering must
+// have a price without antialiasing, from which the price beside any antialiasing can be guessed.
 static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like) {
     DipQuality plain = *like;
     plain.step[DIP_SETTING_AA] = view->base.step[DIP_SETTING_AA];
     bool has_times = true, has_errors = true;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         for (int i = 0; settings >> s & 1 && i < dip_setting_info((DipSetting)s)->step_count; i++) {
-            const bool filters = s == DIP_SETTING_AF || s == DIP_SETTING_AAF;
-            const DipPrice price = dip_price_step(view, (DipSetting)s, i, filters ? &plain : like);
+            const DipPrice price = dip_price_step(view, (DipSetting)s, i,
+                                                  dip_price_filters((DipSetting)s) ? &plain : like);
             has_times &= price.needs_company || price.state != DIP_PRICE_UNKNOWN;
             has_errors &= price.needs_company || price.has_flip;
         }
@@ -139,7 +139,8 @@ static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like)
     return !has_times ? DIP_PRICES_NO_TIMES : has_errors ? DIP_PRICES_KNOWN : DIP_PRICES_NO_ERRORS;
 }
 
-// Adds a combination if its time and its error are known. All share the error of the base's level.
+// Adds a combination if its time and its error are known. All combinations share the error of the
+// base's time.
 static void add_candidate(const DipPriceView *view, const DipQuality *quality,
                           DipCandidates *candidates) {
     const DipCostReport *report = view->report;

@@ -1,26 +1,17 @@
-// Finds rows by their settings.
+// Makes the view of a report, in which combinations are found by their settings.
 #include "app/report/prices/view.h"
-
-#include "app/report/prices/question.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
-}
 
 DipPriceView *dip_price_view_create(const DipCostReport *report, DipError *err) {
     DipPriceView *view = calloc(1, sizeof *view);
     if (view) {
         view->report = report;
-        view->model = calloc(1, sizeof *view->model);
-        view->memories = calloc(DIP_PRICE_MEMORIES, sizeof *view->memories);
+        view->kept = malloc(sizeof *view->kept);
     }
-    if (!view || !view->model || !view->memories) {
-        out_of_memory(err);
-        dip_price_view_destroy(&view);
-    } else if (!dip_price_view_update(view, err)) {
+    if (!view || !view->kept || !dip_price_view_update(view, NULL)) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
         dip_price_view_destroy(&view);
     }
     return view;
@@ -29,8 +20,7 @@ DipPriceView *dip_price_view_create(const DipCostReport *report, DipError *err) 
 void dip_price_view_destroy(DipPriceView **view) {
     if (*view) {
         free((*view)->entries);
-        free((*view)->model);
-        free((*view)->memories);
+        free((*view)->kept);
         free(*view);
         *view = NULL;
     }
@@ -67,12 +57,11 @@ bool dip_price_view_update(DipPriceView *view, DipError *err) {
     const int most = report->row_count + report->same_count + predicted->count;
     view->base = dip_price_normal(&report->options.baseline, &report->options.baseline);
     view->count = 0;
-    view->model->is_made = false;
-    memset(view->memories, 0, DIP_PRICE_MEMORIES * sizeof *view->memories);
+    memset(view->kept, 0, sizeof *view->kept);
     free(view->entries);
     view->entries = malloc((size_t)(most + 1) * sizeof *view->entries);
     if (!view->entries) {
-        return out_of_memory(err);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
     }
     for (int r = 0; r < report->row_count; r++) {
         add(view, &report->rows[r].quality, report->rows[r].path, r, -1);
@@ -94,8 +83,11 @@ const DipPriceEntry *dip_price_find(const DipPriceView *view, int path, const Di
     int low = 0, high = view->count;
     while (low < high) {
         const int middle = (low + high) / 2;
-        *(compare(&view->entries[middle], &wanted) < 0 ? &low : &high) =
-            compare(&view->entries[middle], &wanted) < 0 ? middle + 1 : middle;
+        if (compare(&view->entries[middle], &wanted) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
     }
     const DipPriceEntry *entry = &view->entries[low];
     const bool found =
@@ -124,15 +116,13 @@ bool dip_price_is_doubtful(const DipPriceView *view) {
 }
 
 static DipPriceWhole whole_of_row(const DipCostReport *report, int row) {
-    int viewpoints;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    DipPriceWhole whole = {.has_flip = viewpoints > 0};
+    DipPriceWhole whole = {.has_flip = dip_cost_is_judged(report, row)};
     if (dip_cost_is_timed(report, row)) {
         whole.state = dip_cost_is_view(report) ? DIP_PRICE_ROUGH : DIP_PRICE_MEASURED;
         whole.time = report->rows[row].time.mean_ms;
     }
     if (whole.has_flip) {
-        whole.flip = dip_metrics_of(&sums, 0).flip;
+        whole.flip = dip_cost_row_metrics(report, row, 0).flip;
         whole.flip_at_floor = dip_cost_at_floor(report, row);
     }
     return whole;
@@ -146,7 +136,8 @@ DipPriceWhole dip_price_known(const DipPriceView *view, const DipPriceEntry *ent
     if (entry->row >= 0) {
         return whole_of_row(view->report, entry->row);
     }
-    // The rows that were each predicted from the others, or those that were measured later.
+    // Misses of rows that were each predicted from the others, and of rows that were measured after
+    // they had been predicted. The greater misses count.
     const DipCostMisses *before = &predicted->times_left_out, *later = &predicted->times;
     const bool worse = before->rows == 0 || (later->rows > 0 && later->p90 > before->p90);
     const DipCostPrediction *prediction = &predicted->list[entry->prediction];

@@ -13,7 +13,7 @@
 #include "app/report/format/cost_fields.h"
 #include "app/report/fit.h"
 #include "app/report/format/formats.h"
-#include "app/cost/predict.h"
+#include "app/cost/steps.h"
 #include "renderer/base/file.h"
 #include "renderer/base/assert.h"
 
@@ -80,6 +80,21 @@ typedef struct Trained {
     int count;
 } Trained;
 
+// Returns how far a model misses rows to which it was not fitted.
+static DipCostMisses misses_of(const DipCostReport *report, const DipCostModel *model,
+                               const int *rows, int count) {
+    double misses[DIP_COST_MAX_ROWS];
+    for (int i = 0; i < count; i++) {
+        const DipCostRow *row = &report->rows[rows[i]];
+        const double measured = model->what == DIP_COST_TIME
+                                    ? dip_cost_ms(report, rows[i])
+                                    : dip_cost_row_metrics(report, rows[i], 0).flip;
+        misses[i] =
+            fabs(dip_cost_model_value(model, row->counters, &row->quality) / measured - 1.0);
+    }
+    return dip_cost_misses_of(misses, count);
+}
+
 static bool study_own(Trained *trained, DipError *err) {
     DipCostReport *report = trained->report;
     int others[DIP_COST_MAX_ROWS];
@@ -90,12 +105,11 @@ static bool study_own(Trained *trained, DipError *err) {
         return false;
     }
     const int other_count = list_others(report, rows, count, others);
-    const DipCostModel model = dip_cost_model_fit(report, rows, count);
-    const DipCostErrorModel errors = dip_cost_error_model_fit(report, rows, count);
-    const DipCostMisses time_misses = dip_cost_model_misses(report, &model, others, other_count);
-    const DipCostMisses flip_misses =
-        dip_cost_error_model_misses(report, &errors, others, other_count);
-    const DipCostMisses left_out = dip_cost_model_leave_one_out(report, rows, count);
+    const DipCostModel times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count);
+    const DipCostModel errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count);
+    const DipCostMisses time_misses = misses_of(report, &times, others, other_count);
+    const DipCostMisses flip_misses = misses_of(report, &errors, others, other_count);
+    const DipCostMisses left_out = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, count);
     printf("trained on %d of %d combinations:\n", count, report->predicted.count);
     print_misses("times of the others", &time_misses);
     print_misses("times, each trained row from the other trained rows", &left_out);
@@ -146,7 +160,7 @@ static DipCostMisses misses_there(const There *there, const DipCostModel *model,
     for (int i = first; i < there->count; i++) {
         const DipCostElsewhere *row = &there->rows[i];
         misses[i - first] =
-            fabs(dip_cost_model_ms(model, row->counters, &row->quality) / row->ms.value - 1.0);
+            fabs(dip_cost_model_value(model, row->counters, &row->quality) / row->ms.value - 1.0);
     }
     return dip_cost_misses_of(misses, there->count - first);
 }
@@ -183,7 +197,8 @@ static bool study_there(const Trained *trained, const char *file, DipError *err)
     if (!read_there(file, &there, err) || !choose_there(trained, &there, err)) {
         return false;
     }
-    const DipCostModel alone = dip_cost_model_fit(trained->report, trained->rows, trained->count);
+    const DipCostModel alone =
+        dip_cost_model_fit(trained->report, DIP_COST_TIME, trained->rows, trained->count);
     const DipCostModel fitted = dip_cost_model_fit_there(trained->report, trained->rows,
                                                          trained->count, there.rows, TIMED_THERE);
     const DipCostMisses all = misses_there(&there, &alone, 0);

@@ -144,7 +144,8 @@ static void the_common_choice_is_that_of_trying_all(void **state) {
             assert_int_equal(advice.all.chosen >= 0, expected >= 0);
             if (expected >= 0) {
                 const DipQuality quality = quality_of(expected);
-                assert_memory_equal(&common.qualities[advice.all.chosen], &quality, sizeof quality);
+                assert_memory_equal(&common.candidates.list[advice.all.chosen].quality, &quality,
+                                    sizeof quality);
                 chosen++;
             }
             none += expected < 0;
@@ -167,7 +168,7 @@ static void advise_of_one_report_is_its_advice(void **state) {
             set_time(report, row, ms, 0.1 * random_share());
         }
         assert_true(dip_cost_common_match(&common, NULL));
-        assert_int_equal(common.count, COMBINATIONS);
+        assert_int_equal(common.candidates.count, COMBINATIONS);
         for (double budget_ms = 1.5; budget_ms < 12.0; budget_ms += 0.7) {
             DipCostCommonAdvice advice;
             report->options.budgets_ms[0] = budget_ms;
@@ -176,10 +177,11 @@ static void advise_of_one_report_is_its_advice(void **state) {
             const DipAdvice *of_report = &report->choice.advice[0];
             dip_cost_common_advise(&common, budget_ms, &advice);
             const int chosen = advice.all.chosen, next = advice.all.next;
-            assert_int_equal(chosen >= 0 ? common.rows[chosen] : -1, own ? own->row : -1);
+            assert_int_equal(chosen >= 0 ? dip_cost_common_row(&common, chosen, 0) : -1,
+                             own ? own->row : -1);
             assert_int_equal(advice.alone[0], own ? own->row : -1);
             assert_int_equal(
-                next >= 0 ? common.rows[next] : -1,
+                next >= 0 ? dip_cost_common_row(&common, next, 0) : -1,
                 of_report->next >= 0 ? report->choice.candidates.list[of_report->next].row : -1);
             assert_true(advice.all.next_ms == of_report->next_ms);
         }
@@ -213,7 +215,7 @@ static void the_report_that_limits_is_named(void **state) {
     assert_int_equal(common.candidates.list[1].report, 1);
     expect_near(advice.all.next_ms, 2.0, 1e-12); // 6 ms and 4 ms, both in the second report.
     assert_true(advice.all.next_fits < 0.001);
-    assert_int_equal(advice.alone[0], common.rows[2 * 2]);
+    assert_int_equal(advice.alone[0], dip_cost_common_row(&common, 2, 0));
     expect_near(dip_cost_common_share_lost(&common, &advice, 0), 0.08 / 0.04 - 1.0, 1e-12);
     expect_near(dip_cost_common_share_lost(&common, &advice, 1), 0.0, 1e-12);
     // Nothing is within 3 ms in both reports, but combination 0 is nearest to it.
@@ -223,7 +225,7 @@ static void the_report_that_limits_is_named(void **state) {
     dip_cost_common_advise(&common, 10.0, &advice);
     assert_true(advice.all.chosen == 2 && advice.all.next == -1);
     // What may be within the budget in the second report fits with a probability between.
-    set_time(&common.reports[1], common.rows[1 * 2 + 1], 5.1, 0.02);
+    set_time(&common.reports[1], dip_cost_common_row(&common, 1, 1), 5.1, 0.02);
     assert_true(dip_cost_common_match(&common, NULL));
     dip_cost_common_advise(&common, 5.0, &advice);
     assert_true(advice.all.chosen == 0 && advice.all.next == 1);
@@ -247,11 +249,11 @@ static void a_combination_may_be_the_row_of_another(void **state) {
     second->same[0] = (DipCostSame){quality_of(1), row};
     second->same_count = 1;
     assert_true(dip_cost_common_match(&common, NULL));
-    assert_int_equal(common.count, 2);
+    assert_int_equal(common.candidates.count, 2);
     DipCostCommonAdvice advice;
     dip_cost_common_advise(&common, 5.0, &advice);
     assert_int_equal(advice.all.chosen, 1);
-    assert_int_equal(common.rows[1 * 2 + 1], row);
+    assert_int_equal(dip_cost_common_row(&common, 1, 1), row);
     expect_near(common.candidates.list[1].flip, 0.06, 1e-12);
     dip_cost_common_free(&common);
 }

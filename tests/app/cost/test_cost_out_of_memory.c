@@ -398,7 +398,7 @@ static void assert_same_timed(const DipTimed *a, const DipTimed *b) {
 }
 
 static void assert_rounds(int rounds) {
-    assert_int_equal(dip_cost_journal_round_count(journal), rounds);
+    assert_int_equal(dip_cost_journal_round_count(journal, NULL), rounds);
     for (int i = 0; i < rounds; i++) {
         int count;
         DipTimed *timed = dip_cost_journal_round(journal, i, SEED, &count);

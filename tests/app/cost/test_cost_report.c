@@ -1,9 +1,9 @@
 // Tests of the cost report: metrics and times, the Pareto front, the fit of prices, and a report
 // written to JSON and read back.
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/fit.h"
 #include "app/report/page/html.h"
-#include "app/report/order.h"
+#include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/verdict.h"
 #include "tests/app/cost/made_report.h"
@@ -68,7 +68,7 @@ static void errors_below_three_noise_floors_are_marked(void **state) {
     }
     // The truth's halves differ by 0.02.
     report.floors[0].regions[0].squared_lin = 10.0 * 0.02 * 0.02;
-    expect_near(dip_cost_floor_rmse(&report, 0, 0), 0.01, 1e-15);
+    expect_near(dip_cost_floor_metrics(&report, 0).rmse_lin, 0.01, 1e-15);
     report.rows[0].viewpoints[0].regions[0].squared_lin = 10.0 * 0.0299 * 0.0299;
     assert_true(dip_cost_at_floor(&report, 0));
     report.rows[0].viewpoints[0].regions[0].squared_lin = 10.0 * 0.0301 * 0.0301;
@@ -270,15 +270,15 @@ static void flip_has_an_interval_over_viewpoints(void **state) {
         set_flip(&report, 0, p, 0.1 + 0.1 * p);
         set_flip(&report, 2, p, 0.09 + 0.1 * p);
     }
-    const DipEstimate flip = dip_cost_flip(&report, 0);
-    const DipEstimate change = dip_cost_flip_change(&report, 2, 0);
+    const DipEstimate flip = dip_cost_metric(&report, 0, DIP_COST_FLIP);
+    const DipEstimate change = dip_cost_metric_change(&report, 2, 0, DIP_COST_FLIP);
     expect_near(flip.value, 0.2, 1e-12);
     expect_near(flip.high - flip.value, 4.303 * 0.1 / sqrt(3.0), 1e-4);
     expect_near(change.value, -0.01, 1e-12);
     assert_true(!(change.high - change.low > 1e-8)); // Not known, but for what is rounded.
     report.rows[2].judged[0] = false;
     report.rows[2].judged[1] = false;
-    assert_true(isnan(dip_cost_flip_change(&report, 2, 0).low)); // One viewpoint.
+    assert_true(isnan(dip_cost_metric_change(&report, 2, 0, DIP_COST_FLIP).low)); // One viewpoint.
     dip_cost_report_free(&report);
 }
 

@@ -3,10 +3,8 @@
 #include "app/report/combinations.h"
 #include "app/report/fit.h"
 #include "app/report/analysis.h"
-#include "app/cost/predict.h"
+#include "app/cost/steps.h"
 #include "app/cost/predict/predict_elsewhere.h"
-#include "app/report/same_pictures.h"
-#include "app/report/work.h"
 #include "renderer/catalogue/random.h"
 
 #include <math.h>
@@ -173,10 +171,13 @@ static void leaving_one_out_does_not_promise_too_much(void **state) {
         int chosen[TRAINED];
         make_report(&report, courtyard_flip, 0.03, (uint64_t)seed);
         assert_true(dip_cost_choose_training(&report, TRAINED, chosen, NULL));
-        const DipCostMisses misses = dip_cost_model_leave_one_out(&report, chosen, TRAINED);
+        const DipCostMisses misses =
+            dip_cost_model_leave_one_out(&report, DIP_COST_TIME, chosen, TRAINED);
         assert_int_equal(misses.rows, TRAINED);
         left_out += misses.median / 16.0;
-        flip_left_out += dip_cost_error_model_leave_one_out(&report, chosen, TRAINED).median / 16.0;
+        flip_left_out +=
+            dip_cost_model_leave_one_out(&report, DIP_COST_FLIP_ERROR, chosen, TRAINED).median /
+            16.0;
         train(&report, &times, &errors);
         unseen += times.median / 16.0;
         flip_unseen += errors.median / 16.0;
@@ -267,9 +268,9 @@ static void counters_are_scaled_to_the_timed_frames(void **state) {
 // FLIP = .1 - .02 (aa) - .03 (af) + .005 if both, and time = 4 * 2 (aa) * 1.5 (af) * 1.1 if both.
 static void interactions_are_what_both_add(void **state) {
     (void)state;
-    DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
     DipCostReport report;
     make_report(&report, courtyard_flip, 0.0, 1);
+    report.predicted.count = 0; // All combinations were measured.
     for (int i = 0; i < COMBINATIONS; i++) {
         const DipQuality *q = &report.rows[i].quality;
         const bool aa = q->step[DIP_SETTING_AA] != 0;
@@ -278,9 +279,10 @@ static void interactions_are_what_both_add(void **state) {
         report.rows[i].time.mean_ms.value =
             4.0 * (aa ? 2.0 : 1.0) * (af ? 1.5 : 1.0) * (aa && af ? 1.1 : 1.0);
     }
-    const int count = dip_cost_interactions(&report, list);
+    assert_true(dip_cost_analyse(&report, NULL));
+    const DipCostInteraction *list = report.analysis->interactions;
     int found = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < report.analysis->interaction_count; i++) {
         if (list[i].a == DIP_SETTING_AA && list[i].b == DIP_SETTING_AF) {
             assert_true(fabs(list[i].flip - 0.005) < 1e-12);
             assert_true(fabs(list[i].time - 1.1) < 1e-12);
@@ -304,6 +306,7 @@ static void combinations_with_the_same_pictures_are_one_row(void **state) {
         const DipQuality *q = &report.rows[i].quality;
         snprintf(report.rows[i].pictures[0], 33, "aa %d af %d aaf %d", q->step[DIP_SETTING_AA],
                  q->step[DIP_SETTING_AF], q->step[DIP_SETTING_AAF]);
+        report.predicted.list[i].row = i; // All were measured after they had been predicted.
     }
     assert_true(dip_cost_join_same_pictures(&report, NULL));
     assert_int_equal(report.row_count, 5 * 9);
@@ -317,6 +320,11 @@ static void combinations_with_the_same_pictures_are_one_row(void **state) {
         assert_int_equal(q->step[DIP_SETTING_AA], stands->step[DIP_SETTING_AA]);
         assert_int_equal(q->step[DIP_SETTING_AF], stands->step[DIP_SETTING_AF]);
         assert_int_equal(q->step[DIP_SETTING_AAF], stands->step[DIP_SETTING_AAF]);
+    }
+    for (int i = 0; i < report.predicted.count; i++) { // Their rows follow.
+        const DipCostPrediction *p = &report.predicted.list[i];
+        assert_true(p->row >= 0 && p->row < report.row_count);
+        assert_int_equal(dip_report_find_same(&report, &p->quality, 0), p->row);
     }
     dip_cost_report_free(&report);
 }
@@ -356,7 +364,7 @@ static double miss_at_twice_the_size(const DipCostReport *report, const DipCostM
         DipCostRow larger = report->rows[i];
         scale_work(larger.counters, 4.0);
         make_times(&larger, 1.0);
-        misses[i] = fabs(dip_cost_model_ms(model, larger.counters, &larger.quality) /
+        misses[i] = fabs(dip_cost_model_value(model, larger.counters, &larger.quality) /
                              larger.time.mean_ms.value -
                          1.0);
     }
@@ -383,13 +391,13 @@ static void a_smaller_size_tells_the_prices_of_others(void **state) {
         int chosen[TRAINED];
         make_report(&report, courtyard_flip, 0.04, (uint64_t)seed);
         assert_true(dip_cost_choose_training(&report, TRAINED, chosen, NULL));
-        DipCostModel model = dip_cost_model_fit(&report, chosen, TRAINED);
+        DipCostModel model = dip_cost_model_fit(&report, DIP_COST_TIME, chosen, TRAINED);
         without += miss_at_twice_the_size(&report, &model) / 8.0;
         const int rows[] = {0, 40, 80, COMBINATIONS - 1};
         for (int i = 0; i < 4; i++) {
             add_smaller(&report, rows[i]);
         }
-        model = dip_cost_model_fit(&report, chosen, TRAINED);
+        model = dip_cost_model_fit(&report, DIP_COST_TIME, chosen, TRAINED);
         with += miss_at_twice_the_size(&report, &model) / 8.0;
         dip_cost_report_free(&report);
     }

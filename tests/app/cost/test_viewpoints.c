@@ -1,5 +1,5 @@
 // Tests of intervals over viewpoints and of noise floors, in every metric.
-#include "app/report/viewpoints.h"
+#include "app/report/report.h"
 #include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/ssim.h"
 #include "tests/app/cost/made_report.h"

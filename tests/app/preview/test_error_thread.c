@@ -1,6 +1,6 @@
 // Tests of the errors that are measured while the camera rests. The job's results are compared with
 // the truth and the meter of the cost report, and the thread's results with those of the job.
-#include "app/cost/scene_hash.h"
+#include "app/cost/plan.h"
 #include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/meter.h"
 #include "app/measure/metrics/truth.h"

@@ -9,7 +9,7 @@
 #include "app/preview/prices/price_text.h"
 #include "app/preview/state/state.h"
 #include "app/preview/live/timing.h"
-#include "app/report/candidates.h"
+#include "app/report/report.h"
 #include "app/report/combinations.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
