@@ -6,7 +6,6 @@
 #include "app/import/import.h"
 #include "app/cli/log.h"
 #include "app/cli/machine.h"
-#include "app/cli/output.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>

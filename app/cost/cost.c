@@ -11,7 +11,7 @@
 #include "app/cost/starts.h"
 #include "app/cost/steps.h"
 #include "app/files/folder.h"
-#include "app/cli/interrupt.h"
+#include "app/cli/progress.h"
 #include "renderer/base/assert.h"
 
 #include <limits.h>

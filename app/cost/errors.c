@@ -1,7 +1,6 @@
 // Makes the truths (converged pictures), and judges every row: measures its pictures' errors
 // against the truths.
 #include "app/cost/steps.h"
-#include "app/cli/interrupt.h"
 #include "app/files/folder.h"
 #include "app/files/pfm.h"
 #include "app/measure/metrics/meter.h"

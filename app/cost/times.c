@@ -1,7 +1,7 @@
 // Timing rows beside the baseline of their paths, here or elsewhere, and counting their work.
 // Counters are the same in every run of a frame, so each frame is counted once.
 #include "app/cli/drive.h"
-#include "app/cli/interrupt.h"
+#include "app/cli/progress.h"
 #include "app/cost/starts.h"
 #include "app/cost/steps.h"
 

@@ -1,4 +1,4 @@
-// Folders that files are written to.
+// Makes the folders that files are written to.
 #ifndef DIP_APP_FILES_FOLDER_H
 #define DIP_APP_FILES_FOLDER_H
 

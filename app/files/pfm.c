@@ -1,4 +1,4 @@
-// Writes PFM files.
+// Puts the header and the rows of a PFM file together and writes the file.
 #include "app/files/pfm.h"
 
 #include "app/files/whole_file.h"

@@ -1,4 +1,4 @@
-// Pictures as PFM files ("portable float map"): 32-bit floating point, without loss.
+// Writes pictures as PFM files ("portable float map"), which hold 32-bit floating-point numbers.
 #ifndef DIP_APP_FILES_PFM_H
 #define DIP_APP_FILES_PFM_H
 

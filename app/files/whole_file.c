@@ -1,4 +1,4 @@
-// Writing a file under a temporary name, then renaming it.
+// Writes a file under a temporary name, then renames it.
 #include "app/files/whole_file.h"
 
 #include <errno.h>
@@ -41,8 +41,8 @@ bool dip_whole_file_print(const char *file, bool (*print)(const void *context, F
     size_t size_bytes = 0;
     FILE *out = open_memstream(&text, &size_bytes);
     bool made = out && print(context, out) && !ferror(out);
-    made =
-        out && fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
+    // If memory runs out while the stream is closed, glibc sets the text to NULL.
+    made = out && fclose(out) == 0 && made && text;
     const bool written = made
                              ? dip_whole_file_write(file, text, size_bytes, err)
                              : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");

@@ -1,5 +1,5 @@
-// A session: everything that a command needs to draw. It holds the settings of the ini file, the
-// scene, the camera track and the painters of both panes.
+// Opens a session, which is everything that a command needs to draw: the settings of the ini file,
+// the scene, the camera track and the painters of both panes.
 #ifndef DIP_APP_SESSION_SESSION_H
 #define DIP_APP_SESSION_SESSION_H
 
@@ -21,7 +21,7 @@ extern const char *const dip_pane_names[DIP_PANE_COUNT]; // "current", "requeste
 typedef struct DipSessionDef {
     const DipSessionOptions *options; // Borrowed until the session is closed.
     const DipImporter *importer;      // Imports the models; NULL: they are imported here. Borrowed.
-    const char *log;                  // File of --log, which replaces the ini's log file, or NULL.
+    const char *log;                  // File of --log, which replaces the ini's log file; or NULL.
     bool scene;                       // Load the models and the camera paths.
     bool renderers;                   // Make a renderer for each pane. This needs the scene.
     bool keep_model;                  // Keep the models' data, which the reference renderer reads.
@@ -87,14 +87,15 @@ DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, D
                                      DipError *err);
 
 // Shows the next scene in a ring of all scenes of the gallery and, if they are loaded, the models.
-// step: 1 for the next one, -1 for the one before. The session must have renderers, whose settings
-// and size are kept. If opening the scene fails, nothing changes.
+// `step` is 1 for the next scene and -1 for the one before. The session must have renderers; their
+// settings and size stay. If opening the scene fails, nothing changes.
 bool dip_session_step_scene(DipSession *session, int step, DipError *err);
 
 // Name of what the session shows: "Blend modes", or "Models".
 const char *dip_session_scene_title(const DipSession *session, int64_t play_ns);
 
-// Name of a variant of the gallery's scene. `look` wraps around.
+// Name of a variant of the gallery's scene. Any number `look` names one: after the last variant
+// comes the first one again.
 const char *dip_session_scene_look(const DipSession *session, int look, int64_t play_ns);
 
 // Returns the field of view of --fov, or fov_y_deg if the option is not given.
@@ -118,8 +119,8 @@ typedef struct DipSessionFrame {
     bool copied;
 } DipSessionFrame;
 
-// Draws both panes from a pose. frame_index: see dip_renderer_set_frame_index. Both renderers must
-// have the same size.
+// Draws both panes from a pose. dip_renderer_set_frame_index says what `frame_index` is for. Both
+// renderers must have the same size.
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err);
 

@@ -1,4 +1,5 @@
-// The terminal's mode, and the signals of a terminal program. Private to this folder.
+// Switches the terminal to the mode for pictures and back, and takes the signals that a program in
+// a terminal gets. Private to this folder.
 //
 // A process has one mode: all functions concern the same terminal. Whatever ends the process, the
 // terminal gets back its settings, its screen and its cursor, unless the process dies by SIGKILL.
@@ -15,7 +16,8 @@ enum {
     DIP_TERMINAL_QUIT = 1,   // SIGINT, SIGTERM or SIGHUP came.
     DIP_TERMINAL_RESIZE = 2, // SIGWINCH came.
     DIP_TERMINAL_STOP = 4,   // SIGTSTP came: the caller must call dip_terminal_mode_suspend.
-    DIP_TERMINAL_RESUME = 8 // SIGCONT came: the screen may hold anything, and the mode may be lost.
+    DIP_TERMINAL_RESUME =
+        8 // SIGCONT came: another program may have changed the screen and the mode.
 };
 
 // Enters the mode for pictures and takes over the signals. input and output: file descriptors of

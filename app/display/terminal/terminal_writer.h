@@ -1,5 +1,5 @@
-// Turns a picture and characters into the bytes that make a terminal show them. Private to this
-// folder.
+// Finds out what a terminal can show, and turns a picture and characters into the bytes that make
+// the terminal show them. Private to this folder.
 //
 // The writer remembers what the terminal shows and encodes only the cells that differ. A cell shows
 // two pixels of the picture, one above the other, as a half block (U+2580). Colours are rounded to
@@ -9,6 +9,27 @@
 
 #include "app/display/terminal/terminal_display.h"
 
+// The environment variables that describe a terminal. A variable that is not set is NULL.
+typedef struct DipTerminalEnvironment {
+    const char *term;      // TERM
+    const char *colorterm; // COLORTERM
+    const char *no_color;  // NO_COLOR
+    const char *locale;    // The first of LC_ALL, LC_CTYPE and LANG that is set and not empty.
+} DipTerminalEnvironment;
+
+// Reads the variables of this process.
+DipTerminalEnvironment dip_terminal_environment(void);
+
+// Returns the colours that the terminal can show; never AUTO. A NO_COLOR that is not empty means
+// NONE (no-color.org).
+DipTerminalColours dip_terminal_best_colours(const DipTerminalEnvironment *environment);
+
+// Returns false if the locale names a character set that has no half blocks.
+bool dip_terminal_has_utf8(const DipTerminalEnvironment *environment);
+
+// Returns false if the terminal has no escape sequences that place characters.
+bool dip_terminal_can_place(const DipTerminalEnvironment *environment);
+
 // A cell as the terminal shows it.
 typedef struct DipTerminalCell {
     uint32_t code;  // Code point; 0: not known.
@@ -16,7 +37,7 @@ typedef struct DipTerminalCell {
     uint32_t paper; // As `ink`; without colours, 1 means reverse video.
 } DipTerminalCell;
 
-// Zero-initialise, set the first two fields, and call dip_terminal_writer_resize.
+// Zero-initialise a writer, set its first two fields, and call dip_terminal_writer_resize.
 typedef struct DipTerminalWriter {
     DipTerminalColours colours; // Not AUTO.
     bool utf8;                  // False: the terminal shows ASCII only.

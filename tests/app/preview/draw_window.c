@@ -7,7 +7,7 @@
 // cost:FILE, as the first action, gives the window a cost report.
 #include "app/cost/plan.h"
 #include "app/display/fake/fake_display.h"
-#include "app/files/png.h"
+#include "app/files/pictures.h"
 #include "app/preview/loop/loop.h"
 #include "app/session/session.h"
 
