@@ -1,6 +1,6 @@
 // Tests of the preview on a fake display: keys and mouse events go in, pixels come out. No SDL is
 // linked.
-#include "app/display/fake/fake_display.h"
+#include "tests/app/display/fake_display.h"
 #include "app/files/pictures.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/loop/view.h"
