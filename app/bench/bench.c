@@ -5,7 +5,7 @@
 #include "app/bench/plots.h"
 #include "app/bench/table.h"
 #include "app/cli/progress.h"
-#include "app/files/folder.h"
+#include "app/files/whole_file.h"
 #include "app/measure/timing/child.h"
 #include "renderer/base/assert.h"
 

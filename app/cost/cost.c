@@ -10,7 +10,7 @@
 #include "app/cost/command.h"
 #include "app/cost/starts.h"
 #include "app/cost/steps.h"
-#include "app/files/folder.h"
+#include "app/files/whole_file.h"
 #include "app/cli/progress.h"
 #include "renderer/base/assert.h"
 

@@ -3,7 +3,7 @@
 #include "app/dump/options.h"
 #include "app/dump/record.h"
 #include "app/dump/stream.h"
-#include "app/files/folder.h"
+#include "app/files/whole_file.h"
 #include "app/files/pictures.h"
 #include "app/cli/machine.h"
 #include "app/session/picture_texts.h"

@@ -1,5 +1,5 @@
-// Encodes PNG and JPEG in memory by stb_image_write. Its encoder of JPEG shifts bits out of a
-// signed int, so the sanitizer of shifts is off in this file.
+// Encodes PNG and JPEG in memory by stb_image_write, and PFM by itself. stb_image_write's encoder
+// of JPEG shifts bits out of a signed int, so the sanitizer of shifts is off in this file.
 #include "app/files/pictures.h"
 
 #include "app/files/whole_file.h"
@@ -9,6 +9,7 @@
 #include <setjmp.h>
 #include <stdalign.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -270,4 +271,35 @@ bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const Dip
 
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     return dip_png_write_with_texts(file, frame, NULL, 0, err);
+}
+
+// --- PFM -----------------------------------------------------------------------------------------
+
+enum { HEADER_ROOM = 64 };
+
+// Stores values in little-endian order, on any machine.
+static void store_values(unsigned char *to, const float *values, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        for (int b = 0; b < 4; b++) {
+            to[4 * i + (size_t)b] = (unsigned char)(bits >> (8 * b));
+        }
+    }
+}
+
+bool dip_pfm_write(const char *file, const float *rgb, int width, int height, DipError *err) {
+    const size_t row_values = 3 * (size_t)width;
+    unsigned char *bytes = malloc(HEADER_ROOM + 4 * row_values * (size_t)height);
+    if (!bytes) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "pfm", "out of memory");
+    }
+    size_t size = (size_t)snprintf((char *)bytes, HEADER_ROOM, "PF\n%d %d\n-1.0\n", width, height);
+    for (int y = height - 1; y >= 0; y--) {
+        store_values(bytes + size, rgb + (size_t)y * row_values, row_values);
+        size += 4 * row_values;
+    }
+    const bool written = dip_whole_file_write(file, bytes, size, err);
+    free(bytes);
+    return written;
 }

@@ -1,4 +1,4 @@
-// Encodes pictures as PNG and JPEG, and writes PNG files.
+// Encodes pictures as PNG and JPEG, and writes PNG and PFM files.
 #ifndef DIP_APP_FILES_PICTURES_H
 #define DIP_APP_FILES_PICTURES_H
 
@@ -35,5 +35,12 @@ bool dip_png_write(const char *file, const DipFrame *frame, DipError *err);
 // Does the same and inserts texts into the file, before its picture.
 bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const DipPngText *texts,
                               int count, DipError *err);
+
+// Writes 32-bit floating-point values without loss as PFM ("portable float map"), the whole file or
+// none. `rgb` holds three floats per pixel in packed rows, the top row
+// first. The file has the type PF, the scale -1 (little-endian) and, as the format demands, its
+// rows from the bottom up. Fails with DIP_ERROR_IO or DIP_ERROR_MEMORY. Thread-safe for different
+// files.
+bool dip_pfm_write(const char *file, const float *rgb, int width, int height, DipError *err);
 
 #endif

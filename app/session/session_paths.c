@@ -17,6 +17,11 @@ double dip_session_fov(const DipSession *session, double fov_y_deg) {
     return session->options->fov_y_deg > 0.0 ? session->options->fov_y_deg : fov_y_deg;
 }
 
+// Returns the field of view of the ini's default path.
+static double default_fov(const DipSession *session) {
+    return session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
+}
+
 // --- the cameras of the models -------------------------------------------------------------------
 
 static bool out_of_memory(DipErrorList *faults) {
@@ -140,17 +145,18 @@ static bool refuse_path(const DipSession *session, DipErrorList *faults) {
 
 // --- paths ---------------------------------------------------------------------------------------
 
-// Plays a path in a category. `name` is the name of a camera of the models, or NULL.
-static void play(DipSession *session, int category, const DipCamPath *path, double fov_y_deg,
+// Plays a path in a category. `name` is the name of a camera of the models, or NULL. Returns true.
+static bool play(DipSession *session, int category, const DipCamPath *path, double fov_y_deg,
                  const char *name) {
     dip_camtrack_set_named(&session->track, category, path, dip_session_fov(session, fov_y_deg),
                            name);
+    return true;
 }
 
-// Takes ownership of a path and plays it in a category.
-static void keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
+// Takes ownership of a path and plays it in a category. Returns true.
+static bool keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
     session->paths[session->path_count++] = path;
-    play(session, category, path, fov_y_deg, NULL);
+    return play(session, category, path, fov_y_deg, NULL);
 }
 
 // Loads the path of one of the ini's categories. A file that an earlier category names is not
@@ -164,28 +170,24 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
         const DipConfigFile *file = &session->config.camera[other].file;
         if (file->path && dip_config_same_file(file, &camera->file) &&
             session->track.categories[other].path) {
-            play(session, category, session->track.categories[other].path, camera->fov_y_deg, NULL);
-            return true;
+            return play(session, category, session->track.categories[other].path, camera->fov_y_deg,
+                        NULL);
         }
     }
     const DipSessionCamera *own = camera_of(session, camera->file.path, camera->file.text);
     if (own) {
         const bool given = session->config.line[DIP_KEY_CAMPATH_DEFAULT + 2 * category + 1] > 0;
-        play(session, category, own->path, given ? camera->fov_y_deg : own->fov_y_deg, own->name);
-        return true;
+        return play(session, category, own->path, given ? camera->fov_y_deg : own->fov_y_deg,
+                    own->name);
     }
     DipCamPath *path;
     DipError err;
-    if (!dip_campath_load(camera->file.path, &path, &err)) {
-        if (err.line) {
-            // The error already names a line of the path file, which is more useful than the line
-            // of the ini.
-            return dip_session_add_fault(faults, &err);
-        }
-        return dip_session_place_fault(session, &camera->file, faults, &err);
+    if (dip_campath_load(camera->file.path, &path, &err)) {
+        return keep_path(session, path, category, camera->fov_y_deg);
     }
-    keep_path(session, path, category, camera->fov_y_deg);
-    return true;
+    // An error that names a line of the path file is more useful than the line of the ini.
+    return err.line ? dip_session_add_fault(faults, &err)
+                    : dip_session_place_fault(session, &camera->file, faults, &err);
 }
 
 // Loads the file of --path, or plays the camera that --path names.
@@ -193,30 +195,24 @@ static bool load_own_path(DipSession *session, DipErrorList *faults) {
     const char *name = session->options->path;
     const DipSessionCamera *camera = camera_of(session, name, name);
     if (camera) {
-        play(session, 0, camera->path, camera->fov_y_deg, camera->name);
-        return true;
+        return play(session, 0, camera->path, camera->fov_y_deg, camera->name);
     }
     if (session->camera_count > 0 && access(name, F_OK) != 0) {
         return refuse_path(session, faults);
     }
     DipCamPath *path;
     DipError err;
-    if (!dip_campath_load(name, &path, &err)) {
-        return dip_session_add_fault(faults, &err);
-    }
-    keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
-    return true;
+    return dip_campath_load(name, &path, &err) ? keep_path(session, path, 0, default_fov(session))
+                                               : dip_session_add_fault(faults, &err);
 }
 
 // Makes a path of one key, at which the camera stands still.
 static bool make_pose(DipSession *session, DipErrorList *faults) {
     DipCamPath *path;
     DipError err;
-    if (!dip_campath_create(&session->options->pose, 1, pose_period_ns, &path, &err)) {
-        return dip_session_add_fault(faults, &err);
-    }
-    keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
-    return true;
+    return dip_campath_create(&session->options->pose, 1, pose_period_ns, &path, &err)
+               ? keep_path(session, path, 0, default_fov(session))
+               : dip_session_add_fault(faults, &err);
 }
 
 // Refuses a model that is too small to be drawn. The orbit fills the picture with the model, so the
@@ -253,7 +249,7 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
     if (session->options->model_count) {
         file = session->options->models[0];
     } else {
-        def.fov_y_deg = session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
+        def.fov_y_deg = default_fov(session);
     }
     def.fov_y_deg = dip_session_fov(session, def.fov_y_deg);
     DipCamPath *path;
@@ -264,9 +260,8 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
     if (!dip_campath_orbit(&def, &path, &err)) {
         return dip_session_refuse(faults, err.code, file, 0, err.key, "%s", err.message);
     }
-    keep_path(session, path, 0, def.fov_y_deg);
     session->orbiting = true;
-    return true;
+    return keep_path(session, path, 0, def.fov_y_deg);
 }
 
 // The key of a category is "CAMPATH_" and its name.

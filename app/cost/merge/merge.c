@@ -8,7 +8,7 @@
 #include "app/report/page/html.h"
 #include "app/cost/merge/merge_machines.h"
 #include "app/report/same_pictures.h"
-#include "app/files/folder.h"
+#include "app/files/whole_file.h"
 #include "renderer/base/assert.h"
 
 #include <limits.h>

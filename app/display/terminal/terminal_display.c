@@ -2,9 +2,7 @@
 // writes each frame at once.
 #include "app/display/terminal/terminal_display.h"
 
-#include "app/display/terminal/terminal_keys.h"
-#include "app/display/terminal/terminal_mode.h"
-#include "app/display/terminal/terminal_writer.h"
+#include "app/display/terminal/terminal_private.h"
 #include "renderer/base/clock.h"
 
 #include <errno.h>

@@ -1,6 +1,6 @@
 // Translates characters and escape sequences. The sequences are those of xterm; the Linux console,
 // rxvt, tmux and screen send the same ones or those listed in the tables below.
-#include "app/display/terminal/terminal_keys.h"
+#include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
 

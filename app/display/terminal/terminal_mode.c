@@ -1,5 +1,5 @@
 // Switches the terminal's mode, and restores it from signal handlers too.
-#include "app/display/terminal/terminal_mode.h"
+#include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
 

@@ -1,5 +1,5 @@
 // Judges a terminal by its environment, and encodes frames for it.
-#include "app/display/terminal/terminal_writer.h"
+#include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
 #include "renderer/base/utf8.h"

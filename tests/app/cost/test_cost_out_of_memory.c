@@ -8,7 +8,6 @@
 #include "app/report/page/html.h"
 #include "app/cost/journal.h"
 #include "app/dump/record.h"
-#include "app/files/pfm.h"
 #include "app/files/pictures.h"
 #include "tests/app/cost/made_report.h"
 #include "tests/support/out_of_memory.h"

@@ -4,7 +4,6 @@
 #include "app/command_list.h"
 #include "app/cost/options.h"
 #include "app/cli/help.h"
-#include "app/cli/manual.h"
 #include "renderer/base/assert.h"
 
 #include <ctype.h>
