@@ -1,4 +1,4 @@
-// The list of commands. To add a command, add its include and its entry here.
+// Lists the commands. To add a command, add its include and its entry here.
 #include "app/command_list.h"
 
 #include "app/bench/options.h"

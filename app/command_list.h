@@ -1,4 +1,4 @@
-// The commands of Diptych.
+// Declares the list of Diptych's commands.
 #ifndef DIP_APP_COMMAND_LIST_H
 #define DIP_APP_COMMAND_LIST_H
 

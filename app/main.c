@@ -1,4 +1,5 @@
-// The program: reads the command line, runs the command, prints what went wrong.
+// The main function of the program, which reads the command line, runs the command and prints what
+// went wrong.
 #include "app/session/session.h"
 #include "app/cli/command_line.h"
 #include "app/command_list.h"
@@ -6,7 +7,6 @@
 #include "app/import/import.h"
 #include "app/cli/log.h"
 #include "app/cli/machine.h"
-#include "app/cli/output.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
-// A program for the build: prints the manual page.
+// The main function of a program that only the build runs. It prints the manual page.
 #include "app/command_list.h"
-#include "app/cli/manual.h"
-#include "app/cli/output.h"
+#include "app/cli/help.h"
+#include "app/cli/log.h"
 
 int main(void) {
     dip_manual_print(&dip_command_list, stdout);

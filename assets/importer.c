@@ -30,6 +30,7 @@ extern char **environ;
 
 typedef enum EndKind {
     END_DONE,    // The pack is complete.
+    END_NO_PACK, // The process could not write the pack.
     END_EXITED,  // The process ended by itself without a pack.
     END_SIGNAL,  // A signal ended the process.
     END_TIMEOUT, // The process was ended because it took too long.
@@ -43,7 +44,7 @@ typedef struct Child {
     int pipe;
     pid_t process; // 0 if there is no process to wait for.
     EndKind end;
-    int end_code; // The exit code or the signal.
+    int end_code; // NO_PACK: an errno; EXITED: the exit code; SIGNAL: the signal.
 } Child;
 
 static uint64_t default_memory_bytes(void) {
@@ -262,17 +263,22 @@ static void kill_child(Child *child) {
     }
 }
 
-// Waits until the importer says that the pack is complete, or closes the pipe. Returns false if
-// neither happens before end_ns.
-static bool wait_for_pipe(Child *child, int64_t end_ns, bool *complete) {
+// Waits until the importer has written to the pipe or closed it. Returns false if neither happens
+// before end_ns. Sets *failure to the byte that the importer wrote: 0, or an errno; or to -1 if it
+// wrote none.
+static bool wait_for_pipe(Child *child, int64_t end_ns, int *failure) {
     struct pollfd pipe = {.fd = child->pipe, .events = POLLIN};
     for (;;) {
         const int64_t left_ms = (end_ns - dip_clock_ns()) / 1000000;
         const int ready =
             poll(&pipe, 1, left_ms > 0 ? (int)(left_ms < INT_MAX ? left_ms : INT_MAX) : 0);
         if (ready > 0) {
-            char byte;
-            *complete = read(child->pipe, &byte, 1) == 1;
+            unsigned char byte;
+            const ssize_t count = read(child->pipe, &byte, 1);
+            if (count < 0 && errno == EINTR) {
+                continue;
+            }
+            *failure = count == 1 ? byte : -1;
             return true;
         }
         if (left_ms <= 0 || (ready < 0 && errno != EINTR)) {
@@ -304,14 +310,15 @@ static void wait_for_end(Child *child, int64_t end_ns) {
 // that.
 static void wait_for_pack(Child *child) {
     const int64_t end_ns = dip_clock_ns() + (int64_t)child->importer.wall_s * 1000000000;
-    bool complete = false;
-    if (!wait_for_pipe(child, end_ns, &complete)) {
+    int failure = -1;
+    if (!wait_for_pipe(child, end_ns, &failure)) {
         kill_child(child);
         set_end(child, END_TIMEOUT, 0);
-    } else if (complete) {
-        child->end = END_DONE;
-    } else {
+    } else if (failure < 0) {
         wait_for_end(child, end_ns);
+    } else {
+        child->end = failure ? END_NO_PACK : END_DONE;
+        child->end_code = failure;
     }
 }
 
@@ -361,16 +368,17 @@ static bool explain_signal(const Child *child, const char *file, const char *ste
                          step, signal_name(child->end_code, text));
 }
 
-static bool explain_exit(const Child *child, const char *file, const char *step, DipError *err) {
-    if (child->end_code == IMPORT_EXIT_NO_ROOM) {
+// EFBIG comes from the limit of the pack's size, every other errno from the system.
+static bool explain_no_pack(const Child *child, const char *file, DipError *err) {
+    if (child->end_code == EFBIG) {
         return dip_error_set(err, DIP_ERROR_OVERSIZED, file, 0, NULL,
                              "the imported model does not fit into memory, accepted %" PRIu64
                              " MiB",
                              child->importer.memory_bytes >> 20);
     }
-    return dip_error_set(err, DIP_ERROR_RUNTIME, file, 0, NULL,
-                         "the importer ended %s with exit code %d and without a result", step,
-                         child->end_code);
+    return dip_error_set_runtime(err, DIP_ERROR_RUNTIME, file, 0, NULL,
+                                 "the importer could not hand over the model: %s",
+                                 strerror(child->end_code));
 }
 
 // Fills *err with the reason why there is no pack. A file that ends the importer counts as bad
@@ -378,13 +386,18 @@ static bool explain_exit(const Child *child, const char *file, const char *step,
 static bool explain_end(const Child *child, DipError *err) {
     const char *file;
     const char *step = last_step(child, &file);
+    if (child->end == END_NO_PACK) {
+        return explain_no_pack(child, file, err);
+    }
     DipError reason = {0};
     switch (child->end) {
     case END_SIGNAL:
         explain_signal(child, file, step, &reason);
         break;
     case END_EXITED:
-        explain_exit(child, file, step, &reason);
+        dip_error_set(&reason, DIP_ERROR_RUNTIME, file, 0, NULL,
+                      "the importer ended %s with exit code %d and without a result", step,
+                      child->end_code);
         break;
     case END_TIMEOUT:
         dip_error_set(&reason, DIP_ERROR_OVERSIZED, file, 0, NULL,

@@ -18,12 +18,16 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 // Address space that is not memory in use: the program and its libraries, the stack of the thread
 // that reads models, and for each thread its stack and the heap that the C library reserves for it.
 static const uint64_t reserved_bytes = (uint64_t)1 << 30;
 static const uint64_t reserved_per_thread_bytes = (uint64_t)160 << 20;
+
+// Each attempt to seal takes up to 150 ms by itself.
+enum { MAX_SEAL_ATTEMPTS = 100, SEAL_PAUSE_NS = 10000000 };
 
 typedef struct Task {
     uint64_t number[IMPORT_ARGUMENT_COUNT];
@@ -161,18 +165,32 @@ static bool follow_program(const Task *task) {
 
 // --- loading -------------------------------------------------------------------------------------
 
+// Seals the pack. Linux refuses with EBUSY while anything holds a page of the file for a moment,
+// for example to move the page; so this function tries again.
 static bool seal(void) {
     const int seals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
-    return fcntl(IMPORT_PACK_FILE, F_ADD_SEALS, seals) == 0;
+    const struct timespec pause = {.tv_nsec = SEAL_PAUSE_NS};
+    for (int attempt = 1; fcntl(IMPORT_PACK_FILE, F_ADD_SEALS, seals) != 0; ++attempt) {
+        if (errno != EBUSY || attempt == MAX_SEAL_ATTEMPTS) {
+            return false;
+        }
+        nanosleep(&pause, NULL);
+    }
+    return true;
 }
 
+// Writes the pack and seals it. Then tells the program that the pack is complete, or why there is
+// none. Returns false if there is none.
 static bool hand_over(const DipModel *model, DipScenePack *pack) {
     if (model) {
         pack->scene = model->def;
         pack->times = model->times;
     }
-    return dip_scene_pack_note(IMPORT_PACK_FILE, DIP_IMPORT_PACKS, 0) &&
-           dip_scene_pack_write(IMPORT_PACK_FILE, pack) && seal() && write(IMPORT_PIPE, "", 1) == 1;
+    errno = 0;
+    const bool done = dip_scene_pack_note(IMPORT_PACK_FILE, DIP_IMPORT_PACKS, 0) &&
+                      dip_scene_pack_write(IMPORT_PACK_FILE, pack) && seal();
+    const unsigned char failure = (unsigned char)(done ? 0 : errno ? errno : EIO);
+    return write(IMPORT_PIPE, &failure, 1) == 1 && done;
 }
 
 static double light_scale_of(const Task *task) {
@@ -219,7 +237,7 @@ int dip_importer_run(int count, char *const *arguments) {
     if (!limit_process(&task)) {
         return IMPORT_EXIT_LIMITS;
     }
-    return load_and_hand_over(&task) ? IMPORT_EXIT_DONE : IMPORT_EXIT_NO_ROOM;
+    return load_and_hand_over(&task) ? IMPORT_EXIT_DONE : IMPORT_EXIT_NO_PACK;
 }
 
 #else

@@ -2,9 +2,9 @@
 //
 // The importer's arguments are import_mark, those of IMPORT_ARGUMENT_LIST, those of
 // IMPORT_RULE_ARGUMENT_LIST for each rule, and the model files. It
-// inherits two files: the pack file, which it fills and seals, and the writing end of a pipe, which
-// it only keeps open. The program reads the other end of the pipe, which reaches its end when the
-// importer ends.
+// inherits two files: the pack file, which it fills and seals, and the writing end of a pipe. At
+// its end it writes one byte to the pipe: 0 if the pack is complete and sealed, otherwise the errno
+// that says why there is no pack. If the importer ends earlier, the program finds the pipe closed.
 #ifndef DIP_ASSETS_IMPORTER_PRIVATE_H
 #define DIP_ASSETS_IMPORTER_PRIVATE_H
 
@@ -78,7 +78,7 @@ enum {
     IMPORT_EXIT_DONE = 0, // The pack is complete and sealed.
     IMPORT_EXIT_ARGUMENTS = DIP_IMPORTER_MISUSED,
     IMPORT_EXIT_LIMITS = 3,   // The process could not be limited.
-    IMPORT_EXIT_NO_ROOM = 4,  // The pack could not be written.
+    IMPORT_EXIT_NO_PACK = 4,  // The pack could not be written; the pipe has the reason.
     IMPORT_EXIT_ORPHANED = 5, // The program ended before the importer started.
 };
 

@@ -4,8 +4,8 @@
 #include "app/bench/options.h"
 #include "app/bench/plots.h"
 #include "app/bench/table.h"
-#include "app/cli/interrupt.h"
-#include "app/files/folder.h"
+#include "app/cli/progress.h"
+#include "app/files/whole_file.h"
 #include "app/measure/timing/child.h"
 #include "renderer/base/assert.h"
 

@@ -1,5 +1,5 @@
-// A command of the program. To add a command, make a folder that defines one DipCommand, and add
-// that DipCommand to the list in command_list.c.
+// Describes a command of the program. To add a command, make a folder that defines one DipCommand,
+// and add that DipCommand to the list in command_list.c.
 #ifndef DIP_APP_CLI_COMMAND_H
 #define DIP_APP_CLI_COMMAND_H
 

@@ -1,4 +1,4 @@
-// Finds the command and hands its arguments to the parser of options.
+// Finds the command that the command line names, and reads its options and operands.
 #include "app/cli/command_line.h"
 
 #include "renderer/base/assert.h"
@@ -21,7 +21,7 @@ static const DipOptionRow program_rows[] = {
 
 const DipOptionTable dip_program_option_table = DIP_OPTION_TABLE("Program", program_rows);
 
-// Length of a command's first word.
+// Returns the length of the first word of a command's name.
 static size_t first_word(const DipCommand *command) {
     return strcspn(command->name, " ");
 }

@@ -1,7 +1,6 @@
 // Steps a timing driver, shows its progress, and looks for Ctrl-C.
 #include "app/cli/drive.h"
 
-#include "app/cli/interrupt.h"
 #include "app/cli/progress.h"
 
 bool dip_drive(DipDriver *driver, const char *things, const char *command, const char *interrupted,

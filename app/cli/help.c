@@ -1,4 +1,4 @@
-// Lays out the help in 80 columns.
+// Prints the help in lines of at most 80 columns.
 #include "app/cli/help.h"
 
 #include "renderer/scene/quality.h"

@@ -1,4 +1,5 @@
-// The help that --help prints, made from the commands and their tables of options.
+// Prints the help of --help and the manual page diptych(1). Both are made from the commands and
+// their tables of options.
 #ifndef DIP_APP_CLI_HELP_H
 #define DIP_APP_CLI_HELP_H
 
@@ -8,5 +9,8 @@
 
 // Prints the help of the command that was named, of a group such as `path`, or of all commands.
 void dip_help_print(const DipCommandList *list, const DipCommandLine *line, FILE *out);
+
+// Prints the manual page in the man macros of roff.
+void dip_manual_print(const DipCommandList *list, FILE *out);
 
 #endif

@@ -1,4 +1,4 @@
-// Formatting errors and writing them to standard error and to the log file.
+// Formats errors and writes them to standard error and to the log file.
 #include "app/cli/log.h"
 
 #include "app/files/put.h"
@@ -39,7 +39,7 @@ static void print_line(const char *text) {
 void dip_log_error(const DipError *err) {
     char text[1024];
     dip_error_format(err, text, sizeof text);
-    dip_put_clean(text); // Messages quote files.
+    dip_put_clean(text); // Messages quote files, which may hold control characters.
     print_line(text);
 }
 
@@ -56,4 +56,16 @@ void dip_log_errors(const DipErrorList *list) {
     for (size_t i = 0; i < list->count; i++) {
         dip_log_error(&list->items[i]);
     }
+}
+
+bool dip_output_finish(DipError *err) {
+    // An earlier print may have failed, and its errno is lost. The flush can succeed all the same.
+    const bool lost = ferror(stdout) != 0;
+    errno = 0;
+    if (fflush(stdout) == 0 && !lost) {
+        return true;
+    }
+    return dip_error_set_runtime(err, DIP_ERROR_IO, NULL, 0, NULL,
+                                 "standard output cannot be written%s%s", errno ? ": " : "",
+                                 errno ? strerror(errno) : "");
 }

@@ -1,4 +1,5 @@
-// Prints warnings and errors on standard error and, on request, to a log file.
+// Prints warnings and errors on standard error and, on request, to a log file. Also checks that
+// standard output has been written.
 #ifndef DIP_APP_CLI_LOG_H
 #define DIP_APP_CLI_LOG_H
 
@@ -15,6 +16,10 @@ void dip_log_error(const DipError *err);
 void dip_log_errors(const DipErrorList *list);
 
 // Prints a note (not an error) as one line "diptych: ...".
-void dip_log_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void dip_log_note(const char *format, ...) DIP_PRINTF(1, 2);
+
+// Flushes standard output, which may be a file on a full disk. Fails with DIP_ERROR_IO if anything
+// that the program printed was lost. Call it once, at the end of the program.
+bool dip_output_finish(DipError *err);
 
 #endif

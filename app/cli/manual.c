@@ -1,6 +1,6 @@
 // Writes the manual page. If several commands share a table of options, the page describes these
 // options once.
-#include "app/cli/manual.h"
+#include "app/cli/help.h"
 
 #include "renderer/scene/quality.h"
 

@@ -1,4 +1,4 @@
-// The rows --rounds, --seed, --starts, --serve and --json.
+// Describes the options --rounds, --seed, --starts, --serve and --json.
 #include "app/cli/measure_options.h"
 
 #include "renderer/base/assert.h"

@@ -1,4 +1,4 @@
-// The options that every command that times frames shares.
+// Declares the options that all commands share that time frames.
 #ifndef DIP_APP_CLI_MEASURE_OPTIONS_H
 #define DIP_APP_CLI_MEASURE_OPTIONS_H
 
@@ -7,15 +7,15 @@
 enum { DIP_MEASURE_MOST_ROUNDS = 10000, DIP_MEASURE_MOST_STARTS = 100 };
 
 typedef struct DipMeasureOptions {
-    int rounds; // Of each start; 0: the command chooses.
+    int rounds; // Number of rounds of each start; 0: the command chooses.
     int starts; // How often programs are started.
     bool has_seed;
     int seed;
 } DipMeasureOptions;
 
-// What a program that starts itself, to draw in another process, needs.
+// Options of a command that starts its own program again, to draw in another process.
 typedef struct DipServeOptions {
-    bool serve; // This process was started so.
+    bool serve; // This process was started to draw for another one.
     int argc;   // The whole command line.
     char *const *argv;
 } DipServeOptions;

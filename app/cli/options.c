@@ -1,4 +1,4 @@
-// Parses options as their tables describe them.
+// Reads options as their tables describe them.
 #include "app/cli/options.h"
 
 #include "renderer/base/assert.h"
@@ -183,25 +183,17 @@ bool dip_option_store(const DipOptionRow *row, const char *value, void *fields, 
 
 // --- finding options -----------------------------------------------------------------------------
 
-// Finds the row of an option by its name, which has `length` letters. Sets *part to the part that
-// contains the row.
-static const DipOptionRow *find(const DipOptionParts *parts, const char *name, size_t length,
-                                const DipOptionPart **part) {
+const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *name,
+                                    const DipOptionPart **part) {
     for (size_t p = 0; p < parts->count; p++) {
         for (size_t r = 0; r < parts->items[p].table->count; r++) {
-            const DipOptionRow *row = &parts->items[p].table->rows[r];
-            if (strlen(row->name) == length && memcmp(row->name, name, length) == 0) {
+            if (strcmp(parts->items[p].table->rows[r].name, name) == 0) {
                 *part = &parts->items[p];
-                return row;
+                return &parts->items[p].table->rows[r];
             }
         }
     }
     return NULL;
-}
-
-const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *name) {
-    const DipOptionPart *part;
-    return find(parts, name, strlen(name), &part);
 }
 
 // Fails, and suggests the most similar option of this command.
@@ -232,7 +224,7 @@ bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc
     char name[64];
     snprintf(name, sizeof name, "%.*s", equals ? (int)(equals - argument) : 63, argument);
     const DipOptionPart *part = NULL;
-    const DipOptionRow *row = find(parts, name, strlen(name), &part);
+    const DipOptionRow *row = dip_option_find(parts, name, &part);
     if (!row) {
         return unknown_option(parts, command, name, err);
     }

@@ -1,5 +1,5 @@
-// Options of a command line, described by tables. Each command has its own tables (command.h). The
-// parser, the help and the manual page all use these tables.
+// Reads the options of a command line, which tables describe. Each command has its own tables
+// (command.h). The help and the manual page use the same tables.
 #ifndef DIP_APP_CLI_OPTIONS_H
 #define DIP_APP_CLI_OPTIONS_H
 
@@ -87,8 +87,10 @@ bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc
 // Stores an option's value in `fields`, the struct of its table. Leaves the bool of `given` alone.
 bool dip_option_store(const DipOptionRow *row, const char *value, void *fields, DipError *err);
 
-// Finds a row by its name. Returns NULL if no part has it.
-const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *name);
+// Finds a row by its name, and sets *part to the part that has the row. Returns NULL if no part has
+// it.
+const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *name,
+                                    const DipOptionPart **part);
 
 // --- for readers of values -----------------------------------------------------------------------
 

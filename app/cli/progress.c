@@ -1,9 +1,10 @@
-// Counts what is done, and estimates the time left from the rate so far.
+// Prints progress with an estimate of the time left, and catches SIGINT and SIGTERM.
 #include "app/cli/progress.h"
 
 #include "renderer/base/clock.h"
 
 #include <inttypes.h>
+#include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -40,4 +41,23 @@ void dip_progress_end(DipProgress *progress, int64_t done) {
         print(progress, done, dip_clock_ns());
         fputc('\n', stderr);
     }
+}
+
+// --- Ctrl-C --------------------------------------------------------------------------------------
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+void dip_interrupt_watch(void) {
+    const struct sigaction on_interrupt = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &on_interrupt, NULL);
+    sigaction(SIGTERM, &on_interrupt, NULL);
+}
+
+bool dip_interrupted(void) {
+    return interrupted != 0;
 }

@@ -1,4 +1,5 @@
-// Shows on standard error how much of its work a long command has done.
+// Shows on standard error how much of its work a long command has done, and lets Ctrl-C end the
+// command after the frame or measurement that it has begun.
 #ifndef DIP_APP_CLI_PROGRESS_H
 #define DIP_APP_CLI_PROGRESS_H
 
@@ -22,5 +23,12 @@ void dip_progress_show(DipProgress *progress, int64_t done);
 
 // Shows the last state and ends the line. Prints nothing if standard error is not a terminal.
 void dip_progress_end(DipProgress *progress, int64_t done);
+
+// From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second one ends the
+// program at once.
+void dip_interrupt_watch(void);
+
+// Returns whether the first signal has come.
+bool dip_interrupted(void);
 
 #endif

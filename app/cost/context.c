@@ -2,7 +2,7 @@
 // is one combination of settings on a camera path.
 #include "app/cost/context.h"
 
-#include "app/cli/interrupt.h"
+#include "app/cli/progress.h"
 
 #include <string.h>
 

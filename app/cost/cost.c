@@ -6,8 +6,8 @@
 #include "app/report/page/report_pictures.h"
 #include "app/cost/command.h"
 #include "app/cost/steps.h"
-#include "app/files/folder.h"
-#include "app/cli/interrupt.h"
+#include "app/files/whole_file.h"
+#include "app/cli/progress.h"
 #include "renderer/base/assert.h"
 
 #include <stdio.h>

@@ -1,9 +1,8 @@
 // Makes the truths (converged pictures), and judges every row: measures its pictures' errors
 // against the truths.
 #include "app/cost/steps.h"
-#include "app/cli/interrupt.h"
-#include "app/files/folder.h"
-#include "app/files/pfm.h"
+#include "app/files/whole_file.h"
+#include "app/files/pictures.h"
 #include "app/measure/metrics/meter.h"
 #include "app/cli/progress.h"
 #include "renderer/base/hash.h"

@@ -1,10 +1,10 @@
-// `diptych dump`: drawing frames and writing pictures, hashes and the record.
+// The command `diptych dump`, which draws frames and writes pictures, hashes, the record and
+// streams.
 #include "app/dump/options.h"
 #include "app/dump/record.h"
 #include "app/dump/stream.h"
-#include "app/files/folder.h"
-#include "app/files/png.h"
-#include "app/cli/interrupt.h"
+#include "app/files/whole_file.h"
+#include "app/files/pictures.h"
 #include "app/cli/machine.h"
 #include "app/session/picture_texts.h"
 #include "app/cli/progress.h"
@@ -24,17 +24,7 @@ typedef struct Outputs {
     int stream_count;
 } Outputs;
 
-// A frame of both panes and what is known about it.
-typedef struct DrawnFrame {
-    int index;
-    int64_t time_ns;
-    DipPose pose;
-    DipSessionFrame frame;
-    DipQuality qualities[DIP_PANE_COUNT];
-    char hashes[DIP_PANE_COUNT][33];
-} DrawnFrame;
-
-static bool write_picture(const DipSession *session, const char *folder, const DrawnFrame *drawn,
+static bool write_picture(const DipSession *session, const char *folder, const DipDrawnFrame *drawn,
                           int pane, DipError *err) {
     char file[PATH_MAX];
     DipPictureTexts texts;
@@ -49,8 +39,8 @@ static bool write_picture(const DipSession *session, const char *folder, const D
     return dip_png_write_with_texts(file, &drawn->frame.panes[pane], texts.items, texts.count, err);
 }
 
-static bool write_pane(const DipSession *session, const DipDumpOptions *options, DrawnFrame *drawn,
-                       int pane, DipError *err) {
+static bool write_pane(const DipSession *session, const DipDumpOptions *options,
+                       DipDrawnFrame *drawn, int pane, DipError *err) {
     dip_frame_hash(&drawn->frame.panes[pane], drawn->hashes[pane]);
     drawn->qualities[pane] = dip_painter_quality(session->renderers[pane]);
     if (options->hash) {
@@ -59,19 +49,9 @@ static bool write_pane(const DipSession *session, const DipDumpOptions *options,
     return !options->out || write_picture(session, options->out, drawn, pane, err);
 }
 
-static bool record_frame(DipRecord *record, const DrawnFrame *drawn, DipError *err) {
-    DipRecordPane panes[DIP_PANE_COUNT];
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        panes[p] = (DipRecordPane){&drawn->qualities[p], &drawn->frame.panes[p], drawn->hashes[p],
-                                   p == DIP_PANE_REQUESTED && drawn->frame.copied};
-    }
-    return dip_record_add(record, drawn->index, 1e-9 * (double)drawn->time_ns, &drawn->pose,
-                          drawn->frame.ms, panes, err);
-}
-
 static bool dump_frame(DipSession *session, const DipDumpOptions *options, int index,
                        const Outputs *outputs, DipError *err) {
-    DrawnFrame drawn = {.index = index, .time_ns = dip_dump_time_ns(options, index)};
+    DipDrawnFrame drawn = {.index = index, .time_ns = dip_dump_time_ns(options, index)};
     if (!dip_session_draw(session, drawn.time_ns, (uint64_t)index, &drawn.pose, &drawn.frame,
                           err)) {
         return false;
@@ -81,7 +61,7 @@ static bool dump_frame(DipSession *session, const DipDumpOptions *options, int i
             return false;
         }
     }
-    bool written = !outputs->record || record_frame(outputs->record, &drawn, err);
+    bool written = !outputs->record || dip_record_add(outputs->record, &drawn, err);
     for (int i = 0; written && i < outputs->stream_count; i++) {
         written = dip_stream_add(outputs->streams[i], drawn.frame.panes, err);
     }
@@ -132,8 +112,8 @@ static bool dump_frames(DipSession *session, const DipDumpOptions *options, cons
     return done;
 }
 
-// The stream's frames are `step` frames apart, so that it shows them at the speed of the scene's
-// time.
+// Makes the record and opens the streams. A stream holds every `step`-th frame, so its rate is the
+// rate of the frames divided by `step`.
 static bool open_outputs(Outputs *outputs, const DipDumpOptions *options, DipError *err) {
     const bool records = options->out || options->json;
     const char *const files[MOST_STREAMS] = {options->y4m, options->raw};
@@ -156,7 +136,8 @@ static bool open_outputs(Outputs *outputs, const DipDumpOptions *options, DipErr
     return opened;
 }
 
-// Closes the streams. Keeps the first error: *err is filled only if everything was `done` before.
+// Closes the streams and frees the record. `done` says whether everything before has succeeded; if
+// not, *err already holds the first error and is left alone.
 static bool close_outputs(Outputs *outputs, bool done, DipError *err) {
     for (int i = 0; i < outputs->stream_count; i++) {
         done = dip_stream_close(&outputs->streams[i], done ? err : NULL) && done;

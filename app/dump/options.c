@@ -1,4 +1,4 @@
-// The options of `diptych dump`.
+// Describes, reads and checks the options of `diptych dump`.
 #include "app/dump/options.h"
 
 #include "renderer/base/assert.h"

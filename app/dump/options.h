@@ -1,4 +1,4 @@
-// Options of `diptych dump`.
+// Declares the command `diptych dump` and its options.
 #ifndef DIP_APP_DUMP_OPTIONS_H
 #define DIP_APP_DUMP_OPTIONS_H
 

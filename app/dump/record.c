@@ -1,4 +1,4 @@
-// Writes the record as JSON, a line per pane.
+// Writes the record as JSON, with a line for each pane of a frame.
 #include "app/dump/record.h"
 
 #include "app/files/put.h"
@@ -8,15 +8,11 @@
 #include <string.h>
 
 struct DipRecord {
-    FILE *out; // Writes to the text.
+    FILE *out; // Writes to `text`.
     char *text;
-    size_t size;
-    int count; // Frames.
+    size_t size; // Bytes of the text.
+    int count;   // Number of frames.
 };
-
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "record", "out of memory");
-}
 
 DipRecord *dip_record_create(DipError *err) {
     DipRecord *record = calloc(1, sizeof *record);
@@ -24,8 +20,8 @@ DipRecord *dip_record_create(DipError *err) {
         record->out = open_memstream(&record->text, &record->size);
     }
     if (!record || !record->out) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "record", "out of memory");
         dip_record_destroy(&record);
-        out_of_memory(err);
         return NULL;
     }
     fputs("{\"frames\": [", record->out);
@@ -43,7 +39,8 @@ void dip_record_destroy(DipRecord **record) {
     }
 }
 
-// Writes `before` and a number, with as few digits as tell it from all others.
+// Writes `before` and a number. 15 digits are enough for most numbers; if reading them back gives
+// another number, writes 17.
 static void put_number(FILE *out, const char *before, double value) {
     char text[32];
     snprintf(text, sizeof text, "%.15g", value);
@@ -60,13 +57,14 @@ static void put_numbers(FILE *out, const char *before, const double *values, int
     fputs("]", out);
 }
 
-static void put_pane(FILE *out, const char *name, const DipRecordPane *pane) {
+static void put_pane(FILE *out, const DipDrawnFrame *drawn, int pane) {
     char settings[256];
-    const DipFrame *frame = pane->frame;
+    const DipFrame *frame = &drawn->frame.panes[pane];
+    const bool copied = pane == DIP_PANE_REQUESTED && drawn->frame.copied;
     const char *between = "";
-    dip_quality_format(pane->quality, settings, sizeof settings);
-    fprintf(out, ",\n \"%s\": {\"settings\": \"%s\", \"hash\": \"%s\", \"copied\": %s", name,
-            settings, pane->hash, pane->copied ? "true" : "false");
+    dip_quality_format(&drawn->qualities[pane], settings, sizeof settings);
+    fprintf(out, ",\n \"%s\": {\"settings\": \"%s\", \"hash\": \"%s\", \"copied\": %s",
+            dip_pane_names[pane], settings, drawn->hashes[pane], copied ? "true" : "false");
     put_number(out, ", \"ms\": ", frame->stages.total_ms);
     fputs(", \"stages_ms\": {", out);
 #define PUT_STAGE(name, text)                                                                      \
@@ -94,19 +92,23 @@ static void put_pane(FILE *out, const char *name, const DipRecordPane *pane) {
     fputs("}}}", out);
 }
 
-bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose, double ms,
-                    const DipRecordPane panes[2], DipError *err) {
+static bool finish(FILE *out, DipError *err) {
+    return (fflush(out) == 0 && !ferror(out)) ||
+           dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "record", "out of memory");
+}
+
+bool dip_record_add(DipRecord *record, const DipDrawnFrame *drawn, DipError *err) {
     FILE *out = record->out;
-    fprintf(out, "%s\n{\"index\": %d", record->count++ ? "," : "", index);
-    put_number(out, ", \"time_s\": ", time_s);
-    put_numbers(out, ", \"pose\": {\"position\": [", pose->position_world, 3);
-    put_numbers(out, ", \"orientation\": [", pose->orientation, 4);
-    put_number(out, ", \"fov_y_deg\": ", pose->fov_y_deg);
-    put_number(out, "}, \"ms\": ", ms);
-    put_pane(out, "current", &panes[0]);
-    put_pane(out, "requested", &panes[1]);
+    fprintf(out, "%s\n{\"index\": %d", record->count++ ? "," : "", drawn->index);
+    put_number(out, ", \"time_s\": ", 1e-9 * (double)drawn->time_ns);
+    put_numbers(out, ", \"pose\": {\"position\": [", drawn->pose.position_world, 3);
+    put_numbers(out, ", \"orientation\": [", drawn->pose.orientation, 4);
+    put_number(out, ", \"fov_y_deg\": ", drawn->pose.fov_y_deg);
+    put_number(out, "}, \"ms\": ", drawn->frame.ms);
+    put_pane(out, drawn, DIP_PANE_CURRENT);
+    put_pane(out, drawn, DIP_PANE_REQUESTED);
     fputs("}", out);
-    return (fflush(out) == 0 && !ferror(out)) || out_of_memory(err);
+    return finish(out, err);
 }
 
 bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
@@ -119,7 +121,7 @@ bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t 
     DIP_START_TIME_LIST(PUT_PART)
 #undef PUT_PART
     fprintf(record->out, "},\n\"peak_rss_bytes\": %zu}\n", peak_rss_bytes);
-    return (fflush(record->out) == 0 && !ferror(record->out)) || out_of_memory(err);
+    return finish(record->out, err);
 }
 
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err) {

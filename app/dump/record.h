@@ -1,4 +1,5 @@
-// The record of drawn frames as JSON: each pane's settings, hash, times, work counters and effects.
+// Makes the record of drawn frames, which holds each pane's settings, hash, times, work counters
+// and effects as JSON:
 //
 // {"frames":[{"index":0,"time_s":0,"pose":{"position":[x,y,z],"orientation":[x,y,z,w],
 // "fov_y_deg":45},"ms":2.9,"current":{"settings":"aa=..","hash":"..","copied":false,"ms":1.5,
@@ -11,31 +12,27 @@
 #ifndef DIP_APP_DUMP_RECORD_H
 #define DIP_APP_DUMP_RECORD_H
 
-#include "app/session/start_times.h"
-#include "renderer/base/error.h"
-#include "renderer/scene/frame.h"
-#include "renderer/scene/pose.h"
-#include "renderer/scene/quality.h"
+#include "app/session/session.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 
 typedef struct DipRecord DipRecord;
 
-// One pane of a frame.
-typedef struct DipRecordPane {
-    const DipQuality *quality;
-    const DipFrame *frame;
-    const char *hash;
-    bool copied; // The pane is a copy of the one before it, which has the same settings.
-} DipRecordPane;
+// A drawn frame of both panes.
+typedef struct DipDrawnFrame {
+    int index;
+    int64_t time_ns; // The time of the scene that the frame shows.
+    DipPose pose;
+    DipSessionFrame frame;
+    DipQuality qualities[DIP_PANE_COUNT];
+    char hashes[DIP_PANE_COUNT][33];
+} DipDrawnFrame;
 
 DipRecord *dip_record_create(DipError *err);
 void dip_record_destroy(DipRecord **record);
 
-// Adds a frame. ms is the wall-clock time of both panes; panes are current and requested.
-bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose, double ms,
-                    const DipRecordPane panes[2], DipError *err);
+// Adds a frame.
+bool dip_record_add(DipRecord *record, const DipDrawnFrame *drawn, DipError *err);
 
 // Ends the record with the time of each part of the start, and the greatest amount of memory that
 // was in use.

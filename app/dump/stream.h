@@ -1,8 +1,8 @@
-// The frames of `diptych dump` as a stream of video without compression, for other programs.
+// Writes the frames of `diptych dump` as a stream of video without compression, for other programs.
 //
-// There are two kinds. --y4m writes YUV4MPEG2 (app/files/y4m.h). --raw writes the frames' pixels
-// alone: 3 bytes per pixel (red, green, blue; sRGB), rows without padding, the top row first. A
-// line on standard error tells the size, the format and the rate of a raw stream.
+// There are two kinds of streams. --y4m writes YUV4MPEG2 (app/files/y4m.h). --raw writes the
+// frames' pixels alone: 3 bytes per pixel (red, green, blue; sRGB), rows without padding, the top
+// row first. A line on standard error tells the size, the format and the rate of a raw stream.
 #ifndef DIP_APP_DUMP_STREAM_H
 #define DIP_APP_DUMP_STREAM_H
 

@@ -10,7 +10,7 @@
 
 enum { SPEC_ROOM = 32, PADDED_ROOM = 1024 };
 
-// Copies of a va_list can be passed by pointer; the list itself may be an array.
+// A va_list within a struct, because a va_list may be an array, which cannot be passed by pointer.
 typedef struct Arguments {
     va_list list;
 } Arguments;
@@ -23,7 +23,7 @@ static size_t character_bytes(const char *text) {
     return code < ' ' || (code >= 0x7f && code < 0xa0) ? 0 : length;
 }
 
-// A character, and what a form shows instead. A list of them ends with the character 0.
+// A character, and what is written instead of it. An array of escapes ends with the character 0.
 typedef struct Escape {
     char character;
     const char *instead;
@@ -39,7 +39,7 @@ static const Escape csv_escapes[] = {{'"', "\"\""}, {0, NULL}};
 static const Escape no_escapes[] = {{0, NULL}};
 
 static void put_escaped(FILE *out, const char *text, const Escape *escapes) {
-    const char *begin = text; // Of the characters that have not been written yet.
+    const char *begin = text; // The first character that has not been written yet.
     while (*text) {
         const size_t length = character_bytes(text);
         const Escape *escape = escapes;
@@ -85,15 +85,13 @@ static void put_value(FILE *out, const Escape *escapes, const char *spec, char k
     case '%':
         fputc('%', out);
         break;
+    case 'c':
     case 'd':
         if (strstr(spec, "ll")) {
             fprintf(out, spec, va_arg(arguments->list, long long));
-            break;
+        } else {
+            fprintf(out, spec, va_arg(arguments->list, int));
         }
-        fprintf(out, spec, va_arg(arguments->list, int));
-        break;
-    case 'c':
-        fprintf(out, spec, va_arg(arguments->list, int));
         break;
     case 'u':
         if (strchr(spec, 'z')) {

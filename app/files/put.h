@@ -7,16 +7,12 @@
 #ifndef DIP_APP_FILES_PUT_H
 #define DIP_APP_FILES_PUT_H
 
+#include "renderer/base/api.h"
+
 #include <stdio.h>
 
-#ifdef __GNUC__
-#define DIP_PUT_FORMAT __attribute__((format(printf, 2, 3)))
-#else
-#define DIP_PUT_FORMAT
-#endif
-
 // Writes HTML or SVG. Texts may be inserted between tags and into quoted attributes.
-void dip_put_html(FILE *out, const char *format, ...) DIP_PUT_FORMAT;
+void dip_put_html(FILE *out, const char *format, ...) DIP_PRINTF(2, 3);
 
 // Writes markup, style or script that the program itself holds, unchanged.
 void dip_put_markup(FILE *out, const char *markup);
@@ -29,7 +25,7 @@ void dip_put_script_string(FILE *out, const char *text);
 void dip_put_csv_text(FILE *out, const char *text);
 
 // Writes for a terminal, or for a file that is read like one.
-void dip_put_text(FILE *out, const char *format, ...) DIP_PUT_FORMAT;
+void dip_put_text(FILE *out, const char *format, ...) DIP_PRINTF(2, 3);
 
 // Replaces control characters in a text in place.
 void dip_put_clean(char *text);

@@ -1,10 +1,13 @@
-// Writing a file under a temporary name, then renaming it.
+// Writes a file under a temporary name, then renames it. Makes each missing folder of a path, from
+// the outermost inwards.
 #include "app/files/whole_file.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static bool write_all(const char *name, const void *bytes, size_t size_bytes) {
@@ -41,11 +44,35 @@ bool dip_whole_file_print(const char *file, bool (*print)(const void *context, F
     size_t size_bytes = 0;
     FILE *out = open_memstream(&text, &size_bytes);
     bool made = out && print(context, out) && !ferror(out);
-    made =
-        out && fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
+    // If memory runs out while the stream is closed, glibc sets the text to NULL.
+    made = out && fclose(out) == 0 && made && text;
     const bool written = made
                              ? dip_whole_file_write(file, text, size_bytes, err)
                              : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     free(text);
     return written;
+}
+
+bool dip_folder_make(const char *folder, const char *option, DipError *err) {
+    char part[PATH_MAX];
+    const size_t length = strlen(folder);
+    if (length >= sizeof part) {
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, option,
+                                     "the name is too long");
+    }
+    for (size_t i = 1; i <= length; i++) {
+        if (folder[i] == '/' || folder[i] == '\0') {
+            memcpy(part, folder, i);
+            part[i] = '\0';
+            if (mkdir(part, 0777) != 0 && errno != EEXIST) {
+                return dip_error_set_runtime(err, DIP_ERROR_IO, part, 0, option,
+                                             "cannot make this folder: %s", strerror(errno));
+            }
+        }
+    }
+    struct stat status;
+    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)) {
+        return dip_error_set_runtime(err, DIP_ERROR_IO, folder, 0, option, "is not a folder");
+    }
+    return true;
 }

@@ -1,4 +1,4 @@
-// Writing a file whole or not at all.
+// Writes files whole or not at all, and makes the folders for them.
 #ifndef DIP_APP_FILES_WHOLE_FILE_H
 #define DIP_APP_FILES_WHOLE_FILE_H
 
@@ -12,9 +12,13 @@
 // no temporary file is left. Thread-safe for different files.
 bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes, DipError *err);
 
-// Writes what `print` prints. Fails with DIP_ERROR_MEMORY, too: if memory runs out, or if `print`
-// returns false.
+// Writes to the file what `print` prints, whole or not at all. Fails as dip_whole_file_write does,
+// and with DIP_ERROR_MEMORY if memory runs out or `print` returns false.
 bool dip_whole_file_print(const char *file, bool (*print)(const void *context, FILE *out),
                           const void *context, DipError *err);
+
+// Makes the folder and its missing parents. Fails with DIP_ERROR_OVERSIZED or DIP_ERROR_IO;
+// `option` names the option at fault in the message. Thread-safe.
+bool dip_folder_make(const char *folder, const char *option, DipError *err);
 
 #endif

@@ -1,5 +1,6 @@
-// Frames as a YUV4MPEG2 stream ("y4m"): video without compression, which ffmpeg, mpv and encoders
-// read. A stream is one header, then for each frame the line "FRAME" and three planes of bytes.
+// Makes the parts of a YUV4MPEG2 stream ("y4m"), which is video without compression that ffmpeg,
+// mpv and encoders read. A stream is one header, then for each frame the line "FRAME" and three
+// planes of bytes.
 //
 // The streams have the format C444: the planes Y, Cb and Cr hold one byte per pixel, so chroma is
 // not subsampled. The matrix is that of ITU-R BT.709, and the range is limited: black is Y = 16,

@@ -1,4 +1,4 @@
-// A sample host: a settings panel in plain Xlib with Diptych's preview inside its window.
+// This sample host is a settings panel in plain Xlib with Diptych's preview inside its window.
 //
 // Usage: diptych_host PROGRAM [ARGUMENT]...   for example: diptych_host ./diptych --scene blend
 //

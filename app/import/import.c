@@ -1,5 +1,5 @@
-// The hidden command hands its arguments to the importer and ends the process with the importer's
-// exit code.
+// Implements the hidden command `import`, which hands its arguments to the importer and ends the
+// process with the importer's exit code.
 #include "app/import/import.h"
 
 #include "assets/importer.h"
@@ -15,12 +15,6 @@ typedef struct ImportOptions {
 
 static const DipOptionPart parts[] = {{&dip_program_option_table, 0}};
 static const DipOptionParts all_parts = {parts, DIP_ARRAY_COUNT(parts)};
-
-static bool check(const void *options, DipError *err) {
-    (void)options;
-    (void)err;
-    return true;
-}
 
 // Ends the process without the handlers of exit, which free memory that the system frees anyway.
 static bool run(DipSession *session, const void *all, DipError *err) {
@@ -45,6 +39,5 @@ const DipCommand dip_import_command = {
                  .count = offsetof(ImportOptions, argument_count),
                  .most = DIP_IMPORTER_MAX_ARGUMENTS},
     .options_size = sizeof(ImportOptions),
-    .check = check,
     .run = run,
 };

@@ -1,4 +1,4 @@
-// `diptych path info` and `diptych path convert`: reading and rewriting camera paths.
+// The commands `diptych path info` and `diptych path convert`, which read and rewrite camera paths.
 #include "app/path/path.h"
 
 #include "campaths/campath.h"
@@ -69,13 +69,12 @@ static bool run_convert(DipSession *session, const void *options, DipError *err)
     (void)session;
     const PathOptions *files = options;
     const char *to = files->files[1];
-    const bool text = strcmp(to + strlen(to) - strlen(".pth"), ".pth") == 0;
     DipCamPath *path;
     if (!dip_campath_load(files->files[0], &path, err)) {
         return false;
     }
-    const bool saved =
-        text ? dip_campath_save_pth(path, to, err) : dip_campath_save_bth(path, to, err);
+    const bool saved = ends_with(to, ".pth") ? dip_campath_save_pth(path, to, err)
+                                             : dip_campath_save_bth(path, to, err);
     dip_campath_destroy(&path);
     return saved;
 }

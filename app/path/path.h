@@ -1,4 +1,4 @@
-// `diptych path info` and `diptych path convert`.
+// Declares the commands `diptych path info` and `diptych path convert`.
 #ifndef DIP_APP_PATH_PATH_H
 #define DIP_APP_PATH_PATH_H
 

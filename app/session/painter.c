@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 struct DipPainter {
-    DipRenderer *renderer; // NULL if there is a pane
-    DipGalleryPane *pane;  // NULL if there is a renderer
+    DipRenderer *renderer; // Draws models; NULL if the painter draws the gallery.
+    DipGalleryPane *pane;  // Draws the gallery; NULL if the painter draws models.
 };
 
 DipPainter *dip_painter_create(const DipRendererDef *def, DipGallery *gallery, DipError *err) {

@@ -9,8 +9,9 @@
 
 typedef struct DipPainter DipPainter;
 
-// gallery: the gallery to draw (borrowed; it must outlive the painter), or NULL to draw models with
-// a scene renderer. Fails as dip_renderer_create or dip_gallery_pane_create does.
+// Makes a painter that draws `gallery`, which is borrowed and must outlive the painter, or models
+// with a scene renderer if `gallery` is NULL. Fails as dip_renderer_create or
+// dip_gallery_pane_create does.
 DipPainter *dip_painter_create(const DipRendererDef *def, DipGallery *gallery, DipError *err);
 // *painter may be NULL and becomes NULL.
 void dip_painter_destroy(DipPainter **painter);
@@ -29,7 +30,7 @@ bool dip_painter_set_mip_pictures(DipPainter *painter,
                                   const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                   DipError *err);
 
-// scene: the models' scene; a painter of the gallery ignores it.
+// Draws a frame. `scene` is the scene of the models; a painter of the gallery ignores it.
 bool dip_painter_draw(DipPainter *painter, const DipScene *scene, const DipPose *pose,
                       int64_t time_ns, DipFrame *frame, DipError *err);
 
@@ -38,7 +39,8 @@ bool dip_painter_draw(DipPainter *painter, const DipScene *scene, const DipPose 
 bool dip_painter_read_samples(DipPainter *painter, const DipScene *scene, const DipPose *pose,
                               int64_t time_ns, const DipSampleReadback *readback, DipError *err);
 
-// Draws one frame with each of several painters of one kind. count: 1..DIP_MAX_FRAMES_AT_ONCE.
+// Draws one frame with each of `count` painters, 1..DIP_MAX_FRAMES_AT_ONCE. Either all of them draw
+// models, or all draw the gallery.
 bool dip_painter_draw_frames(DipPainter *const *painters, int count, const DipScene *scene,
                              const DipPose *pose, int64_t time_ns, DipFrame *const *frames,
                              DipError *err);

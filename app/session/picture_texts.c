@@ -1,4 +1,4 @@
-// Collects the texts of a picture.
+// Collects the texts that a PNG file of Diptych has.
 #include "app/session/picture_texts.h"
 
 #include "renderer/base/assert.h"
@@ -7,9 +7,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-static void add(DipPictureTexts *texts, const char *keyword, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
+DIP_PRINTF(3, 4)
 static void add(DipPictureTexts *texts, const char *keyword, const char *format, ...) {
     char *text = texts->bytes + texts->used_bytes;
     const size_t left = sizeof texts->bytes - texts->used_bytes;
@@ -25,15 +23,11 @@ static void add(DipPictureTexts *texts, const char *keyword, const char *format,
 }
 
 size_t dip_pose_format(const DipPose *pose, char *text, size_t size_bytes) {
-    const double numbers[7] = {pose->position_world[0], pose->position_world[1],
-                               pose->position_world[2], pose->orientation[0],
-                               pose->orientation[1],    pose->orientation[2],
-                               pose->orientation[3]};
     size_t length = 0;
     text[0] = '\0';
     for (int i = 0; i < 7 && length < size_bytes; i++) {
         char number[DIP_NUMBER_TEXT_SIZE];
-        dip_number_format(numbers[i], number);
+        dip_number_format(i < 3 ? pose->position_world[i] : pose->orientation[i - 3], number);
         const int added =
             snprintf(text + length, size_bytes - length, "%s%s", i ? " " : "", number);
         length += added > 0 ? (size_t)added : 0;
@@ -56,7 +50,7 @@ static const char *path_name(const DipSession *session, bool free_camera) {
     if (session->shows_gallery) {
         return "scene";
     }
-    // A category without a path plays that of category 0.
+    // A category without a path of its own plays the path of category 0.
     const DipCamTrack *track = &session->track;
     return session->orbiting
                ? "orbit"

@@ -1,4 +1,4 @@
-// The texts that Diptych writes into its PNG files, so that a picture tells how it was made.
+// Makes the texts that Diptych writes into its PNG files, so that a picture tells how it was made:
 //
 //     Software             Diptych 1.0.0
 //     Scene                file of the first model, or name of the gallery's scene
@@ -12,7 +12,7 @@
 #ifndef DIP_APP_SESSION_PICTURE_TEXTS_H
 #define DIP_APP_SESSION_PICTURE_TEXTS_H
 
-#include "app/files/png.h"
+#include "app/files/pictures.h"
 #include "app/session/session.h"
 
 enum { DIP_PICTURE_MAX_TEXTS = 16, DIP_PICTURE_TEXT_BYTES = 8192 };
@@ -25,8 +25,8 @@ typedef struct DipPictureTexts {
     char bytes[DIP_PICTURE_TEXT_BYTES]; // A text that does not fit is cut.
 } DipPictureTexts;
 
-// Sets the texts that both panes share. free_camera: the user flies the camera, so the pose is not
-// that of the path.
+// Sets the texts that both panes share. `free_camera` is true if the user flies the camera, so that
+// the pose does not come from a path.
 void dip_picture_texts_make(DipPictureTexts *texts, const DipSession *session, const DipPose *pose,
                             int64_t time_ns, bool free_camera);
 

@@ -159,6 +159,41 @@ bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
     return made;
 }
 
+// Reads the pictures that the ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... show as mip levels, and
+// gives them to the painters. A level without a picture keeps its debug colour. If a picture cannot
+// be read, the error has the line of the ini that names this picture.
+static bool load_mip_pictures(DipSession *session, DipErrorList *faults) {
+    DipPicture pictures[DIP_MIP_LEVEL_COUNT] = {{0}};
+    DipTextureDef defs[DIP_MIP_LEVEL_COUNT];
+    const DipTextureDef *given[DIP_MIP_LEVEL_COUNT] = {NULL};
+    bool any = false;
+    bool loaded = true;
+    DipError err;
+    for (int level = 0; level < DIP_MIP_LEVEL_COUNT; level++) {
+        const DipConfigFile *file = &session->config.mip_picture[level];
+        DipPicture *picture = &pictures[level];
+        if (file->path && !dip_picture_import(file->path, session->importer, picture, &err)) {
+            loaded = dip_session_place_fault(session, file, faults, &err);
+        } else if (file->path) {
+            defs[level] = (DipTextureDef){.name = file->path,
+                                          .width = picture->width,
+                                          .height = picture->height,
+                                          .rgba8 = picture->rgba8,
+                                          .encoding = DIP_ENCODING_SRGB};
+            given[level] = &defs[level];
+            any = true;
+        }
+    }
+    for (int p = 0; loaded && any && p < DIP_PANE_COUNT; p++) {
+        loaded = dip_painter_set_mip_pictures(session->renderers[p], given, &err) ||
+                 dip_session_add_fault(faults, &err);
+    }
+    for (int level = 0; level < DIP_MIP_LEVEL_COUNT; level++) {
+        dip_picture_free(&pictures[level]);
+    }
+    return loaded;
+}
+
 static bool make_renderers(DipSession *session, DipErrorList *faults) {
     const DipQuality qualities[DIP_PANE_COUNT] = {pane_quality(session, 0),
                                                   pane_quality(session, 1)};
@@ -171,7 +206,7 @@ static bool make_renderers(DipSession *session, DipErrorList *faults) {
                                    &err)) {
         return dip_session_add_fault(faults, &err);
     }
-    return dip_session_load_mip_pictures(session, faults);
+    return load_mip_pictures(session, faults);
 }
 
 static bool make_pool(DipSession *session, DipErrorList *faults) {
@@ -240,11 +275,7 @@ void dip_session_close(DipSession *session) {
     dip_gallery_destroy(&session->gallery);
     dip_campath_destroy(&session->gallery_path);
     free(session->assets);
-    for (int i = 0; i < session->path_count; i++) {
-        dip_campath_destroy(&session->paths[i]);
-    }
-    free(session->paths);
-    dip_session_free_cameras(session);
+    dip_session_free_paths(session);
     dip_scene_destroy(&session->scene);
     dip_model_destroy(&session->model);
     dip_pool_destroy(&session->pool);

@@ -1,12 +1,11 @@
-// A session: everything that a command needs to draw. It holds the settings of the ini file, the
-// scene, the camera track and the painters of both panes.
+// Opens a session, which is everything that a command needs to draw: the settings of the ini file,
+// the scene, the camera track and the painters of both panes.
 #ifndef DIP_APP_SESSION_SESSION_H
 #define DIP_APP_SESSION_SESSION_H
 
 #include "app/gallery/gallery.h"
 #include "app/session/painter.h"
 #include "app/session/session_options.h"
-#include "app/session/start_times.h"
 #include "assets/importer.h"
 #include "assets/model.h"
 #include "campaths/camtrack.h"
@@ -17,11 +16,49 @@ enum { DIP_PANE_CURRENT, DIP_PANE_REQUESTED, DIP_PANE_COUNT };
 
 extern const char *const dip_pane_names[DIP_PANE_COUNT]; // "current", "requested"
 
+// --- how long the parts of the start take
+// ---------------------------------------------------------
+
+// The parts of the start as X(name, "what the time covers"), in the order of a run.
+#define DIP_START_TIME_LIST(X)                                                                     \
+    X(ini, "reading the ini and starting the threads")                                             \
+    X(import, "turning model files into meshes and materials")                                     \
+    X(pictures, "reading and decoding pictures")                                                   \
+    X(textures, "making mip chains, and compressed ones if a pane uses them")                      \
+    X(meshes, "splitting meshes into chunks")                                                      \
+    X(paths, "reading camera paths")                                                               \
+    X(renderers, "making the renderers of both panes")                                             \
+    X(first_frame, "from the loaded session to the first complete frame")                          \
+    X(total, "from the start of the program to the first frame")
+
+// Durations are in milliseconds; the duration of a part that did not run is 0. The last three
+// fields are times by dip_clock_ns.
+typedef struct DipStartTimes {
+#define DIP_START_TIME_FIELD(name, text) double name##_ms;
+    DIP_START_TIME_LIST(DIP_START_TIME_FIELD)
+#undef DIP_START_TIME_FIELD
+    int64_t begin_ns;  // When the program started.
+    int64_t opened_ns; // When everything was loaded.
+    int64_t ended_ns;  // When the command had done its work and began to free its memory.
+} DipStartTimes;
+
+// Returns the milliseconds that have passed since begin_ns, a time by dip_clock_ns.
+double dip_start_times_since_ms(int64_t begin_ns);
+
+// Call this function after every frame. Its first call fills in first_frame and total.
+void dip_start_times_frame(DipStartTimes *times);
+
+// Formats the parts as "start, ms: ini 0.4 import 21.3 ...", for --timing.
+void dip_start_times_format(const DipStartTimes *times, char *text, size_t size_bytes);
+
+// --- the session
+// ----------------------------------------------------------------------------------
+
 // What a session loads. Every session has the ini and the pool of threads.
 typedef struct DipSessionDef {
     const DipSessionOptions *options; // Borrowed until the session is closed.
     const DipImporter *importer;      // Imports the models; NULL: they are imported here. Borrowed.
-    const char *log;                  // File of --log, which replaces the ini's log file, or NULL.
+    const char *log;                  // File of --log, which replaces the ini's log file; or NULL.
     bool scene;                       // Load the models and the camera paths.
     bool renderers;                   // Make a renderer for each pane. This needs the scene.
     bool keep_model;                  // Keep the models' data, which the reference renderer reads.
@@ -87,14 +124,15 @@ DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, D
                                      DipError *err);
 
 // Shows the next scene in a ring of all scenes of the gallery and, if they are loaded, the models.
-// step: 1 for the next one, -1 for the one before. The session must have renderers, whose settings
-// and size are kept. If opening the scene fails, nothing changes.
+// `step` is 1 for the next scene and -1 for the one before. The session must have renderers; their
+// settings and size stay. If opening the scene fails, nothing changes.
 bool dip_session_step_scene(DipSession *session, int step, DipError *err);
 
 // Name of what the session shows: "Blend modes", or "Models".
 const char *dip_session_scene_title(const DipSession *session, int64_t play_ns);
 
-// Name of a variant of the gallery's scene. `look` wraps around.
+// Name of a variant of the gallery's scene. Any number `look` names one: after the last variant
+// comes the first one again.
 const char *dip_session_scene_look(const DipSession *session, int look, int64_t play_ns);
 
 // Returns the field of view of --fov, or fov_y_deg if the option is not given.
@@ -118,8 +156,8 @@ typedef struct DipSessionFrame {
     bool copied;
 } DipSessionFrame;
 
-// Draws both panes from a pose. frame_index: see dip_renderer_set_frame_index. Both renderers must
-// have the same size.
+// Draws both panes from a pose. dip_renderer_set_frame_index says what `frame_index` is for. Both
+// renderers must have the same size.
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err);
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Sets the folder of the shipped assets. A program that finds none where it stands finds them
-// beside the folder of the ini.
+// Sets the folder of the shipped assets. If there is none near the program, takes the folder
+// `assets` beside the folder of the ini.
 static bool find_assets(DipSession *session, DipErrorList *faults) {
     char folder[PATH_MAX + 16];
     if (dip_session_find_shipped("assets/gallery", folder, sizeof folder)) {
@@ -111,7 +111,7 @@ static bool show_scene(DipSession *session, int scene, DipError *err) {
         path = gallery ? make_path(scene, err) : NULL;
     }
     if (gallery) {
-        dip_gallery_set_look(gallery, 0); // --look is for the first scene only
+        dip_gallery_set_look(gallery, 0); // --look is for the first scene only.
     }
     if ((!models && !path) ||
         !dip_session_make_painters(session, gallery, qualities, painters, err)) {

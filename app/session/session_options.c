@@ -1,4 +1,4 @@
-// The tables of the options that a session reads.
+// Describes the options that a session reads in tables, and reads and checks their values.
 #include "app/session/session_options.h"
 
 #include "assets/importer.h"
@@ -52,30 +52,25 @@ static bool read_look(void *fields, const DipOptionRow *row, const char *value, 
     return true;
 }
 
-// Names and their meanings, for the help.
+// Make the names of an option's values and their meanings a part of its help.
 #define NAME_AND_TEXT(name, text) " `" #name "` " text "."
 #define UP_AXES                   DIP_UP_AXIS_LIST(NAME_AND_TEXT)
 #define SHADINGS                  DIP_MODEL_SHADING_LIST(NAME_AND_TEXT)
 #define PATH_ENDS                 DIP_CAMPATH_END_LIST(NAME_AND_TEXT)
 
-// Reads numbers that are separated by spaces, tabs or commas. Returns how many there are; a number
-// beyond `most` counts, but is not stored. Returns 0 if a part is not a number.
-static int read_numbers(const char *text, int most, double *numbers) {
+// Reads seven numbers that are separated by spaces, tabs or commas. Returns false if a part is not
+// a number, or if there are more or fewer.
+static bool read_seven(const char *text, double numbers[7]) {
     static const char separators[] = " \t,";
     int count = 0;
     for (text += strspn(text, separators); *text; text += strspn(text, separators)) {
         const size_t length = strcspn(text, separators);
-        double number;
-        if (!dip_number_parse(text, length, &number)) {
-            return 0;
+        if (count == 7 || !dip_number_parse(text, length, &numbers[count++])) {
+            return false;
         }
-        if (count < most) {
-            numbers[count] = number;
-        }
-        count++;
         text += length;
     }
-    return count;
+    return count == 7;
 }
 
 static bool read_pose(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
@@ -83,14 +78,14 @@ static bool read_pose(void *fields, const DipOptionRow *row, const char *value, 
     double numbers[7];
     DipCamPath *path;
     DipError failure;
-    if (read_numbers(value, 7, numbers) != 7) {
+    if (!read_seven(value, numbers)) {
         return dip_option_refuse(err, DIP_ERROR_TYPE, row->name, value,
                                  "a pose: seven numbers x y z qx qy qz qw in quotes, in the order "
                                  "of a line of a .pth file");
     }
     memcpy(options->pose.position_world, numbers, sizeof options->pose.position_world);
     memcpy(options->pose.orientation, numbers + 3, sizeof options->pose.orientation);
-    // The rules for a pose are those for the key of a path.
+    // A pose must keep the same rules as the key of a path.
     if (!dip_campath_create(&options->pose, 1, DIP_CAMPATH_MIN_PERIOD_NS, &path, &failure)) {
         return dip_error_set(err, failure.code, NULL, 0, row->name, "%s: %s", failure.key,
                              failure.message);
@@ -201,7 +196,7 @@ const DipOptionTable dip_pane_option_table = DIP_OPTION_TABLE(drawing_title, pan
 const DipOptionTable dip_size_option_table = DIP_OPTION_TABLE(drawing_title, size_rows);
 const DipOptionTable dip_threads_option_table = DIP_OPTION_TABLE(drawing_title, threads_rows);
 
-// Returns the option that also says where the camera is, or NULL.
+// Returns the option, other than --pose, that says where the camera is, or NULL.
 static const char *other_camera(const DipSessionOptions *options) {
     return options->path ? "--path" : options->category ? "--category" : NULL;
 }

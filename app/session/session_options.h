@@ -1,4 +1,5 @@
-// The options that commands share because a session reads them: the scene, the camera, the panes.
+// Declares the options that commands share because a session reads them: those of the scene, the
+// camera and the panes.
 #ifndef DIP_APP_SESSION_SESSION_OPTIONS_H
 #define DIP_APP_SESSION_SESSION_OPTIONS_H
 
@@ -30,7 +31,7 @@ typedef struct DipSessionOptions {
     bool has_pose;
     DipCamKey pose;   // Where the camera stands, instead of on a path.
     double fov_y_deg; // Vertical field of view that replaces the others, in degrees; 0: not given.
-    DipCamPathEnd path_end; // What paths do at their end.
+    DipCamPathEnd path_end; // What the camera does at the end of a path.
     bool has_current;
     DipQuality current;
     bool has_requested;

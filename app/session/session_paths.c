@@ -1,8 +1,11 @@
-// The camera paths of a session: the paths of the ini, the path of --path, or an orbit around the
-// model.
+// Loads the camera paths of a session: those of the ini, the path of --path, the stand of --pose,
+// or an orbit around the model. The cameras of the models are paths, too.
 #include "app/session/session_private.h"
 
+#include "assets/cameras.h"
+
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -14,23 +17,146 @@ double dip_session_fov(const DipSession *session, double fov_y_deg) {
     return session->options->fov_y_deg > 0.0 ? session->options->fov_y_deg : fov_y_deg;
 }
 
-// Plays a path in a category. name: of a camera of the models, or NULL.
-static void play(DipSession *session, int category, const DipCamPath *path, double fov_y_deg,
+// Returns the field of view of the ini's default path.
+static double default_fov(const DipSession *session) {
+    return session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
+}
+
+// --- the cameras of the models -------------------------------------------------------------------
+
+static bool out_of_memory(DipErrorList *faults) {
+    return dip_session_refuse(faults, DIP_ERROR_MEMORY, NULL, 0, "cameras", "out of memory");
+}
+
+// Makes the path of a camera. The keys of the camera and of the path have the same numbers in the
+// same order.
+static bool make_camera_path(const DipModelCamera *camera, DipSessionCamera *to,
+                             DipErrorList *faults) {
+    DipCamKey *keys = malloc(camera->key_count * sizeof *keys);
+    *to = (DipSessionCamera){.name = strdup(camera->name), .fov_y_deg = camera->fov_y_deg};
+    if (!keys || !to->name) {
+        free(keys);
+        return out_of_memory(faults);
+    }
+    for (size_t i = 0; i < camera->key_count; i++) {
+        memcpy(keys[i].position_world, camera->keys[i], sizeof keys[i].position_world);
+        memcpy(keys[i].orientation, camera->keys[i] + 3, sizeof keys[i].orientation);
+    }
+    DipError err;
+    const bool made =
+        dip_campath_create(keys, camera->key_count, camera->period_ns, &to->path, &err);
+    free(keys);
+    return made || dip_session_add_fault(faults, &err);
+}
+
+static bool add_cameras(DipSession *session, const DipModelCameras *found, DipErrorList *faults) {
+    int count;
+    const DipModelCamera *list = dip_model_cameras_list(found, &count);
+    if (count == 0) {
+        return true;
+    }
+    DipSessionCamera *cameras =
+        realloc(session->cameras, (size_t)(session->camera_count + count) * sizeof *cameras);
+    if (!cameras) {
+        return out_of_memory(faults);
+    }
+    session->cameras = cameras;
+    bool made = true;
+    for (int i = 0; made && i < count; i++) {
+        made = make_camera_path(&list[i], &cameras[session->camera_count++], faults);
+    }
+    return made;
+}
+
+// Reads the cameras of a model that has been loaded. If they cannot be read, that is a warning,
+// because the model can be drawn without them.
+static bool load_cameras_of(DipSession *session, const char *file, DipErrorList *faults) {
+    DipError err = {0};
+    DipModelCameras *found = dip_model_cameras_load(file, session->options->up, faults, &err);
+    if (!found && err.origin == DIP_ORIGIN_RUNTIME) {
+        return dip_session_add_fault(faults, &err);
+    }
+    if (!found) {
+        DipError warning;
+        dip_error_set(&warning, err.code, err.file, err.line, err.key,
+                      "the cameras are not read: %s", err.message);
+        warning.severity = DIP_SEVERITY_WARNING;
+        dip_error_list_add(faults, &warning);
+        return true;
+    }
+    const bool added = add_cameras(session, found, faults);
+    dip_model_cameras_destroy(&found);
+    return added;
+}
+
+static bool load_cameras(DipSession *session, DipErrorList *faults) {
+    const char *files[DIP_MAX_MODELS];
+    const int count = dip_session_model_files(session, files);
+    bool loaded = true;
+    for (int i = 0; loaded && i < count; i++) {
+        loaded = load_cameras_of(session, files[i], faults);
+    }
+    return loaded;
+}
+
+// Returns the camera that the name of a path means, or NULL. A file of this name comes first.
+static const DipSessionCamera *camera_of(const DipSession *session, const char *file,
+                                         const char *name) {
+    for (int i = 0; access(file, F_OK) != 0 && i < session->camera_count; i++) {
+        if (strcmp(session->cameras[i].name, name) == 0) {
+            return &session->cameras[i];
+        }
+    }
+    return NULL;
+}
+
+// Adds as many cameras to the track as it has room for.
+static void track_cameras(DipSession *session) {
+    const int room = DIP_CAMTRACK_CATEGORIES - DIP_CATEGORY_COUNT;
+    for (int i = 0; i < session->camera_count && i < room; i++) {
+        const DipSessionCamera *camera = &session->cameras[i];
+        dip_camtrack_set_named(&session->track, DIP_CATEGORY_COUNT + i, camera->path,
+                               dip_session_fov(session, camera->fov_y_deg), camera->name);
+    }
+}
+
+// Says that --path names neither a file nor a camera. Returns false.
+static bool refuse_path(const DipSession *session, DipErrorList *faults) {
+    char list[200] = "";
+    size_t length = 0;
+    int left_out = 0;
+    for (int i = 0; i < session->camera_count; i++) {
+        const char *name = session->cameras[i].name;
+        if (length + strlen(name) + 5 > sizeof list) {
+            left_out++;
+            continue;
+        }
+        length += (size_t)snprintf(list + length, sizeof list - length, ", \"%s\"", name);
+    }
+    char more[24] = "";
+    if (left_out > 0) {
+        snprintf(more, sizeof more, " and %d more", left_out);
+    }
+    return dip_session_refuse(
+        faults, DIP_ERROR_MISSING, NULL, 0, "--path",
+        "'%.60s' is neither a file nor a camera of the models, accepted a file%s%s",
+        session->options->path, list, more);
+}
+
+// --- paths ---------------------------------------------------------------------------------------
+
+// Plays a path in a category. `name` is the name of a camera of the models, or NULL. Returns true.
+static bool play(DipSession *session, int category, const DipCamPath *path, double fov_y_deg,
                  const char *name) {
     dip_camtrack_set_named(&session->track, category, path, dip_session_fov(session, fov_y_deg),
                            name);
+    return true;
 }
 
-// Takes ownership of a path and plays it in a category.
-static void keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
+// Takes ownership of a path and plays it in a category. Returns true.
+static bool keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
     session->paths[session->path_count++] = path;
-    play(session, category, path, fov_y_deg, NULL);
-}
-
-// Returns the camera that a name of a path means, or NULL. A file of this name comes first.
-static const DipSessionCamera *camera_of(const DipSession *session, const char *file,
-                                         const char *name) {
-    return access(file, F_OK) == 0 ? NULL : dip_session_find_camera(session, name);
+    return play(session, category, path, fov_y_deg, NULL);
 }
 
 // Loads the path of one of the ini's categories. A file that an earlier category names is not
@@ -44,28 +170,24 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
         const DipConfigFile *file = &session->config.camera[other].file;
         if (file->path && dip_config_same_file(file, &camera->file) &&
             session->track.categories[other].path) {
-            play(session, category, session->track.categories[other].path, camera->fov_y_deg, NULL);
-            return true;
+            return play(session, category, session->track.categories[other].path, camera->fov_y_deg,
+                        NULL);
         }
     }
     const DipSessionCamera *own = camera_of(session, camera->file.path, camera->file.text);
     if (own) {
         const bool given = session->config.line[DIP_KEY_CAMPATH_DEFAULT + 2 * category + 1] > 0;
-        play(session, category, own->path, given ? camera->fov_y_deg : own->fov_y_deg, own->name);
-        return true;
+        return play(session, category, own->path, given ? camera->fov_y_deg : own->fov_y_deg,
+                    own->name);
     }
     DipCamPath *path;
     DipError err;
-    if (!dip_campath_load(camera->file.path, &path, &err)) {
-        if (err.line) {
-            // The error already names a line of the path file, which is more useful than the line
-            // of the ini.
-            return dip_session_add_fault(faults, &err);
-        }
-        return dip_session_place_fault(session, &camera->file, faults, &err);
+    if (dip_campath_load(camera->file.path, &path, &err)) {
+        return keep_path(session, path, category, camera->fov_y_deg);
     }
-    keep_path(session, path, category, camera->fov_y_deg);
-    return true;
+    // An error that names a line of the path file is more useful than the line of the ini.
+    return err.line ? dip_session_add_fault(faults, &err)
+                    : dip_session_place_fault(session, &camera->file, faults, &err);
 }
 
 // Loads the file of --path, or plays the camera that --path names.
@@ -73,30 +195,24 @@ static bool load_own_path(DipSession *session, DipErrorList *faults) {
     const char *name = session->options->path;
     const DipSessionCamera *camera = camera_of(session, name, name);
     if (camera) {
-        play(session, 0, camera->path, camera->fov_y_deg, camera->name);
-        return true;
+        return play(session, 0, camera->path, camera->fov_y_deg, camera->name);
     }
     if (session->camera_count > 0 && access(name, F_OK) != 0) {
-        return dip_session_refuse_path(session, faults);
+        return refuse_path(session, faults);
     }
     DipCamPath *path;
     DipError err;
-    if (!dip_campath_load(session->options->path, &path, &err)) {
-        return dip_session_add_fault(faults, &err);
-    }
-    keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
-    return true;
+    return dip_campath_load(name, &path, &err) ? keep_path(session, path, 0, default_fov(session))
+                                               : dip_session_add_fault(faults, &err);
 }
 
 // Makes a path of one key, at which the camera stands still.
 static bool make_pose(DipSession *session, DipErrorList *faults) {
     DipCamPath *path;
     DipError err;
-    if (!dip_campath_create(&session->options->pose, 1, pose_period_ns, &path, &err)) {
-        return dip_session_add_fault(faults, &err);
-    }
-    keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
-    return true;
+    return dip_campath_create(&session->options->pose, 1, pose_period_ns, &path, &err)
+               ? keep_path(session, path, 0, default_fov(session))
+               : dip_session_add_fault(faults, &err);
 }
 
 // Refuses a model that is too small to be drawn. The orbit fills the picture with the model, so the
@@ -133,7 +249,7 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
     if (session->options->model_count) {
         file = session->options->models[0];
     } else {
-        def.fov_y_deg = session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
+        def.fov_y_deg = default_fov(session);
     }
     def.fov_y_deg = dip_session_fov(session, def.fov_y_deg);
     DipCamPath *path;
@@ -144,9 +260,8 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
     if (!dip_campath_orbit(&def, &path, &err)) {
         return dip_session_refuse(faults, err.code, file, 0, err.key, "%s", err.message);
     }
-    keep_path(session, path, 0, def.fov_y_deg);
     session->orbiting = true;
-    return true;
+    return keep_path(session, path, 0, def.fov_y_deg);
 }
 
 // The key of a category is "CAMPATH_" and its name.
@@ -205,10 +320,22 @@ bool dip_session_load_paths(DipSession *session, DipErrorList *faults) {
     if (!session->paths) {
         return dip_session_refuse(faults, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
     }
-    if (session->scene && !dip_session_load_cameras(session, faults)) {
+    if (session->scene && !load_cameras(session, faults)) {
         return false;
     }
     const bool loaded = load_all(session, faults);
-    dip_session_track_cameras(session);
+    track_cameras(session);
     return loaded;
+}
+
+void dip_session_free_paths(DipSession *session) {
+    for (int i = 0; i < session->path_count; i++) {
+        dip_campath_destroy(&session->paths[i]);
+    }
+    free(session->paths);
+    for (int i = 0; i < session->camera_count; i++) {
+        free(session->cameras[i].name);
+        dip_campath_destroy(&session->cameras[i].path);
+    }
+    free(session->cameras);
 }

@@ -1,4 +1,4 @@
-// The parts of opening a session. Private to session*.c.
+// Declares the parts of opening a session. Private to session*.c.
 #ifndef DIP_APP_SESSION_SESSION_PRIVATE_H
 #define DIP_APP_SESSION_SESSION_PRIVATE_H
 
@@ -33,32 +33,16 @@ int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX
 // session_scene.c: loads the models and makes the scene.
 bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults);
 
-// session_paths.c: loads the camera paths, or makes an orbit around the model.
+// session_paths.c: loads the camera paths and the cameras of the models, or makes an orbit around
+// the model.
 bool dip_session_load_paths(DipSession *session, DipErrorList *faults);
-
-// session_cameras.c: reads the cameras of the models that have been loaded.
-bool dip_session_load_cameras(DipSession *session, DipErrorList *faults);
-void dip_session_free_cameras(DipSession *session);
-
-// session_cameras.c: returns the camera with this name, or NULL.
-const DipSessionCamera *dip_session_find_camera(const DipSession *session, const char *name);
-
-// session_cameras.c: adds the cameras to the track.
-void dip_session_track_cameras(DipSession *session);
-
-// session_cameras.c: says that --path names neither a file nor a camera. Returns false.
-bool dip_session_refuse_path(const DipSession *session, DipErrorList *faults);
-
-// mip_pictures.c: reads the pictures that the ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... show as
-// mip levels, and gives them to the painters. If a picture cannot be read, the error has the line
-// of the ini that names this picture.
-bool dip_session_load_mip_pictures(DipSession *session, DipErrorList *faults);
+void dip_session_free_paths(DipSession *session);
 
 // session_gallery.c: finds out whether the session shows a scene of the gallery, and which one.
 bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults);
 
-// Makes the camera path of the gallery's scene and a track that plays it, unless the user has given
-// a path.
+// session_gallery.c: makes the camera path of the gallery's scene and a track that plays it, unless
+// the user has given a path.
 bool dip_session_load_gallery_path(DipSession *session, DipErrorList *faults);
 
 #endif

@@ -67,7 +67,7 @@ static DipImporter importer_of(const DipSession *session) {
     return importer;
 }
 
-// Adds the materials of a key of the ini to the rules.
+// Adds a rule for each material that a key of the ini names. Returns the new number of rules.
 static int add_rules(const DipConfig *config, const DipConfigMaterials *materials,
                      DipMaterialMark mark, DipMaterialRule *rules, int count) {
     for (size_t i = 0; i < materials->count; i++) {
@@ -114,7 +114,8 @@ _Static_assert((int)DIP_CONFIG_SHADING_COUNT == (int)DIP_MODEL_SHADING_COUNT &&
                    (int)DIP_CONFIG_SHADING_phong == (int)DIP_MODEL_SHADING_phong,
                "the ini and the loader have the same shadings");
 
-// Sets how the models are lit. A model given with --model has no lights but its own.
+// Sets how the models are lit. The lights of the ini shine only on the ini's models: a model given
+// with --model has no lights but its own.
 static void set_light(const DipSession *session, float ambient_lin[3], DipModelOptions *options) {
     const DipConfig *config = &session->config;
     if (!session->options->model_count) {

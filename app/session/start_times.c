@@ -1,5 +1,5 @@
 // Reads the clock during the start and formats the result.
-#include "app/session/start_times.h"
+#include "app/session/session.h"
 
 #include "renderer/base/clock.h"
 

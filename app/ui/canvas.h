@@ -1,4 +1,4 @@
-// A picture in memory, and functions that draw into it: fills, blends, pictures, masks.
+// Draws fills, pictures and masks into a picture in memory.
 //
 // Displays (app/display/) show finished pixels and draw nothing. The preview draws the same pixels
 // for every display, for a screenshot and for a test.

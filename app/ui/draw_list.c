@@ -1,4 +1,4 @@
-// Recording, comparing and painting drawing commands.
+// Records, compares and paints drawing commands.
 #include "app/ui/draw_list.h"
 
 #include <stdio.h>
@@ -130,7 +130,8 @@ void dip_draw_list_begin(DipDrawList *list, int width, int height) {
     frame->complete = true;
 }
 
-// Makes room for `more` items behind the `used` ones. If the array must grow, it at least doubles.
+// Makes room for `more` items after the first `used` ones. If the array must grow, it at least
+// doubles.
 static bool reserve(void **items, size_t *capacity, size_t used, size_t more, size_t item_bytes) {
     if (used + more <= *capacity) {
         return true;
@@ -145,7 +146,11 @@ static bool reserve(void **items, size_t *capacity, size_t used, size_t more, si
     return true;
 }
 
-static void add_command(Frame *frame, const Command *command) {
+static void add_command(DipDrawList *list, const Command *command) {
+    if (!list) {
+        return;
+    }
+    Frame *frame = &list->recorded;
     void *items = frame->commands;
     frame->complete &= reserve(&items, &frame->capacity, frame->count, 1, sizeof *frame->commands);
     frame->commands = items;
@@ -155,17 +160,17 @@ static void add_command(Frame *frame, const Command *command) {
 }
 
 void dip_draw_list_fill(DipDrawList *list, DipRect rect, DipColour colour) {
-    add_command(&list->recorded, &(Command){COMMAND_FILL, .box = rect, .colour = colour});
+    add_command(list, &(Command){COMMAND_FILL, .box = rect, .colour = colour});
 }
 
 void dip_draw_list_round(DipDrawList *list, DipRect rect, int radius, int ring, DipColour colour) {
-    add_command(&list->recorded, &(Command){COMMAND_ROUND, .box = rect, .colour = colour,
-                                            .size = radius, .x = ring});
+    add_command(
+        list, &(Command){COMMAND_ROUND, .box = rect, .colour = colour, .size = radius, .x = ring});
 }
 
 void dip_draw_list_picture(DipDrawList *list, DipRect rect, const DipPixels *picture,
                            uint64_t version) {
-    add_command(&list->recorded,
+    add_command(list,
                 &(Command){COMMAND_PICTURE, .box = rect, .picture = *picture, .version = version});
 }
 
@@ -184,6 +189,9 @@ static bool add_text(Frame *frame, const char *line, size_t *offset) {
 
 void dip_draw_list_text(DipDrawList *list, int size, DipColour colour, DipAlign align, int x, int y,
                         int max_width, const char *line) {
+    if (!list) {
+        return;
+    }
     char fitting[MAX_LINE_BYTES];
     snprintf(fitting, sizeof fitting, "%s", line);
     dip_font_fit(list->font, size, max_width, fitting, sizeof fitting);
@@ -194,7 +202,7 @@ void dip_draw_list_text(DipDrawList *list, int size, DipColour colour, DipAlign 
     command.box =
         (DipRect){x - overhang, y, width + 2 * overhang, dip_font_line_height(list->font, size)};
     if (fitting[0] && add_text(&list->recorded, fitting, &command.text)) {
-        add_command(&list->recorded, &command);
+        add_command(list, &command);
     }
 }
 

@@ -1,5 +1,5 @@
-// A list of the drawing commands of a frame, which finds out by itself what has changed since the
-// previous frame.
+// Keeps the drawing commands of a frame in a list, and finds out by itself what has changed since
+// the previous frame.
 //
 // The caller records the whole frame anew each time, from the back to the front. Painting compares
 // the new list with the list that was painted last, and draws only inside the rectangles of
@@ -40,8 +40,8 @@ void dip_draw_list_begin(DipDrawList *list, int width, int height);
 int dip_draw_list_width(const DipDrawList *list);
 int dip_draw_list_height(const DipDrawList *list);
 
-// Each of the next functions records one command. If memory runs out, the command is left out
-// of the frame, and dip_draw_list_paint fails.
+// Each of the next functions records one command. If memory runs out, the command is left out of
+// the frame, and dip_draw_list_paint fails. With a list that is NULL, they do nothing.
 
 void dip_draw_list_fill(DipDrawList *list, DipRect rect, DipColour colour);
 
@@ -53,7 +53,8 @@ void dip_draw_list_round(DipDrawList *list, DipRect rect, int radius, int ring, 
 void dip_draw_list_picture(DipDrawList *list, DipRect rect, const DipPixels *picture,
                            uint64_t version);
 
-// Shows a line of UTF-8 text with its top at y. A line wider than max_width ends in an ellipsis.
+// Shows a line of UTF-8 text with its top at y. A line that is wider than max_width is cut and ends
+// in an ellipsis.
 void dip_draw_list_text(DipDrawList *list, int size, DipColour colour, DipAlign align, int x, int y,
                         int max_width, const char *line);
 

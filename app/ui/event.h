@@ -1,4 +1,5 @@
-// What the user does: keys, the mouse, game controllers, and what happens to a window.
+// Describes what the user does (with keys, the mouse and game controllers) and what happens to a
+// window as events.
 #ifndef DIP_APP_UI_EVENT_H
 #define DIP_APP_UI_EVENT_H
 

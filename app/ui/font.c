@@ -31,7 +31,7 @@ typedef struct Glyph {
 struct DipFont {
     FT_Library library;
     FT_Face face;
-    int face_size; // The size that the face is set to; 0: no size was set yet.
+    int face_size; // The size to which the face is set; 0: no size was set yet.
     int ascent[DIP_FONT_MAX_SIZE + 1];
     int line_height[DIP_FONT_MAX_SIZE + 1]; // 0: not computed yet.
     Glyph glyphs[GLYPH_SLOTS];
@@ -41,37 +41,33 @@ struct DipFont {
 // --- the face ----------------------------------------------------------------------------------
 
 // Fills in the file of the system's sans-serif font and the face's index in that file.
-static bool match_font(FcConfig *config, FcPattern *wanted, char *file, size_t size_bytes,
-                       int *index) {
+static bool find_font(char *file, size_t size_bytes, int *index) {
+    FcConfig *config = FcInitLoadConfigAndFonts();
+    FcPattern *wanted = FcNameParse((const FcChar8 *)"sans:scalable=true");
+    FcPattern *found = NULL;
     FcResult result = FcResultNoMatch;
     FcChar8 *name = NULL;
-    FcConfigSubstitute(config, wanted, FcMatchPattern);
-    FcDefaultSubstitute(wanted);
-    FcPattern *found = FcFontMatch(config, wanted, &result);
-    bool ok = false;
-    if (found && FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch) {
+    if (config && wanted) {
+        FcConfigSubstitute(config, wanted, FcMatchPattern);
+        FcDefaultSubstitute(wanted);
+        found = FcFontMatch(config, wanted, &result);
+    }
+    bool ok = found && FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch;
+    if (ok) {
         const int length = snprintf(file, size_bytes, "%s", (const char *)name);
-        *index = 0;
         FcPatternGetInteger(found, FC_INDEX, 0, index);
         ok = length > 0 && (size_t)length < size_bytes;
     }
     if (found) {
         FcPatternDestroy(found);
     }
-    return ok;
-}
-
-static bool find_font(char *file, size_t size_bytes, int *index) {
-    FcConfig *config = FcInitLoadConfigAndFonts();
-    FcPattern *wanted = FcNameParse((const FcChar8 *)"sans:scalable=true");
-    const bool found = config && wanted && match_font(config, wanted, file, size_bytes, index);
     if (wanted) {
         FcPatternDestroy(wanted);
     }
     if (config) {
         FcConfigDestroy(config);
     }
-    return found;
+    return ok;
 }
 
 static bool open_face(DipFont *font) {

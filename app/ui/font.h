@@ -1,4 +1,5 @@
-// Text: the system's sans-serif font, which fontconfig finds and FreeType draws, at any size.
+// Draws text in the system's sans-serif font at any size. fontconfig finds the font, and FreeType
+// draws its glyphs.
 //
 // Each glyph is drawn once per size and kept in a cache, so that a line of text costs one blend per
 // letter. Lines are UTF-8; a byte that is not valid UTF-8 shows as U+FFFD. Two threads must not use

@@ -1,4 +1,4 @@
-// Rectangles, colours and read-only pictures, which both the canvas and displays use.
+// Defines rectangles, colours and read-only pictures, which both the canvas and displays use.
 #ifndef DIP_APP_UI_PIXELS_H
 #define DIP_APP_UI_PIXELS_H
 

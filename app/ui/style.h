@@ -1,4 +1,4 @@
-// Colours of the overlay, and the arithmetic of laying it out.
+// Names the colours of the user interface, and scales its lengths.
 #ifndef DIP_APP_UI_STYLE_H
 #define DIP_APP_UI_STYLE_H
 
@@ -20,7 +20,7 @@ static const DipColour dip_style_glass = {10, 12, 15, 199};    // Background of 
 static const DipColour dip_style_dim = {152, 162, 174, 255};   // Notes on the dock.
 static const DipColour dip_style_off = {139, 149, 162, 255};   // Disabled words.
 static const DipColour dip_style_switch = {64, 72, 84, 255};   // A switch that is off.
-static const DipColour dip_style_over = {74, 42, 42, 255};     // What is over a budget, in plots.
+static const DipColour dip_style_over = {74, 42, 42, 255};     // In plots: what exceeds a budget.
 static const DipColour dip_style_gain = {95, 214, 189, 255};   // Less error.
 static const DipColour dip_style_worse = {255, 154, 139, 255}; // More error.
 static const DipColour dip_style_focus = {109, 184, 255, 255}; // Ring of the control with focus.

@@ -1,7 +1,8 @@
-// Hit testing, focus, tips, and drawing of controls.
+// Finds the control under the pointer, hands events to controls, and draws buttons and fields.
 #include "app/ui/style.h"
 #include "app/ui/ui_private.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,15 +69,14 @@ static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *inpu
     ui->taken = true;
 }
 
-// Returns the whole steps of a wheel that have come together. Touch pads send parts of steps.
+// Adds what a wheel has turned to what is left from before, and returns the whole steps, at
+// most 16. Touch pads send parts of steps.
 static int wheel_steps(DipUi *ui, double turned) {
     if (turned * ui->wheel_rest < 0.0) {
         ui->wheel_rest = 0.0;
     }
     ui->wheel_rest += turned;
-    const double limited = ui->wheel_rest > 16.0    ? 16.0
-                           : ui->wheel_rest < -16.0 ? -16.0
-                                                    : ui->wheel_rest;
+    const double limited = fmin(fmax(ui->wheel_rest, -16.0), 16.0);
     const int steps = (int)limited;
     ui->wheel_rest = limited - steps;
     return steps;
@@ -176,12 +176,24 @@ DipUiInput dip_ui_control(DipUi *ui, const DipUiControl *control) {
     return input;
 }
 
+// Draws a filled box with an outline.
+static void draw_box(DipUi *ui, DipRect rect, int radius, DipColour fill, DipColour line) {
+    dip_ui_fill_round(ui, rect, radius, fill);
+    dip_ui_outline(ui, rect, radius, dip_ui_px(ui, 1), line);
+}
+
+// Draws a line of text in the middle of a rectangle.
+static void draw_centred(DipUi *ui, int size, DipColour colour, DipRect rect, const char *text) {
+    dip_ui_text(ui, size, colour, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
+                rect.y + (rect.height - dip_ui_line_height(ui, size)) / 2, rect.width, text);
+}
+
 bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiLook look,
                    const char *tip) {
-    const DipUiControl control = {
-        .id = id, .rect = rect, .tip = tip, .disabled = look == DIP_UI_OFF};
-    const DipUiInput input = dip_ui_control(ui, &control);
+    const DipUiInput input = dip_ui_control(
+        ui, &(DipUiControl){.id = id, .rect = rect, .tip = tip, .disabled = look == DIP_UI_OFF});
     const int radius = dip_ui_px(ui, 4);
+    const bool bright = look == DIP_UI_CHOSEN || (input.hovered && look != DIP_UI_OFF);
     int size = 13;
     while (size > 9 && dip_ui_text_width(ui, size, text) > rect.width - dip_ui_px(ui, 6)) {
         --size;
@@ -189,23 +201,19 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
     if (look == DIP_UI_PRIMARY) {
         dip_ui_fill_round(ui, rect, radius, dip_style_accent);
     } else {
-        dip_ui_fill_round(ui, rect, radius, dip_style_raised);
-        dip_ui_outline(ui, rect, radius, dip_ui_px(ui, 1),
-                       look == DIP_UI_CHOSEN || (input.hovered && look != DIP_UI_OFF)
-                           ? dip_style_white
-                           : dip_style_line);
+        draw_box(ui, rect, radius, dip_style_raised, bright ? dip_style_white : dip_style_line);
     }
-    dip_ui_text(ui, size,
-                look == DIP_UI_PRIMARY ? dip_style_on_accent
-                : look == DIP_UI_OFF   ? dip_style_dim
-                                       : dip_style_white,
-                DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
-                rect.y + (rect.height - dip_ui_line_height(ui, size)) / 2, rect.width, text);
+    draw_centred(ui, size,
+                 look == DIP_UI_PRIMARY ? dip_style_on_accent
+                 : look == DIP_UI_OFF   ? dip_style_dim
+                                        : dip_style_white,
+                 rect, text);
     dip_ui_focus_ring(ui, rect, radius, &input);
     return input.pressed;
 }
 
-// Changes what the user has typed. Returns the number when Enter ends it, otherwise -1.
+// Adds the typed key to the number that the user types into a field. Returns the number when Enter
+// ends it, otherwise -1.
 static double type_number(DipUi *ui, DipUiId id, const DipUiInput *input) {
     if (ui->typing != id) {
         ui->typing = input->typed ? id : ui->typing;
@@ -237,18 +245,13 @@ DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *
                                                                 .takes_arrows = true,
                                                                 .takes_wheel = true,
                                                                 .takes_digits = true});
-    enum { SIZE = 12 };
-    const int radius = dip_ui_px(ui, 3);
     *typed = type_number(ui, id, &input);
     char shown[sizeof ui->typed + 4];
     snprintf(shown, sizeof shown, "%s\u2009|", ui->typed);
-    dip_ui_fill_round(ui, rect, radius, dip_style_well);
-    dip_ui_outline(ui, rect, radius, dip_ui_px(ui, 1),
-                   input.focused   ? dip_style_focus
-                   : input.hovered ? dip_style_white
-                                   : dip_style_line);
-    dip_ui_text(ui, SIZE, dip_style_white, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
-                rect.y + (rect.height - dip_ui_line_height(ui, SIZE)) / 2, rect.width,
-                ui->typing == id ? shown : text);
+    draw_box(ui, rect, dip_ui_px(ui, 3), dip_style_well,
+             input.focused   ? dip_style_focus
+             : input.hovered ? dip_style_white
+                             : dip_style_line);
+    draw_centred(ui, 12, dip_style_white, rect, ui->typing == id ? shown : text);
     return input;
 }

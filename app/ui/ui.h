@@ -1,4 +1,4 @@
-// Controls for mouse and keyboard, in immediate mode.
+// Draws controls and hands them the events of mouse and keyboard, in immediate mode.
 //
 // The caller declares every control anew in each pass, in the order in which the Tab key visits
 // them. There are two kinds of passes over the same code:
@@ -10,8 +10,8 @@
 // A pass finds the topmost control under the pointer by the rectangles of the pass before it. The
 // caller therefore runs a pass without event and draw list first if the controls may have moved.
 //
-// Therefore no control keeps a copy of the value that it shows, and code that declares a control
-// decides in one place how it looks and what it does:
+// So no control keeps a copy of the value that it shows, and the code that declares a control
+// decides in one place how the control looks and what it does:
 //
 //     if (dip_ui_button(ui, ID_APPLY, rect, "Apply", DIP_UI_PRIMARY)) { ... }
 //
@@ -43,7 +43,7 @@ typedef enum DipUiGroup {
 
 typedef struct DipUi DipUi;
 
-// What the preview's font and clock say in this pass.
+// What a pass gets from its caller.
 typedef struct DipUiPass {
     DipFont *font;         // Borrowed for the pass.
     double scale;          // The display's scale times that of --ui-scale.
@@ -84,8 +84,8 @@ typedef struct DipUiControl {
     bool skips_focus;  // Tab passes the control over.
     bool takes_arrows; // Left and Right change the control while it has the focus.
     bool takes_wheel;
-    bool takes_digits; // Digits, the point and Backspace go to the control while it has the focus,
-                       // which a click shows, too.
+    bool takes_digits; // Digits, the point and Backspace go to the control while it has the focus.
+                       // A click gives such a control a focus that shows.
 } DipUiControl;
 
 // What the user did with a control in this event pass, and how to draw it in a drawing pass.
@@ -130,8 +130,8 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
 DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *text,
                                const char *tip, double *typed);
 
-// Keeps the tips of all controls in a rectangle out of it, so that they cover none of its rows.
-// Holds until the end of the pass.
+// Lets the tips of all controls in a rectangle appear outside the rectangle, so that they cover
+// none of its rows. Holds until the end of the pass.
 void dip_ui_keep_tips_off(DipUi *ui, DipRect rect);
 
 // --- drawing -----------------------------------------------------------------------------------
@@ -139,7 +139,6 @@ void dip_ui_keep_tips_off(DipUi *ui, DipRect rect);
 
 bool dip_ui_is_drawing(const DipUi *ui);
 DipDrawList *dip_ui_list(const DipUi *ui); // NULL in an event pass.
-DipFont *dip_ui_font(const DipUi *ui);
 double dip_ui_scale(const DipUi *ui);
 int64_t dip_ui_now_ns(const DipUi *ui);
 
@@ -174,11 +173,12 @@ void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, i
 // are left out. Returns the height of the lines in pixels.
 int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text);
 
-// Returns the height that dip_ui_text_block needs for all lines of a text of this width; both
-// passes give the same.
+// Returns the height that dip_ui_text_block needs for all lines of a text of this width. The result
+// is the same in event passes and drawing passes.
 int dip_ui_text_block_height(const DipUi *ui, int size, int width, const char *text);
 
-// Returns the width and height of a line of text in pixels; both passes give the same.
+// Return the width and the height of a line of text in pixels. The results are the same in event
+// passes and drawing passes.
 int dip_ui_text_width(const DipUi *ui, int size, const char *line);
 int dip_ui_line_height(const DipUi *ui, int size);
 

@@ -1,5 +1,5 @@
-// What a drawing pass of the user interface draws with (its list, font, scale, shapes and texts),
-// the tip of a control, and the end of a pass, which moves the focus.
+// Draws the shapes and texts of controls and the tip of a control, and ends a pass, which moves the
+// focus.
 #include "app/ui/style.h"
 #include "app/ui/ui_private.h"
 
@@ -17,10 +17,6 @@ bool dip_ui_is_drawing(const DipUi *ui) {
 
 DipDrawList *dip_ui_list(const DipUi *ui) {
     return ui->pass.list;
-}
-
-DipFont *dip_ui_font(const DipUi *ui) {
-    return ui->pass.font;
 }
 
 double dip_ui_scale(const DipUi *ui) {
@@ -45,21 +41,15 @@ int dip_ui_px(const DipUi *ui, int length) {
 }
 
 void dip_ui_fill(DipUi *ui, DipRect rect, DipColour colour) {
-    if (ui->pass.list) {
-        dip_draw_list_fill(ui->pass.list, rect, colour);
-    }
+    dip_draw_list_fill(ui->pass.list, rect, colour);
 }
 
 void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour) {
-    if (ui->pass.list) {
-        dip_draw_list_round(ui->pass.list, rect, radius, 0, colour);
-    }
+    dip_draw_list_round(ui->pass.list, rect, radius, 0, colour);
 }
 
 void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour colour) {
-    if (ui->pass.list) {
-        dip_draw_list_round(ui->pass.list, rect, radius, dip_max(1, width), colour);
-    }
+    dip_draw_list_round(ui->pass.list, rect, radius, dip_max(1, width), colour);
 }
 
 static DipRect grown(DipRect rect, int by) {
@@ -81,10 +71,7 @@ void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *in
 
 void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, int y, int max_width,
                  const char *line) {
-    if (ui->pass.list) {
-        dip_draw_list_text(ui->pass.list, dip_ui_px(ui, size), colour, align, x, y, max_width,
-                           line);
-    }
+    dip_draw_list_text(ui->pass.list, dip_ui_px(ui, size), colour, align, x, y, max_width, line);
 }
 
 int dip_ui_text_width(const DipUi *ui, int size, const char *line) {
@@ -96,9 +83,7 @@ int dip_ui_line_height(const DipUi *ui, int size) {
 }
 
 void dip_ui_picture(DipUi *ui, DipRect rect, const DipPixels *picture, uint64_t version) {
-    if (ui->pass.list) {
-        dip_draw_list_picture(ui->pass.list, rect, picture, version);
-    }
+    dip_draw_list_picture(ui->pass.list, rect, picture, version);
 }
 
 // --- the tip -------------------------------------------------------------------------------------
@@ -133,9 +118,8 @@ static int break_lines(const DipUi *ui, int size, const char *text, int width,
 int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
     const int line_height = dip_ui_line_height(ui, size);
-    const int fitting = dip_min(TIP_MAX_LINES, room.height / line_height);
-    int count = break_lines(ui, size, text, room.width, lines);
-    count = dip_min(count, fitting);
+    const int count =
+        dip_min(break_lines(ui, size, text, room.width, lines), room.height / line_height);
     for (int i = 0; i < count; ++i) {
         dip_ui_text(ui, size, colour, DIP_ALIGN_LEFT, room.x, room.y + i * line_height, room.width,
                     lines[i]);
@@ -157,7 +141,7 @@ static bool shows_tip(const DipUi *ui) {
            ui->pass.now_ns >= ui->hovered_ns + tip_delay_ns;
 }
 
-// Moves a box into the window along one axis.
+// Returns the place of a box along one axis, moved so that the box lies in the window.
 static int moved_inside(int at, int size, int room) {
     return dip_max(0, dip_min(at, room - size));
 }
@@ -185,20 +169,20 @@ static bool place_beside(const DipUi *ui, DipRect off, DipRect *box) {
     return false;
 }
 
-// Draws the tip beside what it must not cover: the rows around its control or, if the window has no
-// room for that, the control itself.
+// Draws the tip. It must not cover the rows around its control (dip_ui_keep_tips_off) or, if the
+// window has no room beside them, at least not the control itself.
 static void draw_tip(DipUi *ui) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
     const int count = break_lines(
         ui, TIP_SIZE, ui->tip,
         dip_min(dip_ui_px(ui, TIP_WIDTH), dip_draw_list_width(ui->pass.list) - 2 * TIP_PAD), lines);
     const int pad = dip_ui_px(ui, TIP_PAD);
-    const int line_height = dip_ui_line_height(ui, TIP_SIZE);
+    const int height = count * dip_ui_line_height(ui, TIP_SIZE);
     int width = 0;
     for (int i = 0; i < count; i++) {
         width = dip_max(width, dip_ui_text_width(ui, TIP_SIZE, lines[i]));
     }
-    DipRect box = {0, 0, width + 2 * pad, count * line_height + 2 * pad};
+    DipRect box = {0, 0, width + 2 * pad, height + 2 * pad};
     const bool in_rows = dip_rect_holds(ui->tip_off, ui->pointer_x, ui->pointer_y);
     if (!(in_rows && place_beside(ui, ui->tip_off, &box)) &&
         !place_beside(ui, ui->tip_rect, &box)) {
@@ -206,10 +190,8 @@ static void draw_tip(DipUi *ui) {
     }
     dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), dip_style_raised);
     dip_ui_outline(ui, box, dip_ui_px(ui, 4), 1, tip_line);
-    for (int i = 0; i < count; i++) {
-        dip_ui_text(ui, TIP_SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad,
-                    box.y + pad + i * line_height, width + pad, lines[i]);
-    }
+    dip_ui_text_block(ui, TIP_SIZE, dip_style_white,
+                      (DipRect){box.x + pad, box.y + pad, width, height}, ui->tip);
 }
 
 // --- the end of a pass -------------------------------------------------------------------------
@@ -232,8 +214,9 @@ static void move_focus(DipUi *ui, bool backwards) {
     }
 }
 
-// Returns how far `to` lies from `from` in a direction (one of dx, dy is 1 or -1, the other 0), or
-// -1 if it does not lie there. Controls that lie straight ahead are nearer than others.
+// Returns how far `to` lies from `from` in a direction, or -1 if `to` does not lie there. One of dx
+// and dy is 1 or -1, the other 0. A step aside counts twice as much as a step ahead, so that
+// controls straight ahead are nearer than others.
 static int64_t distance_towards(DipRect from, DipRect to, int dx, int dy) {
     const int64_t x = 2 * (int64_t)(to.x - from.x) + to.width - from.width;
     const int64_t y = 2 * (int64_t)(to.y - from.y) + to.height - from.height;

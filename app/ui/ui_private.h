@@ -1,4 +1,4 @@
-// What ui.c and ui_draw.c share.
+// Declares the struct that ui.c and ui_draw.c share.
 #ifndef DIP_APP_UI_UI_PRIVATE_H
 #define DIP_APP_UI_UI_PRIVATE_H
 
@@ -27,18 +27,18 @@ struct DipUi {
     DipUiId under;      // The topmost control under the pointer, or 0.
     DipUiId hovered;    // The control under the pointer at the end of the last pass.
     int64_t hovered_ns; // When the pointer came to rest over it.
-    DipUiId held;       // The control that a button was pressed over, while the button is down.
+    DipUiId held;       // While a mouse button is down: the control over which it was pressed.
     DipMouseButton held_button;
-    double wheel_rest; // Part of a wheel's step that has not counted yet.
+    double wheel_rest; // The part of a step by which the wheel has turned beyond its whole steps.
     DipUiId focus;
     bool focus_shows; // The focus came by keyboard, or keys go to the control.
     DipUiId typing;   // The field of numbers that `typed` belongs to.
-    char typed[8];    // What the user has typed and not entered.
+    char typed[8];    // What the user has typed and not yet ended with Enter.
     bool taken;       // A control took the event of this pass.
     bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
     bool tip_seen;    // The tip has been drawn.
     DipRect tip_rect; // The control whose tip may show.
-    DipRect tip_off;  // Tips of controls in here stay out of it.
+    DipRect tip_off;  // The rectangle of dip_ui_keep_tips_off.
     char tip[DIP_UI_TIP_BYTES];
 };
 

@@ -1,5 +1,5 @@
-// Draws the shipped pictures with every instruction set and number of threads, then measures the
-// catalogue of hard cases, and prints two tables.
+// Draws the shipped pictures with every instruction set, on one thread and on several. Then
+// measures the catalogue of hard cases. Prints a table of each.
 #include "app/verify/verify.h"
 
 #include "app/cli/machine.h"
@@ -40,7 +40,7 @@ static void count_step(void *context) {
 // The result of the pictures with one instruction set and number of threads.
 typedef struct PictureResult {
     uint64_t differing;
-    char first[200]; // the first case that differs, or why the pictures could not be drawn
+    char first[200]; // The first case that differs, or why the pictures could not be drawn.
 } PictureResult;
 
 static PictureResult draw_pictures(Verification *verification, DipIsa isa, int pool) {
@@ -90,7 +90,7 @@ static void verify_pictures(Verification *verification) {
 typedef struct RowResult {
     bool holds;
     double worst;
-    char why[400]; // if the row does not hold: the case that breaks it
+    char why[400]; // If the row does not hold: the case that breaks it.
 } RowResult;
 
 static RowResult measure_row(const Verification *verification, const StabilityRow *row) {

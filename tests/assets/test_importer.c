@@ -11,12 +11,15 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cmocka.h>
@@ -55,9 +58,31 @@ static void spin(void) {
     }
 }
 
+// Linux seals no file against writing while it is mapped for writing.
+enum { MAPPED_BYTES = 4096 };
+
+static void *map_pack(void) {
+    return mmap(NULL, MAPPED_BYTES, PROT_READ | PROT_WRITE, MAP_SHARED, PACK_FILE, 0);
+}
+
+static void *unmap_soon(void *mapping) {
+    poll(NULL, 0, 300);
+    munmap(mapping, MAPPED_BYTES);
+    return NULL;
+}
+
 static int misbehave(const char *how, int count, char **arguments) {
     if (strcmp(how, "well") == 0) {
         return dip_importer_run(count, arguments);
+    } else if (strcmp(how, "busy") == 0) {
+        map_pack();
+        return dip_importer_run(count, arguments);
+    } else if (strcmp(how, "busy-for-a-while") == 0) {
+        pthread_t thread;
+        pthread_create(&thread, NULL, unmap_soon, map_pack());
+        return dip_importer_run(count, arguments);
+    } else if (strcmp(how, "no-space") == 0) {
+        return write(PIPE, &(unsigned char){ENOSPC}, 1) == 1 ? 4 : 99;
     } else if (strcmp(how, "crash") == 0) {
         end_by(SIGSEGV);
     } else if (strcmp(how, "abort") == 0) {
@@ -210,6 +235,34 @@ static void a_scene_that_is_too_large_to_hand_over_is_refused(void **state) {
     DipImporter well = importer_that("well");
     well.memory_bytes = 300; // Room for notes only.
     assert_fails(&well, fixture_data("seam.gltf"), DIP_ERROR_OVERSIZED, "does not fit into memory");
+}
+
+static void assert_cannot_hand_over(const char *how, int reason) {
+    const DipImporter importer = importer_that(how);
+    DipError err = {0};
+    assert_null(import(&importer, fixture_data("square.obj"), NULL, &err));
+    assert_int_equal(err.code, DIP_ERROR_RUNTIME);
+    assert_int_equal(err.origin, DIP_ORIGIN_RUNTIME);
+    assert_non_null(strstr(err.message, "could not hand over the model: "));
+    assert_non_null(strstr(err.message, strerror(reason)));
+}
+
+static void a_failure_of_the_system_is_told_and_is_not_bad_input(void **state) {
+    (void)state;
+    assert_cannot_hand_over("no-space", ENOSPC);
+    assert_cannot_hand_over("busy", EBUSY);
+}
+
+static void a_pack_that_is_busy_for_a_while_is_sealed_later(void **state) {
+    (void)state;
+    const char *path = fixture_data("square.obj");
+    const DipImporter busy = importer_that("busy-for-a-while");
+    DipError err = {0};
+    DipModel *model = import(&busy, path, NULL, &err);
+    if (!model) {
+        fail_msg("%s", err.message);
+    }
+    dip_model_destroy(&model);
 }
 
 // The same scene and the same warnings as in this process, or the same error.
@@ -368,6 +421,8 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_program_that_is_no_importer_is_refused),
         cmocka_unit_test(memory_is_limited),
         cmocka_unit_test(a_scene_that_is_too_large_to_hand_over_is_refused),
+        cmocka_unit_test(a_failure_of_the_system_is_told_and_is_not_bad_input),
+        cmocka_unit_test(a_pack_that_is_busy_for_a_while_is_sealed_later),
         cmocka_unit_test(every_test_model_imports_as_in_this_process),
         cmocka_unit_test(the_courtyard_imports_as_in_this_process),
         cmocka_unit_test(a_picture_is_imported_as_in_this_process),

@@ -1,5 +1,5 @@
 // dip_peer: compares our renderer with Mesa's llvmpipe on the same frames. See docs/peer.md.
-#include "app/files/folder.h"
+#include "app/files/whole_file.h"
 #include "tests/peer/measure.h"
 #include "tests/peer/options.h"
 #include "tests/peer/table.h"

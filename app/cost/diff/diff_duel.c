@@ -2,7 +2,7 @@
 #include "app/cost/diff/diff_duel.h"
 
 #include "app/cli/drive.h"
-#include "app/cli/interrupt.h"
+#include "app/cli/progress.h"
 #include "app/cli/machine.h"
 #include "app/measure/timing/child.h"
 

@@ -7,7 +7,7 @@
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/cost/merge/merge_machines.h"
-#include "app/files/folder.h"
+#include "app/files/whole_file.h"
 #include "renderer/base/assert.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // The command `diptych cost predict`: reads its options, predicts, prints and writes the files.
 #include "app/cost/command.h"
 #include "app/cost/predict/predict_elsewhere.h"
-#include "app/cli/interrupt.h"
+#include "app/cli/progress.h"
 #include "renderer/base/assert.h"
 
 #include <stdlib.h>

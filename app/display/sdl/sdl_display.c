@@ -1,4 +1,4 @@
-// The window: opens and closes it, gives its size, and copies pixels to the screen.
+// Implements the display with a window of SDL: opens and closes it and copies pixels to it.
 #include "app/display/sdl/sdl_display.h"
 
 #include "app/display/sdl/sdl_private.h"
@@ -60,7 +60,7 @@ static bool open_sdl(SdlDisplay *sdl, bool in_host, DipError *err) {
     }
     // An X server takes pixels directly from shared memory. SDL can also present pixels through
     // OpenGL, but that costs memory and, without a graphics card, a third of the frame rate. On
-    // systems other than X, SDL can only use OpenGL.
+    // other window systems, SDL can only use OpenGL.
     if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0) {
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     }
@@ -84,8 +84,8 @@ static bool has_enough_colours(DipError *err) {
 static bool open_window(SdlDisplay *sdl, int width, int height, DipError *err) {
     SDL_Rect usable;
     if (SDL_GetDisplayUsableBounds(0, &usable) == 0) {
-        width = width > usable.w ? usable.w : width;
-        height = height > usable.h ? usable.h : height;
+        width = dip_min(width, usable.w);
+        height = dip_min(height, usable.h);
     }
     sdl->window = SDL_CreateWindow("Diptych", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width,
                                    height, SDL_WINDOW_RESIZABLE);
@@ -97,7 +97,7 @@ static bool open_window(SdlDisplay *sdl, int width, int height, DipError *err) {
     return SDL_GetWindowSurface(sdl->window) || sdl_failed(err);
 }
 
-// Makes a child of the host's window and an SDL window of it.
+// Makes a child of the host's window, and an SDL window from that child.
 static bool open_in_host(SdlDisplay *sdl, unsigned long window_id, DipError *err) {
     sdl->host = dip_sdl_host_open(window_id, err);
     if (!sdl->host) {
@@ -198,9 +198,8 @@ static bool present(void *context, const DipPixels *picture, const DipRect *dama
     SDL_Surface *surface = SDL_GetWindowSurface(sdl->window);
     bool shown = surface != NULL;
     for (int i = 0; shown && i < count; i += MAX_RECTS) {
-        const int left = count - i;
-        shown = show_rects(sdl->window, surface, picture, damage + i,
-                           left < MAX_RECTS ? left : MAX_RECTS);
+        shown =
+            show_rects(sdl->window, surface, picture, damage + i, dip_min(count - i, MAX_RECTS));
     }
     // A host may close its window at any time. The next event then says so.
     return shown || (sdl->host && dip_sdl_host_is_gone(sdl->host)) ||
@@ -224,9 +223,6 @@ static bool next_event(void *context, int timeout_ms, DipEvent *event) {
         return false;
     }
     *event = dip_sdl_event_translate(&sdl_event);
-    if (event->kind == DIP_EVENT_NONE) {
-        *event = dip_sdl_controller_translate(&sdl_event);
-    }
     if (sdl->host && event->kind == DIP_EVENT_MOUSE_DOWN) {
         event->focuses = dip_sdl_host_take_focus(sdl->host);
     }
@@ -239,8 +235,8 @@ static bool next_event(void *context, int timeout_ms, DipEvent *event) {
 static void size(void *context, int *width, int *height) {
     const SdlDisplay *sdl = context;
     SDL_GetWindowSizeInPixels(sdl->window, width, height);
-    *width = *width > 1 ? *width : 1;
-    *height = *height > 1 ? *height : 1;
+    *width = dip_max(*width, 1);
+    *height = dip_max(*height, 1);
 }
 
 // Returns the number of pixels per unit of the window's size. The number is 1 unless the system
@@ -322,7 +318,7 @@ static DipDisplay display_of(SdlDisplay *sdl) {
     };
 }
 
-// Opens a window of its own, or in the host's window if that is not 0.
+// Opens a window of Diptych's own, or a window within the host's window if `window_id` is not 0.
 static bool open_display(DipDisplay *display, unsigned long window_id, int width, int height,
                          DipError *err) {
     SdlDisplay *sdl = calloc(1, sizeof *sdl);

@@ -1,12 +1,23 @@
-// Translates keys, buttons and the fields of events.
+// Translates events of SDL: keys, the mouse, the window, dropped files and game controllers.
 #include "app/display/sdl/sdl_private.h"
 
-typedef struct KeyName {
+// Buttons and axes of controllers have the same order in SDL. The buttons of a mouse have it, too,
+// but begin with 1.
+_Static_assert((int)DIP_CONTROLLER_A == (int)SDL_CONTROLLER_BUTTON_A, "first button");
+_Static_assert((int)DIP_CONTROLLER_START == (int)SDL_CONTROLLER_BUTTON_START, "buttons");
+_Static_assert((int)DIP_CONTROLLER_RIGHT == (int)SDL_CONTROLLER_BUTTON_DPAD_RIGHT, "last button");
+_Static_assert((int)DIP_CONTROLLER_LEFT_X == (int)SDL_CONTROLLER_AXIS_LEFTX, "first axis");
+_Static_assert((int)DIP_CONTROLLER_RIGHT_TRIGGER == (int)SDL_CONTROLLER_AXIS_TRIGGERRIGHT, "axes");
+_Static_assert((int)DIP_MOUSE_LEFT == SDL_BUTTON_LEFT - 1, "left button");
+_Static_assert((int)DIP_MOUSE_MIDDLE == SDL_BUTTON_MIDDLE - 1, "middle button");
+_Static_assert((int)DIP_MOUSE_RIGHT == SDL_BUTTON_RIGHT - 1, "right button");
+
+// --- keys and the mouse --------------------------------------------------------------------------
+
+static const struct {
     SDL_Keycode sdl;
     int key;
-} KeyName;
-
-static const KeyName key_names[] = {
+} key_names[] = {
     {SDLK_RETURN, DIP_KEYCODE_ENTER},
     {SDLK_KP_ENTER, DIP_KEYCODE_ENTER},
     {SDLK_ESCAPE, DIP_KEYCODE_ESCAPE},
@@ -27,10 +38,6 @@ static const KeyName key_names[] = {
     {SDLK_KP_MINUS, '-'},
 };
 
-static bool in_range(SDL_Keycode sdl, SDL_Keycode first, SDL_Keycode last) {
-    return sdl >= first && sdl <= last;
-}
-
 // If a key types a character, SDL's code of the key is that character's code point, as in
 // DipKeycode.
 static DipKeycode key_of(SDL_Keycode sdl) {
@@ -39,13 +46,13 @@ static DipKeycode key_of(SDL_Keycode sdl) {
             return (DipKeycode)key_names[i].key;
         }
     }
-    if (in_range(sdl, SDLK_F1, SDLK_F12)) {
+    if (sdl >= SDLK_F1 && sdl <= SDLK_F12) {
         return (DipKeycode)(DIP_KEYCODE_F1 + (int)(sdl - SDLK_F1));
     }
-    if (in_range(sdl, SDLK_KP_1, SDLK_KP_9)) {
+    if (sdl >= SDLK_KP_1 && sdl <= SDLK_KP_9) {
         return (DipKeycode)('1' + (int)(sdl - SDLK_KP_1));
     }
-    return in_range(sdl, ' ', 0x10ffff) ? (DipKeycode)sdl : DIP_KEYCODE_NONE;
+    return sdl >= ' ' && sdl <= 0x10ffff ? (DipKeycode)sdl : DIP_KEYCODE_NONE;
 }
 
 // Returns the code of the letter or digit at the key's place on a US keyboard. Other keys are at
@@ -66,13 +73,6 @@ static unsigned modifiers_of(unsigned sdl) {
            (sdl & KMOD_GUI ? DIP_MODIFIER_SUPER : 0u);
 }
 
-static DipMouseButton button_of(unsigned sdl) {
-    return sdl == SDL_BUTTON_LEFT     ? DIP_MOUSE_LEFT
-           : sdl == SDL_BUTTON_MIDDLE ? DIP_MOUSE_MIDDLE
-           : sdl == SDL_BUTTON_RIGHT  ? DIP_MOUSE_RIGHT
-                                      : DIP_MOUSE_OTHER;
-}
-
 static DipEvent key_event(const SDL_KeyboardEvent *sdl) {
     const DipKeycode key = key_of(sdl->keysym.sym);
     return (DipEvent){
@@ -84,38 +84,82 @@ static DipEvent key_event(const SDL_KeyboardEvent *sdl) {
     };
 }
 
-static DipEvent button_event(const SDL_MouseButtonEvent *sdl) {
-    const bool down = sdl->type == SDL_MOUSEBUTTONDOWN;
-    return (DipEvent){
-        .kind = down ? DIP_EVENT_MOUSE_DOWN : DIP_EVENT_MOUSE_UP,
-        .modifiers = modifiers_of((unsigned)SDL_GetModState()),
-        .x = sdl->x,
-        .y = sdl->y,
-        .button = button_of(sdl->button),
-        .clicks = down ? sdl->clicks : 0,
-    };
+static DipEvent mouse_event(DipEventKind kind, int x, int y) {
+    const unsigned modifiers = modifiers_of((unsigned)SDL_GetModState());
+    return (DipEvent){.kind = kind, .modifiers = modifiers, .x = x, .y = y};
 }
 
-static DipEvent move_event(const SDL_MouseMotionEvent *sdl) {
-    return (DipEvent){
-        .kind = DIP_EVENT_MOUSE_MOVE,
-        .modifiers = modifiers_of((unsigned)SDL_GetModState()),
-        .x = sdl->x,
-        .y = sdl->y,
-    };
+static DipEvent button_event(const SDL_MouseButtonEvent *sdl) {
+    const bool down = sdl->type == SDL_MOUSEBUTTONDOWN;
+    DipEvent event = mouse_event(down ? DIP_EVENT_MOUSE_DOWN : DIP_EVENT_MOUSE_UP, sdl->x, sdl->y);
+    const unsigned index = sdl->button - 1u;
+    event.button = index < DIP_MOUSE_OTHER ? (DipMouseButton)index : DIP_MOUSE_OTHER;
+    event.clicks = down ? sdl->clicks : 0;
+    return event;
 }
 
 static DipEvent wheel_event(const SDL_MouseWheelEvent *sdl) {
     const double direction = sdl->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0;
+    DipEvent event = mouse_event(DIP_EVENT_MOUSE_WHEEL, sdl->mouseX, sdl->mouseY);
+    event.wheel_x = direction * (double)sdl->preciseX;
+    event.wheel_y = direction * (double)sdl->preciseY;
+    return event;
+}
+
+// --- game controllers ----------------------------------------------------------------------------
+
+void dip_sdl_controller_init(void) {
+    // SDL's own drivers of some controllers open USB devices and send them reports to light lamps
+    // and to rumble. The system's drivers are enough, since the preview only reads.
+    SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI, "0");
+    SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER);
+}
+
+static DipEvent added_event(const SDL_ControllerDeviceEvent *sdl) {
+    SDL_GameController *controller = SDL_GameControllerOpen(sdl->which); // An index, not an id.
+    if (!controller) {
+        return (DipEvent){.kind = DIP_EVENT_NONE};
+    }
+    DipEvent event = {
+        .kind = DIP_EVENT_CONTROLLER_ADDED,
+        .controller = SDL_JoystickInstanceID(SDL_GameControllerGetJoystick(controller)),
+    };
+    const char *name = SDL_GameControllerName(controller);
+    SDL_utf8strlcpy(event.text, name ? name : "", sizeof event.text);
+    return event;
+}
+
+static DipEvent removed_event(const SDL_ControllerDeviceEvent *sdl) {
+    SDL_GameController *controller = SDL_GameControllerFromInstanceID(sdl->which);
+    if (!controller) {
+        return (DipEvent){.kind = DIP_EVENT_NONE};
+    }
+    SDL_GameControllerClose(controller);
+    return (DipEvent){.kind = DIP_EVENT_CONTROLLER_REMOVED, .controller = sdl->which};
+}
+
+// SDL may know buttons and axes that no event names.
+static DipEvent controller_button_event(const SDL_ControllerButtonEvent *sdl) {
+    const bool down = sdl->type == SDL_CONTROLLERBUTTONDOWN;
     return (DipEvent){
-        .kind = DIP_EVENT_MOUSE_WHEEL,
-        .modifiers = modifiers_of((unsigned)SDL_GetModState()),
-        .x = sdl->mouseX,
-        .y = sdl->mouseY,
-        .wheel_x = direction * (double)sdl->preciseX,
-        .wheel_y = direction * (double)sdl->preciseY,
+        .kind = sdl->button >= DIP_CONTROLLER_BUTTON_COUNT ? DIP_EVENT_NONE
+                : down                                     ? DIP_EVENT_CONTROLLER_DOWN
+                                                           : DIP_EVENT_CONTROLLER_UP,
+        .controller = sdl->which,
+        .controller_button = (DipControllerButton)sdl->button,
     };
 }
+
+static DipEvent axis_event(const SDL_ControllerAxisEvent *sdl) {
+    return (DipEvent){
+        .kind = sdl->axis < DIP_CONTROLLER_AXIS_COUNT ? DIP_EVENT_CONTROLLER_AXIS : DIP_EVENT_NONE,
+        .controller = sdl->which,
+        .axis = (DipControllerAxis)sdl->axis,
+        .axis_value = SDL_max(sdl->value / 32767.0, -1.0), // Sticks go from -32768 to 32767.
+    };
+}
+
+// --- all events ----------------------------------------------------------------------------------
 
 static DipEvent window_event(const SDL_WindowEvent *sdl) {
     switch (sdl->event) {
@@ -137,7 +181,7 @@ DipEvent dip_sdl_event_translate(const SDL_Event *sdl) {
     case SDL_KEYUP:
         return key_event(&sdl->key);
     case SDL_MOUSEMOTION:
-        return move_event(&sdl->motion);
+        return mouse_event(DIP_EVENT_MOUSE_MOVE, sdl->motion.x, sdl->motion.y);
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
         return button_event(&sdl->button);
@@ -149,6 +193,15 @@ DipEvent dip_sdl_event_translate(const SDL_Event *sdl) {
         return (DipEvent){.kind = DIP_EVENT_DROP, .file = sdl->drop.file};
     case SDL_QUIT:
         return (DipEvent){.kind = DIP_EVENT_QUIT};
+    case SDL_CONTROLLERDEVICEADDED:
+        return added_event(&sdl->cdevice);
+    case SDL_CONTROLLERDEVICEREMOVED:
+        return removed_event(&sdl->cdevice);
+    case SDL_CONTROLLERBUTTONDOWN:
+    case SDL_CONTROLLERBUTTONUP:
+        return controller_button_event(&sdl->cbutton);
+    case SDL_CONTROLLERAXISMOTION:
+        return axis_event(&sdl->caxis);
     default:
         return (DipEvent){.kind = DIP_EVENT_NONE};
     }

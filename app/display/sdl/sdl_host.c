@@ -1,4 +1,4 @@
-// Follows the host's window with Xlib.
+// Uses Xlib beside SDL: follows the window of a host, and handles errors of the X server.
 #include "app/display/sdl/sdl_private.h"
 
 #include <SDL2/SDL_syswm.h>
@@ -30,8 +30,8 @@ static bool get_size(const DipSdlHost *host, int *width, int *height) {
     if (!XGetWindowAttributes(host->display, host->window, &attributes)) {
         return false;
     }
-    *width = attributes.width > 1 ? attributes.width : 1;
-    *height = attributes.height > 1 ? attributes.height : 1;
+    *width = SDL_max(attributes.width, 1);
+    *height = SDL_max(attributes.height, 1);
     return true;
 }
 
@@ -118,8 +118,8 @@ bool dip_sdl_host_follow(DipSdlHost *host) {
         XEvent event;
         XNextEvent(host->display, &event);
         if (event.type == ConfigureNotify && event.xconfigure.window == host->window) {
-            width = event.xconfigure.width > 1 ? event.xconfigure.width : 1;
-            height = event.xconfigure.height > 1 ? event.xconfigure.height : 1;
+            width = SDL_max(event.xconfigure.width, 1);
+            height = SDL_max(event.xconfigure.height, 1);
         }
         host->gone = event.type == DestroyNotify && event.xdestroywindow.window == host->window;
     }
@@ -156,4 +156,33 @@ bool dip_sdl_host_take_focus(const DipSdlHost *host) {
     XSetInputFocus(host->display, host->child, RevertToParent, CurrentTime);
     XFlush(host->display);
     return before != host->child;
+}
+
+// --- errors of the X server ----------------------------------------------------------------------
+
+// Xlib passes no context to a handler.
+static Window own_window; // None: no window is watched.
+static XErrorHandler previous_handler;
+
+static int handle_error(Display *display, XErrorEvent *event) {
+    if (event->error_code == BadWindow && event->resourceid != own_window) {
+        return 0;
+    }
+    return previous_handler(display, event);
+}
+
+void dip_sdl_x_errors_watch(SDL_Window *own) {
+    SDL_SysWMinfo info;
+    SDL_VERSION(&info.version);
+    if (own_window == None && SDL_GetWindowWMInfo(own, &info) && info.subsystem == SDL_SYSWM_X11) {
+        own_window = info.info.x11.window;
+        previous_handler = XSetErrorHandler(handle_error);
+    }
+}
+
+void dip_sdl_x_errors_end(void) {
+    if (own_window != None) {
+        XSetErrorHandler(previous_handler);
+        own_window = None;
+    }
 }

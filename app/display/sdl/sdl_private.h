@@ -1,5 +1,5 @@
-// What the files of this folder do for each other: events and controllers as SDL sees them, the
-// window of a host, and errors of the X server.
+// Declares what the files of this folder do for each other: they translate events, follow the
+// window of a host, and handle errors of the X server.
 #ifndef DIP_APP_DISPLAY_SDL_SDL_PRIVATE_H
 #define DIP_APP_DISPLAY_SDL_SDL_PRIVATE_H
 
@@ -9,18 +9,13 @@
 
 // --- sdl_event.c ----------------------------------------------------------------------------
 
-// Translates an event. An event that display.h has no kind for becomes DIP_EVENT_NONE. A DROP
-// borrows the file's name from the SDL event; the caller must free that name.
-DipEvent dip_sdl_event_translate(const SDL_Event *sdl);
-
-// --- sdl_controller.c -----------------------------------------------------------------------
-
 // Makes SDL send events of game controllers. If SDL cannot, there are no controllers.
 void dip_sdl_controller_init(void);
 
-// Translates an event of a controller; all other events become DIP_EVENT_NONE. Opens a controller
-// that was added and closes one that was removed. SDL_Quit closes the rest.
-DipEvent dip_sdl_controller_translate(const SDL_Event *sdl);
+// Translates an event. An event that display.h has no kind for becomes DIP_EVENT_NONE. A DROP
+// borrows the file's name from the SDL event; the caller must free that name. Opens a controller
+// that was added and closes one that was removed; SDL_Quit closes the rest.
+DipEvent dip_sdl_event_translate(const SDL_Event *sdl);
 
 // --- sdl_host.c -----------------------------------------------------------------------------
 
@@ -37,7 +32,7 @@ typedef struct DipSdlHost DipSdlHost;
 // window at any time. Fails with MISSING if there is no such window, or with RUNTIME.
 DipSdlHost *dip_sdl_host_open(unsigned long window_id, DipError *err);
 
-// Destroys the child. *host may be NULL and becomes NULL.
+// Destroys the child and frees the host. *host may be NULL and becomes NULL.
 void dip_sdl_host_close(DipSdlHost **host);
 
 unsigned long dip_sdl_host_child(const DipSdlHost *host);
@@ -63,20 +58,18 @@ bool dip_sdl_host_is_hidden(DipSdlHost *host, int64_t now_ns);
 // Gives the child the keyboard focus. Returns whether it did not have the focus before.
 bool dip_sdl_host_take_focus(const DipSdlHost *host);
 
-// --- sdl_x_errors.c -------------------------------------------------------------------------
-
 // Errors of the X server about windows of other programs.
 //
 // Xlib's own handler ends the process at any error. While a file is dropped and while another
 // program takes the clipboard, SDL writes to windows of that other program. If the program dies at
 // that moment, the X server answers with BadWindow, which must not end the preview.
 
-// Makes the process ignore BadWindow if the window is not `own`. The handler that was set before
-// gets all other errors. Does nothing if SDL does not use X11. The handler belongs to the process,
-// so only one window at a time can be `own`.
+// From now on, the process ignores BadWindow errors about all windows but `own`. The handler that
+// was set before gets all other errors. Does nothing if SDL does not use X11. The handler belongs
+// to the process, so only one window at a time can be `own`.
 void dip_sdl_x_errors_watch(SDL_Window *own);
 
-// Sets the handler that was set before dip_sdl_x_errors_watch. Does nothing without a watch.
+// Undoes dip_sdl_x_errors_watch. Does nothing if no window is watched.
 void dip_sdl_x_errors_end(void);
 
 #endif

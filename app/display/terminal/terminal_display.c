@@ -1,10 +1,8 @@
-// Implements the display on a terminal: events, sizes, and one write for each frame.
+// Implements the display on a terminal: turns bytes into events, follows the terminal's size, and
+// writes each frame at once.
 #include "app/display/terminal/terminal_display.h"
 
-#include "app/display/terminal/terminal_capabilities.h"
-#include "app/display/terminal/terminal_keys.h"
-#include "app/display/terminal/terminal_mode.h"
-#include "app/display/terminal/terminal_writer.h"
+#include "app/display/terminal/terminal_private.h"
 #include "renderer/base/clock.h"
 
 #include <errno.h>
@@ -31,8 +29,8 @@ static const double frames_per_second = 20.0;
 static const int64_t ns_per_ms = 1000000;
 // After an escape character, the rest of the key's sequence arrives within this time.
 static const int64_t escape_wait_ns = 40000000;
-// A held key repeats itself every 25 to 50 ms. A key that comes again within the first time is
-// held; a key that does not come again within the second time is released.
+// A held key repeats itself every 25 to 50 ms. A key that comes again within repeat_ns is held; a
+// key that does not come again within release_ns is released.
 static const int64_t repeat_ns = 100000000;
 static const int64_t release_ns = 150000000;
 static const int64_t double_click_ns = 400000000;
@@ -48,8 +46,6 @@ typedef struct Terminal {
     bool owns_input; // The display opened `input` itself.
     bool gone;       // The terminal has hung up.
     bool quit_sent;
-    int columns;
-    int rows;
 
     DipTextCell *text; // Owned: the cells of the last set_text, or NULL.
     int text_columns;
@@ -68,30 +64,19 @@ typedef struct Terminal {
 
 // --- the size ----------------------------------------------------------------------------------
 
-static int clamp(int value, int most, int otherwise) {
-    return value < 1 ? otherwise : value > most ? most : value;
-}
-
 static bool follow_size(Terminal *terminal, DipError *err) {
     struct winsize size = {0};
     ioctl(STDOUT_FILENO, TIOCGWINSZ, &size);
-    const int columns = clamp(size.ws_col, MAX_COLUMNS, DEFAULT_COLUMNS);
-    const int rows = clamp(size.ws_row, MAX_ROWS, DEFAULT_ROWS);
-    if (columns == terminal->columns && rows == terminal->rows) {
-        return true;
-    }
-    if (!dip_terminal_writer_resize(&terminal->writer, columns, rows, err)) {
-        return false;
-    }
-    terminal->columns = columns;
-    terminal->rows = rows;
-    return true;
+    const int columns = size.ws_col ? dip_min(size.ws_col, MAX_COLUMNS) : DEFAULT_COLUMNS;
+    const int rows = size.ws_row ? dip_min(size.ws_row, MAX_ROWS) : DEFAULT_ROWS;
+    return (columns == terminal->writer.columns && rows == terminal->writer.rows) ||
+           dip_terminal_writer_resize(&terminal->writer, columns, rows, err);
 }
 
 static void size(void *context, int *width, int *height) {
     const Terminal *terminal = context;
-    *width = terminal->columns;
-    *height = 2 * terminal->rows;
+    *width = terminal->writer.columns;
+    *height = 2 * terminal->writer.rows;
 }
 
 // --- the queue of events -----------------------------------------------------------------------
@@ -118,8 +103,8 @@ static void queue_release(Terminal *terminal, HeldKey *held) {
     queue_event(terminal, &event);
 }
 
-// Returns the entry of a key. If the key is not held, returns a free entry; if there is none,
-// releases the key that came first.
+// Returns the entry of a key. If the key is not held, returns a free entry. If there is none,
+// releases the key that has not come for the longest time, and returns its entry.
 static HeldKey *find_held(Terminal *terminal, DipKeycode key) {
     HeldKey *free_entry = NULL, *oldest = &terminal->held[0];
     for (int i = 0; i < MAX_HELD; ++i) {
@@ -158,7 +143,7 @@ static void queue_click(Terminal *terminal, DipEvent event, int64_t now_ns) {
 
 // --- input -------------------------------------------------------------------------------------
 
-// Reads what has arrived.
+// Reads the bytes that have arrived.
 static void read_input(Terminal *terminal) {
     const ssize_t count = read(terminal->input, terminal->bytes + terminal->byte_count,
                                (size_t)(INPUT_BYTES - terminal->byte_count));
@@ -230,7 +215,8 @@ static void queue_signals(Terminal *terminal) {
     }
 }
 
-// Returns the time until a key counts as released, or until a sequence counts as broken off.
+// Returns the earliest of these times: until_ns, when a held key counts as released, and when the
+// bytes so far count as a sequence that broke off.
 static int64_t next_deadline_ns(const Terminal *terminal, int64_t until_ns) {
     if (terminal->byte_count > 0 && terminal->byte_ns + escape_wait_ns < until_ns) {
         until_ns = terminal->byte_ns + escape_wait_ns;

@@ -1,6 +1,6 @@
 // Translates characters and escape sequences. The sequences are those of xterm; the Linux console,
 // rxvt, tmux and screen send the same ones or those listed in the tables below.
-#include "app/display/terminal/terminal_keys.h"
+#include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
 
@@ -100,8 +100,7 @@ static int key_of_letter(uint8_t letter) {
         {'A', DIP_KEYCODE_UP},   {'B', DIP_KEYCODE_DOWN},  {'C', DIP_KEYCODE_RIGHT},
         {'D', DIP_KEYCODE_LEFT}, {'F', DIP_KEYCODE_END},   {'H', DIP_KEYCODE_HOME},
         {'P', DIP_KEYCODE_F1},   {'Q', DIP_KEYCODE_F2},    {'R', DIP_KEYCODE_F3},
-        {'S', DIP_KEYCODE_F4},   {'M', DIP_KEYCODE_ENTER}, // The keypad's. ESC [ M is a mouse
-                                                           // report and is read elsewhere.
+        {'S', DIP_KEYCODE_F4},   {'M', DIP_KEYCODE_ENTER}, // ESC O M: Enter of the keypad.
     };
     return find_key(keys, DIP_ARRAY_COUNT(keys), letter);
 }
@@ -154,7 +153,7 @@ static DipEvent mouse_event(const Sequence *sequence) {
 // must follow.
 static bool read_sequence(const uint8_t *bytes, int count, Sequence *sequence) {
     int index = 0;
-    bool detail = false; // After a colon: details of a number, which the preview does not need.
+    bool detail = false; // A colon has come: details of a number follow, which nobody needs here.
     *sequence = (Sequence){0};
     for (int i = 2; i < count && i < LONGEST_SEQUENCE; ++i) {
         const uint8_t byte = bytes[i];
@@ -170,7 +169,7 @@ static bool read_sequence(const uint8_t *bytes, int count, Sequence *sequence) {
             sequence->final = byte;
             sequence->length = i + 1;
             return true;
-        } else if (byte < ' ' || byte > '~') { // No byte of a sequence: the sequence broke off.
+        } else if (byte < ' ' || byte > '~') { // Such a byte shows that the sequence broke off.
             sequence->length = i;
             return true;
         }
@@ -195,7 +194,7 @@ static DipEvent sequence_event(const Sequence *sequence) {
         return number == 27 && sequence->parameters[2] > 0 && sequence->parameters[2] < 0x80
                    ? character_event(sequence->parameters[2], modifiers)
                    : key_event(key_of_number(number), modifiers);
-    case 'u': // The same in another form.
+    case 'u': // character ; modifiers: a character with modifiers, too.
         return number > 0 && number < 0x80 ? character_event(number, modifiers)
                                            : (DipEvent){.kind = DIP_EVENT_NONE};
     default:
@@ -208,7 +207,7 @@ static int read_control(const uint8_t *bytes, int count, DipEvent *event) {
     enum { OLD_MOUSE_BYTES = 6, CONSOLE_KEY_BYTES = 4 };
     Sequence sequence;
     *event = (DipEvent){.kind = DIP_EVENT_NONE};
-    if (count > 2 && bytes[2] == 'M') { // The mouse report of terminals that know no better one.
+    if (count > 2 && bytes[2] == 'M') { // The old mouse report, which is skipped.
         return count >= OLD_MOUSE_BYTES ? OLD_MOUSE_BYTES : 0;
     }
     if (count > 2 && bytes[2] == '[') { // F1 to F5 of the Linux console: ESC [ [ A to ESC [ [ E.

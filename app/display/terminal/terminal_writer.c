@@ -1,18 +1,19 @@
-// Encodes frames for a terminal.
-#include "app/display/terminal/terminal_writer.h"
+// Judges a terminal by its environment, and encodes frames for it.
+#include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
 #include "renderer/base/utf8.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum {
     UPPER_HALF = 0x2580,
     LOWER_HALF = 0x2584,
     // A cell takes at most 12 bytes to place, 38 to set both colours and 4 for its character.
     MAX_CELL_BYTES = 56,
-    MAX_FRAME_BYTES = 64, // Bytes around the cells: the beginning and the end of the frame.
+    MAX_FRAME_BYTES = 64, // Bytes before and after the cells of a frame.
     TRUE_STEPS = 63,      // Steps of each channel in true colour, see true_channel.
     PLAIN_GREYS = 13
 };
@@ -20,6 +21,67 @@ enum {
 static const uint32_t no_colour = 0xffffffffu; // A colour that no cell has.
 static const char begin_update[] = "\x1b[?2026h";
 static const char end_update[] = "\x1b[?2026l";
+
+// --- what the terminal can show ------------------------------------------------------------------
+
+static bool is_set(const char *value) {
+    return value && value[0] != '\0';
+}
+
+DipTerminalEnvironment dip_terminal_environment(void) {
+    const char *locale = getenv("LC_ALL");
+    locale = is_set(locale) ? locale : getenv("LC_CTYPE");
+    locale = is_set(locale) ? locale : getenv("LANG");
+    return (DipTerminalEnvironment){getenv("TERM"), getenv("COLORTERM"), getenv("NO_COLOR"),
+                                    locale};
+}
+
+static bool holds_one_of(const char *text, const char *const *parts, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+        if (strstr(text, parts[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+DipTerminalColours dip_terminal_best_colours(const DipTerminalEnvironment *environment) {
+    static const char *const true_colours[] = {"direct",  "kitty",   "alacritty", "foot",
+                                               "wezterm", "ghostty", "contour"};
+    // These names are older than terminals with 256 colours, but today's terminals of these names
+    // have them. The Linux console turns the 256 colours into its own 16.
+    static const char *const many_colours[] = {"256color", "xterm", "screen", "tmux", "rxvt",
+                                               "konsole",  "linux", "putty",  "vte"};
+    const char *term = is_set(environment->term) ? environment->term : "dumb";
+    const char *colorterm = is_set(environment->colorterm) ? environment->colorterm : "";
+    if (is_set(environment->no_color)) {
+        return DIP_TERMINAL_NONE;
+    }
+    if (strcmp(colorterm, "truecolor") == 0 || strcmp(colorterm, "24bit") == 0 ||
+        holds_one_of(term, true_colours, DIP_ARRAY_COUNT(true_colours))) {
+        return DIP_TERMINAL_TRUE;
+    }
+    return holds_one_of(term, many_colours, DIP_ARRAY_COUNT(many_colours)) ? DIP_TERMINAL_256
+                                                                           : DIP_TERMINAL_NONE;
+}
+
+static bool names_utf8(const char *locale) {
+    const char *dot = strchr(locale, '.');
+    const char *charset = dot ? dot + 1 : "";
+    const size_t length = strcspn(charset, "@");
+    return (length == strlen("utf8") && strncasecmp(charset, "utf8", length) == 0) ||
+           (length == strlen("utf-8") && strncasecmp(charset, "utf-8", length) == 0);
+}
+
+// Containers and remote shells often set no locale at all. Their terminals have UTF-8, as nearly
+// all terminals do. A locale without a character set ("de_DE") is an old 8-bit locale.
+bool dip_terminal_has_utf8(const DipTerminalEnvironment *environment) {
+    return !is_set(environment->locale) || names_utf8(environment->locale);
+}
+
+bool dip_terminal_can_place(const DipTerminalEnvironment *environment) {
+    return is_set(environment->term) && strcmp(environment->term, "dumb") != 0;
+}
 
 // --- memory ------------------------------------------------------------------------------------
 
@@ -107,7 +169,7 @@ static int luma(int red, int green, int blue) {
 
 // --- cells -------------------------------------------------------------------------------------
 
-// Reads a pixel. Pixels outside the picture are black.
+// Returns a pixel of the picture. Pixels outside the picture are black.
 static const uint8_t *pixel_at(const DipPixels *picture, int x, int y) {
     static const uint8_t black[4] = {0, 0, 0, 255};
     if (x >= picture->width || y >= picture->height) {
@@ -229,7 +291,8 @@ static void put_colour(DipTerminalWriter *writer, uint32_t layer, uint32_t colou
     put_number(writer, colour & 0xff);
 }
 
-// Sets the colours of the next character. A colour that the character does not show is no_colour.
+// Sets the colours of the next character. The caller passes no_colour for a colour that the
+// character does not show.
 static void put_pen(DipTerminalWriter *writer, uint32_t ink, uint32_t paper) {
     const bool new_ink = ink != no_colour && ink != writer->pen.ink;
     const bool new_paper = paper != no_colour && paper != writer->pen.paper;

@@ -1,7 +1,7 @@
 // Turns requests of other programs into actions of the preview.
 #include "app/preview/control/control_private.h"
 
-#include "app/files/png.h"
+#include "app/files/pictures.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>

@@ -2,8 +2,7 @@
 // in which the rows differ most, and cuts this crop out.
 #include "app/report/page/picture_set.h"
 
-#include "app/files/jpeg.h"
-#include "app/files/png.h"
+#include "app/files/pictures.h"
 #include "app/measure/metrics/magma.h"
 
 #include <stdio.h>

@@ -3,8 +3,7 @@
 #include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
-#include "app/files/jpeg.h"
-#include "app/files/png.h"
+#include "app/files/pictures.h"
 #include "tests/app/cost/made_report.h"
 
 #include <stdio.h>

@@ -8,9 +8,7 @@
 #include "app/report/page/html.h"
 #include "app/cost/journal.h"
 #include "app/dump/record.h"
-#include "app/files/jpeg.h"
-#include "app/files/pfm.h"
-#include "app/files/png.h"
+#include "app/files/pictures.h"
 #include "tests/app/cost/made_report.h"
 #include "tests/support/out_of_memory.h"
 
@@ -118,17 +116,16 @@ static bool encode_pictures(void *context, DipError *err) {
 
 static bool write_record(void *context, DipError *err) {
     (void)context;
-    const DipQuality quality = dip_quality_default();
-    DipFrame frame = {.rgba8 = w.rgba8};
-#define SET_WHY(name, text) frame.effects.name.why = "why not";
-    DIP_EFFECT_LIST(SET_WHY)
+    DipDrawnFrame drawn = {.pose = {.fov_y_deg = 50.0}, .frame = {.copied = true}};
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        drawn.qualities[p] = dip_quality_default();
+#define SET_WHY(name, text) drawn.frame.panes[p].effects.name.why = "why not";
+        DIP_EFFECT_LIST(SET_WHY)
 #undef SET_WHY
-    const DipRecordPane panes[2] = {{&quality, &frame, "hash", false},
-                                    {&quality, &frame, "hash", true}};
-    const DipPose pose = {.fov_y_deg = 50.0};
+    }
     const DipStartTimes times = {0};
     DipRecord *record = dip_record_create(err);
-    const bool written = record && dip_record_add(record, 0, 0.0, &pose, 1.0, panes, err) &&
+    const bool written = record && dip_record_add(record, &drawn, err) &&
                          dip_record_set_start(record, &times, 1000, err) &&
                          dip_record_write(record, w.file, err);
     dip_record_destroy(&record);

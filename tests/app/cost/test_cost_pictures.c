@@ -1,8 +1,6 @@
 // Tests of the pictures in the cost report's page, and of the files that truths are saved to.
 #include "app/report/page/report_pictures.h"
-#include "app/files/jpeg.h"
-#include "app/files/pfm.h"
-#include "app/files/png.h"
+#include "app/files/pictures.h"
 #include "assets/picture.h"
 
 #include <setjmp.h>

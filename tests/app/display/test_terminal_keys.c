@@ -1,6 +1,5 @@
 // Tests of the terminal's keys: what bytes mean, and that no bytes confuse the reader.
-#include "app/display/terminal/terminal_capabilities.h"
-#include "app/display/terminal/terminal_keys.h"
+#include "app/display/terminal/terminal_private.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

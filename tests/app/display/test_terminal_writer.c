@@ -1,7 +1,7 @@
 // Tests of the terminal's writer against a small terminal emulator. The emulator knows nothing of
 // the writer: it carries out the bytes, and the tests compare its screen with the picture. The
 // colours that the screen must show are found by searching all colours of the terminal.
-#include "app/display/terminal/terminal_writer.h"
+#include "app/display/terminal/terminal_private.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
 //
 //     make_inputs picture WIDTH HEIGHT FILE   a PNG file of one colour
 //     make_inputs grid N FILE                 a glTF binary: a flat square of 2 * N * N triangles
-#include "app/files/png.h"
+#include "app/files/pictures.h"
 
 #include <stdint.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // Tests of gallery scenes in the preview, on a fake display: keys change the scene and its look.
 // Usage: test_preview_gallery SOURCE_FOLDER
-#include "app/display/fake/fake_display.h"
+#include "tests/app/display/fake_display.h"
 #include "app/preview/loop/loop.h"
 
 #include <setjmp.h>

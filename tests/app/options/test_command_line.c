@@ -4,7 +4,6 @@
 #include "app/command_list.h"
 #include "app/cost/options.h"
 #include "app/cli/help.h"
-#include "app/cli/manual.h"
 #include "renderer/base/assert.h"
 
 #include <ctype.h>
@@ -171,12 +170,13 @@ static void every_option_refuses_bad_values(void **state) {
 
 static void check_words(size_t command, const DipOptionRow *row) {
     const DipOptionParts *parts = dip_command_list.commands[command]->parts;
+    const DipOptionPart *part;
     const size_t length = strlen(row->text);
     assert_true(strncmp(row->name, "--", 2) == 0);
     assert_true(length > 8 && isupper((unsigned char)row->text[0]) && row->text[length - 1] == '.');
     assert_int_equal(row->argument == NULL, row->kind == DIP_OPTION_FLAG);
     // No two rows have the same name, so a search finds this row.
-    assert_ptr_equal(dip_option_find(parts, row->name), row);
+    assert_ptr_equal(dip_option_find(parts, row->name, &part), row);
 }
 
 static void every_option_is_explained_in_sentences(void **state) {

@@ -227,9 +227,11 @@ static void unknown_options_are_refused_with_a_suggestion(void **state) {
 
 static void options_are_found_by_name(void **state) {
     (void)state;
-    assert_ptr_equal(dip_option_find(&parts, "--size"), &second_rows[1]);
-    assert_null(dip_option_find(&parts, "--siz"));
-    assert_null(dip_option_find(&parts, "--sizes"));
+    const DipOptionPart *part = NULL;
+    assert_ptr_equal(dip_option_find(&parts, "--size", &part), &second_rows[1]);
+    assert_ptr_equal(part, &parts.items[1]);
+    assert_null(dip_option_find(&parts, "--siz", &part));
+    assert_null(dip_option_find(&parts, "--sizes", &part));
 }
 
 int main(void) {

@@ -6,8 +6,8 @@
 // down, home, end, escape, f1), click:X,Y, move:X,Y or wheel:X,Y,STEPS. The camera rests.
 // cost:FILE, as the first action, gives the window a cost report.
 #include "app/cost/plan.h"
-#include "app/display/fake/fake_display.h"
-#include "app/files/png.h"
+#include "tests/app/display/fake_display.h"
+#include "app/files/pictures.h"
 #include "app/preview/loop/loop.h"
 #include "app/session/session.h"
 

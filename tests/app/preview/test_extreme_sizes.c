@@ -1,7 +1,7 @@
 // Runs the preview on a fake display of the smallest and the largest sizes. Usage:
 // test_extreme_sizes [--big]. With --big, the panes have 8192x8192 pixels and more; this takes 3 GB
 // of memory.
-#include "app/display/fake/fake_display.h"
+#include "tests/app/display/fake_display.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/loop/view.h"
 #include "config/config.h"

@@ -13,7 +13,7 @@
 //
 // Usage: test_long_run SOURCE_FOLDER [--hour]. Without --hour, the clouds are faster, so that a
 // repetition takes 120 s of playback; there are three.
-#include "app/display/fake/fake_display.h"
+#include "tests/app/display/fake_display.h"
 #include "app/preview/loop/loop.h"
 #include "renderer/base/srgb.h"
 #include "renderer/reference/reference.h"

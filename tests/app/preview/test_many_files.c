@@ -3,7 +3,7 @@
 // Usage: test_many_files SOURCE_FOLDER
 #include "app/report/format/formats.h"
 #include "app/cost/plan.h"
-#include "app/display/fake/fake_display.h"
+#include "tests/app/display/fake_display.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/loop/reload.h"
 #include "tests/app/cost/made_report.h"

@@ -1,6 +1,6 @@
 // Tests of the control channel on the preview: requests over a socket change what the panes show.
 // The preview runs on a fake display.
-#include "app/display/fake/fake_display.h"
+#include "tests/app/display/fake_display.h"
 #include "app/preview/control/control.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/loop/view.h"

@@ -1,7 +1,7 @@
 // Tests of the preview's files on a fake display: screenshots, saved poses, dropped files and files
 // that change. The session is opened from an ini, a model and a path in a folder of the test's own.
-#include "app/display/fake/fake_display.h"
-#include "app/files/png.h"
+#include "tests/app/display/fake_display.h"
+#include "app/files/pictures.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/state/poses.h"
 #include "app/preview/loop/reload.h"

@@ -1,7 +1,7 @@
 // Tests of the preview on a fake display: keys and mouse events go in, pixels come out. No SDL is
 // linked.
-#include "app/display/fake/fake_display.h"
-#include "app/files/png.h"
+#include "tests/app/display/fake_display.h"
+#include "app/files/pictures.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/loop/view.h"
 #include "config/config.h"

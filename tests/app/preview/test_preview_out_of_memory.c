@@ -1,7 +1,7 @@
 // Tests what the preview does when memory runs out: after a change of a setting or of the window's
 // size, it shows the old picture and says why. Every other failure ends with an error, and the next
 // turn shows the right picture.
-#include "app/display/fake/fake_display.h"
+#include "tests/app/display/fake_display.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/loop/view.h"
 #include "config/config.h"

@@ -1,6 +1,6 @@
-// Pictures as PNG files.
-#ifndef DIP_APP_FILES_PNG_H
-#define DIP_APP_FILES_PNG_H
+// Encodes pictures as PNG and JPEG, and writes PNG and PFM files.
+#ifndef DIP_APP_FILES_PICTURES_H
+#define DIP_APP_FILES_PICTURES_H
 
 #include "renderer/base/error.h"
 #include "renderer/scene/frame.h"
@@ -22,18 +22,25 @@ bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int he
 bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int width, int height,
                             unsigned char **bytes, size_t *size_bytes);
 
-// Inserts texts into a PNG in memory that dip_png_encode has made: before its picture, as a chunk
-// tEXt each, or iTXt if the text has characters beyond ASCII. *bytes may move. Returns false, and
-// leaves the PNG as it is, when memory runs out. Thread-safe.
-bool dip_png_add_texts(unsigned char **bytes, size_t *size_bytes, const DipPngText *texts,
-                       int count);
+// Encodes 8-bit RGBA pixels, the top row first, as a JPEG in memory; alpha is left out. `quality`
+// is 1..100; above 90, colour has the full resolution. The caller frees *bytes. Returns false when
+// memory runs out. Thread-safe.
+bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
+                     unsigned char **bytes, size_t *size_bytes);
 
 // Writes a frame to a file, whole or not at all (whole_file.h). Fails with DIP_ERROR_IO or
 // DIP_ERROR_MEMORY.
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err);
 
-// Does the same with texts in the file.
+// Does the same and inserts texts into the file, before its picture.
 bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const DipPngText *texts,
                               int count, DipError *err);
+
+// Writes 32-bit floating-point values without loss as PFM ("portable float map"), the whole file or
+// none. `rgb` holds three floats per pixel in packed rows, the top row
+// first. The file has the type PF, the scale -1 (little-endian) and, as the format demands, its
+// rows from the bottom up. Fails with DIP_ERROR_IO or DIP_ERROR_MEMORY. Thread-safe for different
+// files.
+bool dip_pfm_write(const char *file, const float *rgb, int width, int height, DipError *err);
 
 #endif

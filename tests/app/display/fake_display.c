@@ -1,5 +1,5 @@
 // Implements the display for tests with a queue of events and a picture in memory.
-#include "app/display/fake/fake_display.h"
+#include "tests/app/display/fake_display.h"
 
 #include "app/ui/canvas.h"
 #include "renderer/base/assert.h"

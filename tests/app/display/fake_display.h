@@ -4,8 +4,8 @@
 // when the display waits for an event and none comes. The display copies only the damage rectangles
 // of a presented picture, as a window does; a test therefore notices if the preview forgets to
 // report damage.
-#ifndef DIP_APP_DISPLAY_FAKE_FAKE_DISPLAY_H
-#define DIP_APP_DISPLAY_FAKE_FAKE_DISPLAY_H
+#ifndef DIP_TESTS_APP_DISPLAY_FAKE_DISPLAY_H
+#define DIP_TESTS_APP_DISPLAY_FAKE_DISPLAY_H
 
 #include "app/display/display.h"
 

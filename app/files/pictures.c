@@ -1,5 +1,6 @@
-// Encodes PNG and compresses with deflate in memory, both by stb_image_write.
-#include "app/files/png.h"
+// Encodes PNG and JPEG in memory by stb_image_write, and PFM by itself. stb_image_write's encoder
+// of JPEG shifts bits out of a signed int, so the sanitizer of shifts is off in this file.
+#include "app/files/pictures.h"
 
 #include "app/files/whole_file.h"
 #include "renderer/base/utf8.h"
@@ -8,6 +9,7 @@
 #include <setjmp.h>
 #include <stdalign.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,24 +71,29 @@ static void free_blocks(void) {
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
-// --- PNG -----------------------------------------------------------------------------------------
+// --- encoding ------------------------------------------------------------------------------------
 
-// The bytes of the file so far. stb_image_write may deliver the file in several pieces.
+// The bytes of the file so far. stb_image_write may deliver the file in many small pieces.
 typedef struct Buffer {
     unsigned char *bytes;
     size_t size;
+    size_t room;
     bool failed;
 } Buffer;
 
 static void append(void *context, void *data, int size) {
     Buffer *buffer = context;
-    unsigned char *grown = realloc(buffer->bytes, buffer->size + (size_t)size);
-    if (!grown) {
-        buffer->failed = true;
-        return;
+    if (buffer->size + (size_t)size > buffer->room) {
+        const size_t room = 2 * (buffer->room + (size_t)size);
+        unsigned char *grown = realloc(buffer->bytes, room);
+        if (!grown) {
+            buffer->failed = true;
+            return;
+        }
+        buffer->bytes = grown;
+        buffer->room = room;
     }
-    memcpy(grown + buffer->size, data, (size_t)size);
-    buffer->bytes = grown;
+    memcpy(buffer->bytes + buffer->size, data, (size_t)size);
     buffer->size += (size_t)size;
 }
 
@@ -116,11 +123,15 @@ static bool write_png(Buffer *buffer, const uint8_t *pixels, int width, int heig
            !buffer->failed;
 }
 
-bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
-                    unsigned char **bytes, size_t *size_bytes) {
+// Encodes a PNG, or a JPEG if the quality is not 0.
+static bool encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
+                   unsigned char **bytes, size_t *size_bytes) {
     Buffer buffer = {0};
     uint8_t *rgb = packed_rgb(rgba8, stride_bytes, width, height);
-    const bool made = rgb && write_png(&buffer, rgb, width, height, 3);
+    const bool made = rgb && (quality == 0 ? write_png(&buffer, rgb, width, height, 3)
+                                           : stbi_write_jpg_to_func(append, &buffer, width, height,
+                                                                    3, rgb, quality) &&
+                                                 !buffer.failed);
     free(rgb);
     if (!made) {
         free(buffer.bytes);
@@ -130,6 +141,18 @@ bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int he
     *size_bytes = buffer.size;
     return true;
 }
+
+bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
+                    unsigned char **bytes, size_t *size_bytes) {
+    return encode(rgba8, stride_bytes, width, height, 0, bytes, size_bytes);
+}
+
+bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
+                     unsigned char **bytes, size_t *size_bytes) {
+    return encode(rgba8, stride_bytes, width, height, quality, bytes, size_bytes);
+}
+
+// --- chunks of PNG -------------------------------------------------------------------------------
 
 // Offsets and sizes in a PNG file: the signature, the chunk IHDR, then the next chunk.
 enum {
@@ -149,25 +172,32 @@ static void store_u32(unsigned char *to, unsigned value) {
     }
 }
 
+// Writes the length, the type and the checksum of a chunk around its content, which stands at
+// chunk + PNG_CHUNK_CONTENT. Returns the size of the chunk.
+static size_t frame_chunk(unsigned char *chunk, const char *type, size_t content_bytes) {
+    store_u32(chunk, (unsigned)content_bytes);
+    memcpy(chunk + 4, type, 4);
+    store_u32(chunk + PNG_CHUNK_CONTENT + content_bytes,
+              stbiw__crc32(chunk + 4, (int)(4 + content_bytes)));
+    return PNG_CHUNK_FRAME + content_bytes;
+}
+
 bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int width, int height,
                             unsigned char **bytes, size_t *size_bytes) {
     Buffer grey = {0};
     const bool written = write_png(&grey, indices, width, height, 1);
     unsigned char *made = written ? malloc(grey.size + PNG_PALETTE_BYTES + PNG_CHUNK_FRAME) : NULL;
     if (made) {
-        unsigned char *chunk = made + PNG_AFTER_HEADER;
+        size_t size = PNG_AFTER_HEADER;
         memcpy(made, grey.bytes, PNG_AFTER_HEADER);
         made[PNG_COLOUR_TYPE] = 3;
         store_u32(made + PNG_HEADER_CRC,
                   stbiw__crc32(made + PNG_HEADER_TYPE, PNG_HEADER_CRC - PNG_HEADER_TYPE));
-        store_u32(chunk, PNG_PALETTE_BYTES);
-        memcpy(chunk + 4, "PLTE", 4);
-        memcpy(chunk + 8, palette, PNG_PALETTE_BYTES);
-        store_u32(chunk + 8 + PNG_PALETTE_BYTES, stbiw__crc32(chunk + 4, 4 + PNG_PALETTE_BYTES));
-        memcpy(chunk + PNG_PALETTE_BYTES + PNG_CHUNK_FRAME, grey.bytes + PNG_AFTER_HEADER,
-               grey.size - PNG_AFTER_HEADER);
+        memcpy(made + size + PNG_CHUNK_CONTENT, palette, PNG_PALETTE_BYTES);
+        size += frame_chunk(made + size, "PLTE", PNG_PALETTE_BYTES);
+        memcpy(made + size, grey.bytes + PNG_AFTER_HEADER, grey.size - PNG_AFTER_HEADER);
         *bytes = made;
-        *size_bytes = grey.size + PNG_PALETTE_BYTES + PNG_CHUNK_FRAME;
+        *size_bytes = size + grey.size - PNG_AFTER_HEADER;
     }
     free(grey.bytes);
     return made != NULL;
@@ -191,21 +221,17 @@ static size_t write_text_chunk(unsigned char *chunk, const DipPngText *text) {
     memcpy(copied, text->text, text_bytes + 1); // The checksum overwrites the final 0.
     const bool ascii = dip_utf8_mend(copied);
     const size_t fields = ascii ? 1 : PNG_TEXT_FIELDS;
-    memcpy(chunk + 4, ascii ? "tEXt" : "iTXt", 4);
     memcpy(content, text->keyword, keyword_bytes);
     memset(content + keyword_bytes, 0, fields);
     memmove(content + keyword_bytes + fields, copied, text_bytes);
-    const size_t size_bytes = keyword_bytes + fields + text_bytes;
-    store_u32(chunk, (unsigned)size_bytes);
-    store_u32(content + size_bytes, stbiw__crc32(chunk + 4, (int)(4 + size_bytes)));
-    return PNG_CHUNK_FRAME + size_bytes;
+    return frame_chunk(chunk, ascii ? "tEXt" : "iTXt", keyword_bytes + fields + text_bytes);
 }
 
-bool dip_png_add_texts(unsigned char **bytes, size_t *size_bytes, const DipPngText *texts,
-                       int count) {
-    if (count == 0) {
-        return true;
-    }
+// Inserts texts into a PNG, before its picture: as a chunk tEXt each, or iTXt if the text has
+// characters beyond ASCII. *bytes moves. Returns false, and leaves the PNG as it is, when memory
+// runs out.
+static bool add_texts(unsigned char **bytes, size_t *size_bytes, const DipPngText *texts,
+                      int count) {
     size_t most_bytes = *size_bytes;
     for (int i = 0; i < count; i++) {
         most_bytes += most_chunk_bytes(&texts[i]);
@@ -234,7 +260,7 @@ bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const Dip
     size_t size_bytes;
     if (!dip_png_encode(frame->rgba8, frame->stride_bytes, frame->width, frame->height, &bytes,
                         &size_bytes) ||
-        !dip_png_add_texts(&bytes, &size_bytes, texts, count)) {
+        !add_texts(&bytes, &size_bytes, texts, count)) {
         free(bytes);
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "png", "out of memory");
     }
@@ -245,4 +271,35 @@ bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const Dip
 
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     return dip_png_write_with_texts(file, frame, NULL, 0, err);
+}
+
+// --- PFM -----------------------------------------------------------------------------------------
+
+enum { HEADER_ROOM = 64 };
+
+// Stores values in little-endian order, on any machine.
+static void store_values(unsigned char *to, const float *values, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        for (int b = 0; b < 4; b++) {
+            to[4 * i + (size_t)b] = (unsigned char)(bits >> (8 * b));
+        }
+    }
+}
+
+bool dip_pfm_write(const char *file, const float *rgb, int width, int height, DipError *err) {
+    const size_t row_values = 3 * (size_t)width;
+    unsigned char *bytes = malloc(HEADER_ROOM + 4 * row_values * (size_t)height);
+    if (!bytes) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "pfm", "out of memory");
+    }
+    size_t size = (size_t)snprintf((char *)bytes, HEADER_ROOM, "PF\n%d %d\n-1.0\n", width, height);
+    for (int y = height - 1; y >= 0; y--) {
+        store_values(bytes + size, rgb + (size_t)y * row_values, row_values);
+        size += 4 * row_values;
+    }
+    const bool written = dip_whole_file_write(file, bytes, size, err);
+    free(bytes);
+    return written;
 }

@@ -1,0 +1,120 @@
+// Declares what the files of this folder do for each other: they read keys, switch the terminal's
+// mode and encode frames. Private to this folder.
+#ifndef DIP_APP_DISPLAY_TERMINAL_TERMINAL_PRIVATE_H
+#define DIP_APP_DISPLAY_TERMINAL_TERMINAL_PRIVATE_H
+
+#include "app/display/terminal/terminal_display.h"
+
+// --- terminal_keys.c -----------------------------------------------------------------------------
+
+// Reads one event from the bytes that the terminal sends for keys and the mouse. Returns the number
+// of bytes that the event takes, or 0 if more bytes must follow. If `ended`, no byte follows for
+// now: a lone escape character is then the Escape key, and a sequence that breaks off is dropped.
+//
+// Key presses are KEY_DOWN events. A terminal reports neither releases nor positions of keys: the
+// event's position is the key's code. Shift is known for letters and for keys without a character.
+// Ctrl+C and Ctrl+Z end and suspend the program, so Alt stands for Ctrl with these two letters.
+// Bytes that mean nothing to the preview are taken as an event of kind NONE.
+int dip_terminal_keys_read(const uint8_t *bytes, int count, bool ended, DipEvent *event);
+
+// --- terminal_mode.c -----------------------------------------------------------------------------
+// A process has one mode: all these functions concern the same terminal. Whatever ends the process,
+// the terminal gets back its settings, its screen and its cursor, unless the process dies by
+// SIGKILL.
+
+// What signals have asked for, as bits.
+enum {
+    DIP_TERMINAL_QUIT = 1,   // SIGINT, SIGTERM or SIGHUP came.
+    DIP_TERMINAL_RESIZE = 2, // SIGWINCH came.
+    DIP_TERMINAL_STOP = 4,   // SIGTSTP came: the caller must call dip_terminal_mode_suspend.
+    // SIGCONT came: another program may have changed the screen and the mode.
+    DIP_TERMINAL_RESUME = 8
+};
+
+// Enters the mode for pictures and takes over the signals. input and output: file descriptors of
+// the same terminal. Fails with RUNTIME.
+bool dip_terminal_mode_enter(int input, int output, DipError *err);
+
+// Restores the terminal and gives the signals back.
+void dip_terminal_mode_leave(void);
+
+// Restores the terminal, stops the process as Ctrl+Z does, and enters the mode again when the
+// process goes on.
+void dip_terminal_mode_suspend(void);
+
+// Sets the mode again, because another program may have changed it.
+void dip_terminal_mode_renew(void);
+
+// Returns what signals have asked for since the last call, and forgets it. QUIT is not forgotten.
+unsigned dip_terminal_mode_take_signals(void);
+
+// Returns a file descriptor that has something to read when a signal has come.
+int dip_terminal_mode_signal_fd(void);
+
+// Writes all bytes to the terminal. Returns false if the terminal is gone, and also if a signal
+// asks the program to quit while the terminal takes no bytes.
+bool dip_terminal_mode_write(const char *bytes, size_t count);
+
+// --- terminal_writer.c ---------------------------------------------------------------------------
+// The writer remembers what the terminal shows and encodes only the cells that differ. A cell shows
+// two pixels of the picture, one above the other, as a half block (U+2580). Colours are rounded to
+// those of the terminal before cells are compared, so a change that nobody could see costs nothing.
+
+// The environment variables that describe a terminal. A variable that is not set is NULL.
+typedef struct DipTerminalEnvironment {
+    const char *term;      // TERM
+    const char *colorterm; // COLORTERM
+    const char *no_color;  // NO_COLOR
+    const char *locale;    // The first of LC_ALL, LC_CTYPE and LANG that is set and not empty.
+} DipTerminalEnvironment;
+
+// Reads the variables of this process.
+DipTerminalEnvironment dip_terminal_environment(void);
+
+// Returns the colours that the terminal can show; never AUTO. A NO_COLOR that is not empty means
+// NONE (no-color.org).
+DipTerminalColours dip_terminal_best_colours(const DipTerminalEnvironment *environment);
+
+// Returns false if the locale names a character set that has no half blocks.
+bool dip_terminal_has_utf8(const DipTerminalEnvironment *environment);
+
+// Returns false if the terminal has no escape sequences that place characters.
+bool dip_terminal_can_place(const DipTerminalEnvironment *environment);
+
+// A cell as the terminal shows it.
+typedef struct DipTerminalCell {
+    uint32_t code;  // Code point; 0: not known.
+    uint32_t ink;   // 0xRRGGBB, an index in the palette, or 0 if there are no colours.
+    uint32_t paper; // As `ink`; without colours, 1 means reverse video.
+} DipTerminalCell;
+
+// Zero-initialise a writer, set its first two fields, and call dip_terminal_writer_resize.
+typedef struct DipTerminalWriter {
+    DipTerminalColours colours; // Not AUTO.
+    bool utf8;                  // False: the terminal shows ASCII only.
+
+    int columns;
+    int rows;
+    DipTerminalCell *shown; // Owned: what the terminal shows.
+    char *bytes;            // Owned: the bytes of the last frame.
+    size_t count;
+    // Colours, column and row at which the terminal writes its next character.
+    DipTerminalCell pen;
+    int column;
+    int row;
+} DipTerminalWriter;
+
+// Sets the terminal's size in cells, and forgets what the terminal shows. Fails with MEMORY; the
+// old size then stays.
+bool dip_terminal_writer_resize(DipTerminalWriter *writer, int columns, int rows, DipError *err);
+void dip_terminal_writer_free(DipTerminalWriter *writer);
+
+// Forgets what the terminal shows, so that the next frame sends every cell.
+void dip_terminal_writer_forget(DipTerminalWriter *writer);
+
+// Encodes a frame into writer->bytes. Cells outside the picture are black. `text` is text_rows rows
+// of text_columns cells, or NULL. Returns writer->count, which is 0 if nothing has changed.
+size_t dip_terminal_writer_encode(DipTerminalWriter *writer, const DipPixels *picture,
+                                  const DipTextCell *text, int text_columns, int text_rows);
+
+#endif
