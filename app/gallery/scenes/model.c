@@ -7,11 +7,8 @@
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "assets/animation.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
 #include <limits.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,13 +27,11 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipKitStock stock; // The floor's mesh and the model's skin.
     DipAnimatedModel *model;
     DipAnimatedPose *pose;
     int frames;
     DipMesh *smooth[MAX_FRAMES]; // by the first key frame of each pair
     DipMesh *flat[MAX_FRAMES];   // the same triangles, without shared vertices
-    Uniforms uniforms[COPIES + 1];
 } Content;
 
 typedef struct Look {
@@ -49,9 +44,6 @@ typedef struct Look {
 static const Look model_looks[] = {{false, false, true, false}, {false, true, true, false},
                                    {true, true, true, false},   {false, false, false, false},
                                    {true, true, false, false},  {false, false, true, true}};
-static const char *const looks[] = {"Phong",        "Gouraud",     "flat",
-                                    "Phong, plain", "flat, plain", "lit wireframe"};
-
 // --- shaders -------------------------------------------------------------------------------------
 
 // Blends two key frames and takes positions and normals to world space.
@@ -231,12 +223,11 @@ static void destroy(void *pointer) {
     dip_animated_model_destroy(&content->model);
 }
 
-static bool load(Content *content, const char *assets, DipError *err) {
+static bool create(void *pointer, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
+    Content *content = pointer;
     char file[PATH_MAX];
-    const int length = snprintf(file, sizeof file, "%s/gallery/penguin.md2", assets);
-    if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, assets, 0, "model",
-                             "the name of the folder is too long");
+    if (!dip_kit_asset(file, sizeof file, room, "gallery/penguin.md2", "model", err)) {
+        return false;
     }
     content->model = dip_animated_model_load(file, NULL, NULL, err);
     content->pose = content->model ? dip_animated_pose_create(content->model, err) : NULL;
@@ -251,18 +242,12 @@ static bool load(Content *content, const char *assets, DipError *err) {
     content->frames = def->key_frame_count;
     DipTextureDef skin = def->textures[0];
     skin.wrap_u = skin.wrap_v = DIP_WRAP_CLAMP;
-    content->stock.textures[0].plain = dip_texture_create(&skin, err);
-    bool made = content->stock.textures[0].plain != NULL;
+    stock->textures[0].plain = dip_texture_create(&skin, err);
+    bool made = stock->textures[0].plain != NULL;
     for (int f = 0; made && f < content->frames; f++) {
         made = make_pair(content, &def->meshes[0], f, err);
     }
     return made;
-}
-
-static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
-    return dip_kit_plane(&content->stock.meshes[0], 24.0f, 24.0f, 48, 48, err) &&
-           load(content, room->assets, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -298,32 +283,34 @@ static void set_lights(DipKitLight lights[LIGHTS], double turn) {
     lights[2].direction[2] = (float)(z / size);
 }
 
-static void fill_uniforms(Uniforms *uniforms, const DipGalleryView *view, bool is_floor) {
-    uniforms->textured = !is_floor && model_looks[view->look].textured;
-    uniforms->material = is_floor ? (DipKitMaterial){{0.36f, 0.44f, 0.54f}, {0.25f, 0.25f, 0.3f}, 5}
-                                  : (DipKitMaterial){{1.0f, 1.0f, 1.0f}, {0.55f, 0.55f, 0.55f}, 5};
-    set_lights(uniforms->lights, view->turn);
+static Uniforms uniforms_of(const DipGalleryView *view, bool is_floor) {
+    Uniforms uniforms = {
+        .textured = !is_floor && model_looks[view->look].textured,
+        .material = is_floor ? (DipKitMaterial){{0.36f, 0.44f, 0.54f}, {0.25f, 0.25f, 0.3f}, 5}
+                             : (DipKitMaterial){{1.0f, 1.0f, 1.0f}, {0.55f, 0.55f, 0.55f}, 5}};
+    set_lights(uniforms.lights, view->turn);
+    return uniforms;
 }
 
 // Draws one copy of the model. The copies are at different times of the animation.
-static DipDraw *add_copy(Content *content, int copy, DipKitList *list) {
+static DipDraw *add_copy(int copy, DipKitList *list) {
     const DipGalleryView *view = list->view;
+    const Content *content = view->content;
     const Look *look = &model_looks[view->look];
     dip_animated_pose_set(content->pose, 0, view->time_s + 0.37 * copy);
     const DipObjectPose *posed = dip_animated_pose_object(content->pose, 0);
-    const DipMatrix move = dip_matrix_translation(1.45 * (copy - 1), 0.0, copy == 1 ? 0.4 : -0.5);
-    const DipMatrix spin = dip_matrix_rotation(1, -0.5 * DIP_PI + 0.6 * dip_sin(view->turn + copy) -
-                                                      0.3 * (copy - 1)); // it looks along +x
+    const double angle = -0.5 * DIP_PI + 0.6 * dip_sin(view->turn + copy) - 0.3 * (copy - 1);
     DipMatrix own = dip_matrix_identity();
     for (int i = 0; i < 12; i++) {
         own.m[i] = (double)posed->transform[i];
     }
-    const DipMatrix model = dip_matrix_multiply3(&move, &spin, &own);
-    Uniforms *uniforms = &content->uniforms[copy];
-    fill_uniforms(uniforms, view, false);
-    uniforms->blend = posed->blend;
+    const DipMatrix model =
+        dip_kit_chain3(dip_matrix_translation(1.45 * (copy - 1), 0.0, copy == 1 ? 0.4 : -0.5),
+                       dip_matrix_rotation(1, angle), own); // The model itself looks along +x.
+    Uniforms uniforms = uniforms_of(view, false);
+    uniforms.blend = posed->blend;
     DipMesh *const *meshes = look->flat ? content->flat : content->smooth;
-    DipDraw *draw = dip_kit_add(list, meshes[posed->key_frame], uniforms, &model,
+    DipDraw *draw = dip_kit_add(list, meshes[posed->key_frame], &uniforms, &model,
                                 look->gouraud ? shade_gouraud : shade_phong);
     draw->vertex_shader = look->gouraud ? gouraud_vertex : phong_vertex;
     draw->varying_count = look->gouraud ? LIT_VARYINGS : DIP_KIT_VARYINGS;
@@ -332,23 +319,21 @@ static DipDraw *add_copy(Content *content, int copy, DipKitList *list) {
     return draw;
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.05f, 0.07f, 0.10f};
-    Content *content = pointer;
     const DipDrawState wireframe = {
         .fill = DIP_FILL_WIREFRAME,
         .line_width = dip_kit_clamp((float)view->target.height / 320.0f, 1.0f, 8.0f)};
-    const DipSampler skin = dip_kit_sampler(view, &content->stock.textures[0]);
+    const DipSampler skin = dip_kit_sampler(view, &view->stock->textures[0]);
     const DipMatrix identity = dip_matrix_identity();
     DipKitList list = dip_kit_list(view, 0.1, err);
-    Uniforms *ground = &content->uniforms[COPIES];
+    const Uniforms ground = uniforms_of(view, true);
     for (int copy = 0; copy < COPIES; copy++) {
-        DipDraw *copied = add_copy(content, copy, &list);
+        DipDraw *copied = add_copy(copy, &list);
         copied->samplers = &skin;
         copied->state = model_looks[view->look].wireframe ? &wireframe : NULL;
     }
-    fill_uniforms(ground, view, true);
-    dip_kit_add(&list, content->stock.meshes[0], ground, &identity, shade_phong);
+    dip_kit_add(&list, view->stock->meshes[0], &ground, &identity, shade_phong);
     return dip_kit_show(&list, clear_lin);
 }
 
@@ -358,8 +343,9 @@ const DipGalleryScene dip_gallery_model = {
              .text =
                  "An MD2 model with key-frame animation under a directional, a point and a spot "
                  "light. The looks change the shading.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+             DIP_KIT_LOOKS("Phong", "Gouraud", "flat", "Phong, plain", "flat, plain",
+                           "lit wireframe")},
+    .meshes = {{DIP_KIT_PLANE, {24.0f, 24.0f, 48, 48}}},
     .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,

@@ -6,10 +6,8 @@
 // reach farther. Without advanced filtering they reach less far at the diagonals, because the
 // level then depends on the angle; with it, every ring has one colour.
 #include "app/gallery/kit/kit.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
-enum { SIDES = 96, TEXELS = 512, ROUND = 6 };
+enum { SIDES = 96, ROUND = 6 };
 
 // The tube lies along z. Its texture repeats ROUND times around it and once every REPEAT units.
 static const float length = 120.0f;
@@ -19,13 +17,6 @@ typedef struct Uniforms {
     DipKitObject object;
     float tint; // share of the mip colours in the picture
 } Uniforms;
-
-typedef struct Content {
-    DipKitStock stock; // The tube and its stone.
-    Uniforms uniforms;
-} Content;
-
-static const char *const looks[] = {"mip colours over stone", "stone", "mip colours"};
 
 // --- shaders -------------------------------------------------------------------------------------
 
@@ -56,11 +47,7 @@ static void shade(DipFragmentBatch *batch) {
 static void paint_stone(float u, float v, float rgba[4]) {
     const int course = (int)(v * 4.0f);
     const float along = u * 4.0f + (course % 2 ? 0.5f : 0.0f);
-    const float du = along - dip_kit_floor(along);
-    const float dv = v * 4.0f - (float)course;
-    const float edge_u = du < 0.5f ? du : 1.0f - du;
-    const float edge_v = dv < 0.5f ? dv : 1.0f - dv;
-    const float edge = edge_u < edge_v ? edge_u : edge_v;
+    const float edge = dip_kit_least(dip_kit_to_edge(along), dip_kit_to_edge(v * 4.0f));
     const float block = dip_kit_random((int)along % 4, course, 7);
     const float grain = dip_kit_turbulence(u * 16.0f, v * 16.0f, 16, 5, 3);
     const float light =
@@ -71,8 +58,10 @@ static void paint_stone(float u, float v, float rgba[4]) {
     rgba[2] = light * 0.88f;
 }
 
-// Makes the tube from the sides of a prism: turned to lie along z, seen from inside.
-static bool make_tube(DipMesh **mesh, DipError *err) {
+// Makes the tube from the sides of a prism, which are turned to lie along z.
+static bool create(void *content, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
+    (void)content;
+    (void)room;
     DipShape shape;
     if (!dip_shape_prism(&shape, 1.0f, length, SIDES, true, err)) {
         return false;
@@ -87,14 +76,7 @@ static bool make_tube(DipMesh **mesh, DipError *err) {
         vertex[DIP_SHAPE_TEXTURE] *= ROUND;
         vertex[DIP_SHAPE_TEXTURE + 1] *= length / repeat;
     }
-    return dip_kit_mesh(mesh, "tube", &shape, err);
-}
-
-static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
-    DipKitStock *stock = content;
-    (void)room;
-    return make_tube(&stock->meshes[0], err) &&
-           dip_kit_texture(&stock->textures[0], "stone", TEXELS, TEXELS, false, paint_stone, err);
+    return dip_kit_mesh(&stock->meshes[0], "tube", &shape, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -106,21 +88,20 @@ static DipGalleryCamera camera(double turn) {
                               .target = {0.6 * dip_sin(turn), 0.4 * dip_sin(2.0 * turn), -10.0}};
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.0f, 0.0f, 0.0f};
     static const float tints[] = {0.5f, 0.0f, 1.5f};
-    Content *content = pointer;
+    const Uniforms uniforms = {.tint = tints[view->look]};
     const double travelled = 12.0 * view->time_s / DIP_GALLERY_SECONDS;
-    const DipMatrix forwards = dip_matrix_translation(0.0, 0.0, travelled - (int)travelled);
-    const DipMatrix turned = dip_matrix_rotation(2, view->turn);
-    const DipMatrix model = dip_matrix_multiply(&forwards, &turned);
+    const DipMatrix model =
+        dip_kit_chain(dip_matrix_translation(0.0, 0.0, travelled - (int)travelled),
+                      dip_matrix_rotation(2, view->turn));
     DipKitList list = dip_kit_list(view, 0.02, err);
     DipSampler samplers[2];
-    samplers[0] = samplers[1] = dip_kit_sampler(view, &content->stock.textures[0]);
+    samplers[0] = samplers[1] = dip_kit_sampler(view, &view->stock->textures[0]);
     dip_kit_show_mip_colours(&samplers[1], view);
-    content->uniforms.tint = tints[view->look];
-    DipDraw *tube = dip_kit_add(&list, content->stock.meshes[0], &content->uniforms, &model, shade);
-    tube->cull = DIP_CULL_FRONT; // seen from inside
+    DipDraw *tube = dip_kit_add(&list, view->stock->meshes[0], &uniforms, &model, shade);
+    tube->cull = DIP_CULL_FRONT; // The camera sees the tube from inside.
     tube->repeating_varyings = 1u << DIP_KIT_UV | 1u << (DIP_KIT_UV + 1);
     tube->samplers = samplers;
     return dip_kit_show(&list, clear_lin);
@@ -131,9 +112,8 @@ const DipGalleryScene dip_gallery_tunnel = {
              .title = "Anisotropy tunnel",
              .text = "A tube whose colours show the mip level of each pixel. Compare af=16 with "
                      "af=none, and af=16,aaf=on with af=16.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
-    .content_bytes = sizeof(Content),
+             DIP_KIT_LOOKS("mip colours over stone", "stone", "mip colours")},
+    .textures = {{"stone", 512, 512, DIP_WRAP_REPEAT, paint_stone}},
     .camera = camera,
     .create = create,
     .draw = draw,

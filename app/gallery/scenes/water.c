@@ -6,17 +6,14 @@
 // pixel, displaced by the waves of a normal map. Fresnel's term mixes in the sky.
 #include "app/gallery/kit/kit.h"
 #include "assets/model.h"
-#include "renderer/base/assert.h"
 #include "renderer/base/pages.h"
-#include "renderer/base/trig.h"
 
 #include <limits.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Attributes of the courtyard's vertices: position, coordinates of the colours and of the light
-// map.
+// Attributes of the courtyard's vertices: the position, the texture coordinates of the colours, and
+// those of the light map.
 enum { UV0 = 3, UV1 = 5, ATTRIBUTES = 7, VARYINGS = 4 };
 // Varyings of the water: two layers of waves, then the position.
 enum { WAVE0 = 0, WAVE1 = 2, POSITION = 4, WATER_VARYINGS = 7 };
@@ -25,7 +22,8 @@ typedef struct Uniforms {
     float to_clip[16];
     float colour[3];
     float light_scale; // 0: there is no light map
-    float cutoff;
+    float cutoff;      // Fragments with less alpha are clipped.
+    float turns;       // for the floor of the pool: the time as turns of the loop, 0..1
 } Uniforms;
 
 // An object of the courtyard. Only its uniforms and samplers change from frame to frame.
@@ -50,21 +48,18 @@ typedef struct Water {
 } Water;
 
 typedef struct Content {
-    DipKitStock stock; // The texture is the mosaic.
     DipModel *model;
     const DipSceneDef *def; // belongs to the model
     DipTexture **textures;
     DipTexture **compressed;
     DipMesh **meshes;
     Object *objects;
-    DipDraw *draws;
+    DipDraw *draws; // of one pass: all objects and a quad
     Uniforms pool_floor;
     DipTarget picture;                     // of the first pass
     DipDepth *depths[DIP_MAX_SAMPLES + 1]; // by the number of samples
     Water water;
 } Content;
-
-static const char *const looks[] = {"refracted", "blended"};
 
 // --- shaders of the courtyard --------------------------------------------------------------------
 
@@ -105,16 +100,15 @@ static void shade_sky(DipFragmentBatch *batch) {
         const float v = batch->varying[1][i];
         const float cloud = 0.5f + 0.25f * dip_kit_wave(1.3f * u + 0.4f * v) +
                             0.25f * dip_kit_wave(2.1f * v - 0.7f * u);
-        batch->colour[0][i] = 0.16f + 0.20f * cloud;
-        batch->colour[1][i] = 0.30f + 0.18f * cloud;
-        batch->colour[2][i] = 0.58f + 0.12f * cloud;
+        dip_kit_set(batch->colour, i, 0.16f + 0.20f * cloud, 0.30f + 0.18f * cloud,
+                    0.58f + 0.12f * cloud);
     }
 }
 
 // The mosaic under water, with the light that the waves focus on it.
 static void shade_pool_floor(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
-    const float turns = uniforms->light_scale;
+    const float turns = uniforms->turns;
     batch->sample_colour(batch, &batch->samplers[0], 0, batch->colour);
     for (int i = 0; i < batch->count; i++) {
         const float x = 5.0f * batch->varying[0][i];
@@ -124,7 +118,7 @@ static void shade_pool_floor(DipFragmentBatch *batch) {
         const float b = dip_kit_wave(0.5f * x - 1.2f * z - bend - 6.0f * turns);
         const float c = dip_kit_wave(0.8f * (x + z) + 2.0f * bend - 3.0f * turns);
         const float line = 1.0f - fabsf(a + b + c) * 0.5f;
-        const float caustic = dip_kit_power(line > 0.0f ? line : 0.0f, 2);
+        const float caustic = dip_kit_power(dip_kit_greatest(line, 0.0f), 2);
         for (int k = 0; k < 3; k++) {
             batch->colour[k][i] *= 0.55f + 0.75f * caustic;
         }
@@ -186,22 +180,19 @@ static void shade_water(DipFragmentBatch *batch) {
     if (water->refracts) {
         refract_picture(batch, water, waves, under);
     }
+    const DipKitVector eye = dip_kit_vector(water->eye);
     for (int i = 0; i < batch->count; i++) {
-        const float ex = water->eye[0] - batch->varying[POSITION][i];
-        const float ey = water->eye[1] - batch->varying[POSITION + 1][i];
-        const float ez = water->eye[2] - batch->varying[POSITION + 2][i];
-        const float e = 1.0f / sqrtf(ex * ex + ey * ey + ez * ez);
-        const float nx = waves[0][i];
-        const float nz = waves[1][i];
-        const float n = 1.0f / sqrtf(nx * nx + 1.0f + nz * nz);
-        const float facing = n * e * (nx * ex + ey + nz * ez);
+        const DipKitVector to_eye = dip_kit_minus(eye, dip_kit_get(batch->varying + POSITION, i));
+        const DipKitVector normal = {waves[0][i], 1.0f, waves[1][i]};
+        const float e = dip_kit_per_length(to_eye, 0.0f);
+        const float n = dip_kit_per_length(normal, 0.0f);
+        const float facing = n * e * dip_kit_dot(normal, to_eye);
         const float share = fresnel(facing);
-        const float rx = 2.0f * facing * n * nx - e * ex;
-        const float ry = 2.0f * facing * n - e * ey;
-        const float rz = 2.0f * facing * n * nz - e * ez;
-        const float toward = rx * sun[0] + ry * sun[1] + rz * sun[2];
-        const float glint = dip_kit_power(toward > 0.0f ? toward : 0.0f, 8);
-        const float up = dip_kit_clamp(ry, 0.0f, 1.0f);
+        const DipKitVector mirrored =
+            dip_kit_minus(dip_kit_times(normal, 2.0f * facing * n), dip_kit_times(to_eye, e));
+        const float toward = dip_kit_dot(mirrored, dip_kit_vector(sun));
+        const float glint = dip_kit_power(dip_kit_greatest(toward, 0.0f), 8);
+        const float up = dip_kit_clamp(mirrored.y, 0.0f, 1.0f);
         const float sky[3] = {0.62f - 0.42f * up, 0.70f - 0.34f * up, 0.80f - 0.18f * up};
         // The bowls above the pool have no floor of their own, so their water is deep.
         const float seen = batch->varying[POSITION + 1][i] > 1.0f ? 0.25f : 1.0f;
@@ -233,11 +224,8 @@ static void paint_mosaic(float u, float v, float rgba[4]) {
     const float tiles = 44.0f;
     const float x = u * tiles;
     const float z = v * tiles;
-    const float gap_x = x - dip_kit_floor(x);
-    const float gap_z = z - dip_kit_floor(z);
-    const float edge_x = gap_x < 0.5f ? gap_x : 1.0f - gap_x;
-    const float edge_z = gap_z < 0.5f ? gap_z : 1.0f - gap_z;
-    const float joint = dip_kit_smooth(0.03f, 0.09f, edge_x < edge_z ? edge_x : edge_z);
+    const float joint =
+        dip_kit_smooth(0.03f, 0.09f, dip_kit_least(dip_kit_to_edge(x), dip_kit_to_edge(z)));
     const float cx = (dip_kit_floor(x) + 0.5f) / tiles - 0.5f;
     const float cz = (dip_kit_floor(z) + 0.5f) / tiles - 0.5f;
     const float radius = sqrtf(cx * cx + cz * cz);
@@ -370,10 +358,8 @@ static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
     char file[PATH_MAX];
     const char *files[1] = {file};
     const DipModelOptions options = {.normal_maps = true};
-    const int length = snprintf(file, sizeof file, "%s/courtyard/court.gltf", room->assets);
-    if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, room->assets, 0, "water",
-                             "the name of the folder is too long");
+    if (!dip_kit_asset(file, sizeof file, room, "courtyard/court.gltf", "water", err)) {
+        return false;
     }
     content->model = dip_model_load_with(files, 1, &options, room->pool, NULL, err);
     if (!content->model) {
@@ -397,13 +383,8 @@ static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
     return made;
 }
 
-static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
-    DipKitStock *stock = &content->stock;
-    return make_pool_floor(&stock->meshes[POOL_FLOOR], err) &&
-           dip_kit_quad(&stock->meshes[SCREEN], 2.0f, 2.0f, err) &&
-           dip_kit_texture(&stock->textures[0], "mosaic", 512, 512, true, paint_mosaic, err) &&
-           load(content, room, err);
+static bool create(void *content, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
+    return make_pool_floor(&stock->meshes[POOL_FLOOR], err) && load(content, room, err);
 }
 
 // Makes the first pass's picture and depths, unless a frame of this size and number of samples had
@@ -443,7 +424,8 @@ static DipSampler court_sampler(const Content *content, const DipGalleryView *vi
     return dip_kit_sampler(view, &both);
 }
 
-static void fill_draw(Content *content, const DipGalleryView *view, Object *object, DipDraw *draw) {
+static DipDraw object_draw(const DipGalleryView *view, Object *object) {
+    const Content *content = view->content;
     const DipMaterialDef *material = &content->def->materials[object->material];
     Uniforms *uniforms = &object->uniforms;
     DipSampler *samplers = object->samplers;
@@ -460,7 +442,7 @@ static void fill_draw(Content *content, const DipGalleryView *view, Object *obje
         samplers[0] = court_sampler(content, view, material->colour_texture);
     }
     const bool clipped = material->surface == DIP_SURFACE_CLIPPED && textured;
-    *draw = (DipDraw){
+    return (DipDraw){
         .mesh = content->meshes[object->mesh],
         .vertex_shader = court_vertex,
         .fragment_shader =
@@ -476,8 +458,9 @@ static void fill_draw(Content *content, const DipGalleryView *view, Object *obje
 }
 
 // Lists everything but the water. Returns the number of draws.
-static int list_court(Content *content, const DipGalleryView *view, const DipKitCamera *seen,
+static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipSampler *mosaic) {
+    Content *content = view->content;
     const DipSceneDef *def = content->def;
     int count = 0;
     for (int o = 0; o < def->object_count; o++) {
@@ -485,12 +468,12 @@ static int list_court(Content *content, const DipGalleryView *view, const DipKit
         if (def->materials[object->material].surface != DIP_SURFACE_WATER) {
             const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);
             dip_matrix_floats(&to_clip, object->uniforms.to_clip);
-            fill_draw(content, view, object, &content->draws[count++]);
+            content->draws[count++] = object_draw(view, object);
         }
     }
     dip_matrix_floats(&seen->to_clip, content->pool_floor.to_clip);
-    content->pool_floor.light_scale = (float)(view->time_s / DIP_GALLERY_SECONDS);
-    content->draws[count++] = (DipDraw){.mesh = content->stock.meshes[POOL_FLOOR],
+    content->pool_floor.turns = view->turns;
+    content->draws[count++] = (DipDraw){.mesh = view->stock->meshes[POOL_FLOOR],
                                         .vertex_shader = court_vertex,
                                         .fragment_shader = shade_pool_floor,
                                         .varying_count = 2,
@@ -501,16 +484,16 @@ static int list_court(Content *content, const DipGalleryView *view, const DipKit
 }
 
 // Lists the water's draws after those in `draws`. Returns their number.
-static int list_water(Content *content, const DipGalleryView *view, const DipKitCamera *seen,
+static int list_water(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipDrawState *state, DipSampler *waves, DipDraw *draws) {
+    Content *content = view->content;
     const DipSceneDef *def = content->def;
     Water *water = &content->water;
     int count = 0;
     dip_matrix_floats(&seen->to_clip, water->to_clip);
     memcpy(water->eye, seen->eye, sizeof water->eye);
-    const float turns = (float)(view->time_s / DIP_GALLERY_SECONDS);
-    water->scroll[0] = turns;
-    water->scroll[1] = -turns;
+    water->scroll[0] = view->turns;
+    water->scroll[1] = -view->turns;
     water->picture = content->picture;
     water->refracts = view->look == 0;
     for (int o = 0; o < def->object_count; o++) {
@@ -536,20 +519,20 @@ static int list_water(Content *content, const DipGalleryView *view, const DipKit
     return count;
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.30f, 0.42f, 0.62f};
     static const DipDrawState copies = {.depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true};
     static const DipDrawState blended = {.blend = DIP_BLEND_MODE_ALPHA, .keep_depth = true};
-    Content *content = pointer;
+    Content *content = view->content;
     const bool refracts = view->look == 0;
     const int samples = dip_quality_sample_count(view->quality);
-    const DipSampler mosaic = dip_kit_sampler(view, &content->stock.textures[0]);
+    const DipSampler mosaic = dip_kit_sampler(view, &view->stock->textures[0]);
     DipKitCamera seen;
     if (!prepare_target(content, &view->target, samples, err) ||
         !dip_kit_camera(&seen, view, 0.1, err)) {
         return false;
     }
-    const int court_count = list_court(content, view, &seen, &mosaic);
+    const int court_count = list_court(view, &seen, &mosaic);
     DipPass court = dip_kit_pass(view, content->draws, court_count, clear_lin);
     court.attachments.depth = content->depths[samples];
     if (refracts) {
@@ -559,14 +542,14 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
         return false;
     }
     DipSampler waves;
-    content->draws[0] = (DipDraw){.mesh = content->stock.meshes[SCREEN],
+    content->draws[0] = (DipDraw){.mesh = view->stock->meshes[SCREEN],
                                   .vertex_shader = dip_kit_screen_vertex,
                                   .fragment_shader = shade_screen,
                                   .uniforms = &content->water,
                                   .state = &copies};
     const int first = refracts ? 1 : 0;
-    const int count = list_water(content, view, &seen, refracts ? NULL : &blended, &waves,
-                                 content->draws + first);
+    const int count =
+        list_water(view, &seen, refracts ? NULL : &blended, &waves, content->draws + first);
     DipPass water = dip_kit_pass(view, content->draws, first + count, clear_lin);
     water.attachments = (DipAttachments){
         .colour_load = refracts ? DIP_LOAD_DISCARD : DIP_LOAD_KEEP,
@@ -583,8 +566,9 @@ const DipGalleryScene dip_gallery_water = {
              .text =
                  "The fountain's pool over a mosaic, with waves that refract it, or blended over "
                  "it.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+             DIP_KIT_LOOKS("refracted", "blended")},
+    .meshes = {[SCREEN] = {DIP_KIT_QUAD, {2.0f, 2.0f}}},
+    .textures = {{"mosaic", 512, 512, DIP_WRAP_CLAMP, paint_mosaic}},
     .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,
