@@ -56,11 +56,8 @@ typedef struct DipMeter {
     DipSrgbPicture test;
     const float *test_lin;
     DipMeterStandard standard;
-    int steps; // Steps taken for the picture.
-    DipMapSum squared_lin[DIP_METRIC_REGION_COUNT];
-    DipMapSum squared_codes[DIP_METRIC_REGION_COUNT];
-    DipMapSum ssim[DIP_METRIC_REGION_COUNT];
-    DipMapSum flip_sums[DIP_METRIC_REGION_COUNT];
+    int steps;          // Steps taken for the picture.
+    DipMetricSums sums; // Of the picture. Complete once the picture is done; without its burst.
 } DipMeter;
 
 // Returns false when memory runs out; *meter then owns nothing.
@@ -83,9 +80,6 @@ void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *t
 // Measures a block or a band of the picture. The values are to the bit those of the whole picture.
 // Returns DONE after the last one, and FAILED when memory runs out.
 DipStep dip_meter_step(DipMeter *meter);
-
-// Returns the sums of a picture that is done.
-DipMetricSums dip_meter_sums(const DipMeter *meter);
 
 // Sets the standard, begins a picture, steps to its end and adds its sums to *sums. Returns false
 // when memory runs out.

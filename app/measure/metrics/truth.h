@@ -10,7 +10,6 @@
 #include "app/measure/metrics/meter.h"
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
-#include "renderer/base/srgb.h"
 #include "renderer/scene/pose.h"
 
 #include <stdbool.h>
@@ -22,7 +21,8 @@ extern "C" {
 
 struct DipReference; // renderer/reference/reference.h
 
-// Pictures have width * height pixels, the top row first, rows packed. Owns its arrays.
+// Pictures have width * height pixels, the top row first, rows packed. A truth owns its arrays,
+// which lie in one block of memory.
 typedef struct DipTruth {
     int width;
     int height;
@@ -109,10 +109,6 @@ double dip_truth_floor_rmse(const DipMetricSums *floor, int region);
 // Returns whether the error of pictures is below three times the error of their truths. It then
 // cannot be told from the truths' noise: it is "at floor". `sums` are those of the pictures.
 bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums);
-
-// Encodes linear light (3 values per pixel, clamped to 0..1) to 8-bit sRGB with alpha 255.
-void dip_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin, size_t pixel_count,
-                      uint8_t *rgba8);
 
 // Writes the name of the default cache folder: $XDG_CACHE_HOME/diptych, or $HOME/.cache/diptych if
 // XDG_CACHE_HOME is not set. Does not create the folder. Returns false if neither variable is set

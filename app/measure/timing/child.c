@@ -1,4 +1,4 @@
-// Starting another program and talking with it through pipes.
+// Starts another program and talks with it through pipes.
 #include "app/measure/timing/child.h"
 
 #include "app/measure/timing/thread_use.h"
@@ -22,7 +22,7 @@ extern char **environ;
 
 struct DipChild {
     DipChildDef def; // Its texts are borrowed.
-    pid_t pid;       // 0 if there is no process
+    pid_t pid;       // 0 if there is no process.
     FILE *to;
     FILE *from;
     DipThreadWatch *watch; // NULL if the machine does not tell.
@@ -175,32 +175,33 @@ static Use use_between(const DipThreadUse *before, const DipThreadUse *after) {
     };
 }
 
-static bool store_number(const char *word, size_t length, const char *name, double *value) {
-    return length == strlen(name) && memcmp(word, name, length) == 0 &&
-           dip_number_parse(word + length + 1, strlen(word + length + 1), value);
+static void store_number(const char *word, const char *value, const char *name, double *to) {
+    if (strcmp(word, name) == 0) {
+        dip_number_parse(value, strlen(value), to);
+    }
 }
 
 // Stores one NAME=VALUE of an answer. Ignores an unknown name.
-static void store_word(const char *word, DipBenchSample *sample, Use *use) {
-    const char *equals = strchr(word, '=');
-    const size_t length = equals ? (size_t)(equals - word) : 0;
-    store_number(word, length, "wait_ms", &use->wait_ms);
-    store_number(word, length, "cpu_ms", &use->cpu_ms);
-    store_number(word, length, "switches", &use->switches);
-    if (length == strlen("hash") && memcmp(word, "hash", length) == 0) {
-        snprintf(sample->hash, sizeof sample->hash, "%s", equals + 1);
+static void store_word(char *word, DipBenchSample *sample, Use *use) {
+    char *value = strchr(word, '=');
+    if (!value) {
+        return;
     }
-    for (int stage = 0; length && stage < DIP_BENCH_STAGE_COUNT; stage++) {
-        const char *name = dip_bench_stage_names[stage];
-        const size_t name_length = strlen(name);
-        if (length == name_length + 3 && memcmp(word, name, name_length) == 0 &&
-            memcmp(word + name_length, "_ms", 3) == 0) {
-            dip_number_parse(equals + 1, strlen(equals + 1), &sample->ms[stage]);
-        }
+    *value++ = '\0';
+    store_number(word, value, "wait_ms", &use->wait_ms);
+    store_number(word, value, "cpu_ms", &use->cpu_ms);
+    store_number(word, value, "switches", &use->switches);
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s_ms", dip_bench_stage_names[stage]);
+        store_number(word, value, name, &sample->ms[stage]);
+    }
+    if (strcmp(word, "hash") == 0) {
+        snprintf(sample->hash, sizeof sample->hash, "%s", value);
     }
 #define STORE_COUNTER(name, text)                                                                  \
-    if (length == strlen(#name) && memcmp(word, #name, length) == 0) {                             \
-        sample->counters.name = strtoull(equals + 1, NULL, 10);                                    \
+    if (strcmp(word, #name) == 0) {                                                                \
+        sample->counters.name = strtoull(value, NULL, 10);                                         \
     }
     DIP_COUNTER_LIST(STORE_COUNTER)
 #undef STORE_COUNTER
@@ -217,8 +218,8 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
         return false;
     }
     const DipThreadUse after = dip_thread_watch_read(child->watch);
-    // Older builds do not tell. The watch also sees how long the child waits until it reads the
-    // request.
+    // Newer builds answer how long their threads waited. For older ones, the watch's figures stand,
+    // which include the wait until the child reads the request.
     Use use = use_between(&before, &after);
     char *rest = NULL;
     for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {

@@ -39,8 +39,8 @@ DipThreadWatch *dip_thread_watch_open_process(long pid);
 // Returns the number of threads that are watched; 0 without a watch.
 int dip_thread_watch_count(const DipThreadWatch *watch);
 
-// Reads the sums. Takes a few microseconds per thread. Without a watch only the processor time of
-// this process and its switches are known. The switches are always those of this process.
+// Reads the sums. Takes a few microseconds per thread. `switches` always counts those of this
+// process. Without a watch, only this number and this process' time on a core are known.
 DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
 
 #ifdef __cplusplus
