@@ -1,4 +1,4 @@
-// Linear least squares with prices that are not negative, and the choice of the rows to measure.
+// Fits prices that are not negative by linear least squares, and chooses the rows to measure.
 //
 // A row is one measurement: the amounts of `terms` kinds of work (a row of the matrix) and the time
 // that they took together. A price is the time for one unit of a kind of work. Amounts and times
