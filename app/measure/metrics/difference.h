@@ -11,10 +11,6 @@
 
 #include "app/measure/metrics/picture.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Writes test - truth in linear light, 3 values per pixel in -1..1. truth_lin has 3 values per
 // pixel in 0..1.
 void dip_difference_lin(const DipSrgbPicture *test, const float *truth_lin, float *error_lin);
@@ -46,9 +42,5 @@ double dip_map_mean(DipMapSum sum);
 // Returns the peak signal-to-noise ratio in decibels: 10 log10(255^2 / mean_squared_codes). It is
 // infinite if mean_squared_codes is 0.
 double dip_psnr_db(double mean_squared_codes);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -12,10 +12,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Running sums over a burst of successive frames. Owns its arrays. Use one per thread.
 typedef struct DipFlicker {
     double *mean;      // Mean of e so far, per value.
@@ -53,9 +49,5 @@ typedef struct DipFlickerResult {
 } DipFlickerResult;
 
 DipFlickerResult dip_flicker_result(const DipFlicker *flicker);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -13,10 +13,6 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The default is for a screen that is 0.7 m and 3840 pixels wide, seen from a distance of 0.7 m.
 #define DIP_FLIP_PIXELS_PER_DEGREE     67.0206451
 #define DIP_FLIP_MIN_PIXELS_PER_DEGREE 5.0
@@ -58,9 +54,5 @@ void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFli
                       float *map);
 void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                             const DipFlipAnalysis *with, float *map);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -7,10 +7,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Side of the blocks among which the worst one is found, in pixels.
 enum { DIP_FLIP_TAIL_BLOCK = 32 };
 
@@ -54,9 +50,5 @@ void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int
 // Returns the distribution of everything added since the burst began, and the worst block. Of equal
 // blocks, it returns the first one.
 DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

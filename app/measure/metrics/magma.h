@@ -4,15 +4,7 @@
 
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Writes the sRGB colour of an error in 0..1. Values outside 0..1 are clamped. Thread-safe.
 void dip_magma(float error, uint8_t rgb[3]);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

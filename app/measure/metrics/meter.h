@@ -10,10 +10,6 @@
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // What stepwise work has come to.
 typedef enum DipStep {
     DIP_STEP_WORKING,
@@ -88,9 +84,5 @@ bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *tes
 
 // Ends the burst and adds its flicker to *sums. A single picture is a burst of one frame.
 void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

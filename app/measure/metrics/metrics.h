@@ -8,10 +8,6 @@
 
 #include "renderer/reference/seen.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Region 0 is the whole picture. Region 1 + c holds the pixels of class c (DipSeen: what a pixel
 // shows).
 enum { DIP_METRIC_REGION_COUNT = 1 + DIP_SEEN_COUNT };
@@ -65,9 +61,5 @@ typedef struct DipFlickerMetrics {
 } DipFlickerMetrics;
 
 DipFlickerMetrics dip_flicker_metrics_of(const DipMetricSums *sums);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

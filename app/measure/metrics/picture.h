@@ -5,10 +5,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // A view of a picture in 8-bit sRGB. A code is the 8-bit value of one channel. A pixel has four
 // bytes: the codes of red, green and blue, and a fourth byte that no metric reads. The top row
 // comes first, as in a DipFrame. The bytes are borrowed.
@@ -46,9 +42,5 @@ typedef struct DipPixelMask {
     const uint8_t *classes;
     uint8_t wanted;
 } DipPixelMask;
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -11,19 +11,11 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { DIP_SSIM_RADIUS = 5 }; // Pixels.
 
 // Writes for each pixel the similarity of two windows around the pixel, one in each picture. A
 // similarity is at most 1. Pixels within DIP_SSIM_RADIUS of the border get not-a-number. Both
 // pictures must have the same size. Returns false when memory runs out. Thread-safe.
 bool dip_ssim_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

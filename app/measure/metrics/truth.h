@@ -15,10 +15,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 struct DipReference; // renderer/reference/reference.h
 
 // Pictures have width * height pixels, the top row first, rows packed. A truth owns its arrays,
@@ -114,9 +110,5 @@ bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums);
 // XDG_CACHE_HOME is not set. Does not create the folder. Returns false if neither variable is set
 // or if the name does not fit.
 bool dip_truth_default_folder(char *folder, size_t size_bytes);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -5,10 +5,6 @@
 
 #include <string.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Ends that are not known are NAN. No function returns an interval of length 0: a value about whose
 // error nothing is known has no interval.
 typedef struct DipEstimate {
@@ -55,9 +51,5 @@ static inline double dip_percentile_of(const double *values, int count, double s
 // Returns the median of count >= 1 values. Reorders the values. Takes linear time (Hoare's
 // selection).
 double dip_median(double *values, int count);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -7,10 +7,6 @@
 #ifndef DIP_APP_MEASURE_STATS_LEAST_SQUARES_H
 #define DIP_APP_MEASURE_STATS_LEAST_SQUARES_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { DIP_LEAST_SQUARES_MAX_TERMS = 64 };
 
 // The normal equations of a set of rows. Rows can be added and taken away again, so that every row
@@ -48,9 +44,5 @@ void dip_least_squares_ridge(const DipNormalEquations *equations, double ridge, 
 // 0 <= given <= count <= rows.
 void dip_design_choose(const double *matrix, int rows, int terms, int given, int count,
                        int *chosen);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -18,10 +18,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { DIP_TIMED_PARTS = 4, DIP_TIMED_MOST_STARTS = 64 };
 
 // A frame whose threads waited for a core for more than this share of its time, summed over the
@@ -122,9 +118,5 @@ const double *dip_times_shares(const DipTimesFit *fit, int subject);
 
 // Returns the times from which dip_times_along makes its values: [frame], borrowed.
 const double *dip_times_frames(const DipTimesFit *fit, int subject);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

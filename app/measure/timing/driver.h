@@ -33,10 +33,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct DipDriverDef {
     int subjects;
     const int *base_of; // [subject]; borrowed. NULL: every subject is a base.
@@ -149,9 +145,5 @@ typedef struct DipDriverMachine {
 
 // `threads` is the number of threads that a frame keeps busy.
 DipDriverMachine dip_driver_machine(const DipDriver *driver, int threads);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

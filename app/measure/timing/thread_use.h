@@ -11,10 +11,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Sums over all threads since the process began.
 typedef struct DipThreadUse {
     int64_t cpu_ns;   // Time on a core.
@@ -42,9 +38,5 @@ int dip_thread_watch_count(const DipThreadWatch *watch);
 // Reads the sums. Takes a few microseconds per thread. `switches` always counts those of this
 // process. Without a watch, only this number and this process' time on a core are known.
 DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif
