@@ -1,4 +1,4 @@
-// Bilinear enlargement: bands of rows on the pool's threads.
+// Enlarges pictures bilinearly, in bands of rows on the pool's threads.
 #include "app/bench/enlarge.h"
 
 #include "renderer/base/srgb.h"

@@ -1,4 +1,4 @@
-// Storing and averaging the bench's samples, and measuring the combinations and programs in turn.
+// Stores and averages the bench's samples, and measures the combinations and programs in turn.
 #include "app/bench/measure.h"
 
 #include "app/cli/drive.h"
@@ -56,19 +56,13 @@ const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
     return result->ms + first_index(result, combination, stage);
 }
 
-void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
-                                const DipBenchSample *sample) {
-    result->first[combination * result->plan->options.frames + frame] = *sample;
-}
-
 double dip_bench_result_quantile(const DipBenchResult *result, int combination, DipBenchStage stage,
                                  double share) {
     return dip_percentile_of(dip_bench_result_ms(result, combination, stage),
                              (int)values_per_stage(result->plan), share, result->scratch);
 }
 
-const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
-                                             int frame) {
+DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination, int frame) {
     return &result->first[combination * result->plan->options.frames + frame];
 }
 
@@ -122,8 +116,8 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
         return false;
     }
     if (first) {
-        dip_bench_result_set_first(&t->results[turn->subject % t->source_count], combination,
-                                   turn->frame, &sample);
+        *dip_bench_result_first(&t->results[turn->subject % t->source_count], combination,
+                                turn->frame) = sample;
         if (turn->subject % t->source_count == 0 &&
             !check_picture(t, combination, turn->frame, sample.hash, err)) {
             return false;
@@ -134,7 +128,7 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
-// The base has a visit in every block of a round; the last one's times are kept.
+// A base is drawn in every block of a round. Its times of the last block are kept.
 static void keep_times(const BenchTiming *t, const DipTimes *times) {
     for (int i = 0; i < times->count; i++) {
         const DipTimed *timed = &times->list[i];

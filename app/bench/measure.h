@@ -1,6 +1,6 @@
-// Measuring every combination of a plan in interleaved rounds (app/measure/timing/driver.h). The
-// results are the times of every frame in every round, and the work of every frame. Each round
-// draws every frame of every combination of the plan (plan.h) once.
+// Measures every combination of a plan (plan.h) in interleaved rounds
+// (app/measure/timing/driver.h). Each round draws every frame of every combination once. The
+// results are the times of every frame in every round, and the work of every frame.
 #ifndef DIP_APP_BENCH_MEASURE_H
 #define DIP_APP_BENCH_MEASURE_H
 
@@ -24,10 +24,6 @@ typedef struct DipBenchResult {
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
 void dip_bench_result_free(DipBenchResult *result);
 
-// Stores the sample of a frame's first drawing, which is the one with the hash and the counters.
-void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
-                                const DipBenchSample *sample);
-
 // Stores the times of a frame of a round.
 void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed);
 
@@ -35,11 +31,12 @@ void dip_bench_result_add(DipBenchResult *result, int combination, const DipTime
 const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
                                   DipBenchStage stage);
 
-// The quantile of these times with this share, 0..1.
+// Returns the quantile of these times with this share, 0..1.
 double dip_bench_result_quantile(const DipBenchResult *result, int combination, DipBenchStage stage,
                                  double share);
-const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
-                                             int frame);
+
+// Returns the sample of a frame's first drawing, which has the hash and the counters.
+DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination, int frame);
 
 // Writes the means of the counters over the frames.
 void dip_bench_result_work(const DipBenchResult *result, int combination,

@@ -1,4 +1,4 @@
-// Making every combination of the values of all axes.
+// Makes every combination of the values of all axes, and writes their labels.
 #include "app/bench/plan.h"
 
 #include "app/bench/enlarge.h"

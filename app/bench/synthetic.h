@@ -1,5 +1,5 @@
-// A scene that is computed by formulas, with very many small triangles. The renderer was not
-// optimised for it.
+// Scenes that are computed by formulas and may have very many small triangles. The renderer was not
+// optimised for them.
 #ifndef DIP_APP_BENCH_SYNTHETIC_H
 #define DIP_APP_BENCH_SYNTHETIC_H
 

@@ -1,4 +1,4 @@
-// Writing the bench's results as text and CSV.
+// Writes the bench's results as text and CSV.
 #ifndef DIP_APP_BENCH_TABLE_H
 #define DIP_APP_BENCH_TABLE_H
 

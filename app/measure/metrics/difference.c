@@ -51,16 +51,6 @@ void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count, DipPi
     }
 }
 
-DipMapSum dip_map_sum(const float *map, size_t pixel_count, DipPixelMask mask) {
-    DipMapSum sum = {0};
-    dip_map_sum_add(&sum, map, pixel_count, mask);
-    return sum;
-}
-
-double dip_map_mean(DipMapSum sum) {
-    return sum.pixel_count > 0.0 ? sum.sum / sum.pixel_count : 0.0;
-}
-
 double dip_psnr_db(double mean_squared_codes) {
     return mean_squared_codes > 0.0 ? 10.0 * log10(255.0 * 255.0 / mean_squared_codes) : INFINITY;
 }

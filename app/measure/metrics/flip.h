@@ -55,4 +55,8 @@ void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFli
 void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                             const DipFlipAnalysis *with, float *map);
 
+// Writes the sRGB colour in which maps show a FLIP value in 0..1: from black over purple and orange
+// to light yellow. Values outside 0..1 are clamped. Thread-safe.
+void dip_magma(float error, uint8_t rgb[3]);
+
 #endif

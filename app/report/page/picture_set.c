@@ -4,7 +4,7 @@
 
 #include "app/files/jpeg.h"
 #include "app/files/png.h"
-#include "app/measure/metrics/magma.h"
+#include "app/measure/metrics/flip.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,6 +4,7 @@
 #include "app/measure/metrics/flicker.h"
 #include "app/measure/metrics/ssim.h"
 #include "renderer/base/srgb.h"
+#include "tests/app/measure/map_sum.h"
 #include "tests/app/measure/patterns.h"
 
 #include <setjmp.h>

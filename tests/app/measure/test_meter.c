@@ -1,6 +1,7 @@
 // Tests that a meter, which works block by block, finds the values of whole pictures to the bit.
 #include "app/measure/metrics/meter.h"
 #include "app/measure/metrics/ssim.h"
+#include "tests/app/measure/map_sum.h"
 
 #include <math.h>
 #include <setjmp.h>
