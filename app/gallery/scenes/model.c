@@ -29,9 +29,8 @@ typedef struct Uniforms {
 typedef struct Content {
     DipAnimatedModel *model;
     DipAnimatedPose *pose;
-    int frames;
-    DipMesh *smooth[MAX_FRAMES]; // by the first key frame of each pair
-    DipMesh *flat[MAX_FRAMES];   // the same triangles, without shared vertices
+    // [flat][first key frame of a pair]. Triangles of flat meshes share no vertices.
+    DipMesh *meshes[2][MAX_FRAMES];
 } Content;
 
 typedef struct Look {
@@ -161,63 +160,51 @@ static void write_vertex(const DipAnimatedMesh *mesh, uint32_t v, int frame, int
 static void face_normal(const DipAnimatedMesh *mesh, const uint32_t corner[3], int frame,
                         float normal[3]) {
     const float *all = mesh->positions + (size_t)frame * mesh->vertex_count * 3;
-    float edge[2][3];
-    for (int e = 0; e < 2; e++) {
-        for (int i = 0; i < 3; i++) {
-            edge[e][i] = all[3 * corner[e + 1] + (uint32_t)i] - all[3 * corner[0] + (uint32_t)i];
-        }
-    }
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3;
-        const int k = (i + 2) % 3;
-        normal[i] = edge[0][j] * edge[1][k] - edge[0][k] * edge[1][j];
-    }
-    const float scale = 1.0f / sqrtf(normal[0] * normal[0] + normal[1] * normal[1] +
-                                     normal[2] * normal[2] + 1e-30f);
-    for (int i = 0; i < 3; i++) {
-        normal[i] *= scale;
-    }
+    const DipKitVector first = dip_kit_vector(all + 3 * corner[0]);
+    const DipKitVector a = dip_kit_minus(dip_kit_vector(all + 3 * corner[1]), first);
+    const DipKitVector b = dip_kit_minus(dip_kit_vector(all + 3 * corner[2]), first);
+    const DipKitVector c = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    const DipKitVector unit = dip_kit_times(c, dip_kit_per_length(c, 1e-30f));
+    normal[0] = unit.x;
+    normal[1] = unit.y;
+    normal[2] = unit.z;
 }
 
-// Makes the smooth and the flat mesh of a pair of key frames.
-static bool make_pair(Content *content, const DipAnimatedMesh *mesh, int frame, DipError *err) {
-    const int next = (frame + 1) % content->frames;
-    const size_t row_bytes = ATTRIBUTES * sizeof(float);
-    float *rows = malloc((mesh->vertex_count + mesh->index_count) * row_bytes);
+// Makes the smooth or the flat mesh of a key frame and the next one.
+static bool make_mesh(DipMesh **to, const DipAnimatedMesh *mesh, int frame, int next, bool flat,
+                      DipError *err) {
+    const uint32_t count = flat ? mesh->index_count : mesh->vertex_count;
+    float *rows = malloc((size_t)count * ATTRIBUTES * sizeof *rows);
     uint32_t *order = malloc(mesh->index_count * sizeof *order);
-    if (!rows || !order) {
-        free(rows);
-        free(order);
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "model", "out of memory");
-    }
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        write_vertex(mesh, v, frame, next, NULL, rows + (size_t)v * ATTRIBUTES);
-    }
-    float *flat = rows + (size_t)mesh->vertex_count * ATTRIBUTES;
-    for (uint32_t k = 0; k < mesh->index_count; k++) {
+    for (uint32_t v = 0; rows && order && v < count; v++) {
         float normals[2][3];
-        face_normal(mesh, mesh->indices + k - k % 3, frame, normals[0]);
-        face_normal(mesh, mesh->indices + k - k % 3, next, normals[1]);
-        write_vertex(mesh, mesh->indices[k], frame, next, (const float(*)[3])normals,
-                     flat + (size_t)k * ATTRIBUTES);
-        order[k] = k;
+        if (flat) {
+            face_normal(mesh, mesh->indices + v - v % 3, frame, normals[0]);
+            face_normal(mesh, mesh->indices + v - v % 3, next, normals[1]);
+        }
+        write_vertex(mesh, flat ? mesh->indices[v] : v, frame, next,
+                     flat ? (const float(*)[3])normals : NULL, rows + (size_t)v * ATTRIBUTES);
     }
-    const DipMeshData smooth_data = {"smooth",           rows,          ATTRIBUTES,
-                                     mesh->vertex_count, mesh->indices, mesh->index_count};
-    const DipMeshData flat_data = {"flat",           flat, ATTRIBUTES, mesh->index_count, order,
-                                   mesh->index_count};
-    content->smooth[frame] = dip_mesh_create(&smooth_data, err);
-    content->flat[frame] = content->smooth[frame] ? dip_mesh_create(&flat_data, err) : NULL;
+    for (uint32_t k = 0; order && k < mesh->index_count; k++) {
+        order[k] = flat ? k : mesh->indices[k];
+    }
+    const DipMeshData data = {flat ? "flat" : "smooth", rows, ATTRIBUTES, count, order,
+                              mesh->index_count};
+    if (rows && order) {
+        *to = dip_mesh_create(&data, err);
+    } else {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "model", "out of memory");
+    }
     free(rows);
     free(order);
-    return content->flat[frame] != NULL;
+    return *to != NULL;
 }
 
 static void destroy(void *pointer) {
     Content *content = pointer;
     for (int f = 0; f < MAX_FRAMES; f++) {
-        dip_mesh_destroy(&content->smooth[f]);
-        dip_mesh_destroy(&content->flat[f]);
+        dip_mesh_destroy(&content->meshes[0][f]);
+        dip_mesh_destroy(&content->meshes[1][f]);
     }
     dip_animated_pose_destroy(&content->pose);
     dip_animated_model_destroy(&content->model);
@@ -239,13 +226,14 @@ static bool create(void *pointer, DipKitStock *stock, const DipGalleryRoom *room
         return dip_error_set(err, DIP_ERROR_RANGE, file, 0, "model",
                              "the model needs a skin and 1 to %d key frames", MAX_FRAMES);
     }
-    content->frames = def->key_frame_count;
     DipTextureDef skin = def->textures[0];
     skin.wrap_u = skin.wrap_v = DIP_WRAP_CLAMP;
     stock->textures[0].plain = dip_texture_create(&skin, err);
     bool made = stock->textures[0].plain != NULL;
-    for (int f = 0; made && f < content->frames; f++) {
-        made = make_pair(content, &def->meshes[0], f, err);
+    for (int f = 0; made && f < 2 * def->key_frame_count; f++) {
+        const int frame = f / 2;
+        made = make_mesh(&content->meshes[f % 2][frame], &def->meshes[0], frame,
+                         (frame + 1) % def->key_frame_count, f % 2 == 1, err);
     }
     return made;
 }
@@ -309,9 +297,8 @@ static DipDraw *add_copy(int copy, DipKitList *list) {
                        dip_matrix_rotation(1, angle), own); // The model itself looks along +x.
     Uniforms uniforms = uniforms_of(view, false);
     uniforms.blend = posed->blend;
-    DipMesh *const *meshes = look->flat ? content->flat : content->smooth;
-    DipDraw *draw = dip_kit_add(list, meshes[posed->key_frame], &uniforms, &model,
-                                look->gouraud ? shade_gouraud : shade_phong);
+    DipDraw *draw = dip_kit_add(list, content->meshes[look->flat][posed->key_frame], &uniforms,
+                                &model, look->gouraud ? shade_gouraud : shade_phong);
     draw->vertex_shader = look->gouraud ? gouraud_vertex : phong_vertex;
     draw->varying_count = look->gouraud ? LIT_VARYINGS : DIP_KIT_VARYINGS;
     draw->value_only_varying_count = look->gouraud ? 3 : DIP_KIT_VALUES_ONLY;

@@ -26,23 +26,23 @@ typedef struct Uniforms {
     float turns;       // for the floor of the pool: the time as turns of the loop, 0..1
 } Uniforms;
 
-// An object of the courtyard. Only its uniforms and samplers change from frame to frame.
+// An object of the courtyard. From frame to frame only its uniforms' matrix and its first sampler
+// change.
 typedef struct Object {
     DipMatrix model;
-    int mesh;
-    int material;
-    DipCull cull;
+    const DipMaterialDef *material;
+    DipDraw draw;
     Uniforms uniforms;
     DipSampler samplers[2];
 } Object;
 
 enum { POOL_FLOOR, SCREEN }; // Meshes of the stock.
 
-// What the water's shader needs of a frame.
+// What the shaders of the water need.
 typedef struct Water {
     float to_clip[16];
     float eye[3];
-    float scroll[2]; // of both layers of waves
+    float scroll[2]; // how far each of the two layers of waves has moved
     DipTarget picture;
     bool refracts;
 } Water;
@@ -50,14 +50,14 @@ typedef struct Water {
 typedef struct Content {
     DipModel *model;
     const DipSceneDef *def; // belongs to the model
-    DipTexture **textures;
+    DipTexture **textures;  // as in `def`, then their compressed forms
     DipTexture **compressed;
     DipMesh **meshes;
     Object *objects;
     DipDraw *draws; // of one pass: all objects and a quad
     Uniforms pool_floor;
-    DipTarget picture;                     // of the first pass
-    DipDepth *depths[DIP_MAX_SAMPLES + 1]; // by the number of samples
+    DipTarget picture;                     // drawn by the first pass
+    DipDepth *depths[DIP_MAX_SAMPLES + 1]; // [number of samples]; drawn by the first pass
     Water water;
 } Content;
 
@@ -250,10 +250,7 @@ static void forget_size(Content *content) {
 static void destroy(void *pointer) {
     Content *content = pointer;
     const DipSceneDef *def = content->def;
-    for (int t = 0; content->compressed && t < def->texture_count; t++) {
-        dip_texture_destroy(&content->compressed[t]);
-    }
-    for (int t = 0; content->textures && t < def->texture_count; t++) {
+    for (int t = 0; content->textures && t < 2 * def->texture_count; t++) {
         dip_texture_destroy(&content->textures[t]);
     }
     for (int m = 0; content->meshes && m < def->mesh_count; m++) {
@@ -261,7 +258,6 @@ static void destroy(void *pointer) {
     }
     forget_size(content);
     free(content->textures);
-    free(content->compressed);
     free(content->meshes);
     free(content->objects);
     free(content->draws);
@@ -290,51 +286,66 @@ static bool make_mesh(DipMesh **mesh, const DipMeshDef *def, DipError *err) {
     return *mesh != NULL;
 }
 
-// The floor of the pool: the upper base of an eight-sided prism, with the courtyard's attributes.
+// Makes the floor of the pool: an eight-sided prism, of which only the upper base is seen. Its
+// vertices begin with the courtyard's attributes.
 static bool make_pool_floor(DipMesh **mesh, DipError *err) {
-    float rows[64][ATTRIBUTES];
     DipShape prism;
     if (!dip_shape_prism(&prism, 2.74f, 0.02f, 8, false, err)) {
         return false;
     }
     const DipMatrix turn = dip_matrix_rotation(1, DIP_PI / 8.0);
     for (uint32_t v = 0; v < prism.vertex_count; v++) {
-        const float *in = prism.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
-        const double point[4] = {(double)in[0], (double)in[1] + 0.31, (double)in[2], 1.0};
+        float *row = prism.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
+        const double point[4] = {(double)row[0], (double)row[1] + 0.31, (double)row[2], 1.0};
         double turned[4];
         dip_matrix_apply(&turn, point, turned);
         for (int i = 0; i < 3; i++) {
-            rows[v][i] = (float)turned[i];
+            row[i] = (float)turned[i];
         }
-        rows[v][UV0] = 0.5f + rows[v][0] / 5.6f;
-        rows[v][UV0 + 1] = 0.5f + rows[v][2] / 5.6f;
-        rows[v][UV1] = rows[v][UV1 + 1] = 0.0f;
+        row[UV0] = 0.5f + row[0] / 5.6f;
+        row[UV0 + 1] = 0.5f + row[2] / 5.6f;
+        row[UV1] = row[UV1 + 1] = 0.0f;
     }
-    const DipMeshData data = {"pool floor",       &rows[0][0],   ATTRIBUTES,
-                              prism.vertex_count, prism.indices, prism.index_count};
-    *mesh = dip_mesh_create(&data, err);
-    dip_shape_free(&prism);
-    return *mesh != NULL;
+    return dip_kit_mesh(mesh, "pool floor", &prism, err);
 }
 
-static void place_objects(Content *content) {
-    const DipSceneDef *def = content->def;
-    for (int o = 0; o < def->object_count; o++) {
-        const float *t = def->objects[o].transform;
-        Object *object = &content->objects[o];
-        object->model = dip_matrix_identity();
-        for (int i = 0; i < 12; i++) {
-            object->model.m[i] = (double)t[i];
-        }
-        const float determinant = t[0] * (t[5] * t[10] - t[6] * t[9]) -
-                                  t[1] * (t[4] * t[10] - t[6] * t[8]) +
-                                  t[2] * (t[4] * t[9] - t[5] * t[8]);
-        object->mesh = def->objects[o].mesh;
-        object->material = def->meshes[object->mesh].material;
-        object->cull = def->materials[object->material].double_sided ? DIP_CULL_NONE
-                       : determinant < 0.0f                          ? DIP_CULL_FRONT
-                                                                     : DIP_CULL_BACK;
+static void prepare_object(Content *content, const DipObjectDef *from, Object *object) {
+    const DipMaterialDef *material =
+        &content->def->materials[content->def->meshes[from->mesh].material];
+    const bool lit = material->light_map != DIP_NO_TEXTURE;
+    const bool textured = material->colour_texture != DIP_NO_TEXTURE;
+    const bool clipped = material->surface == DIP_SURFACE_CLIPPED && textured;
+    const float *t = from->transform;
+    const float determinant = t[0] * (t[5] * t[10] - t[6] * t[9]) -
+                              t[1] * (t[4] * t[10] - t[6] * t[8]) +
+                              t[2] * (t[4] * t[9] - t[5] * t[8]);
+    object->material = material;
+    object->model = dip_matrix_identity();
+    for (int i = 0; i < 12; i++) {
+        object->model.m[i] = (double)t[i];
     }
+    memcpy(object->uniforms.colour, material->base_colour_lin, sizeof object->uniforms.colour);
+    object->uniforms.light_scale = lit ? material->light_map_scale : 0.0f;
+    object->uniforms.cutoff = material->alpha_cutoff;
+    if (lit) {
+        object->samplers[1] =
+            (DipSampler){.texture = content->textures[material->light_map], .max_anisotropy = 1};
+    }
+    object->draw = (DipDraw){
+        .mesh = content->meshes[from->mesh],
+        .vertex_shader = court_vertex,
+        .fragment_shader =
+            material->surface == DIP_SURFACE_SKY || !textured ? shade_sky : shade_court,
+        .clip_shader = clipped ? clip_court : NULL,
+        .varying_count = VARYINGS,
+        .clip_varying_count = clipped ? 2 : 0,
+        .uniforms = &object->uniforms,
+        .samplers = object->samplers,
+        .bounds_to_clip = object->uniforms.to_clip,
+        .cull = material->double_sided ? DIP_CULL_NONE
+                : determinant < 0.0f   ? DIP_CULL_FRONT
+                                       : DIP_CULL_BACK,
+    };
 }
 
 static bool make_textures(Content *content, DipPool *pool, DipError *err) {
@@ -366,20 +377,21 @@ static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
         return false;
     }
     const DipSceneDef *def = content->def = dip_model_scene_def(content->model);
-    content->textures = calloc((size_t)def->texture_count, sizeof *content->textures);
-    content->compressed = calloc((size_t)def->texture_count, sizeof *content->compressed);
+    content->textures = calloc(2 * (size_t)def->texture_count, sizeof *content->textures);
     content->meshes = calloc((size_t)def->mesh_count, sizeof *content->meshes);
     content->objects = calloc((size_t)def->object_count, sizeof *content->objects);
     content->draws = calloc((size_t)def->object_count + 1, sizeof *content->draws);
-    if (!content->textures || !content->compressed || !content->meshes || !content->objects ||
-        !content->draws) {
+    if (!content->textures || !content->meshes || !content->objects || !content->draws) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water", "out of memory");
     }
+    content->compressed = content->textures + def->texture_count;
     bool made = make_textures(content, room->pool, err);
     for (int m = 0; made && m < def->mesh_count; m++) {
         made = make_mesh(&content->meshes[m], &def->meshes[m], err);
     }
-    place_objects(content);
+    for (int o = 0; made && o < def->object_count; o++) {
+        prepare_object(content, &def->objects[o], &content->objects[o]);
+    }
     return made;
 }
 
@@ -418,58 +430,24 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.45 * dip_cos(angle), 0.62, -0.45 * dip_sin(angle)}};
 }
 
-// Sets a sampler to a texture of the courtyard, compressed if the settings say so.
-static DipSampler court_sampler(const Content *content, const DipGalleryView *view, int texture) {
-    const DipKitTexture both = {content->textures[texture], content->compressed[texture]};
-    return dip_kit_sampler(view, &both);
-}
-
-static DipDraw object_draw(const DipGalleryView *view, Object *object) {
-    const Content *content = view->content;
-    const DipMaterialDef *material = &content->def->materials[object->material];
-    Uniforms *uniforms = &object->uniforms;
-    DipSampler *samplers = object->samplers;
-    memcpy(uniforms->colour, material->base_colour_lin, sizeof uniforms->colour);
-    uniforms->light_scale =
-        material->light_map != DIP_NO_TEXTURE ? material->light_map_scale : 0.0f;
-    uniforms->cutoff = material->alpha_cutoff;
-    if (material->light_map != DIP_NO_TEXTURE) {
-        samplers[1] =
-            (DipSampler){.texture = content->textures[material->light_map], .max_anisotropy = 1};
-    }
-    const bool textured = material->colour_texture != DIP_NO_TEXTURE;
-    if (textured) {
-        samplers[0] = court_sampler(content, view, material->colour_texture);
-    }
-    const bool clipped = material->surface == DIP_SURFACE_CLIPPED && textured;
-    return (DipDraw){
-        .mesh = content->meshes[object->mesh],
-        .vertex_shader = court_vertex,
-        .fragment_shader =
-            material->surface == DIP_SURFACE_SKY || !textured ? shade_sky : shade_court,
-        .clip_shader = clipped ? clip_court : NULL,
-        .varying_count = VARYINGS,
-        .clip_varying_count = clipped ? 2 : 0,
-        .uniforms = uniforms,
-        .samplers = samplers,
-        .bounds_to_clip = uniforms->to_clip,
-        .cull = object->cull,
-    };
-}
-
 // Lists everything but the water. Returns the number of draws.
 static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipSampler *mosaic) {
     Content *content = view->content;
-    const DipSceneDef *def = content->def;
     int count = 0;
-    for (int o = 0; o < def->object_count; o++) {
+    for (int o = 0; o < content->def->object_count; o++) {
         Object *object = &content->objects[o];
-        if (def->materials[object->material].surface != DIP_SURFACE_WATER) {
-            const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);
-            dip_matrix_floats(&to_clip, object->uniforms.to_clip);
-            content->draws[count++] = object_draw(view, object);
+        const int texture = object->material->colour_texture;
+        if (object->material->surface == DIP_SURFACE_WATER) {
+            continue;
         }
+        const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);
+        dip_matrix_floats(&to_clip, object->uniforms.to_clip);
+        if (texture != DIP_NO_TEXTURE) {
+            const DipKitTexture both = {content->textures[texture], content->compressed[texture]};
+            object->samplers[0] = dip_kit_sampler(view, &both);
+        }
+        content->draws[count++] = object->draw;
     }
     dip_matrix_floats(&seen->to_clip, content->pool_floor.to_clip);
     content->pool_floor.turns = view->turns;
@@ -487,7 +465,6 @@ static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
 static int list_water(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipDrawState *state, DipSampler *waves, DipDraw *draws) {
     Content *content = view->content;
-    const DipSceneDef *def = content->def;
     Water *water = &content->water;
     int count = 0;
     dip_matrix_floats(&seen->to_clip, water->to_clip);
@@ -496,15 +473,14 @@ static int list_water(const DipGalleryView *view, const DipKitCamera *seen,
     water->scroll[1] = -view->turns;
     water->picture = content->picture;
     water->refracts = view->look == 0;
-    for (int o = 0; o < def->object_count; o++) {
-        const Object *object = &content->objects[o];
-        const DipMaterialDef *material = &def->materials[object->material];
+    for (int o = 0; o < content->def->object_count; o++) {
+        const DipMaterialDef *material = content->objects[o].material;
         if (material->surface != DIP_SURFACE_WATER || material->normal_map == DIP_NO_TEXTURE) {
             continue;
         }
         *waves = view->filter;
         waves->texture = content->textures[material->normal_map];
-        draws[count++] = (DipDraw){.mesh = content->meshes[object->mesh],
+        draws[count++] = (DipDraw){.mesh = content->objects[o].draw.mesh,
                                    .vertex_shader = water_vertex,
                                    .fragment_shader = shade_water,
                                    .varying_count = WATER_VARYINGS,
