@@ -145,7 +145,6 @@ DipAlong dip_times_along(const DipTimesFit *fit, int subject) {
         .p95_ms = in_ms(fit, subject, DIP_TIMES_P95),
         .worst_ms = in_ms(fit, subject, DIP_TIMES_WORST),
         .level_error = base->level_error,
-        .moment = base->moment,
         .kept = s->kept,
         .timed = s->timed,
     };

@@ -105,9 +105,8 @@ typedef struct DipAlong {
     // Standard error of the logarithm of the base's mean time, which all subjects of one base
     // share. It is part of the errors above; NAN if it is not known.
     double level_error;
-    double moment; // Standard deviation of the rounds' speed, as a logarithm; NAN for one round.
-    int timed;     // Number of the subject's times.
-    int kept;      // Number of those that were not disturbed.
+    int timed; // Number of the subject's times.
+    int kept;  // Number of those that were not disturbed.
 } DipAlong;
 
 DipAlong dip_times_along(const DipTimesFit *fit, int subject);

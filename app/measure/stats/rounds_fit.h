@@ -45,7 +45,6 @@ typedef struct DipTimesMoment {
 
 typedef struct DipTimesBase {
     double level_ms; // Mean over the frames.
-    double moment;   // As in DipAlong.
     double level_error;
     double level_degrees;
     // Mean over the subjects of the variance that each contributes to a unit.

@@ -305,7 +305,6 @@ static void judge_speeds(DipTimesWork *w, int b) {
             of_groups[group_count++] = sum / (known - before);
         }
     }
-    base->moment = known > 1 ? deviation(w->rest, known) : NAN;
     base->level_error = NAN;
     if (group_count > 1) {
         base->level_error =

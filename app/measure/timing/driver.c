@@ -77,7 +77,6 @@ struct DipDriver {
     bool has_begun;
     int64_t drawn;                  // Frames of starts and rounds so far.
     int64_t left;                   // Frames of rounds that are still to come.
-    int64_t paced, pace_ns;         // All frames of this driver, and their time.
     double wait_ms, cpu_ms, run_ms; // Sums over all timed frames.
     bool has_wait, settled;
     int repeated;
@@ -474,8 +473,6 @@ static bool draw_frame(DipDriver *d, const Draw *draw, DipTimed *timed, DipError
         timed->wait = 0.0;
         d->has_wait = false;
     }
-    d->paced++;
-    d->pace_ns += ns;
     return true;
 }
 
@@ -700,8 +697,6 @@ DipDriverProgress dip_driver_progress(const DipDriver *d) {
         .rounds = repeats(d) ? rounds : d->round,
         .searched = repeats(d) ? d->round - rounds : 0,
         .all_rounds = rounds,
-        .seconds_left =
-            d->paced > 0 ? 1e-9 * (double)d->pace_ns / (double)d->paced * (double)left : 0.0,
     };
 }
 

@@ -128,8 +128,6 @@ typedef struct DipDriverProgress {
     int rounds;    // Complete rounds of all starts, without repetitions.
     int searched;  // Rounds that were searched for disturbed frames to draw again.
     int all_rounds;
-    double
-        seconds_left; // Time for the frames to come, at the pace so far; 0 before the first frame.
 } DipDriverProgress;
 
 DipDriverProgress dip_driver_progress(const DipDriver *driver);
