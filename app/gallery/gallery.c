@@ -22,11 +22,9 @@ enum { SCENE_COUNT = (int)DIP_ARRAY_COUNT(scenes), MIP_COLOURS = 8 };
 
 struct DipGallery {
     DipGalleryDef def;
-    DipGalleryRoom room;
     DipTexture *mip_colours;
-    int open;          // index of the open scene; -1: none
-    DipKitStock stock; // of the open scene
-    void *content;     // of the open scene; NULL if no scene is open
+    int open;            // index of the open scene; -1: none
+    DipGalleryRoom room; // of the open scene; without content if none is open
     int look;
 };
 
@@ -82,7 +80,7 @@ int64_t dip_gallery_duration_ns(int scene) {
     return scene == DIP_GALLERY_TOUR ? SCENE_COUNT * scene_ns : scene_ns;
 }
 
-// Returns a time as the time since the scene or the tour began.
+// Returns how long before `time_ns` the scene or the tour began for the last time.
 static int64_t wrap_time(int scene, int64_t time_ns) {
     const int64_t duration_ns = dip_gallery_duration_ns(scene);
     const int64_t left_ns = time_ns % duration_ns;
@@ -93,8 +91,9 @@ int dip_gallery_scene_at(int scene, int64_t time_ns) {
     return scene == DIP_GALLERY_TOUR ? (int)(wrap_time(scene, time_ns) / scene_ns) : scene;
 }
 
-// Writes the quaternion of a rotation. rows: takes world space to view space. The square roots are
-// taken of the largest component only, so that no digits are lost.
+// Writes the quaternion that takes view space to world space. rows: the matrix that takes world
+// space to view space. Only the largest component comes from a square root, so that no digits are
+// lost.
 static void find_orientation(const double rows[16], double q[4]) {
     const double trace = rows[0] + rows[5] + rows[10];
     double twice[4] = {rows[0] - rows[5] - rows[10], rows[5] - rows[0] - rows[10],
@@ -131,7 +130,8 @@ void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose) {
 
 // --- opening and closing -------------------------------------------------------------------------
 
-// The colours of DipRendererDef's mip debugging: levels of 1024, 512, ... 8 texels, in sRGB.
+// Makes a texture whose levels have the colours with which the scene renderer shows mip levels:
+// those for 1024, 512, ... 8 texels, in sRGB.
 static DipTexture *make_mip_colours(DipError *err) {
     static const uint8_t colours[MIP_COLOURS][4] = {
         {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
@@ -151,13 +151,13 @@ static DipTexture *make_mip_colours(DipError *err) {
 }
 
 static void close_scene(DipGallery *gallery) {
-    if (gallery->content && scenes[gallery->open]->destroy) {
-        scenes[gallery->open]->destroy(gallery->content);
+    if (gallery->room.content && scenes[gallery->open]->destroy) {
+        scenes[gallery->open]->destroy(gallery->room.content);
     }
-    dip_kit_stock_free(&gallery->stock);
-    free(gallery->content);
+    dip_kit_stock_free(&gallery->room.stock);
+    free(gallery->room.content);
     gallery->open = -1;
-    gallery->content = NULL;
+    gallery->room.content = NULL;
 }
 
 // Opens a scene unless it is open. Closes the scene that was open before.
@@ -168,12 +168,11 @@ static bool open_scene(DipGallery *gallery, int index, DipError *err) {
     }
     close_scene(gallery);
     gallery->open = index;
-    gallery->content = calloc(1, scene->content_bytes + 1); // A scene may keep nothing.
+    gallery->room.content = calloc(1, scene->content_bytes + 1); // A scene may keep nothing.
     const bool made =
-        gallery->content
-            ? dip_kit_stock_create(&gallery->stock, scene, err) &&
-                  (!scene->create ||
-                   scene->create(gallery->content, &gallery->stock, &gallery->room, err))
+        gallery->room.content
+            ? dip_kit_stock_create(&gallery->room.stock, scene, err) &&
+                  (!scene->create || scene->create(&gallery->room, err))
             : dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, scene->info.name, "out of memory");
     if (!made) {
         close_scene(gallery);
@@ -188,7 +187,7 @@ DipGallery *dip_gallery_create(const DipGalleryDef *def, DipError *err) {
         return NULL;
     }
     gallery->def = *def;
-    gallery->room = (DipGalleryRoom){def->pool, def->isa, def->assets};
+    gallery->room.def = &gallery->def;
     gallery->open = -1;
     gallery->mip_colours = make_mip_colours(err);
     if (!gallery->mip_colours || !open_scene(gallery, dip_gallery_scene_at(def->scene, 0), err)) {
@@ -221,14 +220,9 @@ static bool make_picture(const DipGalleryPane *pane, int width, int height, DipP
     if (!*pipeline) {
         return false;
     }
-    *target = (DipTarget){.width = width, .height = height};
-    target->stride_bytes =
-        ((size_t)width * 4 + DIP_CACHE_LINE - 1) / DIP_CACHE_LINE * DIP_CACHE_LINE;
-    target->rgba8 = dip_lines_alloc(target->stride_bytes * (size_t)height);
-    if (!target->rgba8) {
+    if (!dip_kit_target(target, width, height, "size", err)) {
         dip_pipeline_destroy(pipeline);
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "size", "no memory for %dx%d pixels",
-                             width, height);
+        return false;
     }
     return true;
 }
@@ -314,7 +308,7 @@ static bool check_pose(const DipPose *pose, DipError *err) {
                          "%g is out of range, accepted 1..170", pose->fov_y_deg);
 }
 
-// Returns how the settings filter textures. The texture is the scene's to set.
+// Returns a sampler that filters as the settings say. The scene sets its texture.
 static DipSampler filter_of(const DipQuality *quality) {
     static const int32_t bias_lod8[] = {
         [DIP_MIPLOD_HIGH_PERFORMANCE] = 384,
@@ -330,7 +324,8 @@ static DipSampler filter_of(const DipQuality *quality) {
     };
 }
 
-// Reports the work of all passes as a frame. The scene renderer's effects never run here.
+// Fills in a frame with the picture and the work of all passes. The scene renderer's effects never
+// run here.
 static void fill_frame(const DipGalleryPane *pane, const DipPipelineCounters *counters,
                        const DipStageTimes *times, DipFrame *frame) {
     static const DipEffect none = {.run = false, .why = "a gallery scene has its own shaders"};
@@ -362,9 +357,9 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
         return false;
     }
     const DipGalleryView view = {
-        .room = gallery->room,
-        .stock = &gallery->stock,
-        .content = gallery->content,
+        .def = &gallery->def,
+        .stock = &gallery->room.stock,
+        .content = gallery->room.content,
         .pose = pose,
         .time_s = time_s,
         .turns = (float)(time_s / DIP_GALLERY_SECONDS),

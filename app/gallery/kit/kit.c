@@ -3,6 +3,7 @@
 #include "app/gallery/kit/kit.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/pages.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +25,7 @@ static DipMatrix rotation_to_view(const double q[4]) {
                         0.0, 0.0, 0.0, 1.0}};
 }
 
-// Completes a camera whose view is known.
+// Sets the projection and the eye of a camera whose view is known.
 static bool set_lens(DipKitCamera *camera, const double eye[3], const DipPerspective *lens,
                      DipError *err) {
     DipMatrix projection;
@@ -299,12 +300,21 @@ void dip_kit_light_texture(DipFragmentBatch *batch, const float colour[3],
     }
 }
 
-bool dip_kit_asset(char *file, size_t size_bytes, const DipGalleryRoom *room, const char *asset,
+bool dip_kit_asset(char *file, size_t size_bytes, const DipGalleryDef *def, const char *asset,
                    const char *scene, DipError *err) {
-    const int length = snprintf(file, size_bytes, "%s/%s", room->assets, asset);
+    const int length = snprintf(file, size_bytes, "%s/%s", def->assets, asset);
     return (length >= 0 && (size_t)length < size_bytes) ||
-           dip_error_set(err, DIP_ERROR_OVERSIZED, room->assets, 0, scene,
+           dip_error_set(err, DIP_ERROR_OVERSIZED, def->assets, 0, scene,
                          "the name of the folder is too long");
+}
+
+bool dip_kit_target(DipTarget *target, int width, int height, const char *key, DipError *err) {
+    *target = (DipTarget){.width = width, .height = height};
+    target->stride_bytes =
+        ((size_t)width * 4 + DIP_CACHE_LINE - 1) / DIP_CACHE_LINE * DIP_CACHE_LINE;
+    target->rgba8 = dip_lines_alloc(target->stride_bytes * (size_t)height);
+    return target->rgba8 || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, key,
+                                          "no memory for %dx%d pixels", width, height);
 }
 
 // --- numbers -------------------------------------------------------------------------------------

@@ -73,18 +73,18 @@ typedef struct DipKitStock {
     DipKitTexture textures[DIP_KIT_TEXTURES];
 } DipKitStock;
 
-// What a scene may use while it exists.
+// What a scene uses while it exists.
 typedef struct DipGalleryRoom {
-    DipPool *pool;
-    DipIsa isa;         // for pipelines that the scene creates
-    const char *assets; // folder of the shipped assets
+    const DipGalleryDef *def; // of the gallery
+    DipKitStock stock;
+    void *content; // what else the scene keeps, DipGalleryScene.content_bytes long
 } DipGalleryRoom;
 
 // A frame that a scene draws. Settings are those of the pane.
 typedef struct DipGalleryView {
-    DipGalleryRoom room;
+    const DipGalleryDef *def; // of the gallery
     DipKitStock *stock;
-    void *content; // of the scene, DipGalleryScene.content_bytes long
+    void *content;
     const DipPose *pose;
     double time_s; // since the scene began, 0..DIP_GALLERY_SECONDS
     float turns;   // the same time as a share of DIP_GALLERY_SECONDS, 0..1
@@ -114,7 +114,7 @@ typedef struct DipGalleryScene {
     // turn: the time as an angle, 0..2 pi. Both ends have the same camera.
     DipGalleryCamera (*camera)(double turn);
     // Makes the other meshes and textures of the stock, and the content. NULL: there are none.
-    bool (*create)(void *content, DipKitStock *stock, const DipGalleryRoom *room, DipError *err);
+    bool (*create)(DipGalleryRoom *room, DipError *err);
     // Frees what the content owns, even if `create` has failed. NULL: it owns nothing.
     void (*destroy)(void *content);
     bool (*draw)(const DipGalleryView *view, DipError *err);
@@ -151,8 +151,12 @@ void dip_kit_stock_free(DipKitStock *stock);
 
 // Writes the name of an asset's file. Fails with OVERSIZED if the name does not fit; `scene` is the
 // error's key.
-bool dip_kit_asset(char *file, size_t size_bytes, const DipGalleryRoom *room, const char *asset,
+bool dip_kit_asset(char *file, size_t size_bytes, const DipGalleryDef *def, const char *asset,
                    const char *scene, DipError *err);
+
+// Makes the memory of a picture, which dip_lines_free frees. Fails with MEMORY; `key` is the
+// error's key, and target->rgba8 is then NULL.
+bool dip_kit_target(DipTarget *target, int width, int height, const char *key, DipError *err);
 
 // --- cameras and passes --------------------------------------------------------------------------
 

@@ -1,4 +1,4 @@
-// The gallery scene "blend": the blend modes of seed 001, side by side.
+// The gallery scene "blend": the blend modes of seed 001 (gallery.h), side by side.
 //
 // Four columns show four modes. In each field lie a blue sheet and a yellow one with the seed's
 // colours and alphas, over grey chequers. The upper row draws blue first and yellow second; the

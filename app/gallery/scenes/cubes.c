@@ -1,4 +1,4 @@
-// The gallery scene "cubes": the sample scene of seed 004.
+// The gallery scene "cubes": the sample scene of seed 004 (gallery.h).
 //
 // Three objects have two kinds of vertices and a shader each: cubes with a colour per corner, and a
 // cube with texture coordinates. Two of them turn in place while the long one moves to the right
@@ -32,7 +32,8 @@ typedef struct Content {
     Uniforms uniforms[OBJECTS];
 } Content;
 
-// From dark to bright, and how each of them looks in 8 by 8 dots; bit 7 is the left column.
+// The characters from dark to bright, and how each of them looks in 8 by 8 dots. Bit 7 is the left
+// column.
 static const char ramp[GLYPHS + 1] = " .:-=+*#%@";
 static const uint8_t glyphs[GLYPHS][CELL] = {
     {0, 0, 0, 0, 0, 0, 0, 0},
@@ -49,13 +50,13 @@ static const uint8_t glyphs[GLYPHS][CELL] = {
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// SimpleVertex of the seed: a position and a colour.
+// Vertex shader for the seed's SimpleVertex: a position and a colour.
 static void simple_vertex(const DipVertexBatch *batch) {
     dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
     dip_kit_copy(batch, 3, 0, 3);
 }
 
-// TextureVertex of the seed: a position, and u and v.
+// Vertex shader for the seed's TextureVertex: a position, and u and v.
 static void texture_vertex(const DipVertexBatch *batch) {
     dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
     dip_kit_copy(batch, 3, 0, 2);
@@ -162,7 +163,7 @@ static bool make_textured(DipMesh **mesh, DipError *err) {
     return *mesh != NULL;
 }
 
-// A wooden crate: boards, a frame around them and a diagonal.
+// Paints a wooden crate: boards, a frame around them and a diagonal.
 static void paint_crate(float u, float v, float rgba[4]) {
     const bool upright = dip_kit_to_edge(u) < 0.12f; // The grain runs upwards in these boards.
     const bool frame = upright || dip_kit_to_edge(v) < 0.12f || fabsf(u - v) < 0.085f;
@@ -181,12 +182,10 @@ static void destroy(void *pointer) {
     free(content->target.chars);
 }
 
-static bool create(void *content, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
-    (void)content;
-    (void)room;
-    return make_simple(&stock->meshes[CUBE], false, err) &&
-           make_simple(&stock->meshes[GEM], true, err) &&
-           make_textured(&stock->meshes[TEXTURED], err);
+static bool create(DipGalleryRoom *room, DipError *err) {
+    DipMesh **meshes = room->stock.meshes;
+    return make_simple(&meshes[CUBE], false, err) && make_simple(&meshes[GEM], true, err) &&
+           make_textured(&meshes[TEXTURED], err);
 }
 
 // Makes the characters for a picture of this size, unless the last frame had the same size.
@@ -205,7 +204,7 @@ static bool prepare_chars(const DipGalleryView *view, DipError *err) {
     destroy(content);
     *target = (CharTarget){calloc((size_t)columns, (size_t)rows), columns, rows, cell};
     content->char_pipeline =
-        dip_pipeline_create(view->room.pool, view->room.isa, columns, rows, err);
+        dip_pipeline_create(view->def->pool, view->def->isa, columns, rows, err);
     return content->char_pipeline &&
            (target->chars || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cubes",
                                            "no memory for %dx%d characters", columns, rows));
@@ -243,7 +242,8 @@ static int list_objects(const DipGalleryView *view, const DipKitCamera *seen,
     DipMesh *const *meshes = view->stock->meshes;
     int count = 0;
     bool long_cube_seen = true;
-    for (int i = OBJECTS - 1; i >= 0; i--) { // the first cube comes last: it depends on the others
+    for (int i = OBJECTS - 1; i >= 0;
+         i--) { // The first cube comes last, since it depends on the others.
         const DipMatrix to_clip = dip_kit_chain(seen->to_clip, place(i, view->turn));
         const int mesh = i == 2 ? TEXTURED : i == 1 || long_cube_seen ? CUBE : GEM;
         if (!in_view(meshes[mesh], &to_clip)) {

@@ -1,4 +1,4 @@
-// The gallery scene "dice": textured dice, as in seed 001.
+// The gallery scene "dice": textured dice, as in seed 001 (gallery.h).
 //
 // One texture holds the six faces side by side. The texture coordinates of each face are those of a
 // whole picture, mapped to its sixth of the width. Small mip levels therefore mix neighbouring
@@ -38,7 +38,7 @@ static void shade(DipFragmentBatch *batch) {
     dip_kit_light_texture(batch, ((const Uniforms *)batch->uniforms)->colour, light);
 }
 
-// The product with the target's colour darkens it: 1 leaves it as it is.
+// The target's colour is multiplied by the shader's: less than 1 darkens it.
 static void shade_shadow(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float depth = 0.95f / (1.0f + 0.25f * uniforms->height);
@@ -54,7 +54,7 @@ static void shade_shadow(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Green felt with a fine grain and a printed border.
+// Paints green felt with a fine grain and a printed border.
 static void paint_felt(float u, float v, float rgba[4]) {
     const float grain = dip_kit_turbulence(u * 64.0f, v * 64.0f, 64, 3, 11);
     const float out = dip_kit_greatest(fabsf(u - 0.5f), fabsf(v - 0.5f));

@@ -1,9 +1,9 @@
 // The gallery scene "model": an MD2 model with key-frame animation, lit in several ways.
 //
-// As in seed 000: flat, Gouraud and Phong shading are nothing but different vertex and fragment
-// shaders; directional, point and spot lights shine on it; it is shown textured, plain, and as a
-// lit wireframe. Each vertex of a mesh holds its positions and normals in two successive key
-// frames, and the vertex shader blends them.
+// As in seed 000 (gallery.h), flat, Gouraud and Phong shading differ only in their vertex and
+// fragment shaders. Directional, point and spot lights shine on the model. The looks show it
+// textured, plain, and as a lit wireframe. Each vertex of a mesh holds its positions and normals in
+// two successive key frames, and the vertex shader blends them.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "assets/animation.h"
@@ -71,7 +71,8 @@ static void blend_frames(const DipVertexBatch *batch, float *const world[3],
     }
 }
 
-// Phong: position and normal become varyings, and the fragment shader computes the light.
+// Vertex shader for Phong shading: position and normal become varyings, and the fragment shader
+// computes the light.
 static void phong_vertex(const DipVertexBatch *batch) {
     blend_frames(batch, batch->varying + DIP_KIT_WORLD, batch->varying + DIP_KIT_NORMAL);
 }
@@ -84,8 +85,9 @@ static void add_lights(const Uniforms *uniforms, const DipKitPoints *points,
     dip_kit_light_all(ambient, uniforms->lights, LIGHTS, material, points, out);
 }
 
-// Gouraud: the light is computed at the vertices and becomes a varying. Flat shading is the same
-// with vertices that no two triangles share and that have the normal of their triangle.
+// Vertex shader for Gouraud shading: the light is computed at the vertices and becomes a varying.
+// Flat shading is the same with vertices that no two triangles share and that have the normal of
+// their triangle.
 static void gouraud_vertex(const DipVertexBatch *batch) {
     static const int slice = DIP_FRAGMENT_BATCH;
     const Uniforms *uniforms = batch->uniforms;
@@ -210,10 +212,10 @@ static void destroy(void *pointer) {
     dip_animated_model_destroy(&content->model);
 }
 
-static bool create(void *pointer, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
+static bool create(DipGalleryRoom *room, DipError *err) {
+    Content *content = room->content;
     char file[PATH_MAX];
-    if (!dip_kit_asset(file, sizeof file, room, "gallery/penguin.md2", "model", err)) {
+    if (!dip_kit_asset(file, sizeof file, room->def, "gallery/penguin.md2", "model", err)) {
         return false;
     }
     content->model = dip_animated_model_load(file, NULL, NULL, err);
@@ -228,8 +230,8 @@ static bool create(void *pointer, DipKitStock *stock, const DipGalleryRoom *room
     }
     DipTextureDef skin = def->textures[0];
     skin.wrap_u = skin.wrap_v = DIP_WRAP_CLAMP;
-    stock->textures[0].plain = dip_texture_create(&skin, err);
-    bool made = stock->textures[0].plain != NULL;
+    room->stock.textures[0].plain = dip_texture_create(&skin, err);
+    bool made = room->stock.textures[0].plain != NULL;
     for (int f = 0; made && f < 2 * def->key_frame_count; f++) {
         const int frame = f / 2;
         made = make_mesh(&content->meshes[f % 2][frame], &def->meshes[0], frame,
@@ -247,7 +249,7 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, 0.78, 0.0}};
 }
 
-// A white light from above, an orange point that circles, and a blue spot that sweeps.
+// Sets a white light from above, an orange point that circles, and a blue spot that sweeps.
 static void set_lights(DipKitLight lights[LIGHTS], double turn) {
     lights[0] = (DipKitLight){.kind = DIP_KIT_DIRECTIONAL,
                               .direction = {-0.36f, -0.80f, -0.48f},
@@ -302,7 +304,7 @@ static DipDraw *add_copy(int copy, DipKitList *list) {
     draw->vertex_shader = look->gouraud ? gouraud_vertex : phong_vertex;
     draw->varying_count = look->gouraud ? LIT_VARYINGS : DIP_KIT_VARYINGS;
     draw->value_only_varying_count = look->gouraud ? 3 : DIP_KIT_VALUES_ONLY;
-    draw->bounds_to_clip = NULL; // the mesh's box holds the first key frame of the pair only
+    draw->bounds_to_clip = NULL; // The mesh's box holds only the first key frame.
     return draw;
 }
 

@@ -1,9 +1,9 @@
-// The gallery scene "phone": the mobile phone of seed 001, with a die in the background.
+// The gallery scene "phone": the mobile phone of seed 001 (gallery.h), and a die behind it.
 //
 // The phone is a box like the die, with other dimensions; all its faces show the same texture, so
-// its narrow sides stretch it. Its display is a quad of its own just above the box. What the seed
-// calls a taken picture is taken live here: a first pass draws the die as the phone's camera sees
-// it, and the display's shader samples that target.
+// its narrow sides stretch it. Its display is a quad of its own just above the box. In the
+// seed, the display shows a picture that the phone took. Here it shows a live one: a first pass
+// draws the die as the phone's camera sees it, and the display's shader samples that target.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "renderer/base/pages.h"
@@ -65,7 +65,7 @@ static void shade_display(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Dark brushed metal with a lens and a lamp, as on a phone's back.
+// Paints dark brushed metal with a lens and a lamp, as on a phone's back.
 static void paint_body(float u, float v, float rgba[4]) {
     const float brushed = dip_kit_turbulence(u * 4.0f, v * 96.0f, 96, 3, 2);
     const float x = (u - 0.5f) * 0.55f;
@@ -82,7 +82,7 @@ static void paint_body(float u, float v, float rgba[4]) {
     }
 }
 
-// Planks of a table.
+// Paints the planks of a table.
 static void paint_table(float u, float v, float rgba[4]) {
     const float plank = u * 8.0f;
     const float edge = dip_kit_smooth(0.0f, 0.02f, dip_kit_to_edge(plank));
@@ -100,18 +100,12 @@ static void destroy(void *pointer) {
     dip_lines_free(content->photo.rgba8);
 }
 
-static bool create(void *pointer, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
-    (void)stock;
-    Content *content = pointer;
-    DipTarget *photo = &content->photo;
-    *photo = (DipTarget){
-        .stride_bytes = (size_t)PHOTO_WIDTH * 4, .width = PHOTO_WIDTH, .height = PHOTO_HEIGHT};
-    photo->rgba8 = dip_lines_alloc(photo->stride_bytes * PHOTO_HEIGHT);
-    if (!photo->rgba8) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "phone", "out of memory");
-    }
-    content->pipeline = dip_pipeline_create(room->pool, room->isa, PHOTO_WIDTH, PHOTO_HEIGHT, err);
-    return content->pipeline != NULL;
+static bool create(DipGalleryRoom *room, DipError *err) {
+    Content *content = room->content;
+    content->pipeline =
+        dip_pipeline_create(room->def->pool, room->def->isa, PHOTO_WIDTH, PHOTO_HEIGHT, err);
+    return content->pipeline &&
+           dip_kit_target(&content->photo, PHOTO_WIDTH, PHOTO_HEIGHT, "phone", err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------

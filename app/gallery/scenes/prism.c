@@ -1,16 +1,17 @@
-// The gallery scene "prism": the tessellated and twisted prism of seed 001.
+// The gallery scene "prism": the tessellated and twisted prism of seed 001 (gallery.h).
 //
 // The sides and bases of a plain prism are patches. Tessellation divides them, and the domain
 // function turns each new vertex about the axis by an angle that grows with its height. The factor
-// breathes, so fractional partitioning lets the new vertices slide apart instead of appearing
-// suddenly. A lit wireframe of the same mesh lies over the surface.
+// of the tessellation rises and falls with time. With fractional partitioning, new vertices then
+// slide apart instead of appearing suddenly. A lit wireframe of the same mesh lies over the
+// surface.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "renderer/shapes/tessellate.h"
 
 typedef struct Look {
     int sides;
-    float factor; // of the tessellation; 0: the factor breathes
+    float factor; // of the tessellation; 0: it rises and falls with time
     DipPartitioning partitioning;
     float line_px; // width of the wireframe's lines in a picture of 480 rows
 } Look;
@@ -34,7 +35,7 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    double time_s; // The time and the look that the prism's mesh was made for, if there is one.
+    double time_s; // The time and the look for which the prism's mesh was made.
     int look;
 } Content;
 

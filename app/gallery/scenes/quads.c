@@ -1,9 +1,10 @@
 // The gallery scene "quads": pictures that fragment shaders compute by themselves, on three quads.
 //
-// As in seed 001 ("Horrible trick", "Flame", "ShaderToy shader"): rings that move outwards, a flame
-// whose light is summed along rays, and a wobbling sphere over a fluid, found by marching along
-// rays. No texture is read. Multisampling does not help here, since each pixel is shaded once; the
-// rings therefore fade out where they are narrower than two pixels, by their derivatives.
+// They come from seed 001 (gallery.h; "Horrible trick", "Flame", "ShaderToy shader"): rings that
+// move outwards, a flame whose light is summed along rays, and a wobbling sphere over a fluid,
+// which are found by marching along rays. No texture is read. Multisampling does not help here,
+// since each pixel is shaded once. Derivatives tell where rings are narrower than two pixels; there
+// they fade out.
 #include "app/gallery/kit/kit.h"
 
 enum { RINGS, FLAME, BOWL, QUADS, FLAME_STEPS = 20, BOWL_STEPS = 36, SHADOW_STEPS = 8 };

@@ -1,9 +1,9 @@
-// The gallery scene "shadow": shadow mapping as seed 000 describes it.
+// The gallery scene "shadow": shadow mapping as seed 000 (gallery.h) describes it.
 //
-// A first pass draws the scene as the lamp sees it, without a colour target: it leaves depths
-// alone. The second pass draws the picture. Its fragment shader takes each point to the lamp's clip
-// space and compares its depth there with the stored one. The looks change the map's resolution
-// and its filter: nearest shows the texels of the map, linear averages four comparisons.
+// A first pass draws the scene as the lamp sees it, without a colour target: it leaves only
+// depths. The second pass draws the picture. Its fragment shader takes each point to the lamp's
+// clip space and compares its depth there with the stored one. The looks change the map's
+// resolution and its filter: nearest shows the texels of the map, linear averages four comparisons.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 
@@ -22,7 +22,7 @@ static const Look shadow_looks[] = {
     {256, DIP_SHADOW_NEAREST},
     {2048, DIP_SHADOW_NEAREST},
 };
-// What all objects share in a frame.
+// The lamp and its shadow map, which all objects share in a frame.
 typedef struct Lamp {
     float to_clip[16]; // from world space to the lamp's clip space
     DipKitLight light;
@@ -90,7 +90,7 @@ static bool prepare_map(const DipGalleryView *view, int texels, DipError *err) {
         return true;
     }
     destroy(content);
-    content->pipeline = dip_pipeline_create(view->room.pool, view->room.isa, texels, texels, err);
+    content->pipeline = dip_pipeline_create(view->def->pool, view->def->isa, texels, texels, err);
     content->depth = content->pipeline ? dip_depth_create(texels, texels, 1, err) : NULL;
     return content->depth != NULL;
 }
@@ -160,7 +160,7 @@ static bool set_lamp(Lamp *lamp, double turn, DipKitCamera *from_lamp, DipError 
 static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.015f, 0.02f, 0.035f};
     static const DipKitObject plain;
-    // The bias that 2x2 comparisons need: twice the slope, and a few units for rounding.
+    // 2x2 comparisons need this bias: twice the slope, and a few units for rounding.
     static const DipDrawState caster = {.depth_bias = {.slope = -2.0f, .relative = -8.0f}};
     const Look *look = &shadow_looks[view->look];
     const Content *content = view->content;

@@ -1,10 +1,11 @@
-// The gallery scene "stencil": a mirror and an outline, drawn with stencil masks as in seed 001.
+// The gallery scene "stencil": a mirror and an outline, drawn with stencil masks.
 //
-// The mirror in the floor: (1) its surface writes 1 into the stencil buffer and no colour. (2) The
-// objects are drawn upside down, but only where the stencil value is 1. (3) The glass is blended
-// over them. The outline: the middle object writes 2, and is then drawn a little larger and in one
-// colour where the stencil value is not 2. The inset draws the same masks by themselves and then
-// fills each value with a colour.
+// Both techniques come from seed 001 (gallery.h). The mirror in the floor is drawn in three steps.
+// Its surface first writes 1 into the stencil buffer and no colour. The objects are then drawn
+// upside down, but only where the stencil value is 1. At last the glass is blended over them. For
+// the outline, the middle object writes 2, and is then drawn a little larger and in one colour
+// where the stencil value is not 2. The inset draws only the masks and fills each value with a
+// colour.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 

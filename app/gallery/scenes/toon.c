@@ -1,8 +1,8 @@
-// The gallery scene "toon": toon shading as in seed 001, with an outline.
+// The gallery scene "toon": toon shading as in seed 001 (gallery.h), with outlines.
 //
 // The fragment shader replaces the smooth intensity of the light by steps: the seed's four, or a
-// number of equal bands. The highlight has steps, too. The outline needs no stencil: each object is
-// drawn once more, a little larger and in a dark colour, and only its back faces.
+// number of equal bands. The highlight has steps, too. Outlines need no stencil: of each object,
+// the back faces are drawn once more, a little larger and in a dark colour.
 #include "app/gallery/kit/kit.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ typedef struct Uniforms {
     float colour[3];
     float light[3]; // unit vector towards the light
     int step_size;  // 256 intensities are divided into bands of this size; 0: the seed's four steps
-    float grow;     // outline: distance by which vertices move along their normals
+    float grow;     // outline: how far vertices move along their normals, at distance 1
 } Uniforms;
 
 static const int step_sizes[] = {0, 32, 52, 16};
@@ -65,7 +65,7 @@ static void shade_outline(DipFragmentBatch *batch) {
     }
 }
 
-// Moves each vertex along its normal. The distance grows with that of the eye, so that lines have
+// Moves each vertex along its normal, farther the farther it is from the eye, so that outlines have
 // the same width everywhere.
 static void outline_vertex(const DipVertexBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
@@ -135,9 +135,7 @@ static void knot_ring(double t, float (*vertices)[DIP_SHAPE_ATTRIBUTES]) {
     }
 }
 
-static bool create(void *content, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
-    (void)content;
-    (void)room;
+static bool create(DipGalleryRoom *room, DipError *err) {
     enum { COLUMNS = AROUND + 1 };
     static float vertices[(ALONG + 1) * COLUMNS][DIP_SHAPE_ATTRIBUTES];
     static uint32_t indices[ALONG * AROUND * 6];
@@ -156,8 +154,8 @@ static bool create(void *content, DipKitStock *stock, const DipGalleryRoom *room
     }
     const DipMeshData data = {
         "knot", &vertices[0][0], DIP_SHAPE_ATTRIBUTES, (ALONG + 1) * COLUMNS, indices, count};
-    stock->meshes[KNOT] = dip_mesh_create(&data, err);
-    return stock->meshes[KNOT] != NULL;
+    room->stock.meshes[KNOT] = dip_mesh_create(&data, err);
+    return room->stock.meshes[KNOT] != NULL;
 }
 
 // --- drawing -------------------------------------------------------------------------------------

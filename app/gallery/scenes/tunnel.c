@@ -1,10 +1,11 @@
-// The gallery scene "tunnel": the anisotropy tunnel, which seed 002's filtering settings call for.
+// The gallery scene "tunnel": a tunnel that shows what anisotropic filtering does.
 //
-// The camera flies through a long tube of stone. Its wall meets the picture at every angle, and far
-// away its texels are very long and narrow. The colours show which mip level each pixel reads: red
-// is the sharpest, then orange, yellow, green and blue. With anisotropic filtering the sharp levels
-// reach farther. Without advanced filtering they reach less far at the diagonals, because the
-// level then depends on the angle; with it, every ring has one colour.
+// Seed 002 (gallery.h) asks for these filtering settings. The camera flies through a long tube of
+// stone. Its wall meets the picture at every angle, and far away its texels are very long and
+// narrow. The colours show which mip level each pixel reads: red is the sharpest, then orange,
+// yellow, green and blue. With anisotropic filtering the sharp levels reach farther. Without
+// advanced filtering (aaf=off) they reach less far at the diagonals, because the level then depends
+// on the angle. With advanced filtering, every ring has one colour.
 #include "app/gallery/kit/kit.h"
 
 enum { SIDES = 96, ROUND = 6 };
@@ -43,7 +44,7 @@ static void shade(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Blocks of stone in courses, with dark joints and a different shade for each block.
+// Paints blocks of stone in courses, with dark joints and a different shade for each block.
 static void paint_stone(float u, float v, float rgba[4]) {
     const int course = (int)(v * 4.0f);
     const float along = u * 4.0f + (course % 2 ? 0.5f : 0.0f);
@@ -59,14 +60,12 @@ static void paint_stone(float u, float v, float rgba[4]) {
 }
 
 // Makes the tube from the sides of a prism, which are turned to lie along z.
-static bool create(void *content, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
-    (void)content;
-    (void)room;
+static bool create(DipGalleryRoom *room, DipError *err) {
     DipShape shape;
     if (!dip_shape_prism(&shape, 1.0f, length, SIDES, true, err)) {
         return false;
     }
-    shape.vertex_count = 4 * SIDES; // the two bases come after the sides
+    shape.vertex_count = 4 * SIDES; // The two bases come after the sides.
     shape.index_count = 6 * SIDES;
     for (uint32_t v = 0; v < shape.vertex_count; v++) {
         float *vertex = shape.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
@@ -76,7 +75,7 @@ static bool create(void *content, DipKitStock *stock, const DipGalleryRoom *room
         vertex[DIP_SHAPE_TEXTURE] *= ROUND;
         vertex[DIP_SHAPE_TEXTURE + 1] *= length / repeat;
     }
-    return dip_kit_mesh(&stock->meshes[0], "tube", &shape, err);
+    return dip_kit_mesh(&room->stock.meshes[0], "tube", &shape, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------

@@ -1,9 +1,10 @@
 // The gallery scene "water": the pools of the courtyard's fountain, seen through.
 //
-// The first pass draws the courtyard with its light map, and a mosaic on the floor of the pool. It
-// keeps its depths. The second pass starts from these depths and draws the water: either blended
-// over the picture, or with refraction, where it reads the first pass's picture a little beside the
-// pixel, displaced by the waves of a normal map. Fresnel's term mixes in the sky.
+// The first pass draws the courtyard with its light map, and a mosaic on the floor of the pool. Its
+// depths are kept. The second pass starts from these depths and draws the water, either blended
+// over the picture, or with refraction: the water's shader then reads the first pass's picture a
+// little beside the pixel, by as much as the waves of a normal map say. Fresnel's term mixes in the
+// sky.
 #include "app/gallery/kit/kit.h"
 #include "assets/model.h"
 #include "renderer/base/pages.h"
@@ -93,7 +94,8 @@ static void clip_court(DipFragmentBatch *batch) {
     }
 }
 
-// A clear sky, brighter towards the horizon. The texture coordinates of the dome give the height.
+// Shades a clear sky, brighter towards the horizon. The texture coordinates of the dome give the
+// height.
 static void shade_sky(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         const float u = batch->varying[0][i];
@@ -105,7 +107,7 @@ static void shade_sky(DipFragmentBatch *batch) {
     }
 }
 
-// The mosaic under water, with the light that the waves focus on it.
+// Shades the mosaic under water, with the light that the waves focus on it.
 static void shade_pool_floor(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float turns = uniforms->turns;
@@ -141,13 +143,14 @@ static void water_vertex(const DipVertexBatch *batch) {
     }
 }
 
-// Schlick's approximation for water seen from air.
+// Returns the share of the light that water reflects: Schlick's approximation, seen from air.
 static inline float fresnel(float cosine) {
     const float left = 1.0f - dip_kit_clamp(cosine, 0.0f, 1.0f);
     return 0.02f + 0.98f * left * left * left * left * left;
 }
 
-// Writes the picture under the water, read beside each fragment by its wave.
+// Writes the colours under the water. Each is read from the picture beside its fragment, as far
+// away as the fragment's wave says.
 static void refract_picture(DipFragmentBatch *batch, const Water *water,
                             float (*waves)[DIP_FRAGMENT_BATCH],
                             float (*under)[DIP_FRAGMENT_BATCH]) {
@@ -210,7 +213,7 @@ static void shade_screen(DipFragmentBatch *batch) {
     const Water *water = batch->uniforms;
     float u[DIP_FRAGMENT_BATCH];
     float v[DIP_FRAGMENT_BATCH];
-    for (int i = 0; i < batch->count; i++) { // the middle of the pixel, also at an edge
+    for (int i = 0; i < batch->count; i++) { // At an edge, a fragment need not lie in the middle.
         u[i] = (dip_kit_floor(batch->x[i]) + 0.5f) / (float)water->picture.width;
         v[i] = (dip_kit_floor(batch->y[i]) + 0.5f) / (float)water->picture.height;
     }
@@ -219,7 +222,7 @@ static void shade_screen(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Rings of tiles around the pedestal: white and blue, with a wave in gold.
+// Paints rings of tiles around the pedestal: white and blue, with a wave in gold.
 static void paint_mosaic(float u, float v, float rgba[4]) {
     const float tiles = 44.0f;
     const float x = u * tiles;
@@ -365,14 +368,16 @@ static bool make_textures(Content *content, DipPool *pool, DipError *err) {
     return made;
 }
 
-static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
+static bool create(DipGalleryRoom *room, DipError *err) {
+    Content *content = room->content;
     char file[PATH_MAX];
     const char *files[1] = {file};
     const DipModelOptions options = {.normal_maps = true};
-    if (!dip_kit_asset(file, sizeof file, room, "courtyard/court.gltf", "water", err)) {
+    if (!make_pool_floor(&room->stock.meshes[POOL_FLOOR], err) ||
+        !dip_kit_asset(file, sizeof file, room->def, "courtyard/court.gltf", "water", err)) {
         return false;
     }
-    content->model = dip_model_load_with(files, 1, &options, room->pool, NULL, err);
+    content->model = dip_model_load_with(files, 1, &options, room->def->pool, NULL, err);
     if (!content->model) {
         return false;
     }
@@ -385,7 +390,7 @@ static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water", "out of memory");
     }
     content->compressed = content->textures + def->texture_count;
-    bool made = make_textures(content, room->pool, err);
+    bool made = make_textures(content, room->def->pool, err);
     for (int m = 0; made && m < def->mesh_count; m++) {
         made = make_mesh(&content->meshes[m], &def->meshes[m], err);
     }
@@ -395,24 +400,16 @@ static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
     return made;
 }
 
-static bool create(void *content, DipKitStock *stock, const DipGalleryRoom *room, DipError *err) {
-    return make_pool_floor(&stock->meshes[POOL_FLOOR], err) && load(content, room, err);
-}
-
 // Makes the first pass's picture and depths, unless a frame of this size and number of samples had
 // them already.
 static bool prepare_target(Content *content, const DipTarget *size, int samples, DipError *err) {
     DipTarget *picture = &content->picture;
     if (picture->width != size->width || picture->height != size->height) {
         forget_size(content);
-        picture->stride_bytes = size->stride_bytes;
-        picture->rgba8 = dip_lines_alloc(size->stride_bytes * (size_t)size->height);
-        if (!picture->rgba8) {
-            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water",
-                                 "no memory for %dx%d pixels", size->width, size->height);
+        if (!dip_kit_target(picture, size->width, size->height, "water", err)) {
+            *picture = (DipTarget){0};
+            return false;
         }
-        picture->width = size->width;
-        picture->height = size->height;
     }
     if (!content->depths[samples]) {
         content->depths[samples] = dip_depth_create(size->width, size->height, samples, err);
