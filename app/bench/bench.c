@@ -76,13 +76,11 @@ static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSessio
 // aspect ratio needs its own view.
 static bool choose_view(Context *bench, int index, const DipSession *session, DipError *err) {
     const DipBenchOptions *options = &bench->plan->options;
-    const int *at = bench->plan->combinations[index].at;
-    const DipOptionSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
-    const int triangles = options->grid_count ? options->grids[at[DIP_BENCH_AXIS_GRID]] : 0;
-    const double aspect = options->grid_count ? (double)size.width / size.height : 0.0;
+    const DipBenchValues v = dip_bench_values(bench->plan, index);
+    const double aspect = options->grid_count ? (double)v.size.width / v.size.height : 0.0;
     View *view = bench->views;
     while (view < bench->views + bench->view_count &&
-           (view->triangles != triangles || view->aspect != aspect)) {
+           (view->triangles != v.triangles || view->aspect != aspect)) {
         view++;
     }
     bench->drawers[index].view = view;
@@ -90,7 +88,7 @@ static bool choose_view(Context *bench, int index, const DipSession *session, Di
         return true;
     }
     bench->view_count++;
-    *view = options->grid_count ? (View){.triangles = triangles, .aspect = aspect}
+    *view = options->grid_count ? (View){.triangles = v.triangles, .aspect = aspect}
                                 : session_view(session);
     return !options->grid_count || make_grid_view(view, bench->plan, session, err);
 }
@@ -106,30 +104,27 @@ static DipPool *pool_of(Context *bench, int threads_index, DipError *err) {
 }
 
 static bool make_renderer(Context *bench, int index, const DipSession *session, DipError *err) {
-    const DipBenchOptions *options = &bench->plan->options;
-    const int *at = bench->plan->combinations[index].at;
-    const DipOptionSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
-    int width, height;
-    dip_bench_drawn_size(bench->plan, &bench->plan->combinations[index], &width, &height);
+    const DipBenchValues v = dip_bench_values(bench->plan, index);
     const DipRendererDef def = {
-        .pool = pool_of(bench, at[DIP_BENCH_AXIS_THREADS], err),
-        .isa = options->isas[at[DIP_BENCH_AXIS_ISA]],
-        .width = width,
-        .height = height,
-        .quality = options->sets[at[DIP_BENCH_AXIS_SET]].quality,
+        .pool = pool_of(bench, bench->plan->at[index][DIP_BENCH_AXIS_THREADS], err),
+        .isa = v.isa,
+        .width = v.drawn.width,
+        .height = v.drawn.height,
+        .quality = v.set->quality,
         .reflection = session->reflection,
         .force_all_effects = session->force_all_effects,
     };
     Drawer *drawer = &bench->drawers[index];
-    if (def.pool && session->shows_gallery && !options->grid_count) {
+    if (def.pool && session->shows_gallery && !v.triangles) {
         drawer->gallery = dip_session_open_gallery(session, def.pool, def.isa, err);
         if (!drawer->gallery) {
             return false;
         }
     }
     drawer->painter = def.pool ? dip_painter_create(&def, drawer->gallery, err) : NULL;
-    if (drawer->painter && options->scales[at[DIP_BENCH_AXIS_SCALE]] < 1.0) {
-        const DipEnlargerDef enlarger = {width, height, size.width, size.height, def.pool};
+    if (drawer->painter && v.scale < 1.0) {
+        const DipEnlargerDef enlarger = {v.drawn.width, v.drawn.height, v.size.width, v.size.height,
+                                         def.pool};
         drawer->enlarger = dip_enlarger_create(&enlarger, err);
         return drawer->enlarger != NULL;
     }
@@ -208,8 +203,7 @@ static bool draw_frame(Context *bench, int combination, int frame, DipFrame *pic
         return false;
     }
     if (drawer->enlarger) {
-        const int size = bench->plan->combinations[combination].at[DIP_BENCH_AXIS_SIZE];
-        enlarge(drawer->enlarger, bench->plan->options.sizes[size], picture);
+        enlarge(drawer->enlarger, dip_bench_values(bench->plan, combination).size, picture);
     }
     return true;
 }

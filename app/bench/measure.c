@@ -98,7 +98,7 @@ static bool check_picture(const BenchTiming *t, int combination, int frame, cons
     const int like = dip_bench_same_pictures(t->plan, combination);
     const char *expected = dip_bench_result_first(&t->results[0], like, frame)->hash;
     char label[DIP_BENCH_LABEL_SIZE];
-    dip_bench_label(t->plan, &t->plan->combinations[combination], DIP_BENCH_AXIS_COUNT, label);
+    dip_bench_label(t->plan, combination, DIP_BENCH_AXIS_COUNT, label);
     return strcmp(hash, expected) == 0 ||
            dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "bench",
                          "the picture of frame %d with %s has the hash %s, but row %d has %s; they "
