@@ -1,5 +1,5 @@
-// FLIP version 1.6, step by step: opponent colours, contrast sensitivity, CIELab with Hunt's
-// effect, HyAB distance, edges and points, error.
+// Computes FLIP version 1.6 in the paper's steps: opponent colours, contrast sensitivity, CIELab
+// with Hunt's effect, HyAB distance, edges and points, error.
 #include "app/measure/metrics/flip.h"
 
 #include "app/measure/metrics/internal/filters.h"
@@ -120,7 +120,7 @@ static void to_opponent(const float rgb[3], float *luma, float *red_green, float
     *blue = 200.0f * (xyz[1] - xyz[2]);
 }
 
-// CIELab's compressive function.
+// Returns CIELab's compressive function.
 static float lightness(float x) {
     const float limit = 6.0f / 29.0f;
     return x > limit * limit * limit ? cbrtf(x) : x / (3.0f * limit * limit) + 4.0f / 29.0f;

@@ -1,6 +1,6 @@
-// The distribution of FLIP over the pixels of a burst (a series of successive frames, flicker.h),
-// and the part of the pictures where FLIP is worst. A mean over a picture hides small parts that
-// look bad.
+// Finds how FLIP is distributed over the pixels of a burst (a series of successive frames,
+// flicker.h), and in which part of the pictures it is worst. A mean over a picture hides small
+// parts that look bad.
 #ifndef DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
 #define DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
 
@@ -18,7 +18,7 @@ typedef struct DipFlipTail {
     double p50;
     double p95;
     double p99;
-    double worst; // Mean FLIP of the worst block. 0: all pictures are the same as the standard.
+    double worst;       // Mean FLIP of the worst block. 0: no picture differs from the truth.
     double worst_frame; // Index of the frame with the worst block.
     double worst_x;     // Left edge of the worst block, in pixels.
     double worst_y;     // Top edge.

@@ -1,4 +1,5 @@
-// The pictures that metrics compare, and selections of the pixels that a metric covers.
+// Describes the pictures that metrics compare, divides them into blocks, and selects the pixels
+// that a metric covers.
 #ifndef DIP_APP_MEASURE_METRICS_PICTURE_H
 #define DIP_APP_MEASURE_METRICS_PICTURE_H
 
@@ -23,8 +24,8 @@ typedef struct DipPixelRect {
     int height;
 } DipPixelRect;
 
-// Pictures are judged in blocks, so that the work can pause between two of them. Blocks are counted
-// row by row; the last ones of a row and of a column are cut off by the border.
+// Pictures are judged in blocks, so that the work can pause between two blocks. Blocks are counted
+// row by row. The picture's border cuts off the last block of a row and of a column.
 enum { DIP_PICTURE_BLOCK = 96 }; // Side, pixels.
 
 int dip_picture_block_count(int width, int height);

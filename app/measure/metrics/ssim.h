@@ -1,5 +1,5 @@
-// Structural similarity (Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From Error
-// Visibility to Structural Similarity", 2004) on the luma of sRGB codes.
+// Computes structural similarity (Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From
+// Error Visibility to Structural Similarity", 2004) on the luma of sRGB codes.
 //
 // Windows are Gaussian, 11x11, with a standard deviation of 1.5; K1 = 0.01, K2 = 0.03, L = 255;
 // luma is 0.299 R + 0.587 G + 0.114 B, not rounded. As in the authors' implementation, only windows

@@ -1,5 +1,5 @@
-// What the threads of a process got from the processor: time on a core, time spent waiting for
-// one, and how often another process took their core away.
+// Tells what the threads of a process got from the processor: how long they ran on a core, how long
+// they waited for one, and how often another process took their core away.
 //
 // A frame whose threads waited was disturbed by another process, whatever its time says. On Linux
 // the figures come from /proc/self/task/*/schedstat (the first number is the time on a core, the
