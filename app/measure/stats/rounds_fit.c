@@ -408,11 +408,11 @@ static bool has_moves(const DipTimesFit *fit, int subject) {
     return !isnan(dip_times_moves(fit, subject, 0)[DIP_TIMES_RATIO]);
 }
 
-static int list_members(const DipTimesWork *w, int base, int *members) {
+static int list_members(const DipTimesWork *w, int base) {
     int count = 0;
     for (int s = 0; s < w->times->subjects; s++) {
         if (w->times->base_of[s] == base && s != base && has_moves(w->fit, s)) {
-            members[count++] = s;
+            w->members[count++] = s;
         }
     }
     return count;
@@ -447,7 +447,7 @@ static void divide_variance(DipTimesFit *fit, DipTimesBase *base, const int *mem
     }
 }
 
-static void fit_base(DipTimesWork *w, int b, int *members) {
+static void fit_base(DipTimesWork *w, int b) {
     DipTimesFit *fit = w->fit;
     dip_times_fit_levels(w, b);
     for (int s = 0; s < w->times->subjects; s++) {
@@ -456,14 +456,14 @@ static void fit_base(DipTimesWork *w, int b, int *members) {
             fit_subject(w, s);
         }
     }
-    const int count = list_members(w, b, members);
+    const int count = list_members(w, b);
     for (int v = 0; fit->units > 1 && v < DIP_TIMES_VALUE_COUNT; v++) {
         for (int s = 0; s < w->times->subjects; s++) {
             if (w->times->base_of[s] == b && !has_moves(fit, s)) {
                 fit->subjects[s].variance[v] = NAN;
             }
         }
-        divide_variance(fit, &fit->bases[b], members, count, v);
+        divide_variance(fit, &fit->bases[b], w->members, count, v);
         for (int unit = 0; unit < fit->units; unit++) {
             const double move = dip_times_moves(fit, b, unit)[v];
             fit->subjects[b].variance[v] += move * move / (fit->units - 1);
@@ -495,7 +495,7 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, int part, DipTimes
         .part = part,
         .is_alone = times->complete && times->starts > 1,
         .sorted = malloc(count * sizeof(DipTimed *)),
-        .first_of = malloc(((size_t)times->subjects + 1) * sizeof(int)),
+        .first_of = malloc((2 * (size_t)times->subjects + 1) * sizeof(int)),
         .cells = malloc(count * sizeof(DipTimesCell)),
         .moments = malloc(count * sizeof(DipTimesMoment)),
         .pairs = malloc(count * sizeof(DipTimesPair)),
@@ -508,6 +508,7 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, int part, DipTimes
         !w->level || !w->logs || !w->means) {
         return false;
     }
+    w->members = w->first_of + times->subjects + 1;
     sort_times(w);
     w->missing = w->level + sets * frames;
     w->speed = w->missing + sets;
@@ -530,8 +531,7 @@ DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err) 
     const size_t subjects = (size_t)times->subjects, frames = (size_t)times->frames;
     DipTimesFit *fit = calloc(1, sizeof *fit);
     DipTimesWork w = {0};
-    int *members = malloc(subjects * sizeof *members);
-    bool made = fit && members;
+    bool made = fit;
     if (made) {
         fit->frames = times->frames;
         fit->units = times->starts > 1 ? times->starts : times->rounds;
@@ -546,11 +546,10 @@ DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err) 
     }
     for (int s = 0; made && s < times->subjects; s++) {
         if (times->base_of[s] == s) {
-            fit_base(&w, s, members);
+            fit_base(&w, s);
         }
     }
     close_work(&w);
-    free(members);
     if (!made) {
         dip_times_fit_free(&fit);
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "timing", "out of memory");

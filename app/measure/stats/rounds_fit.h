@@ -83,6 +83,7 @@ typedef struct DipTimesWork {
     bool is_alone; // True if a set has the pairs of one unit alone; otherwise it lacks them.
     const DipTimed **sorted; // [count]: the times by subject, round, block and frame.
     int *first_of;           // [subjects + 1]: where a subject's times begin in `sorted`.
+    int *members;            // [subjects]: those of a base whose moves are known.
     DipTimesCell *cells;
     int cell_count;
     DipTimesPair *pairs;

@@ -538,11 +538,6 @@ static bool begin_round(DipDriver *d, DipError *err) {
            (plan_start(d) || out_of_memory(err));
 }
 
-static void end_start(DipDriver *d) {
-    d->start_ns = now_ns(d) - d->start_begin_ns;
-    d->stage = d->def.settle && d->settle_runs == 0 ? SETTLE : PLAN;
-}
-
 static bool complete_round(DipDriver *d, DipError *err) {
     d->stage = PLAN;
     end_round(d);
@@ -554,7 +549,8 @@ static bool complete_round(DipDriver *d, DipError *err) {
 static bool take_step(DipDriver *d, DipDriverStep *step, DipError *err) {
     while (d->stage == PLAN || (d->stage == WARM_UP && d->next == d->plan_count)) {
         if (d->stage == WARM_UP) {
-            end_start(d);
+            d->start_ns = now_ns(d) - d->start_begin_ns;
+            d->stage = d->def.settle && d->settle_runs == 0 ? SETTLE : PLAN;
         } else if (!begin_round(d, err)) {
             return false;
         }
