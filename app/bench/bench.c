@@ -14,19 +14,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A scene with the camera path through it.
+// A view is a scene with the camera path through it.
 typedef struct View {
     const DipScene *scene;
     const DipCamPath *path;
     DipScene *own_scene;  // `scene` if the view owns it; NULL if the session does
-    DipCamPath *own_path; // the same of `path`
+    DipCamPath *own_path; // `path` if the view owns it; NULL if the session does
     DipCamPathEnd end;    // what the path does at its end
     double fov_y_deg;
     int triangles; // number of triangles given to --grid; 0 for the session's scene
     double aspect; // width / height of the picture that a grid fills; 0 for the session's scene
 } View;
 
-// What draws a combination.
+// A drawer draws one combination.
 typedef struct Drawer {
     DipGallery *gallery; // NULL unless the session shows the gallery
     DipPainter *painter;
@@ -71,9 +71,9 @@ static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSessio
     return view->scene != NULL;
 }
 
-// Finds or makes the view of a combination, the next one of bench->views. A grid is a relief, that
-// is, a wavy surface (synthetic.h). It is made to fill a picture of one aspect ratio, so each
-// aspect ratio needs its own view.
+// Finds the view of a combination in bench->views, or adds it. A grid is a relief, that is, a wavy
+// surface (synthetic.h). A relief fills a picture of one aspect ratio, so each aspect ratio needs a
+// view of its own.
 static bool choose_view(Context *bench, int index, const DipSession *session, DipError *err) {
     const DipBenchOptions *options = &bench->plan->options;
     const DipBenchValues v = dip_bench_values(bench->plan, index);
@@ -155,7 +155,7 @@ static void destroy_context(Context **context_pointer) {
     *context_pointer = NULL;
 }
 
-// Borrows the plan and the session.
+// Makes everything that the plan draws with. Borrows the plan and the session.
 static Context *create_context(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
     Context *bench = calloc(1, sizeof *bench);
     if (!bench) {

@@ -80,10 +80,11 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 
 // --- measuring -----------------------------------------------------------------------------------
 
-enum { BLOCK_SUBJECTS = 4 }; // As in a report.
+enum { BLOCK_SUBJECTS = 4 }; // As many as `diptych cost` uses.
 
-// Subject i is combination i / source_count of source i % source_count. If there are two sources,
-// the first one is the base of the second; otherwise the plan's base is that of all combinations.
+// The driver's subject i is combination i / source_count of source i % source_count. If there are
+// two sources, the first one is the base of the second; otherwise the plan's base is the base of
+// all combinations.
 typedef struct BenchTiming {
     const DipBenchPlan *plan;
     const DipBenchSource *sources;
@@ -91,8 +92,9 @@ typedef struct BenchTiming {
     DipBenchResult *results;
 } BenchTiming;
 
-// This program's pictures must not depend on threads or instruction sets. The driver's warm-up
-// draws the combinations in order, so the other picture is there already.
+// Fails unless a picture equals that of the first instruction set and number of threads: pictures
+// must depend on neither. The driver's warm-up draws the combinations in order, so that picture is
+// there already.
 static bool check_picture(const BenchTiming *t, int combination, int frame, const char *hash,
                           DipError *err) {
     const int like = dip_bench_same_pictures(t->plan, combination);

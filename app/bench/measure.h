@@ -7,17 +7,18 @@
 #include "app/bench/plan.h"
 #include "app/measure/timing/sample.h"
 
-// The results of one program. The bench measures one program, or two with --vs. Owns its arrays,
-// borrows the plan.
+// The results of one program. The bench measures one program, or two with --vs. A result owns its
+// arrays and borrows the plan.
 typedef struct DipBenchResult {
     const DipBenchPlan *plan;
     double *ms;            // times, [combination][stage][round][frame]
     double *scratch;       // room for the times of a combination's stage
     DipBenchSample *first; // samples of the warm-up, [combination][frame]
-    // [combination]: the ratio of the mean time to that of the plan's base; for the second of two
-    // programs, to that of the first.
+    // [combination]: the ratio of the combination's mean time to that of the plan's base. In the
+    // result of the second of two programs, it is the ratio to the mean time of the first program.
     DipEstimate *ratios;
-    // [combination]: how many times as fast as with the fewest threads. Of one program only.
+    // [combination]: how many times as fast the combination is as with the fewest threads. Filled
+    // in only if there is one program.
     DipEstimate *speed_ups;
 } DipBenchResult;
 
@@ -54,8 +55,9 @@ typedef struct DipBenchSource {
 // Fills one result for each source. There are 1 or 2 sources. The results must be initialised
 // before the call.
 //
-// Every combination is timed beside the plan's base, and the second source's beside the first's;
-// the results' ratios and speed-ups come from that (app/measure/stats/rounds.h).
+// Every combination is timed beside the plan's base. With two sources, each combination of the
+// second is timed beside that of the first. Ratios and speed-ups come from these pairs
+// (app/measure/stats/rounds.h).
 //
 // Before any time is taken, the warm-up draws each frame once. Its samples, with hashes and
 // counters, become the results' `first` samples. Two sources take turns at every frame. A rest of

@@ -49,8 +49,9 @@ static bool same_but_samples(const DipQuality *a, const DipQuality *b) {
     return memcmp(a, &other, sizeof other) == 0;
 }
 
-// True if two combinations belong to the same series: they differ on the plot's axis only. In the
-// plot against samples, their settings differ only in aa, the number of samples.
+// Returns whether two combinations belong to the same series, that is, whether they differ on the
+// plot's axis only. In the plot against samples, their settings may differ only in aa, the number
+// of samples.
 static bool belongs(const DipBenchPlan *plan, const struct Kind *kind, int a, int b) {
     for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
         if (axis != (int)kind->axis && plan->at[a][axis] != plan->at[b][axis]) {
