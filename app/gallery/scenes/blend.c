@@ -15,11 +15,13 @@ typedef struct Uniforms {
     float alpha;
 } Uniforms;
 
-static const DipBlend modes[MODES] = {
-    DIP_BLEND_MODE_ALPHA,
-    DIP_BLEND_MODE_ADDITIVE,
-    DIP_BLEND_MODE_MULTIPLICATIVE,
-    DIP_BLEND_MODE_DOUBLE_MULTIPLICATIVE,
+#define SHEET_STATE(mode)                                                                          \
+    { .blend = mode, .depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true }
+static const DipDrawState states[MODES] = {
+    SHEET_STATE(DIP_BLEND_MODE_ALPHA),
+    SHEET_STATE(DIP_BLEND_MODE_ADDITIVE),
+    SHEET_STATE(DIP_BLEND_MODE_MULTIPLICATIVE),
+    SHEET_STATE(DIP_BLEND_MODE_DOUBLE_MULTIPLICATIVE),
 };
 
 // --- shaders -------------------------------------------------------------------------------------
@@ -87,11 +89,6 @@ static bool draw(const DipGalleryView *view, DipError *err) {
     const DipMesh *quad = view->stock->meshes[0];
     const DipSampler sampler = dip_kit_sampler(view, &view->stock->textures[0]);
     DipKitList list = dip_kit_list(view, 0.1, err);
-    DipDrawState states[MODES];
-    for (int m = 0; m < MODES; m++) {
-        states[m] =
-            (DipDrawState){.blend = modes[m], .depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true};
-    }
     const DipMatrix board =
         dip_kit_chain(dip_matrix_translation(0.0, 0.0, -0.02), dip_matrix_scaling(3.5, 2.5, 1.0));
     dip_kit_add(&list, quad, &plain, &board, shade_board);

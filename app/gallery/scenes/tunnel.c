@@ -10,9 +10,8 @@
 
 enum { SIDES = 96, ROUND = 6 };
 
-// The tube lies along z. Its texture repeats ROUND times around it and once every REPEAT units.
+// The tube lies along z. Its texture repeats ROUND times around it and once in each unit of length.
 static const float length = 120.0f;
-static const float repeat = 1.0f;
 
 typedef struct Uniforms {
     DipKitObject object;
@@ -73,7 +72,7 @@ static bool create(DipGalleryRoom *room, DipError *err) {
         vertex[1] = vertex[2];
         vertex[2] = -along - 0.5f * length + 2.0f;
         vertex[DIP_SHAPE_TEXTURE] *= ROUND;
-        vertex[DIP_SHAPE_TEXTURE + 1] *= length / repeat;
+        vertex[DIP_SHAPE_TEXTURE + 1] *= length;
     }
     return dip_kit_mesh(&room->stock.meshes[0], "tube", &shape, err);
 }
