@@ -269,14 +269,19 @@ typedef struct DipKitVector {
     float x, y, z;
 } DipKitVector;
 
+static inline DipKitVector dip_kit_xyz(float x, float y, float z) {
+    const DipKitVector v = {x, y, z};
+    return v;
+}
+
 static inline DipKitVector dip_kit_vector(const float v[3]) {
-    return (DipKitVector){v[0], v[1], v[2]};
+    return dip_kit_xyz(v[0], v[1], v[2]);
 }
 
 // Returns element i of three arrays, for example of the varyings from one on: batch->varying +
 // DIP_KIT_NORMAL.
 static inline DipKitVector dip_kit_get(float (*arrays)[DIP_FRAGMENT_BATCH], int i) {
-    return (DipKitVector){arrays[0][i], arrays[1][i], arrays[2][i]};
+    return dip_kit_xyz(arrays[0][i], arrays[1][i], arrays[2][i]);
 }
 
 // Sets element i of three arrays, for example of batch->colour.
@@ -292,15 +297,15 @@ static inline void dip_kit_put(float (*arrays)[DIP_FRAGMENT_BATCH], int i, DipKi
 }
 
 static inline DipKitVector dip_kit_plus(DipKitVector a, DipKitVector b) {
-    return (DipKitVector){a.x + b.x, a.y + b.y, a.z + b.z};
+    return dip_kit_xyz(a.x + b.x, a.y + b.y, a.z + b.z);
 }
 
 static inline DipKitVector dip_kit_minus(DipKitVector a, DipKitVector b) {
-    return (DipKitVector){a.x - b.x, a.y - b.y, a.z - b.z};
+    return dip_kit_xyz(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 static inline DipKitVector dip_kit_times(DipKitVector v, float factor) {
-    return (DipKitVector){v.x * factor, v.y * factor, v.z * factor};
+    return dip_kit_xyz(v.x * factor, v.y * factor, v.z * factor);
 }
 
 static inline float dip_kit_dot(DipKitVector a, DipKitVector b) {
