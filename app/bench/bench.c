@@ -1,20 +1,219 @@
-// `diptych bench`: measuring this program, or two programs in turn.
-#include "app/bench/context.h"
+// `diptych bench`: makes the pools, scenes and renderers of a plan, and measures this program, or
+// two programs in turn.
+#include "app/bench/enlarge.h"
 #include "app/bench/measure.h"
-#include "app/bench/options.h"
 #include "app/bench/plots.h"
+#include "app/bench/synthetic.h"
 #include "app/bench/table.h"
 #include "app/cli/progress.h"
 #include "app/files/whole_file.h"
 #include "app/measure/timing/child.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/clock.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+// A view is a scene with the camera path through it.
+typedef struct View {
+    const DipScene *scene;
+    const DipCamPath *path;
+    DipScene *own_scene;  // `scene` if the view owns it; NULL if the session does
+    DipCamPath *own_path; // `path` if the view owns it; NULL if the session does
+    DipCamPathEnd end;    // what the path does at its end
+    double fov_y_deg;
+    int triangles; // number of triangles given to --grid; 0 for the session's scene
+    double aspect; // width / height of the picture that a grid fills; 0 for the session's scene
+} View;
+
+// A drawer draws one combination.
+typedef struct Drawer {
+    DipGallery *gallery; // NULL unless the session shows the gallery
+    DipPainter *painter;
+    DipEnlarger *enlarger; // NULL if the render scale is 1
+    const View *view;
+} Drawer;
+
+typedef struct Context {
+    const DipBenchPlan *plan;
+    DipPool **pools; // one per number of threads
+    View *views;
+    int view_count;
+    Drawer *drawers; // one per combination
+} Context;
+
+// --- views -------------------------------------------------------------------------------------
+
+static View session_view(const DipSession *session) {
+    const DipCamTrack *track = &session->track;
+    const DipCamCategory *slot =
+        &track->categories[track->categories[track->active].path ? track->active : 0];
+    return (View){.scene = session->scene,
+                  .path = slot->path,
+                  .end = track->end,
+                  .fov_y_deg = slot->fov_y_deg};
+}
+
+static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSession *session,
+                           DipError *err) {
+    view->fov_y_deg =
+        dip_session_fov(session, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
+    const double turn_deg = plan->options.grid_out_of_view ? 180.0 : 0.0;
+    DipSynthetic *relief =
+        dip_synthetic_relief(view->triangles, view->fov_y_deg, view->aspect, turn_deg, err);
+    if (!relief) {
+        return false;
+    }
+    view->scene = view->own_scene = dip_scene_create(&relief->def, session->pool, err);
+    view->path = view->own_path = relief->path;
+    relief->path = NULL;
+    dip_synthetic_destroy(&relief);
+    return view->scene != NULL;
+}
+
+// Finds the view of a combination in bench->views, or adds it. A grid is a relief, that is, a wavy
+// surface (synthetic.h). A relief fills a picture of one aspect ratio, so each aspect ratio needs a
+// view of its own.
+static bool choose_view(Context *bench, int index, const DipSession *session, DipError *err) {
+    const DipBenchOptions *options = &bench->plan->options;
+    const DipBenchValues v = dip_bench_values(bench->plan, index);
+    const double aspect = options->grid_count ? (double)v.size.width / v.size.height : 0.0;
+    View *view = bench->views;
+    while (view < bench->views + bench->view_count &&
+           (view->triangles != v.triangles || view->aspect != aspect)) {
+        view++;
+    }
+    bench->drawers[index].view = view;
+    if (view < bench->views + bench->view_count) {
+        return true;
+    }
+    bench->view_count++;
+    *view = options->grid_count ? (View){.triangles = v.triangles, .aspect = aspect}
+                                : session_view(session);
+    return !options->grid_count || make_grid_view(view, bench->plan, session, err);
+}
+
+// --- the context -------------------------------------------------------------------------------
+
+static DipPool *pool_of(Context *bench, int threads_index, DipError *err) {
+    if (!bench->pools[threads_index]) {
+        bench->pools[threads_index] =
+            dip_pool_create(bench->plan->options.threads[threads_index], err);
+    }
+    return bench->pools[threads_index];
+}
+
+static bool make_renderer(Context *bench, int index, const DipSession *session, DipError *err) {
+    const DipBenchValues v = dip_bench_values(bench->plan, index);
+    const DipRendererDef def = {
+        .pool = pool_of(bench, bench->plan->at[index][DIP_BENCH_AXIS_THREADS], err),
+        .isa = v.isa,
+        .width = v.drawn.width,
+        .height = v.drawn.height,
+        .quality = v.set->quality,
+        .reflection = session->reflection,
+        .force_all_effects = session->force_all_effects,
+    };
+    Drawer *drawer = &bench->drawers[index];
+    if (def.pool && session->shows_gallery && !v.triangles) {
+        drawer->gallery = dip_session_open_gallery(session, def.pool, def.isa, err);
+        if (!drawer->gallery) {
+            return false;
+        }
+    }
+    drawer->painter = def.pool ? dip_painter_create(&def, drawer->gallery, err) : NULL;
+    if (drawer->painter && v.scale < 1.0) {
+        const DipEnlargerDef enlarger = {v.drawn.width, v.drawn.height, v.size.width, v.size.height,
+                                         def.pool};
+        drawer->enlarger = dip_enlarger_create(&enlarger, err);
+        return drawer->enlarger != NULL;
+    }
+    return drawer->painter != NULL;
+}
+
+static void destroy_context(Context **context_pointer) {
+    Context *bench = *context_pointer;
+    if (!bench) {
+        return;
+    }
+    for (int i = 0; bench->drawers && i < bench->plan->count; i++) {
+        dip_painter_destroy(&bench->drawers[i].painter);
+        dip_gallery_destroy(&bench->drawers[i].gallery);
+        dip_enlarger_destroy(&bench->drawers[i].enlarger);
+    }
+    for (int i = 0; i < bench->view_count; i++) {
+        dip_scene_destroy(&bench->views[i].own_scene);
+        dip_campath_destroy(&bench->views[i].own_path);
+    }
+    for (int i = 0; bench->pools && i < bench->plan->options.threads_count; i++) {
+        dip_pool_destroy(&bench->pools[i]);
+    }
+    free(bench->pools);
+    free(bench->views);
+    free(bench->drawers);
+    free(bench);
+    *context_pointer = NULL;
+}
+
+// Makes everything that the plan draws with. Borrows the plan and the session.
+static Context *create_context(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
+    Context *bench = calloc(1, sizeof *bench);
+    if (!bench) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
+        return NULL;
+    }
+    const size_t count = (size_t)plan->count;
+    bench->plan = plan;
+    bench->pools = calloc((size_t)plan->options.threads_count, sizeof(DipPool *));
+    bench->views = calloc(count, sizeof(View));
+    bench->drawers = calloc(count, sizeof(Drawer));
+    bool made = (bench->pools && bench->views && bench->drawers) ||
+                dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
+    for (int i = 0; made && i < plan->count; i++) {
+        made = choose_view(bench, i, session, err) && make_renderer(bench, i, session, err);
+    }
+    if (!made) {
+        destroy_context(&bench);
+    }
+    return bench;
+}
+
+// The enlarging is part of the frame's total time, and of none of its stages.
+static void enlarge(DipEnlarger *enlarger, DipOptionSize size, DipFrame *picture) {
+    const int64_t begin_ns = dip_clock_ns();
+    picture->rgba8 = dip_enlarger_run(enlarger, picture->rgba8, picture->stride_bytes);
+    picture->width = size.width;
+    picture->height = size.height;
+    picture->stride_bytes = (size_t)size.width * 4;
+    picture->stages.total_ms += 1e-6 * (double)(dip_clock_ns() - begin_ns);
+}
+
+// Draws a frame of a combination. The frames divide the camera path evenly. *picture is valid until
+// the combination draws again.
+static bool draw_frame(Context *bench, int combination, int frame, DipFrame *picture,
+                       DipError *err) {
+    const Drawer *drawer = &bench->drawers[combination];
+    const View *view = drawer->view;
+    const int64_t time_ns =
+        dip_campath_span_ns(view->path, view->end) / bench->plan->options.frames * frame;
+    DipPose pose = {.fov_y_deg = view->fov_y_deg};
+    dip_campath_sample(view->path, dip_campath_time_at_end(view->path, view->end, time_ns), &pose);
+    dip_painter_set_frame_index(drawer->painter, (uint64_t)frame);
+    if (!dip_painter_draw(drawer->painter, view->scene, &pose, time_ns, picture, err)) {
+        return false;
+    }
+    if (drawer->enlarger) {
+        enlarge(drawer->enlarger, dip_bench_values(bench->plan, combination).size, picture);
+    }
+    return true;
+}
+
+// --- programs ------------------------------------------------------------------------------------
 
 static bool draw_here(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
                       DipError *err) {
     DipFrame picture;
-    if (!dip_bench_context_draw(context, combination, frame, &picture, err)) {
+    if (!draw_frame(context, combination, frame, &picture, err)) {
         return false;
     }
     dip_bench_sample_set(sample, &picture, hash);
@@ -23,7 +222,7 @@ static bool draw_here(void *context, int combination, int frame, bool hash, DipB
 
 typedef struct Server {
     const DipBenchPlan *plan;
-    DipBenchContext *bench;
+    Context *bench;
 } Server;
 
 static bool answer(void *context, const char *request, DipBenchSample *sample, DipError *err) {
@@ -39,10 +238,10 @@ static bool answer(void *context, const char *request, DipBenchSample *sample, D
 }
 
 static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
-    Server server = {plan, dip_bench_context_create(plan, session, err)};
+    Server server = {plan, create_context(plan, session, err)};
     const bool done = server.bench && dip_child_serve("bench", plan->count, plan->options.frames,
                                                       answer, &server, err);
-    dip_bench_context_destroy(&server.bench);
+    destroy_context(&server.bench);
     return done;
 }
 
@@ -57,7 +256,7 @@ static bool draw_there(void *context, int combination, int frame, bool hash, Dip
 // The programs that are measured: this process, or with --vs two child processes, so that neither
 // program has an advantage.
 typedef struct Programs {
-    DipBenchContext *here;
+    Context *here;
     DipChild *children[2];
     DipBenchSource sources[2];
     DipBenchResult results[2];
@@ -70,7 +269,7 @@ static bool open_programs(Programs *programs, const DipBenchPlan *plan, const Di
     const char *const files[2] = {"/proc/self/exe", options->vs};
     *programs = (Programs){.count = options->vs ? 2 : 1};
     if (!options->vs) {
-        programs->here = dip_bench_context_create(plan, session, err);
+        programs->here = create_context(plan, session, err);
         programs->sources[0] = (DipBenchSource){draw_here, programs->here};
         return programs->here && dip_bench_result_init(&programs->results[0], plan, err);
     }
@@ -112,7 +311,7 @@ static bool measure(const DipBenchPlan *plan, const DipSession *session, DipErro
         dip_child_stop(&programs.children[p], dip_interrupted());
         dip_bench_result_free(&programs.results[p]);
     }
-    dip_bench_context_destroy(&programs.here);
+    destroy_context(&programs.here);
     return done;
 }
 

@@ -1,4 +1,4 @@
-// Bilinear enlargement: bands of rows on the pool's threads.
+// Enlarges pictures bilinearly, in bands of rows on the pool's threads.
 #include "app/bench/enlarge.h"
 
 #include "renderer/base/srgb.h"
@@ -23,7 +23,8 @@ static int scaled(int size, double scale) {
 }
 
 void dip_enlarger_source_size(int width, int height, double scale, int *to_width, int *to_height) {
-    const int steps = divisor(width, height); // Sizes of the same shape that are at most as large.
+    const int steps =
+        divisor(width, height); // Number of sizes of the same shape that are at most as large.
     const int step = scaled(steps, scale);
     *to_width = width / steps * step;
     *to_height = height / steps * step;
@@ -52,7 +53,8 @@ struct DipEnlarger {
     DipSrgbEncodeTable codes;
 };
 
-// The position is ((2 i + 1) from - to) / (2 to), in whole numbers until the last division.
+// Pixel i of the destination lies at ((2 i + 1) from - to) / (2 to) in the source. This is computed
+// in whole numbers until the last division.
 static void find_places(int from, int to, Place *places) {
     for (int i = 0; i < to; i++) {
         const int64_t numerator = (2 * (int64_t)i + 1) * from - to;

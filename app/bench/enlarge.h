@@ -4,8 +4,8 @@
 // The centre of pixel x of the result lies at (x + 1/2) * source width / result width - 1/2 in the
 // source, counted in pixels from the centre of its first pixel. Its value is interpolated between
 // the two nearest pixels, first along x, then along y; beyond the outermost centres the picture is
-// constant. sRGB codes are decoded before and encoded after, rounded to the nearest code; alpha is
-// interpolated as it is. The result has the same bits on every machine and with any number of
+// constant. sRGB codes are decoded before this and encoded after it, rounded to the nearest code;
+// alpha is not decoded. The result has the same bits on every machine and with any number of
 // threads.
 #ifndef DIP_APP_BENCH_ENLARGE_H
 #define DIP_APP_BENCH_ENLARGE_H
@@ -31,7 +31,7 @@ typedef struct DipEnlargerDef {
     DipPool *pool; // Borrowed; must outlive the enlarger. NULL: the calling thread works alone.
 } DipEnlargerDef;
 
-// Fails with DIP_ERROR_MEMORY.
+// Makes an enlarger. Fails with DIP_ERROR_MEMORY.
 DipEnlarger *dip_enlarger_create(const DipEnlargerDef *def, DipError *err);
 // *enlarger may be NULL and becomes NULL.
 void dip_enlarger_destroy(DipEnlarger **enlarger);

@@ -1,4 +1,4 @@
-// Storing and averaging the bench's samples, and measuring the combinations and programs in turn.
+// Stores and averages the bench's samples, and measures the combinations and programs in turn.
 #include "app/bench/measure.h"
 
 #include "app/cli/drive.h"
@@ -56,19 +56,13 @@ const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
     return result->ms + first_index(result, combination, stage);
 }
 
-void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
-                                const DipBenchSample *sample) {
-    result->first[combination * result->plan->options.frames + frame] = *sample;
-}
-
 double dip_bench_result_quantile(const DipBenchResult *result, int combination, DipBenchStage stage,
                                  double share) {
     return dip_percentile_of(dip_bench_result_ms(result, combination, stage),
                              (int)values_per_stage(result->plan), share, result->scratch);
 }
 
-const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
-                                             int frame) {
+DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination, int frame) {
     return &result->first[combination * result->plan->options.frames + frame];
 }
 
@@ -86,10 +80,11 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 
 // --- measuring -----------------------------------------------------------------------------------
 
-enum { BLOCK_SUBJECTS = 4 }; // As in a report.
+enum { BLOCK_SUBJECTS = 4 }; // As many as `diptych cost` uses.
 
-// Subject i is combination i / source_count of source i % source_count. If there are two sources,
-// the first one is the base of the second; otherwise the plan's base is that of all combinations.
+// The driver's subject i is combination i / source_count of source i % source_count. If there are
+// two sources, the first one is the base of the second; otherwise the plan's base is the base of
+// all combinations.
 typedef struct BenchTiming {
     const DipBenchPlan *plan;
     const DipBenchSource *sources;
@@ -97,14 +92,15 @@ typedef struct BenchTiming {
     DipBenchResult *results;
 } BenchTiming;
 
-// This program's pictures must not depend on threads or instruction sets. The driver's warm-up
-// draws the combinations in order, so the other picture is there already.
+// Fails unless a picture equals that of the first instruction set and number of threads: pictures
+// must depend on neither. The driver's warm-up draws the combinations in order, so that picture is
+// there already.
 static bool check_picture(const BenchTiming *t, int combination, int frame, const char *hash,
                           DipError *err) {
     const int like = dip_bench_same_pictures(t->plan, combination);
     const char *expected = dip_bench_result_first(&t->results[0], like, frame)->hash;
     char label[DIP_BENCH_LABEL_SIZE];
-    dip_bench_label(t->plan, &t->plan->combinations[combination], DIP_BENCH_AXIS_COUNT, label);
+    dip_bench_label(t->plan, combination, DIP_BENCH_AXIS_COUNT, label);
     return strcmp(hash, expected) == 0 ||
            dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "bench",
                          "the picture of frame %d with %s has the hash %s, but row %d has %s; they "
@@ -122,8 +118,8 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
         return false;
     }
     if (first) {
-        dip_bench_result_set_first(&t->results[turn->subject % t->source_count], combination,
-                                   turn->frame, &sample);
+        *dip_bench_result_first(&t->results[turn->subject % t->source_count], combination,
+                                turn->frame) = sample;
         if (turn->subject % t->source_count == 0 &&
             !check_picture(t, combination, turn->frame, sample.hash, err)) {
             return false;
@@ -134,7 +130,7 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
-// The base has a visit in every block of a round; the last one's times are kept.
+// A base is drawn in every block of a round. Its times of the last block are kept.
 static void keep_times(const BenchTiming *t, const DipTimes *times) {
     for (int i = 0; i < times->count; i++) {
         const DipTimed *timed = &times->list[i];

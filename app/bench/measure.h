@@ -1,32 +1,29 @@
-// Measuring every combination of a plan in interleaved rounds (app/measure/timing/driver.h). The
-// results are the times of every frame in every round, and the work of every frame. Each round
-// draws every frame of every combination of the plan (plan.h) once.
+// Measures every combination of a plan (plan.h) in interleaved rounds
+// (app/measure/timing/driver.h). Each round draws every frame of every combination once. The
+// results are the times of every frame in every round, and the work of every frame.
 #ifndef DIP_APP_BENCH_MEASURE_H
 #define DIP_APP_BENCH_MEASURE_H
 
 #include "app/bench/plan.h"
 #include "app/measure/timing/sample.h"
 
-// The results of one program. The bench measures one program, or two with --vs. Owns its arrays,
-// borrows the plan.
+// The results of one program. The bench measures one program, or two with --vs. A result owns its
+// arrays and borrows the plan.
 typedef struct DipBenchResult {
     const DipBenchPlan *plan;
     double *ms;            // times, [combination][stage][round][frame]
     double *scratch;       // room for the times of a combination's stage
     DipBenchSample *first; // samples of the warm-up, [combination][frame]
-    // [combination]: the ratio of the mean time to that of the plan's base; for the second of two
-    // programs, to that of the first.
+    // [combination]: the ratio of the combination's mean time to that of the plan's base. In the
+    // result of the second of two programs, it is the ratio to the mean time of the first program.
     DipEstimate *ratios;
-    // [combination]: how many times as fast as with the fewest threads. Of one program only.
+    // [combination]: how many times as fast the combination is as with the fewest threads. Filled
+    // in only if there is one program.
     DipEstimate *speed_ups;
 } DipBenchResult;
 
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
 void dip_bench_result_free(DipBenchResult *result);
-
-// Stores the sample of a frame's first drawing, which is the one with the hash and the counters.
-void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
-                                const DipBenchSample *sample);
 
 // Stores the times of a frame of a round.
 void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed);
@@ -35,11 +32,12 @@ void dip_bench_result_add(DipBenchResult *result, int combination, const DipTime
 const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
                                   DipBenchStage stage);
 
-// The quantile of these times with this share, 0..1.
+// Returns the quantile of these times with this share, 0..1.
 double dip_bench_result_quantile(const DipBenchResult *result, int combination, DipBenchStage stage,
                                  double share);
-const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
-                                             int frame);
+
+// Returns the sample of a frame's first drawing, which has the hash and the counters.
+DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination, int frame);
 
 // Writes the means of the counters over the frames.
 void dip_bench_result_work(const DipBenchResult *result, int combination,
@@ -57,8 +55,9 @@ typedef struct DipBenchSource {
 // Fills one result for each source. There are 1 or 2 sources. The results must be initialised
 // before the call.
 //
-// Every combination is timed beside the plan's base, and the second source's beside the first's;
-// the results' ratios and speed-ups come from that (app/measure/stats/rounds.h).
+// Every combination is timed beside the plan's base. With two sources, each combination of the
+// second is timed beside that of the first. Ratios and speed-ups come from these pairs
+// (app/measure/stats/rounds.h).
 //
 // Before any time is taken, the warm-up draws each frame once. Its samples, with hashes and
 // counters, become the results' `first` samples. Two sources take turns at every frame. A rest of

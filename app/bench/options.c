@@ -1,4 +1,4 @@
-// The options of `diptych bench`.
+// Describes, reads and checks the options of `diptych bench`.
 #include "app/bench/options.h"
 
 #include "app/bench/synthetic.h"

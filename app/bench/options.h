@@ -17,7 +17,7 @@ enum {
     DIP_BENCH_MAX_VALUES = 32, // Values of one axis.
     DIP_BENCH_MAX_COMBINATIONS = 512,
     DIP_BENCH_MAX_FRAMES = 10000,
-    DIP_BENCH_MAX_ROUNDS = 1000 // The time of the estimates grows with their third power.
+    DIP_BENCH_MAX_ROUNDS = 1000 // Making the estimates takes a time that grows with their cube.
 };
 
 typedef struct DipBenchSet {

@@ -1,4 +1,4 @@
-// Making every combination of the values of all axes.
+// Makes every combination of the values of all axes, and writes their labels.
 #include "app/bench/plan.h"
 
 #include "app/bench/enlarge.h"
@@ -51,14 +51,14 @@ void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
     for (int i = 0; i < plan->count; i++) {
         int rest = i;
         for (int axis = DIP_BENCH_AXIS_COUNT - 1; axis >= 0; axis--) {
-            plan->combinations[i].at[axis] = rest % counts[axis];
+            plan->at[i][axis] = rest % counts[axis];
             rest /= counts[axis];
         }
     }
     plan->base = 0;
     for (int i = 0; i < plan->count; i += o->set_count * o->isa_count * o->threads_count) {
-        const int *at = plan->combinations[i].at;
-        const int *base = plan->combinations[plan->base].at;
+        const int *at = plan->at[i];
+        const int *base = plan->at[plan->base];
         if (at[DIP_BENCH_AXIS_GRID] + at[DIP_BENCH_AXIS_SIZE] == 0 &&
             o->scales[at[DIP_BENCH_AXIS_SCALE]] > o->scales[base[DIP_BENCH_AXIS_SCALE]]) {
             plan->base = i;
@@ -72,57 +72,62 @@ int dip_bench_fewest_threads(const DipBenchPlan *plan, int combination) {
     for (int t = 1; t < plan->options.threads_count; t++) {
         fewest = threads[t] < threads[fewest] ? t : fewest;
     }
-    return combination - plan->combinations[combination].at[DIP_BENCH_AXIS_THREADS] + fewest;
+    return combination - plan->at[combination][DIP_BENCH_AXIS_THREADS] + fewest;
 }
 
 int dip_bench_same_pictures(const DipBenchPlan *plan, int combination) {
     return combination - combination % (plan->options.isa_count * plan->options.threads_count);
 }
 
-void dip_bench_drawn_size(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                          int *width, int *height) {
-    const DipOptionSize size = plan->options.sizes[combination->at[DIP_BENCH_AXIS_SIZE]];
-    dip_enlarger_source_size(size.width, size.height,
-                             plan->options.scales[combination->at[DIP_BENCH_AXIS_SCALE]], width,
-                             height);
+DipBenchValues dip_bench_values(const DipBenchPlan *plan, int combination) {
+    const DipBenchOptions *options = &plan->options;
+    const int *at = plan->at[combination];
+    DipBenchValues values = {
+        .triangles = options->grid_count ? options->grids[at[DIP_BENCH_AXIS_GRID]] : 0,
+        .size = options->sizes[at[DIP_BENCH_AXIS_SIZE]],
+        .scale = options->scales[at[DIP_BENCH_AXIS_SCALE]],
+        .set = &options->sets[at[DIP_BENCH_AXIS_SET]],
+        .isa = options->isas[at[DIP_BENCH_AXIS_ISA]],
+        .threads = options->threads[at[DIP_BENCH_AXIS_THREADS]],
+    };
+    dip_enlarger_source_size(values.size.width, values.size.height, values.scale,
+                             &values.drawn.width, &values.drawn.height);
+    return values;
 }
 
-void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                          DipBenchAxis axis, char *name, size_t size_bytes) {
-    const DipBenchOptions *options = &plan->options;
-    const int at = combination->at[axis];
+void dip_bench_value_name(const DipBenchPlan *plan, int combination, DipBenchAxis axis, char *name,
+                          size_t size_bytes) {
+    const DipBenchValues v = dip_bench_values(plan, combination);
     *name = '\0';
     switch (axis) {
     case DIP_BENCH_AXIS_GRID:
-        if (options->grid_count) {
-            snprintf(name, size_bytes, "%d triangles", options->grids[at]);
+        if (v.triangles) {
+            snprintf(name, size_bytes, "%d triangles", v.triangles);
         }
         break;
     case DIP_BENCH_AXIS_SIZE:
-        snprintf(name, size_bytes, "%dx%d", options->sizes[at].width, options->sizes[at].height);
+        snprintf(name, size_bytes, "%dx%d", v.size.width, v.size.height);
         break;
     case DIP_BENCH_AXIS_SCALE:
-        if (plan->counts[axis] > 1 || options->scales[at] < 1.0) {
-            int width, height;
-            dip_bench_drawn_size(plan, combination, &width, &height);
-            snprintf(name, size_bytes, "scale %.10g (%dx%d)", options->scales[at], width, height);
+        if (plan->counts[axis] > 1 || v.scale < 1.0) {
+            snprintf(name, size_bytes, "scale %.10g (%dx%d)", v.scale, v.drawn.width,
+                     v.drawn.height);
         }
         break;
     case DIP_BENCH_AXIS_SET:
-        snprintf(name, size_bytes, "%s", options->sets[at].text);
+        snprintf(name, size_bytes, "%s", v.set->text);
         break;
     case DIP_BENCH_AXIS_ISA:
-        snprintf(name, size_bytes, "%s", dip_isa_name(options->isas[at]));
+        snprintf(name, size_bytes, "%s", dip_isa_name(v.isa));
         break;
     default:
-        snprintf(name, size_bytes, "%d thread%s", options->threads[at],
-                 options->threads[at] == 1 ? "" : "s");
+        snprintf(name, size_bytes, "%d thread%s", v.threads, v.threads == 1 ? "" : "s");
     }
 }
 
-// Writes the values on the axes that vary, except `without`, or on those that do not.
-static void write_label(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                        bool varies, DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
+// Writes the values on the axes that vary, or on those that do not, but never that on `without`.
+static void write_label(const DipBenchPlan *plan, int combination, bool varies,
+                        DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
     *label = '\0';
     for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
         const size_t used = strlen(label);
@@ -134,8 +139,8 @@ static void write_label(const DipBenchPlan *plan, const DipBenchCombination *com
     }
 }
 
-void dip_bench_label(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                     DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
+void dip_bench_label(const DipBenchPlan *plan, int combination, DipBenchAxis without,
+                     char label[DIP_BENCH_LABEL_SIZE]) {
     write_label(plan, combination, true, without, label);
     if (!*label) {
         dip_bench_value_name(plan, combination, DIP_BENCH_AXIS_SET, label, DIP_BENCH_LABEL_SIZE);
@@ -143,5 +148,5 @@ void dip_bench_label(const DipBenchPlan *plan, const DipBenchCombination *combin
 }
 
 void dip_bench_fixed_label(const DipBenchPlan *plan, char label[DIP_BENCH_LABEL_SIZE]) {
-    write_label(plan, plan->combinations, false, DIP_BENCH_AXIS_COUNT, label);
+    write_label(plan, 0, false, DIP_BENCH_AXIS_COUNT, label);
 }

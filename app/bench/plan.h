@@ -17,18 +17,14 @@ typedef enum DipBenchAxis {
     DIP_BENCH_AXIS_COUNT
 } DipBenchAxis;
 
-// A combination: the index of a value on each axis.
-typedef struct DipBenchCombination {
-    int at[DIP_BENCH_AXIS_COUNT];
-} DipBenchCombination;
-
 typedef struct DipBenchPlan {
     DipBenchOptions options;          // With defaults filled in; the list of grids may be empty.
     int counts[DIP_BENCH_AXIS_COUNT]; // Values per axis, at least 1.
-    DipBenchCombination combinations[DIP_BENCH_MAX_COMBINATIONS];
-    int count;
-    // The combination with which all others are compared: the first value of each list, but the
-    // greatest render scale.
+    // [combination][axis]: the index of the combination's value on the axis.
+    int at[DIP_BENCH_MAX_COMBINATIONS][DIP_BENCH_AXIS_COUNT];
+    int count; // Number of combinations.
+    // The combination with which all others are compared: it has the first value of each list, but
+    // the greatest render scale.
     int base;
 } DipBenchPlan;
 
@@ -37,28 +33,36 @@ typedef struct DipBenchPlan {
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
                          const DipBenchOptions *options);
 
-// Returns the combination that differs from this one in the number of threads only and has the
-// fewest of all.
+// Returns the combination with the fewest threads and otherwise the same values.
 int dip_bench_fewest_threads(const DipBenchPlan *plan, int combination);
 
 // Returns the combination with the first instruction set and number of threads and otherwise the
 // same values. Its pictures have the same bits.
 int dip_bench_same_pictures(const DipBenchPlan *plan, int combination);
 
-// Writes the size at which a combination is drawn, before its render scale enlarges it.
-void dip_bench_drawn_size(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                          int *width, int *height);
+// The values of a combination.
+typedef struct DipBenchValues {
+    int triangles; // Of the grid; 0 for the session's scene.
+    DipOptionSize size;
+    double scale;
+    DipOptionSize drawn; // The size at which the picture is drawn, before it is enlarged to `size`.
+    const DipBenchSet *set;
+    DipIsa isa;
+    int threads;
+} DipBenchValues;
+
+DipBenchValues dip_bench_values(const DipBenchPlan *plan, int combination);
 
 // Writes a combination's value on an axis: "640x480", "2 threads", "aa=4". Writes "" for the axis
 // GRID if there are no grids, and for SCALE if its only value is 1.
-void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                          DipBenchAxis axis, char *name, size_t size_bytes);
+void dip_bench_value_name(const DipBenchPlan *plan, int combination, DipBenchAxis axis, char *name,
+                          size_t size_bytes);
 
 // Writes a combination's values on all axes that vary, except `without` (DIP_BENCH_AXIS_COUNT for
 // no exception). If no axis varies, writes the settings.
 enum { DIP_BENCH_LABEL_SIZE = 192 };
-void dip_bench_label(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                     DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]);
+void dip_bench_label(const DipBenchPlan *plan, int combination, DipBenchAxis without,
+                     char label[DIP_BENCH_LABEL_SIZE]);
 
 // Writes the values that do not vary, separated by commas.
 void dip_bench_fixed_label(const DipBenchPlan *plan, char label[DIP_BENCH_LABEL_SIZE]);

@@ -21,30 +21,21 @@ static const struct Kind {
     {"threads", "threads", DIP_BENCH_AXIS_THREADS},
 };
 
-// Returns a combination's place on the x axis.
-static double value_of(const DipBenchPlan *plan, const DipBenchCombination *combination,
-                       DipBenchAxis axis) {
-    const DipBenchOptions *options = &plan->options;
-    const int at = combination->at[axis];
-    switch (axis) {
-    case DIP_BENCH_AXIS_SIZE:
-        return (double)options->sizes[at].width * options->sizes[at].height;
-    case DIP_BENCH_AXIS_SCALE:
-        return options->scales[at];
-    case DIP_BENCH_AXIS_GRID:
-        return options->grid_count ? options->grids[at] : 0;
-    case DIP_BENCH_AXIS_SET:
-        return dip_quality_sample_count(&options->sets[at].quality);
-    default:
-        return options->threads[at];
-    }
+// Returns where a combination lies on the x axis.
+static double value_of(const DipBenchPlan *plan, int combination, DipBenchAxis axis) {
+    const DipBenchValues v = dip_bench_values(plan, combination);
+    return axis == DIP_BENCH_AXIS_SIZE    ? (double)v.size.width * v.size.height
+           : axis == DIP_BENCH_AXIS_SCALE ? v.scale
+           : axis == DIP_BENCH_AXIS_GRID  ? v.triangles
+           : axis == DIP_BENCH_AXIS_SET   ? dip_quality_sample_count(&v.set->quality)
+                                          : v.threads;
 }
 
-// The points of one series. All combinations of the series have the values of `like`, except on the
-// plot's axis.
+// The points of one series. All combinations of a series have the values of its first one, except
+// on the plot's axis.
 typedef struct Series {
     char name[DIP_BENCH_LABEL_SIZE];
-    const DipBenchCombination *like;
+    int first; // Combination.
     double x[DIP_BENCH_MAX_VALUES];
     double y[DIP_BENCH_MAX_VALUES];
     double low[DIP_BENCH_MAX_VALUES];
@@ -58,27 +49,25 @@ static bool same_but_samples(const DipQuality *a, const DipQuality *b) {
     return memcmp(a, &other, sizeof other) == 0;
 }
 
-// True if two combinations belong to the same series: they differ on the plot's axis only. In the
-// plot against samples, their settings differ only in aa, the number of samples.
-static bool belongs(const DipBenchPlan *plan, const struct Kind *kind, const DipBenchCombination *a,
-                    const DipBenchCombination *b) {
+// Returns whether two combinations belong to the same series, that is, whether they differ on the
+// plot's axis only. In the plot against samples, their settings may differ only in aa, the number
+// of samples.
+static bool belongs(const DipBenchPlan *plan, const struct Kind *kind, int a, int b) {
     for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
-        if (axis != (int)kind->axis && a->at[axis] != b->at[axis]) {
+        if (axis != (int)kind->axis && plan->at[a][axis] != plan->at[b][axis]) {
             return false;
         }
     }
-    const DipBenchSet *sets = plan->options.sets;
     return kind->axis != DIP_BENCH_AXIS_SET ||
-           same_but_samples(&sets[a->at[DIP_BENCH_AXIS_SET]].quality,
-                            &sets[b->at[DIP_BENCH_AXIS_SET]].quality);
+           same_but_samples(&dip_bench_values(plan, a).set->quality,
+                            &dip_bench_values(plan, b).set->quality);
 }
 
 static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Series *series) {
-    dip_bench_label(plan, series->like, kind->axis, series->name);
+    dip_bench_label(plan, series->first, kind->axis, series->name);
     if (kind->axis == DIP_BENCH_AXIS_SET) {
-        const int set = series->like->at[DIP_BENCH_AXIS_SET];
-        DipQuality rest =
-            plan->options.sets[set].quality; // With aa at its default: what all points share.
+        // The settings that all points share: those of the first one, with aa at its default.
+        DipQuality rest = dip_bench_values(plan, series->first).set->quality;
         char settings[64], others[DIP_BENCH_LABEL_SIZE] = "";
         const DipQuality standard = dip_quality_default();
         rest.step[DIP_SETTING_AA] = standard.step[DIP_SETTING_AA];
@@ -117,16 +106,15 @@ static int collect(const DipBenchResult *result, const struct Kind *kind, Series
     const DipBenchPlan *plan = result->plan;
     int count = 0;
     for (int c = 0; c < plan->count; c++) {
-        const DipBenchCombination *combination = &plan->combinations[c];
         int s = 0;
-        while (s < count && !belongs(plan, kind, series[s].like, combination)) {
+        while (s < count && !belongs(plan, kind, series[s].first, c)) {
             s++;
         }
         if (s == count) {
-            series[count++] = (Series){.like = combination};
+            series[count++] = (Series){.first = c};
             name_series(plan, kind, &series[s]);
         }
-        add_point(&series[s], value_of(plan, combination, kind->axis), result, c);
+        add_point(&series[s], value_of(plan, c, kind->axis), result, c);
     }
     return count;
 }

@@ -1,12 +1,12 @@
-// Writing the bench's results as plots.
+// Writes the bench's results as plots.
 #ifndef DIP_APP_BENCH_PLOTS_H
 #define DIP_APP_BENCH_PLOTS_H
 
 #include "app/bench/measure.h"
 
-// Writes the plots time_pixels.svg, time_samples.svg, time_triangles.svg and time_threads.svg to a
-// folder that exists. A plot is not written if its axis has only one value. Prints the name of
-// every plot on standard error.
+// Writes the plots time_pixels.svg, time_scale.svg, time_samples.svg, time_triangles.svg and
+// time_threads.svg to a folder that exists. A plot is not written if its axis has only one value.
+// Prints the name of every plot on standard error.
 bool dip_bench_write_plots(const char *folder, const DipBenchResult *result, DipError *err);
 
 #endif

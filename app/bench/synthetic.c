@@ -1,4 +1,4 @@
-// Making the relief: one mesh, one material and one texture.
+// Makes scenes of one mesh, one material and one texture, and the mesh of the relief.
 #include "app/bench/synthetic.h"
 
 #include "renderer/base/trig.h"

@@ -1,5 +1,5 @@
-// A scene that is computed by formulas, with very many small triangles. The renderer was not
-// optimised for it.
+// Scenes that are computed by formulas and may have very many small triangles. The renderer was not
+// optimised for them.
 #ifndef DIP_APP_BENCH_SYNTHETIC_H
 #define DIP_APP_BENCH_SYNTHETIC_H
 
@@ -10,7 +10,8 @@
 
 enum { DIP_SYNTHETIC_MAX_TRIANGLES = 20000000 };
 
-// A scene description and its camera path. Owns both, and what the description points to.
+// A scene description and its camera path. The struct owns both, and what the description points
+// to.
 typedef struct DipSynthetic {
     DipSceneDef def;
     DipTextureDef texture;
@@ -20,13 +21,13 @@ typedef struct DipSynthetic {
     DipCamPath *path; // NULL once a caller has taken it.
     uint8_t *rgba8;
     float *positions;
-    float *normals; // The mesh has them only once they are set.
+    float *normals; // The mesh has no normals until mesh.normals points here.
     float *uv;
     uint32_t *indices;
 } DipSynthetic;
 
-// Makes a mesh whose arrays are to be filled in, with a painted texture, and no path. Fails with
-// DIP_ERROR_MEMORY.
+// Makes a mesh with a painted texture and no path. The caller fills in the mesh's arrays. Fails
+// with DIP_ERROR_MEMORY.
 DipSynthetic *dip_synthetic_create(uint32_t vertex_count, uint32_t index_count, DipError *err);
 
 // Makes a relief: a wavy surface under the fixed light. It has about triangle_count

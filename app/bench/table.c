@@ -56,7 +56,7 @@ static int label_width(const DipBenchPlan *plan) {
     int width = 8;
     for (int c = 0; c < plan->count; c++) {
         char label[DIP_BENCH_LABEL_SIZE];
-        dip_bench_label(plan, &plan->combinations[c], DIP_BENCH_AXIS_COUNT, label);
+        dip_bench_label(plan, c, DIP_BENCH_AXIS_COUNT, label);
         const int length = (int)strlen(label);
         width = length > width ? length : width;
     }
@@ -99,7 +99,7 @@ void dip_bench_print_times(const DipBenchResult *result, FILE *out) {
     fprintf(out, "\n");
     for (int c = 0; c < plan->count; c++) {
         char label[DIP_BENCH_LABEL_SIZE];
-        dip_bench_label(plan, &plan->combinations[c], DIP_BENCH_AXIS_COUNT, label);
+        dip_bench_label(plan, c, DIP_BENCH_AXIS_COUNT, label);
         for (int line = 0; line < 3; line++) {
             fprintf(out, line ? "   " : "%3d", c + 1);
             fprintf(out, "  %-*s  %-6s", width, line ? "" : label, lines[line].name);
@@ -150,7 +150,7 @@ void dip_bench_print_work(const DipBenchResult *result, FILE *out) {
         "\nThe work is the same with every instruction set and any number of threads, and so is "
         "every picture\nof the warm-up, to the bit.\n");
     for (int c = 0; c < plan->count; c++) {
-        const int *at = plan->combinations[c].at;
+        const int *at = plan->at[c];
         if (at[DIP_BENCH_AXIS_ISA] == 0 && at[DIP_BENCH_AXIS_THREADS] == 0) {
             shown[count++] = c;
         }
@@ -230,7 +230,7 @@ void dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *ot
     fprintf(out, "  pictures\n");
     for (int c = 0; c < plan->count; c++) {
         char label[DIP_BENCH_LABEL_SIZE];
-        dip_bench_label(plan, &plan->combinations[c], DIP_BENCH_AXIS_COUNT, label);
+        dip_bench_label(plan, c, DIP_BENCH_AXIS_COUNT, label);
         fprintf(out, "%-*s", width, label);
         print_ratio_row(here, other, c, out);
     }
@@ -256,22 +256,20 @@ static void print_csv_heading(bool programs, FILE *out) {
 
 static void print_csv_line(const DipBenchResult *result, int combination, int value, FILE *out) {
     const DipBenchPlan *plan = result->plan;
-    const DipBenchOptions *o = &plan->options;
-    const int *at = plan->combinations[combination].at;
-    const DipOptionSize size = o->sizes[at[DIP_BENCH_AXIS_SIZE]];
-    fprintf(out, "\"%s\",%d,%d,%.10g,%d,%s,", o->sets[at[DIP_BENCH_AXIS_SET]].text, size.width,
-            size.height, o->scales[at[DIP_BENCH_AXIS_SCALE]],
-            o->threads[at[DIP_BENCH_AXIS_THREADS]], dip_isa_name(o->isas[at[DIP_BENCH_AXIS_ISA]]));
-    if (o->grid_count) {
-        fprintf(out, "%d", o->grids[at[DIP_BENCH_AXIS_GRID]]);
+    const int frames = plan->options.frames;
+    const DipBenchValues v = dip_bench_values(plan, combination);
+    fprintf(out, "\"%s\",%d,%d,%.10g,%d,%s,", v.set->text, v.size.width, v.size.height, v.scale,
+            v.threads, dip_isa_name(v.isa));
+    if (v.triangles) {
+        fprintf(out, "%d", v.triangles);
     }
-    fprintf(out, ",%d,%d", value / o->frames, value % o->frames);
+    fprintf(out, ",%d,%d", value / frames, value % frames);
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         fprintf(out, ",%.4f",
                 dip_bench_result_ms(result, combination, (DipBenchStage)stage)[value]);
     }
     const DipCounters *counters =
-        &dip_bench_result_first(result, combination, value % o->frames)->counters;
+        &dip_bench_result_first(result, combination, value % frames)->counters;
 #define PRINT_COUNTER(name, text) fprintf(out, ",%" PRIu64, counters->name);
     DIP_COUNTER_LIST(PRINT_COUNTER)
 #undef PRINT_COUNTER

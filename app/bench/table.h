@@ -1,4 +1,4 @@
-// Writing the bench's results as text and CSV.
+// Writes the bench's results as text and CSV.
 #ifndef DIP_APP_BENCH_TABLE_H
 #define DIP_APP_BENCH_TABLE_H
 
@@ -14,7 +14,7 @@ void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session
 // with the ratio of its time to that of the plan's base, and its speed-up if threads vary.
 void dip_bench_print_times(const DipBenchResult *result, FILE *out);
 
-// Prints the work counters: means over the frames.
+// Prints the means of the work counters over the frames.
 void dip_bench_print_work(const DipBenchResult *result, FILE *out);
 
 // Prints for each combination the ratio of the mean time of the program of --vs to this one's, the

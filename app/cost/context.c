@@ -3,6 +3,7 @@
 #include "app/cost/context.h"
 
 #include "app/cli/progress.h"
+#include "renderer/base/srgb.h"
 
 #include <string.h>
 

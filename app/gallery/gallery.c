@@ -1,15 +1,12 @@
-// The list of scenes, the tour through them, and opening and closing them.
+// Finds scenes by name and time, opens and closes them, and draws the pictures of panes.
 #include "app/gallery/gallery.h"
 
 #include "app/gallery/kit/kit.h"
-#include "app/gallery/scenes/scene.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/nearest.h"
-#include "renderer/base/trig.h"
-#include "renderer/shapes/camera.h"
+#include "renderer/base/pages.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,9 +23,18 @@ enum { SCENE_COUNT = (int)DIP_ARRAY_COUNT(scenes), MIP_COLOURS = 8 };
 struct DipGallery {
     DipGalleryDef def;
     DipTexture *mip_colours;
-    int open;      // index of the open scene; -1: none
-    void *content; // of the open scene
+    int open;            // index of the open scene; -1: none
+    DipGalleryRoom room; // of the open scene; without content if none is open
     int look;
+};
+
+struct DipGalleryPane {
+    DipGallery *gallery;
+    DipIsa isa;
+    DipQuality quality;
+    uint64_t frame_index;
+    DipPipeline *pipeline;
+    DipTarget target;
 };
 
 // --- the list ------------------------------------------------------------------------------------
@@ -74,7 +80,7 @@ int64_t dip_gallery_duration_ns(int scene) {
     return scene == DIP_GALLERY_TOUR ? SCENE_COUNT * scene_ns : scene_ns;
 }
 
-// Returns a time as the time since the scene or the tour began.
+// Returns how long before `time_ns` the scene or the tour began for the last time.
 static int64_t wrap_time(int scene, int64_t time_ns) {
     const int64_t duration_ns = dip_gallery_duration_ns(scene);
     const int64_t left_ns = time_ns % duration_ns;
@@ -85,8 +91,9 @@ int dip_gallery_scene_at(int scene, int64_t time_ns) {
     return scene == DIP_GALLERY_TOUR ? (int)(wrap_time(scene, time_ns) / scene_ns) : scene;
 }
 
-// Writes the quaternion of a rotation. rows: takes world space to view space. The square roots are
-// taken of the largest component only, so that no digits are lost.
+// Writes the quaternion that takes view space to world space. rows: the matrix that takes world
+// space to view space. Only the largest component comes from a square root, so that no digits are
+// lost.
 static void find_orientation(const double rows[16], double q[4]) {
     const double trace = rows[0] + rows[5] + rows[10];
     double twice[4] = {rows[0] - rows[5] - rows[10], rows[5] - rows[0] - rows[10],
@@ -123,7 +130,8 @@ void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose) {
 
 // --- opening and closing -------------------------------------------------------------------------
 
-// The colours of DipRendererDef's mip debugging: levels of 1024, 512, ... 8 texels, in sRGB.
+// Makes a texture whose levels have the colours with which the scene renderer shows mip levels:
+// those for 1024, 512, ... 8 texels, in sRGB.
 static DipTexture *make_mip_colours(DipError *err) {
     static const uint8_t colours[MIP_COLOURS][4] = {
         {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
@@ -143,28 +151,29 @@ static DipTexture *make_mip_colours(DipError *err) {
 }
 
 static void close_scene(DipGallery *gallery) {
-    if (gallery->content) {
-        if (scenes[gallery->open]->destroy) {
-            scenes[gallery->open]->destroy(gallery->content);
-        }
-        dip_kit_stock_free(gallery->content);
-        free(gallery->content);
+    if (gallery->room.content && scenes[gallery->open]->destroy) {
+        scenes[gallery->open]->destroy(gallery->room.content);
     }
+    dip_kit_stock_free(&gallery->room.stock);
+    free(gallery->room.content);
     gallery->open = -1;
-    gallery->content = NULL;
+    gallery->room.content = NULL;
 }
 
+// Opens a scene unless it is open. Closes the scene that was open before.
 static bool open_scene(DipGallery *gallery, int index, DipError *err) {
-    const DipGalleryRoom room = {gallery->def.pool, gallery->def.isa, gallery->def.assets};
+    const DipGalleryScene *scene = scenes[index];
     if (gallery->open == index) {
         return true;
     }
     close_scene(gallery);
     gallery->open = index;
-    gallery->content = calloc(1, scenes[index]->content_bytes);
-    const bool made = gallery->content ? scenes[index]->create(gallery->content, &room, err)
-                                       : dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0,
-                                                       scenes[index]->info.name, "out of memory");
+    gallery->room.content = calloc(1, scene->content_bytes + 1); // A scene may keep nothing.
+    const bool made =
+        gallery->room.content
+            ? dip_kit_stock_create(&gallery->room.stock, scene, err) &&
+                  (!scene->create || scene->create(&gallery->room, err))
+            : dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, scene->info.name, "out of memory");
     if (!made) {
         close_scene(gallery);
     }
@@ -178,6 +187,7 @@ DipGallery *dip_gallery_create(const DipGalleryDef *def, DipError *err) {
         return NULL;
     }
     gallery->def = *def;
+    gallery->room.def = &gallery->def;
     gallery->open = -1;
     gallery->mip_colours = make_mip_colours(err);
     if (!gallery->mip_colours || !open_scene(gallery, dip_gallery_scene_at(def->scene, 0), err)) {
@@ -201,21 +211,172 @@ void dip_gallery_set_look(DipGallery *gallery, int look) {
     gallery->look = look;
 }
 
-bool dip_gallery_play(DipGallery *gallery, int64_t time_ns, DipGalleryPlaying *playing,
-                      DipError *err) {
-    const int index = dip_gallery_scene_at(gallery->def.scene, time_ns);
-    if (!open_scene(gallery, index, err)) {
+// --- panes ---------------------------------------------------------------------------------------
+
+// Creates a pipeline and a picture of one size, or neither.
+static bool make_picture(const DipGalleryPane *pane, int width, int height, DipPipeline **pipeline,
+                         DipTarget *target, DipError *err) {
+    *pipeline = dip_pipeline_create(pane->gallery->def.pool, pane->isa, width, height, err);
+    if (!*pipeline) {
         return false;
     }
-    const int looks = scenes[index]->info.look_count;
-    const int64_t since_ns = wrap_time(gallery->def.scene, time_ns) % scene_ns;
-    *playing = (DipGalleryPlaying){
-        .scene = scenes[index],
-        .content = gallery->content,
-        .time_s = 1e-9 * (double)since_ns,
-        .look = (gallery->look % looks + looks) % looks,
-        .pool = gallery->def.pool,
-        .mip_colours = gallery->mip_colours,
+    if (!dip_kit_target(target, width, height, "size", err)) {
+        dip_pipeline_destroy(pipeline);
+        return false;
+    }
+    return true;
+}
+
+DipGalleryPane *dip_gallery_pane_create(const DipGalleryPaneDef *def, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    if (!dip_quality_check(&def->quality, err)) {
+        return NULL;
+    }
+    DipGalleryPane *pane = calloc(1, sizeof *pane);
+    if (!pane) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pane", "out of memory");
+        return NULL;
+    }
+    pane->gallery = def->gallery;
+    pane->isa = def->isa;
+    pane->quality = def->quality;
+    if (!make_picture(pane, def->width, def->height, &pane->pipeline, &pane->target, err)) {
+        dip_gallery_pane_destroy(&pane);
+    }
+    return pane;
+}
+
+void dip_gallery_pane_destroy(DipGalleryPane **pane_pointer) {
+    DipGalleryPane *pane = *pane_pointer;
+    if (!pane) {
+        return;
+    }
+    dip_pipeline_destroy(&pane->pipeline);
+    dip_lines_free(pane->target.rgba8);
+    free(pane);
+    *pane_pointer = NULL;
+}
+
+bool dip_gallery_pane_set_quality(DipGalleryPane *pane, const DipQuality *quality, DipError *err) {
+    if (!dip_quality_check(quality, err)) {
+        return false;
+    }
+    pane->quality = *quality;
+    return true;
+}
+
+bool dip_gallery_pane_resize(DipGalleryPane *pane, int width, int height, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    DipPipeline *pipeline;
+    DipTarget target;
+    if (width == pane->target.width && height == pane->target.height) {
+        return true;
+    }
+    if (!make_picture(pane, width, height, &pipeline, &target, err)) {
+        return false;
+    }
+    dip_pipeline_destroy(&pane->pipeline);
+    dip_lines_free(pane->target.rgba8);
+    pane->pipeline = pipeline;
+    pane->target = target;
+    return true;
+}
+
+DipQuality dip_gallery_pane_quality(const DipGalleryPane *pane) {
+    return pane->quality;
+}
+
+void dip_gallery_pane_set_frame_index(DipGalleryPane *pane, uint64_t frame_index) {
+    pane->frame_index = frame_index;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static bool check_pose(const DipPose *pose, DipError *err) {
+    const double *q = pose->orientation;
+    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    bool finite = true;
+    for (int i = 0; i < 3; i++) {
+        finite = finite && isfinite(pose->position_world[i]);
+    }
+    if (!finite || !isfinite(length) || length < 1e-150) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
+                             "the pose is not finite or has no orientation");
+    }
+    return (pose->fov_y_deg >= 1.0 && pose->fov_y_deg <= 170.0) ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "fov_y_deg",
+                         "%g is out of range, accepted 1..170", pose->fov_y_deg);
+}
+
+// Returns a sampler that filters as the settings say. The scene sets its texture.
+static DipSampler filter_of(const DipQuality *quality) {
+    static const int32_t bias_lod8[] = {
+        [DIP_MIPLOD_HIGH_PERFORMANCE] = 384,
+        [DIP_MIPLOD_PERFORMANCE] = 256,
+        [DIP_MIPLOD_QUALITY] = 128,
+        [DIP_MIPLOD_HIGH_QUALITY] = 0,
     };
+    return (DipSampler){
+        .max_anisotropy = dip_quality_max_anisotropy(quality),
+        .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
+        .bias_lod8 = bias_lod8[quality->step[DIP_SETTING_MIPLOD]],
+        .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
+    };
+}
+
+// Fills in a frame with the picture and the work of all passes. The scene renderer's effects never
+// run here.
+static void fill_frame(const DipGalleryPane *pane, const DipPipelineCounters *counters,
+                       const DipStageTimes *times, DipFrame *frame) {
+    static const DipEffect none = {.run = false, .why = "a gallery scene has its own shaders"};
+    *frame = (DipFrame){
+        .rgba8 = pane->target.rgba8,
+        .stride_bytes = pane->target.stride_bytes,
+        .width = pane->target.width,
+        .height = pane->target.height,
+        .stages = *times,
+    };
+#define COPY_COUNTER(name, text) frame->counters.name = counters->name;
+    DIP_PIPELINE_COUNTER_LIST(COPY_COUNTER)
+#undef COPY_COUNTER
+#define SET_EFFECT(name, title) frame->effects.name = none;
+    DIP_EFFECT_LIST(SET_EFFECT)
+#undef SET_EFFECT
+}
+
+bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t time_ns,
+                           DipFrame *frame, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    DipGallery *gallery = pane->gallery;
+    const int index = dip_gallery_scene_at(gallery->def.scene, time_ns);
+    const int looks = scenes[index]->info.look_count;
+    const double time_s = 1e-9 * (double)(wrap_time(gallery->def.scene, time_ns) % scene_ns);
+    DipPipelineCounters counters = {0};
+    DipStageTimes times = {0};
+    if (!check_pose(pose, err) || !open_scene(gallery, index, err)) {
+        return false;
+    }
+    const DipGalleryView view = {
+        .def = &gallery->def,
+        .stock = &gallery->room.stock,
+        .content = gallery->room.content,
+        .pose = pose,
+        .time_s = time_s,
+        .turns = (float)(time_s / DIP_GALLERY_SECONDS),
+        .turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS,
+        .look = (gallery->look % looks + looks) % looks,
+        .quality = &pane->quality,
+        .pattern = dip_pattern_kind(pane->quality.step[DIP_SETTING_TAA] != 0, pane->frame_index),
+        .target = pane->target,
+        .pipeline = pane->pipeline,
+        .filter = filter_of(&pane->quality),
+        .mip_colours = gallery->mip_colours,
+        .counters = &counters,
+        .times = &times,
+    };
+    if (!scenes[index]->draw(&view, err)) {
+        return false;
+    }
+    fill_frame(pane, &counters, &times, frame);
     return true;
 }

@@ -6,7 +6,8 @@
 // its own size and image-quality settings. The panes of a gallery share the scene's meshes and
 // textures, so only one of them may draw at a time.
 //
-// docs/gallery.md describes the scenes and says what each setting does to them.
+// docs/gallery.md describes the scenes and says what each setting does to them. A seed is one of
+// the documents, numbered 000 to 004, from which the project and most of the scenes come.
 #ifndef DIP_APP_GALLERY_GALLERY_H
 #define DIP_APP_GALLERY_GALLERY_H
 
@@ -62,17 +63,17 @@ typedef struct DipGallery DipGallery;
 typedef struct DipGalleryDef {
     int scene;          // index of a scene, or DIP_GALLERY_TOUR
     DipPool *pool;      // borrowed; must outlive the gallery
-    DipIsa isa;         // instruction set of the passes that the scene draws besides the picture
+    DipIsa isa;         // instruction set of all passes of a frame but the one for the picture
     const char *assets; // folder of the shipped assets; borrowed
 } DipGalleryDef;
 
 // Opens a scene, or the first scene of the tour. Fails as the scene does: MEMORY, or the error of
 // an asset.
 DipGallery *dip_gallery_create(const DipGalleryDef *def, DipError *err);
-// No pane of the gallery may exist any more. *gallery may be NULL and becomes NULL.
+// Destroys a gallery whose panes are destroyed. *gallery may be NULL and becomes NULL.
 void dip_gallery_destroy(DipGallery **gallery);
 
-// Chooses a variant of the scene. Values beyond the scene's last look wrap around.
+// Chooses one of the scene's looks. Values beyond the last look begin with the first one again.
 void dip_gallery_set_look(DipGallery *gallery, int look);
 
 // --- panes ---------------------------------------------------------------------------------------
@@ -87,17 +88,18 @@ typedef struct DipGalleryPaneDef {
     DipQuality quality;
 } DipGalleryPaneDef;
 
-// Fails with RANGE, CONFLICT (see dip_quality_check), UNSUPPORTED or MEMORY.
+// Creates a pane. Fails with RANGE, CONFLICT (see dip_quality_check), UNSUPPORTED or MEMORY.
 DipGalleryPane *dip_gallery_pane_create(const DipGalleryPaneDef *def, DipError *err);
 void dip_gallery_pane_destroy(DipGalleryPane **pane);
 
-// Both take effect in the next frame. If they fail, they change nothing.
+// Change the settings and the size from the next frame on. If they fail, they change nothing.
 bool dip_gallery_pane_set_quality(DipGalleryPane *pane, const DipQuality *quality, DipError *err);
 bool dip_gallery_pane_resize(DipGalleryPane *pane, int width, int height, DipError *err);
 
 DipQuality dip_gallery_pane_quality(const DipGalleryPane *pane);
 
-// Sets the number of the frame that is drawn next. Temporal antialiasing alternates by it.
+// Sets the number of the frame that is drawn next. Temporal antialiasing alternates between even
+// and odd numbers.
 void dip_gallery_pane_set_frame_index(DipGalleryPane *pane, uint64_t frame_index);
 
 // Draws the scene from a pose at a time. The frame is the same to the bit for any number of threads

@@ -1,35 +1,31 @@
-// Matrices, passes, the common vertex shader, and painted textures.
+// Makes the meshes and painted textures of scenes, their matrices and passes, and has the vertex
+// shader that most scenes use.
 #include "app/gallery/kit/kit.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/pages.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 // --- cameras and passes --------------------------------------------------------------------------
 
-// Writes the rotation from world space to the view space of a camera with this orientation. The
+// Returns the rotation from world space to the view space of a camera with this orientation. The
 // quaternion's length must not be 0.
-static void rotate_to_view(const double q[4], DipMatrix *view) {
+static DipMatrix rotation_to_view(const double q[4]) {
     const double x = q[0];
     const double y = q[1];
     const double z = q[2];
     const double w = q[3];
     const double s = 2.0 / (x * x + y * y + z * z + w * w);
-    const double rows[3][3] = {
-        {1.0 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
-        {s * (x * y - z * w), 1.0 - s * (x * x + z * z), s * (y * z + x * w)},
-        {s * (x * z + y * w), s * (y * z - x * w), 1.0 - s * (x * x + y * y)},
-    };
-    *view = dip_matrix_identity();
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) {
-            view->m[4 * r + c] = rows[r][c];
-        }
-    }
+    return (DipMatrix){{1.0 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w), 0.0,
+                        s * (x * y - z * w), 1.0 - s * (x * x + z * z), s * (y * z + x * w), 0.0,
+                        s * (x * z + y * w), s * (y * z - x * w), 1.0 - s * (x * x + y * y), 0.0,
+                        0.0, 0.0, 0.0, 1.0}};
 }
 
-// Completes a camera whose view is known.
+// Sets the projection and the eye of a camera whose view is known.
 static bool set_lens(DipKitCamera *camera, const double eye[3], const DipPerspective *lens,
                      DipError *err) {
     DipMatrix projection;
@@ -49,18 +45,24 @@ bool dip_kit_camera(DipKitCamera *camera, const DipGalleryView *view, double nea
                                  .aspect = (double)view->target.width / view->target.height,
                                  .near_distance = near_distance};
     const double *eye = view->pose->position_world;
-    DipMatrix rotation;
-    rotate_to_view(view->pose->orientation, &rotation);
-    const DipMatrix move = dip_matrix_translation(-eye[0], -eye[1], -eye[2]);
-    camera->view = dip_matrix_multiply(&rotation, &move);
+    camera->view = dip_kit_chain(rotation_to_view(view->pose->orientation),
+                                 dip_matrix_translation(-eye[0], -eye[1], -eye[2]));
     return set_lens(camera, eye, &lens, err);
 }
 
-bool dip_kit_look_at(DipKitCamera *camera, const double eye[3], const double target[3],
-                     const DipPerspective *lens, DipError *err) {
+bool dip_kit_look_at(DipKitCamera *camera, const DipGalleryCamera *from, const DipPerspective *lens,
+                     DipError *err) {
     static const double up[3] = {0.0, 1.0, 0.0};
-    return dip_camera_look_at(&camera->view, eye, target, up, err) &&
-           set_lens(camera, eye, lens, err);
+    return dip_camera_look_at(&camera->view, from->eye, from->target, up, err) &&
+           set_lens(camera, from->eye, lens, err);
+}
+
+DipMatrix dip_kit_chain(DipMatrix a, DipMatrix b) {
+    return dip_matrix_multiply(&a, &b);
+}
+
+DipMatrix dip_kit_chain3(DipMatrix a, DipMatrix b, DipMatrix c) {
+    return dip_matrix_multiply3(&a, &b, &c);
 }
 
 DipPass dip_kit_pass(const DipGalleryView *view, const DipDraw *draws, int draw_count,
@@ -137,10 +139,11 @@ DipKitList dip_kit_list(const DipGalleryView *view, double near_distance, DipErr
     return list;
 }
 
-DipDraw *dip_kit_add(DipKitList *list, const DipMesh *mesh, void *uniforms, const DipMatrix *model,
-                     DipFragmentShader *fragment_shader) {
-    DIP_ASSERT(list->count < DIP_KIT_MAX_DRAWS);
-    DipKitObject *object = uniforms;
+DipDraw *dip_kit_add_bytes(DipKitList *list, const DipMesh *mesh, const void *uniforms,
+                           size_t size_bytes, const DipMatrix *model,
+                           DipFragmentShader *fragment_shader) {
+    DIP_ASSERT(list->count < DIP_KIT_MAX_DRAWS && size_bytes <= sizeof list->uniforms[0]);
+    DipKitObject *object = memcpy(list->uniforms[list->count], uniforms, size_bytes);
     const DipMatrix to_clip = dip_matrix_multiply(&list->seen.to_clip, model);
     dip_matrix_floats(&to_clip, object->to_clip);
     dip_matrix_floats(model, object->to_world);
@@ -153,7 +156,7 @@ DipDraw *dip_kit_add(DipKitList *list, const DipMesh *mesh, void *uniforms, cons
         .fragment_shader = fragment_shader,
         .varying_count = DIP_KIT_VARYINGS,
         .value_only_varying_count = DIP_KIT_VALUES_ONLY,
-        .uniforms = uniforms,
+        .uniforms = object,
         .bounds_to_clip = object->to_clip,
         .cull = DIP_CULL_BACK,
     };
@@ -174,35 +177,22 @@ bool dip_kit_mesh(DipMesh **mesh, const char *name, DipShape *shape, DipError *e
     return *mesh != NULL;
 }
 
-bool dip_kit_sphere(DipMesh **mesh, float radius, int slices, int stacks, DipError *err) {
-    DipShape shape;
-    return dip_shape_sphere(&shape, radius, slices, stacks, err) &&
-           dip_kit_mesh(mesh, "sphere", &shape, err);
-}
-
-bool dip_kit_box(DipMesh **mesh, float x, float y, float z, DipError *err) {
-    DipShape shape;
-    return dip_shape_box(&shape, (const float[3]){x, y, z}, err) &&
-           dip_kit_mesh(mesh, "box", &shape, err);
-}
-
-bool dip_kit_prism(DipMesh **mesh, float radius, float height, int sides, bool smooth,
-                   DipError *err) {
-    DipShape shape;
-    return dip_shape_prism(&shape, radius, height, sides, smooth, err) &&
-           dip_kit_mesh(mesh, "prism", &shape, err);
-}
-
-bool dip_kit_plane(DipMesh **mesh, float size_x, float size_z, int columns, int rows,
-                   DipError *err) {
-    DipShape shape;
-    return dip_shape_plane(&shape, size_x, size_z, columns, rows, err) &&
-           dip_kit_mesh(mesh, "plane", &shape, err);
-}
-
-bool dip_kit_quad(DipMesh **mesh, float width, float height, DipError *err) {
-    DipShape shape;
-    return dip_shape_quad(&shape, width, height, err) && dip_kit_mesh(mesh, "quad", &shape, err);
+static bool make_shape(DipShape *shape, const DipKitMeshDef *def, DipError *err) {
+    const float *a = def->arguments;
+    switch (def->shape) {
+    case DIP_KIT_SPHERE:
+        return dip_shape_sphere(shape, a[0], (int)a[1], (int)a[2], err);
+    case DIP_KIT_BOX:
+        return dip_shape_box(shape, a, err);
+    case DIP_KIT_PRISM:
+        return dip_shape_prism(shape, a[0], a[1], (int)a[2], a[3] > 0.0f, err);
+    case DIP_KIT_PLANE:
+        return dip_shape_plane(shape, a[0], a[1], (int)a[2], (int)a[3], err);
+    case DIP_KIT_QUAD:
+        return dip_shape_quad(shape, a[0], a[1], err);
+    default:
+        return dip_kit_die_shape(shape, err);
+    }
 }
 
 // --- textures ------------------------------------------------------------------------------------
@@ -211,30 +201,28 @@ static uint8_t code_of(float value) {
     return (uint8_t)(dip_kit_clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
-bool dip_kit_texture(DipKitTexture *texture, const char *name, int width, int height, bool clamps,
-                     DipKitPaint *paint, DipError *err) {
-    uint8_t *rgba8 = malloc((size_t)width * (size_t)height * 4);
+static bool make_texture(DipKitTexture *texture, const DipKitTextureDef *made, DipError *err) {
+    const size_t count = (size_t)made->width * (size_t)made->height;
+    uint8_t *rgba8 = malloc(count * 4);
     if (!rgba8) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, name, "out of memory");
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, made->name, "out of memory");
     }
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++) {
-            uint8_t *texel = rgba8 + ((size_t)y * (size_t)width + (size_t)x) * 4;
-            float rgba[4] = {0.0f, 0.0f, 0.0f, 1.0f};
-            paint(((float)x + 0.5f) / (float)width, ((float)y + 0.5f) / (float)height, rgba);
-            for (int c = 0; c < 4; c++) {
-                texel[c] = code_of(rgba[c]);
-            }
+    for (size_t i = 0; i < count; i++) {
+        const float x = (float)(i % (size_t)made->width);
+        const float y = (float)(i / (size_t)made->width);
+        float rgba[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+        made->paint((x + 0.5f) / (float)made->width, (y + 0.5f) / (float)made->height, rgba);
+        for (int c = 0; c < 4; c++) {
+            rgba8[4 * i + (size_t)c] = code_of(rgba[c]);
         }
     }
-    const DipWrap wrap = clamps ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT;
-    const DipTextureDef def = {.name = name,
-                               .width = width,
-                               .height = height,
+    const DipTextureDef def = {.name = made->name,
+                               .width = made->width,
+                               .height = made->height,
                                .rgba8 = rgba8,
                                .encoding = DIP_ENCODING_SRGB,
-                               .wrap_u = wrap,
-                               .wrap_v = wrap};
+                               .wrap_u = made->wrap,
+                               .wrap_v = made->wrap};
     const bool wanted = true;
     texture->plain = dip_texture_create(&def, err);
     free(rgba8);
@@ -243,6 +231,23 @@ bool dip_kit_texture(DipKitTexture *texture, const char *name, int width, int he
         dip_texture_destroy(&texture->plain);
     }
     return texture->plain != NULL;
+}
+
+bool dip_kit_stock_create(DipKitStock *stock, const DipGalleryScene *scene, DipError *err) {
+    static const char *const names[] = {"", "sphere", "box", "prism", "plane", "quad", "die"};
+    bool made = true;
+    for (int m = 0; made && m < DIP_KIT_MESHES; m++) {
+        const DipKitMeshDef *def = &scene->meshes[m];
+        DipShape shape;
+        made = def->shape == DIP_KIT_NO_SHAPE ||
+               (make_shape(&shape, def, err) &&
+                dip_kit_mesh(&stock->meshes[m], names[def->shape], &shape, err));
+    }
+    for (int t = 0; made && t < DIP_KIT_TEXTURES; t++) {
+        made = !scene->textures[t].paint ||
+               make_texture(&stock->textures[t], &scene->textures[t], err);
+    }
+    return made;
 }
 
 void dip_kit_stock_free(DipKitStock *stock) {
@@ -255,26 +260,19 @@ void dip_kit_stock_free(DipKitStock *stock) {
     }
 }
 
-// Finds the level of the mip colours for each level of a texture, by the longer side in texels.
-static void find_shown_levels(const DipTexture *texture, int last_colour,
-                              int32_t shown_level[DIP_LEVEL_TABLE]) {
-    const int last = dip_texture_level_count(texture) - 1;
+// Each level of the texture shows the level of the mip colours that stands for its longer side.
+void dip_kit_show_mip_colours(DipSampler *sampler, const DipGalleryView *view) {
+    const int last = dip_texture_level_count(sampler->texture) - 1;
+    const int last_colour = dip_texture_level_count(view->mip_colours) - 1;
+    sampler->shown = view->mip_colours;
     for (int level = 0; level < DIP_LEVEL_TABLE; level++) {
-        int width;
-        int height;
-        int shown = 0;
-        dip_texture_level_size(texture, level < last ? level : last, &width, &height);
+        int width, height, shown = 0;
+        dip_texture_level_size(sampler->texture, level < last ? level : last, &width, &height);
         while (shown < last_colour && (width > height ? width : height) < 1024 >> shown) {
             shown++;
         }
-        shown_level[level] = shown;
+        sampler->shown_level[level] = shown;
     }
-}
-
-void dip_kit_show_mip_colours(DipSampler *sampler, const DipGalleryView *view) {
-    sampler->shown = view->mip_colours;
-    find_shown_levels(sampler->texture, dip_texture_level_count(view->mip_colours) - 1,
-                      sampler->shown_level);
 }
 
 DipSampler dip_kit_sampler(const DipGalleryView *view, const DipKitTexture *texture) {
@@ -282,8 +280,7 @@ DipSampler dip_kit_sampler(const DipGalleryView *view, const DipKitTexture *text
     const bool compressed = texture->compressed && dip_quality_compresses(view->quality);
     sampler.texture = compressed ? texture->compressed : texture->plain;
     if (view->quality->step[DIP_SETTING_MIPLOD] == DIP_MIPLOD_HIGH_PERFORMANCE) {
-        int width;
-        int height;
+        int width, height;
         dip_texture_level_size(texture->plain, 0, &width, &height);
         sampler.min_lod8 = width >= 1024 || height >= 1024 ? 512 : 256;
     }
@@ -301,6 +298,23 @@ void dip_kit_light_texture(DipFragmentBatch *batch, const float colour[3],
             batch->colour[c][i] *= colour[c] * light[c][i];
         }
     }
+}
+
+bool dip_kit_asset(char *file, size_t size_bytes, const DipGalleryDef *def, const char *asset,
+                   const char *scene, DipError *err) {
+    const int length = snprintf(file, size_bytes, "%s/%s", def->assets, asset);
+    return (length >= 0 && (size_t)length < size_bytes) ||
+           dip_error_set(err, DIP_ERROR_OVERSIZED, def->assets, 0, scene,
+                         "the name of the folder is too long");
+}
+
+bool dip_kit_target(DipTarget *target, int width, int height, const char *key, DipError *err) {
+    *target = (DipTarget){.width = width, .height = height};
+    target->stride_bytes =
+        ((size_t)width * 4 + DIP_CACHE_LINE - 1) / DIP_CACHE_LINE * DIP_CACHE_LINE;
+    target->rgba8 = dip_lines_alloc(target->stride_bytes * (size_t)height);
+    return target->rgba8 || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, key,
+                                          "no memory for %dx%d pixels", width, height);
 }
 
 // --- numbers -------------------------------------------------------------------------------------

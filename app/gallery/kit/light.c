@@ -3,17 +3,14 @@
 
 #include "app/gallery/kit/kit.h"
 
-#include <math.h>
+static inline DipKitVector vector_at(const float *const arrays[3], int i) {
+    return (DipKitVector){arrays[0][i], arrays[1][i], arrays[2][i]};
+}
 
 void dip_kit_normalise(const float *const in[3], int count, float (*out)[DIP_FRAGMENT_BATCH]) {
     for (int i = 0; i < count; i++) {
-        const float x = in[0][i];
-        const float y = in[1][i];
-        const float z = in[2][i];
-        const float scale = 1.0f / sqrtf(x * x + y * y + z * z + 1e-30f);
-        out[0][i] = x * scale;
-        out[1][i] = y * scale;
-        out[2][i] = z * scale;
+        const DipKitVector v = vector_at(in, i);
+        dip_kit_put(out, i, dip_kit_times(v, dip_kit_per_length(v, 1e-30f)));
     }
 }
 
@@ -31,42 +28,31 @@ DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch,
     };
 }
 
-// Directions to the light, as unit vectors, and how much of it arrives.
 typedef struct Rays {
-    float x[DIP_FRAGMENT_BATCH];
-    float y[DIP_FRAGMENT_BATCH];
-    float z[DIP_FRAGMENT_BATCH];
-    float strength[DIP_FRAGMENT_BATCH];
+    float toward[3][DIP_FRAGMENT_BATCH]; // unit vectors towards the light
+    float strength[DIP_FRAGMENT_BATCH];  // how much light arrives
 } Rays;
 
 static void find_rays(const DipKitLight *light, const DipKitPoints *points, Rays *rays) {
+    const DipKitVector position = dip_kit_vector(light->position);
+    const DipKitVector direction = dip_kit_vector(light->direction);
     const float fade = 1.0f / (light->reach * light->reach);
     for (int i = 0; i < points->count; i++) {
-        const float x = light->position[0] - points->position[0][i];
-        const float y = light->position[1] - points->position[1][i];
-        const float z = light->position[2] - points->position[2][i];
-        const float squared = x * x + y * y + z * z + 1e-12f;
-        const float scale = 1.0f / sqrtf(squared);
-        rays->x[i] = x * scale;
-        rays->y[i] = y * scale;
-        rays->z[i] = z * scale;
+        const DipKitVector way = dip_kit_minus(position, vector_at(points->position, i));
+        const float squared = dip_kit_dot(way, way) + 1e-12f;
+        dip_kit_put(rays->toward, i, dip_kit_times(way, 1.0f / sqrtf(squared)));
         rays->strength[i] = 1.0f / (1.0f + squared * fade);
     }
-    if (light->kind != DIP_KIT_SPOT) {
-        return;
-    }
-    for (int i = 0; i < points->count; i++) {
-        const float along = -(rays->x[i] * light->direction[0] + rays->y[i] * light->direction[1] +
-                              rays->z[i] * light->direction[2]);
-        rays->strength[i] *= dip_kit_smooth(light->outer_cos, light->inner_cos, along);
+    for (int i = 0; light->kind == DIP_KIT_SPOT && i < points->count; i++) {
+        const DipKitVector ray = dip_kit_get(rays->toward, i);
+        rays->strength[i] *=
+            dip_kit_smooth(light->outer_cos, light->inner_cos, -dip_kit_dot(ray, direction));
     }
 }
 
 static void find_parallel_rays(const DipKitLight *light, int count, Rays *rays) {
     for (int i = 0; i < count; i++) {
-        rays->x[i] = -light->direction[0];
-        rays->y[i] = -light->direction[1];
-        rays->z[i] = -light->direction[2];
+        dip_kit_put(rays->toward, i, dip_kit_times(dip_kit_vector(light->direction), -1.0f));
         rays->strength[i] = 1.0f;
     }
 }
@@ -75,23 +61,29 @@ static void find_parallel_rays(const DipKitLight *light, int count, Rays *rays) 
 // cosine between the normal and the half-way vector, raised to a power).
 static void find_factors(const DipKitPoints *points, const DipKitMaterial *material, Rays *rays,
                          float *specular) {
+    const DipKitVector eye = dip_kit_vector(points->eye);
     for (int i = 0; i < points->count; i++) {
-        const float nx = points->normal[0][i];
-        const float ny = points->normal[1][i];
-        const float nz = points->normal[2][i];
-        const float ex = points->eye[0] - points->position[0][i];
-        const float ey = points->eye[1] - points->position[1][i];
-        const float ez = points->eye[2] - points->position[2][i];
-        const float e = 1.0f / sqrtf(ex * ex + ey * ey + ez * ez + 1e-30f);
-        const float hx = rays->x[i] + ex * e;
-        const float hy = rays->y[i] + ey * e;
-        const float hz = rays->z[i] + ez * e;
-        const float h = 1.0f / sqrtf(hx * hx + hy * hy + hz * hz + 1e-12f);
-        const float toward = nx * rays->x[i] + ny * rays->y[i] + nz * rays->z[i];
-        const float half = (nx * hx + ny * hy + nz * hz) * h;
-        const float peak = dip_kit_power(half > 0.0f ? half : 0.0f, material->exponent_doubled);
-        specular[i] = toward > 0.0f ? peak * rays->strength[i] : 0.0f;
-        rays->strength[i] = toward > 0.0f ? toward * rays->strength[i] : 0.0f;
+        const DipKitVector normal = vector_at(points->normal, i);
+        const DipKitVector ray = dip_kit_get(rays->toward, i);
+        const DipKitVector to_eye = dip_kit_minus(eye, vector_at(points->position, i));
+        const DipKitVector half =
+            dip_kit_plus(ray, dip_kit_times(to_eye, dip_kit_per_length(to_eye, 1e-30f)));
+        const float lit = dip_kit_dot(normal, ray);
+        const float mirrored = dip_kit_dot(normal, half) * dip_kit_per_length(half, 1e-12f);
+        const float peak =
+            dip_kit_power(dip_kit_greatest(mirrored, 0.0f), material->exponent_doubled);
+        specular[i] = lit > 0.0f ? peak * rays->strength[i] : 0.0f;
+        rays->strength[i] = lit > 0.0f ? lit * rays->strength[i] : 0.0f;
+    }
+}
+
+void dip_kit_light_sky(const float sky[3], float upright, const DipKitMaterial *material,
+                       const DipKitPoints *points, float (*out)[DIP_FRAGMENT_BATCH]) {
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < points->count; i++) {
+            const float open = upright + (1.0f - upright) * points->normal[1][i];
+            out[c][i] = sky[c] * open * material->diffuse[c];
+        }
     }
 }
 

@@ -1,13 +1,14 @@
-// Lights and materials: the shading of Phong and Blinn, for fragments or vertices.
+// Lights and materials. Shades points with the model of Phong and Blinn, in fragment or vertex
+// shaders.
 #ifndef DIP_APP_GALLERY_KIT_LIGHT_H
 #define DIP_APP_GALLERY_KIT_LIGHT_H
 
 #include "renderer/pipeline/shader.h"
 
 typedef enum DipKitLightKind {
-    DIP_KIT_DIRECTIONAL, // comes from one direction everywhere, as the sun's light does
-    DIP_KIT_POINT,       // comes from a point and weakens with distance
-    DIP_KIT_SPOT,        // like a point's light, but within a cone
+    DIP_KIT_DIRECTIONAL, // The light comes from one direction everywhere, as the sun's does.
+    DIP_KIT_POINT,       // The light comes from a point and weakens with distance.
+    DIP_KIT_SPOT,        // The same as POINT, but the light fills a cone only.
 } DipKitLightKind;
 
 typedef struct DipKitLight {
@@ -17,7 +18,8 @@ typedef struct DipKitLight {
     float colour[3];    // linear light; may exceed 1
     float reach;        // point and spot lights: distance at which the light is half as strong
     float inner_cos;    // spot lights: cosine of the angle within which the light is full
-    float outer_cos;    // cosine of the angle beyond which there is none; less than inner_cos
+    float outer_cos;    // spot lights: cosine of the angle beyond which there is no light;
+                        // less than inner_cos
 } DipKitLight;
 
 typedef struct DipKitMaterial {
@@ -37,6 +39,11 @@ typedef struct DipKitPoints {
 // Normalises three arrays of vectors.
 void dip_kit_normalise(const float *const in[3], int count, float (*out)[DIP_FRAGMENT_BATCH]);
 
+// Writes the sky's light to out[0..2][i]: sky * material where the surface faces upwards. Where it
+// stands upright, only the share `upright` of this light arrives.
+void dip_kit_light_sky(const float sky[3], float upright, const DipKitMaterial *material,
+                       const DipKitPoints *points, float (*out)[DIP_FRAGMENT_BATCH]);
+
 // Adds a light's diffuse and specular part to out[0..2][i]. lit: share of the light that reaches
 // each point, 0..1; NULL means all of it.
 void dip_kit_light_add(const DipKitLight *light, const DipKitMaterial *material,
@@ -48,12 +55,12 @@ void dip_kit_light_all(const float ambient[3], const DipKitLight *lights, int li
                        const DipKitMaterial *material, const DipKitPoints *points,
                        float (*out)[DIP_FRAGMENT_BATCH]);
 
-// The fragments of a batch with the uniforms and the varyings of dip_kit_vertex, as points.
-// `normals` receives their unit normals and must outlive the points.
+// Returns the fragments of a batch as points. The batch has the uniforms and the varyings of
+// dip_kit_vertex. `normals` receives the points' unit normals and must outlive the points.
 DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch,
                                      float (*normals)[DIP_FRAGMENT_BATCH]);
 
-// Does the same as dip_kit_light_all for these points.
+// Does the same as dip_kit_light_all for the fragments of such a batch.
 void dip_kit_light_fragments(const DipFragmentBatch *batch, const float ambient[3],
                              const DipKitLight *lights, int light_count,
                              const DipKitMaterial *material, float (*out)[DIP_FRAGMENT_BATCH]);

@@ -1,4 +1,4 @@
-// The gallery scene "blend": the blend modes of seed 001, side by side.
+// The gallery scene "blend": the blend modes of seed 001 (gallery.h), side by side.
 //
 // Four columns show four modes. In each field lie a blue sheet and a yellow one with the seed's
 // colours and alphas, over grey chequers. The upper row draws blue first and yellow second; the
@@ -6,12 +6,8 @@
 // matter, and differ where it does. All sheets lie in one plane, so they do not test depth: the
 // picture shows submission order alone.
 #include "app/gallery/kit/kit.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
-#include <string.h>
-
-enum { MODES = 4, ROWS = 2, FIELDS = MODES * ROWS, SHEETS = 2, DRAWS = 1 + FIELDS * (1 + SHEETS) };
+enum { MODES = 4, ROWS = 2, FIELDS = MODES * ROWS, SHEETS = 2 };
 
 typedef struct Uniforms {
     DipKitObject object;
@@ -19,19 +15,14 @@ typedef struct Uniforms {
     float alpha;
 } Uniforms;
 
-typedef struct Content {
-    DipKitStock stock; // A quad of 2 by 2 units, facing +z, and the chequers' texture.
-    Uniforms uniforms[DRAWS];
-} Content;
-
-static const DipBlend modes[MODES] = {
-    DIP_BLEND_MODE_ALPHA,
-    DIP_BLEND_MODE_ADDITIVE,
-    DIP_BLEND_MODE_MULTIPLICATIVE,
-    DIP_BLEND_MODE_DOUBLE_MULTIPLICATIVE,
+#define SHEET_STATE(mode)                                                                          \
+    { .blend = mode, .depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true }
+static const DipDrawState states[MODES] = {
+    SHEET_STATE(DIP_BLEND_MODE_ALPHA),
+    SHEET_STATE(DIP_BLEND_MODE_ADDITIVE),
+    SHEET_STATE(DIP_BLEND_MODE_MULTIPLICATIVE),
+    SHEET_STATE(DIP_BLEND_MODE_DOUBLE_MULTIPLICATIVE),
 };
-
-static const char *const looks[] = {"as in the seed", "alpha 0.5 for both", "alpha that breathes"};
 
 // --- shaders -------------------------------------------------------------------------------------
 
@@ -45,7 +36,7 @@ static void shade_sheet(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         const float u = fabsf(batch->varying[DIP_KIT_UV][i] - 0.5f);
         const float v = fabsf(batch->varying[DIP_KIT_UV + 1][i] - 0.5f);
-        const float rim = dip_kit_smooth(0.46f, 0.48f, u > v ? u : v);
+        const float rim = dip_kit_smooth(0.46f, 0.48f, dip_kit_greatest(u, v));
         for (int c = 0; c < 3; c++) {
             batch->colour[c][i] = dip_kit_mix(uniforms->colour[c], 0.2f, 0.5f * rim);
         }
@@ -56,9 +47,8 @@ static void shade_sheet(DipFragmentBatch *batch) {
 static void shade_board(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         const float v = batch->varying[DIP_KIT_UV + 1][i];
-        batch->colour[0][i] = 0.020f + 0.025f * v;
-        batch->colour[1][i] = 0.024f + 0.035f * v;
-        batch->colour[2][i] = 0.034f + 0.060f * v;
+        dip_kit_set(batch->colour, i, 0.020f + 0.025f * v, 0.024f + 0.035f * v,
+                    0.034f + 0.060f * v);
     }
 }
 
@@ -66,17 +56,7 @@ static void shade_board(DipFragmentBatch *batch) {
 
 static void paint_chequers(float u, float v, float rgba[4]) {
     const int field = (int)(u * 8.0f) + (int)(v * 8.0f);
-    const float grey = field % 2 ? 0.56f : 0.44f; // about the seed's background of 0.5
-    for (int c = 0; c < 3; c++) {
-        rgba[c] = grey;
-    }
-}
-
-static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
-    DipKitStock *stock = content;
-    (void)room;
-    return dip_kit_quad(&stock->meshes[0], 2.0f, 2.0f, err) &&
-           dip_kit_texture(&stock->textures[0], "chequers", 256, 256, true, paint_chequers, err);
+    rgba[0] = rgba[1] = rgba[2] = field % 2 ? 0.56f : 0.44f; // The seed's background is 0.5.
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -90,53 +70,40 @@ static DipGalleryCamera camera(double turn) {
 // Returns where a sheet lies in its field: both circle about the field's middle, half a turn apart.
 static DipMatrix sheet_matrix(double x, double y, int sheet, double turn) {
     const double angle = 2.0 * turn + DIP_PI * sheet;
-    const DipMatrix move =
-        dip_matrix_translation(x + 0.27 * dip_cos(angle), y + 0.36 * dip_sin(angle), 0.0);
-    const DipMatrix rotation = dip_matrix_rotation(2, (sheet ? -1.0 : 1.0) * turn);
-    const DipMatrix size = dip_matrix_scaling(0.45, 0.6, 1.0);
-    return dip_matrix_multiply3(&move, &rotation, &size);
+    return dip_kit_chain3(
+        dip_matrix_translation(x + 0.27 * dip_cos(angle), y + 0.36 * dip_sin(angle), 0.0),
+        dip_matrix_rotation(2, (sheet ? -1.0 : 1.0) * turn), dip_matrix_scaling(0.45, 0.6, 1.0));
 }
 
-static void set_sheet(Uniforms *uniforms, int sheet, const DipGalleryView *view) {
-    static const float colours[SHEETS][3] = {{0.0f, 0.0f, 1.0f}, {1.0f, 1.0f, 0.0f}};
+static Uniforms sheet_look(int sheet, const DipGalleryView *view) {
     const float breath = (float)(0.5 - 0.4 * dip_cos(3.0 * view->turn));
-    const float alphas[SHEETS] = {view->look == 0   ? 1.0f
-                                  : view->look == 1 ? 0.5f
-                                                    : breath,
-                                  view->look == 2 ? 1.0f - breath : 0.5f};
-    memcpy(uniforms->colour, colours[sheet], sizeof uniforms->colour);
-    uniforms->alpha = alphas[sheet];
+    const float alphas[][SHEETS] = {{1.0f, 0.5f}, {0.5f, 0.5f}, {breath, 1.0f - breath}};
+    const float alpha = alphas[view->look][sheet];
+    return sheet ? (Uniforms){.colour = {1.0f, 1.0f, 0.0f}, .alpha = alpha}
+                 : (Uniforms){.colour = {0.0f, 0.0f, 1.0f}, .alpha = alpha};
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.012f, 0.014f, 0.02f};
-    Content *content = pointer;
-    const DipMesh *quad = content->stock.meshes[0];
-    const DipSampler sampler = dip_kit_sampler(view, &content->stock.textures[0]);
+    static const DipKitObject plain;
+    const DipMesh *quad = view->stock->meshes[0];
+    const DipSampler sampler = dip_kit_sampler(view, &view->stock->textures[0]);
     DipKitList list = dip_kit_list(view, 0.1, err);
-    DipDrawState states[MODES];
-    for (int m = 0; m < MODES; m++) {
-        states[m] =
-            (DipDrawState){.blend = modes[m], .depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true};
-    }
-    const DipMatrix back = dip_matrix_translation(0.0, 0.0, -0.02);
-    const DipMatrix wide = dip_matrix_scaling(3.5, 2.5, 1.0);
-    const DipMatrix board = dip_matrix_multiply(&back, &wide);
-    Uniforms *uniforms = content->uniforms;
-    dip_kit_add(&list, quad, uniforms++, &board, shade_board);
+    const DipMatrix board =
+        dip_kit_chain(dip_matrix_translation(0.0, 0.0, -0.02), dip_matrix_scaling(3.5, 2.5, 1.0));
+    dip_kit_add(&list, quad, &plain, &board, shade_board);
     for (int f = 0; f < FIELDS; f++) {
         const int row = f / MODES;
         const double x = 1.7 * (f % MODES) - 2.55;
         const double y = row ? -1.2 : 1.2;
-        const DipMatrix move = dip_matrix_translation(x, y, 0.0);
-        const DipMatrix size = dip_matrix_scaling(0.79, 1.12, 1.0);
-        const DipMatrix field = dip_matrix_multiply(&move, &size);
-        dip_kit_add(&list, quad, uniforms++, &field, shade_chequers)->samplers = &sampler;
-        for (int s = 0; s < SHEETS; s++, uniforms++) {
+        const DipMatrix field =
+            dip_kit_chain(dip_matrix_translation(x, y, 0.0), dip_matrix_scaling(0.79, 1.12, 1.0));
+        dip_kit_add(&list, quad, &plain, &field, shade_chequers)->samplers = &sampler;
+        for (int s = 0; s < SHEETS; s++) {
             const int sheet = row ? SHEETS - 1 - s : s; // The lower row draws sheet 1 first.
             const DipMatrix model = sheet_matrix(x, y, sheet, view->turn);
-            DipDraw *sheet_draw = dip_kit_add(&list, quad, uniforms, &model, shade_sheet);
-            set_sheet(uniforms, sheet, view);
+            const Uniforms look = sheet_look(sheet, view);
+            DipDraw *sheet_draw = dip_kit_add(&list, quad, &look, &model, shade_sheet);
             sheet_draw->state = &states[f % MODES];
             sheet_draw->cull = DIP_CULL_NONE;
         }
@@ -151,10 +118,9 @@ const DipGalleryScene dip_gallery_blend = {
                  "Alpha, additive, multiplicative and double multiplicative blending, from left "
                  "to right. The upper row draws blue before yellow, the lower row yellow "
                  "before blue.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
-    .content_bytes = sizeof(Content),
+             DIP_KIT_LOOKS("as in the seed", "alpha 0.5 for both", "alpha that breathes")},
+    .meshes = {{DIP_KIT_QUAD, {2.0f, 2.0f}}},
+    .textures = {{"chequers", 256, 256, DIP_WRAP_CLAMP, paint_chequers}},
     .camera = camera,
-    .create = create,
     .draw = draw,
 };

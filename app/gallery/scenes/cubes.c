@@ -1,4 +1,4 @@
-// The gallery scene "cubes": the sample scene of seed 004.
+// The gallery scene "cubes": the sample scene of seed 004 (gallery.h).
 //
 // Three objects have two kinds of vertices and a shader each: cubes with a colour per corner, and a
 // cube with texture coordinates. Two of them turn in place while the long one moves to the right
@@ -6,14 +6,12 @@
 // long cube is culled, the first cube changes its mesh. The same draws also go to a target of
 // characters: the caller's function stores each pixel as a char, and a second pass shows the chars.
 #include "app/gallery/kit/kit.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 #include "renderer/pipeline/cull.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { CUBE, GEM, TEXTURED, QUAD, MESHES, OBJECTS = 3, SIDES = 6 };
+enum { CUBE, GEM, TEXTURED, QUAD, OBJECTS = 3, SIDES = 6 };
 enum { SIMPLE_ATTRIBUTES = 6, TEXTURE_ATTRIBUTES = 5, GLYPHS = 10, CELL = 8 };
 
 typedef struct Uniforms {
@@ -29,16 +27,13 @@ typedef struct CharTarget {
 } CharTarget;
 
 typedef struct Content {
-    DipKitStock stock; // The texture is the crate's wood.
-    DipGalleryRoom room;
     DipPipeline *char_pipeline;
     CharTarget target;
     Uniforms uniforms[OBJECTS];
 } Content;
 
-static const char *const looks[] = {"colour target", "character target"};
-
-// From dark to bright, and how each of them looks in 8 by 8 dots; bit 7 is the left column.
+// The characters from dark to bright, and how each of them looks in 8 by 8 dots. Bit 7 is the left
+// column.
 static const char ramp[GLYPHS + 1] = " .:-=+*#%@";
 static const uint8_t glyphs[GLYPHS][CELL] = {
     {0, 0, 0, 0, 0, 0, 0, 0},
@@ -55,13 +50,13 @@ static const uint8_t glyphs[GLYPHS][CELL] = {
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// SimpleVertex of the seed: a position and a colour.
+// Vertex shader for the seed's SimpleVertex: a position and a colour.
 static void simple_vertex(const DipVertexBatch *batch) {
     dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
     dip_kit_copy(batch, 3, 0, 3);
 }
 
-// TextureVertex of the seed: a position, and u and v.
+// Vertex shader for the seed's TextureVertex: a position, and u and v.
 static void texture_vertex(const DipVertexBatch *batch) {
     dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
     dip_kit_copy(batch, 3, 0, 2);
@@ -77,23 +72,25 @@ static void shade_texture(DipFragmentBatch *batch) {
     batch->sample_colour(batch, &batch->samplers[0], 0, batch->colour);
 }
 
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
 // Shows the characters, green on black, as a screen of the time would.
 static void shade_chars(DipFragmentBatch *batch) {
     const CharTarget *target = batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
         const int x = (int)batch->x[i];
         const int y = (int)batch->y[i];
-        const int column =
-            x / target->cell < target->columns ? x / target->cell : target->columns - 1;
-        const int row = y / target->cell < target->rows ? y / target->cell : target->rows - 1;
+        const int column = smaller(x / target->cell, target->columns - 1);
+        const int row = smaller(y / target->cell, target->rows - 1);
         const char *found = strchr(ramp, target->chars[row * target->columns + column]);
         const int glyph = found ? (int)(found - ramp) : 0;
         const int dot_x = x % target->cell * CELL / target->cell;
         const int dot_y = y % target->cell * CELL / target->cell;
         const float lit = glyph < GLYPHS && glyphs[glyph][dot_y] >> (7 - dot_x) & 1 ? 1.0f : 0.0f;
-        batch->colour[0][i] = 0.004f + 0.10f * lit;
-        batch->colour[1][i] = 0.008f + 0.75f * lit;
-        batch->colour[2][i] = 0.006f + 0.16f * lit;
+        dip_kit_set(batch->colour, i, 0.004f + 0.10f * lit, 0.008f + 0.75f * lit,
+                    0.006f + 0.16f * lit);
     }
 }
 
@@ -103,8 +100,8 @@ static void store_chars(void *context, int x, int y, int count, const float *con
     for (int i = 0; i < count; i++) {
         const float light =
             0.2126f * colour[0][i] + 0.7152f * colour[1][i] + 0.0722f * colour[2][i];
-        const float step = sqrtf(light > 0.0f ? light : 0.0f) * 1.15f * GLYPHS;
-        const int glyph = step < 0.0f ? 0 : step >= GLYPHS ? GLYPHS - 1 : (int)step;
+        const float step = sqrtf(dip_kit_greatest(light, 0.0f)) * 1.15f * GLYPHS;
+        const int glyph = step >= GLYPHS ? GLYPHS - 1 : (int)step;
         target->chars[y * target->columns + x + i] = ramp[glyph];
     }
 }
@@ -166,17 +163,13 @@ static bool make_textured(DipMesh **mesh, DipError *err) {
     return *mesh != NULL;
 }
 
-// A wooden crate: boards, a frame around them and a diagonal.
+// Paints a wooden crate: boards, a frame around them and a diagonal.
 static void paint_crate(float u, float v, float rgba[4]) {
-    const float to_u = u < 0.5f ? u : 1.0f - u;
-    const float to_v = v < 0.5f ? v : 1.0f - v;
-    const bool frame = to_u < 0.12f || to_v < 0.12f || fabsf(u - v) < 0.085f;
-    const float board = v * 6.0f;
-    const float joint = board - dip_kit_floor(board);
-    const float gap =
-        frame ? 1.0f : dip_kit_smooth(0.0f, 0.08f, joint < 0.5f ? joint : 1.0f - joint);
-    const float grain = dip_kit_turbulence(frame && to_u < 0.12f ? v * 4.0f : u * 4.0f,
-                                           frame && to_u < 0.12f ? u * 48.0f : v * 48.0f, 48, 4, 5);
+    const bool upright = dip_kit_to_edge(u) < 0.12f; // The grain runs upwards in these boards.
+    const bool frame = upright || dip_kit_to_edge(v) < 0.12f || fabsf(u - v) < 0.085f;
+    const float gap = frame ? 1.0f : dip_kit_smooth(0.0f, 0.08f, dip_kit_to_edge(v * 6.0f));
+    const float grain =
+        dip_kit_turbulence(4.0f * (upright ? v : u), 48.0f * (upright ? u : v), 48, 4, 5);
     const float light = (frame ? 0.92f : 0.62f) * (0.62f + 0.5f * grain) * (0.35f + 0.65f * gap);
     rgba[0] = 0.86f * light;
     rgba[1] = 0.66f * light;
@@ -189,17 +182,17 @@ static void destroy(void *pointer) {
     free(content->target.chars);
 }
 
-static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
-    DipMesh **meshes = content->stock.meshes;
-    content->room = *room;
+static bool create(DipGalleryRoom *room, DipError *err) {
+    DipMesh **meshes = room->stock.meshes;
     return make_simple(&meshes[CUBE], false, err) && make_simple(&meshes[GEM], true, err) &&
-           make_textured(&meshes[TEXTURED], err) && dip_kit_quad(&meshes[QUAD], 2.0f, 2.0f, err) &&
-           dip_kit_texture(&content->stock.textures[0], "crate", 256, 256, true, paint_crate, err);
+           make_textured(&meshes[TEXTURED], err);
 }
 
 // Makes the characters for a picture of this size, unless the last frame had the same size.
-static bool prepare_chars(Content *content, int width, int height, DipError *err) {
+static bool prepare_chars(const DipGalleryView *view, DipError *err) {
+    const int width = view->target.width;
+    const int height = view->target.height;
+    Content *content = view->content;
     CharTarget *target = &content->target;
     const int cell = height / 60 > CELL ? height / 60 : CELL;
     const int columns = (width + cell - 1) / cell;
@@ -208,11 +201,10 @@ static bool prepare_chars(Content *content, int width, int height, DipError *err
         target->cell = cell;
         return true;
     }
-    dip_pipeline_destroy(&content->char_pipeline);
-    free(target->chars);
+    destroy(content);
     *target = (CharTarget){calloc((size_t)columns, (size_t)rows), columns, rows, cell};
     content->char_pipeline =
-        dip_pipeline_create(content->room.pool, content->room.isa, columns, rows, err);
+        dip_pipeline_create(view->def->pool, view->def->isa, columns, rows, err);
     return content->char_pipeline &&
            (target->chars || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cubes",
                                            "no memory for %dx%d characters", columns, rows));
@@ -228,15 +220,12 @@ static DipGalleryCamera camera(double turn) {
 static DipMatrix place(int index, double turn) {
     if (index == 1) {
         const double way = 0.5 - 0.5 * dip_cos(turn);
-        const DipMatrix move = dip_matrix_translation(11.0 * way, -0.2, -1.0);
-        const DipMatrix spin = dip_matrix_rotation(1, 0.4);
-        const DipMatrix size = dip_matrix_scaling(0.55, 1.7, 0.55);
-        return dip_matrix_multiply3(&move, &spin, &size);
+        return dip_kit_chain3(dip_matrix_translation(11.0 * way, -0.2, -1.0),
+                              dip_matrix_rotation(1, 0.4), dip_matrix_scaling(0.55, 1.7, 0.55));
     }
-    const DipMatrix move = dip_matrix_translation(index ? 2.9 : -2.9, 0.0, index ? 0.6 : 0.0);
-    const DipMatrix spin = dip_matrix_rotation(1, (index ? -2.0 : 3.0) * turn + 0.6);
-    const DipMatrix tilt = dip_matrix_rotation(0, 0.5);
-    return dip_matrix_multiply3(&move, &tilt, &spin);
+    return dip_kit_chain3(dip_matrix_translation(index ? 2.9 : -2.9, 0.0, index ? 0.6 : 0.0),
+                          dip_matrix_rotation(0, 0.5),
+                          dip_matrix_rotation(1, (index ? -2.0 : 3.0) * turn + 0.6));
 }
 
 // Returns whether some part of a mesh may be in view.
@@ -247,14 +236,15 @@ static bool in_view(const DipMesh *mesh, const DipMatrix *to_clip) {
 }
 
 // Fills in the draws of the objects in view and returns their number.
-static int list_objects(Content *content, const DipKitCamera *seen, const DipGalleryView *view,
+static int list_objects(const DipGalleryView *view, const DipKitCamera *seen,
                         const DipSampler *wood, DipDraw draws[OBJECTS]) {
-    DipMesh *const *meshes = content->stock.meshes;
+    Content *content = view->content;
+    DipMesh *const *meshes = view->stock->meshes;
     int count = 0;
     bool long_cube_seen = true;
-    for (int i = OBJECTS - 1; i >= 0; i--) { // the first cube comes last: it depends on the others
-        const DipMatrix model = place(i, view->turn);
-        const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &model);
+    for (int i = OBJECTS - 1; i >= 0;
+         i--) { // The first cube comes last, since it depends on the others.
+        const DipMatrix to_clip = dip_kit_chain(seen->to_clip, place(i, view->turn));
         const int mesh = i == 2 ? TEXTURED : i == 1 || long_cube_seen ? CUBE : GEM;
         if (!in_view(meshes[mesh], &to_clip)) {
             long_cube_seen = long_cube_seen && i != 1;
@@ -276,10 +266,11 @@ static int list_objects(Content *content, const DipKitCamera *seen, const DipGal
     return count;
 }
 
-static bool draw_chars(Content *content, const DipGalleryView *view, DipPass *pass, DipError *err) {
+static bool draw_chars(const DipGalleryView *view, DipPass *pass, DipError *err) {
     static const float black[3] = {0.0f, 0.0f, 0.0f};
+    Content *content = view->content;
     CharTarget *chars = &content->target;
-    if (!prepare_chars(content, view->target.width, view->target.height, err)) {
+    if (!prepare_chars(view, err)) {
         return false;
     }
     memcpy(pass->clear_lin, black, sizeof black);
@@ -291,7 +282,7 @@ static bool draw_chars(Content *content, const DipGalleryView *view, DipPass *pa
     if (!dip_kit_draw(view, content->char_pipeline, pass, err)) {
         return false;
     }
-    const DipDraw screen = {.mesh = content->stock.meshes[QUAD],
+    const DipDraw screen = {.mesh = view->stock->meshes[QUAD],
                             .vertex_shader = dip_kit_screen_vertex,
                             .fragment_shader = shade_chars,
                             .uniforms = chars};
@@ -299,18 +290,17 @@ static bool draw_chars(Content *content, const DipGalleryView *view, DipPass *pa
     return dip_kit_draw(view, view->pipeline, &show, err);
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.10f, 0.13f, 0.18f};
-    Content *content = pointer;
     DipKitCamera seen;
     DipDraw draws[OBJECTS];
-    const DipSampler wood = dip_kit_sampler(view, &content->stock.textures[0]);
+    const DipSampler wood = dip_kit_sampler(view, &view->stock->textures[0]);
     if (!dip_kit_camera(&seen, view, 0.1, err)) {
         return false;
     }
-    const int count = list_objects(content, &seen, view, &wood, draws);
+    const int count = list_objects(view, &seen, &wood, draws);
     DipPass pass = dip_kit_pass(view, draws, count, clear_lin);
-    return view->look == 1 ? draw_chars(content, view, &pass, err)
+    return view->look == 1 ? draw_chars(view, &pass, err)
                            : dip_kit_draw(view, view->pipeline, &pass, err);
 }
 
@@ -320,8 +310,9 @@ const DipGalleryScene dip_gallery_cubes = {
              .text =
                  "Objects with their own vertex types and shaders, culled by their bounds. When "
                  "the long cube has left the view, the left one changes its mesh.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+             DIP_KIT_LOOKS("colour target", "character target")},
+    .meshes = {[QUAD] = {DIP_KIT_QUAD, {2.0f, 2.0f}}},
+    .textures = {{"crate", 256, 256, DIP_WRAP_CLAMP, paint_crate}},
     .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,

@@ -1,17 +1,14 @@
 // The gallery scene "model": an MD2 model with key-frame animation, lit in several ways.
 //
-// As in seed 000: flat, Gouraud and Phong shading are nothing but different vertex and fragment
-// shaders; directional, point and spot lights shine on it; it is shown textured, plain, and as a
-// lit wireframe. Each vertex of a mesh holds its positions and normals in two successive key
-// frames, and the vertex shader blends them.
+// As in seed 000 (gallery.h), flat, Gouraud and Phong shading differ only in their vertex and
+// fragment shaders. Directional, point and spot lights shine on the model. The looks show it
+// textured, plain, and as a lit wireframe. Each vertex of a mesh holds its positions and normals in
+// two successive key frames, and the vertex shader blends them.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "assets/animation.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
 #include <limits.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,13 +27,10 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipKitStock stock; // The floor's mesh and the model's skin.
     DipAnimatedModel *model;
     DipAnimatedPose *pose;
-    int frames;
-    DipMesh *smooth[MAX_FRAMES]; // by the first key frame of each pair
-    DipMesh *flat[MAX_FRAMES];   // the same triangles, without shared vertices
-    Uniforms uniforms[COPIES + 1];
+    // [flat][first key frame of a pair]. Triangles of flat meshes share no vertices.
+    DipMesh *meshes[2][MAX_FRAMES];
 } Content;
 
 typedef struct Look {
@@ -49,9 +43,6 @@ typedef struct Look {
 static const Look model_looks[] = {{false, false, true, false}, {false, true, true, false},
                                    {true, true, true, false},   {false, false, false, false},
                                    {true, true, false, false},  {false, false, true, true}};
-static const char *const looks[] = {"Phong",        "Gouraud",     "flat",
-                                    "Phong, plain", "flat, plain", "lit wireframe"};
-
 // --- shaders -------------------------------------------------------------------------------------
 
 // Blends two key frames and takes positions and normals to world space.
@@ -80,7 +71,8 @@ static void blend_frames(const DipVertexBatch *batch, float *const world[3],
     }
 }
 
-// Phong: position and normal become varyings, and the fragment shader computes the light.
+// Vertex shader for Phong shading: position and normal become varyings, and the fragment shader
+// computes the light.
 static void phong_vertex(const DipVertexBatch *batch) {
     blend_frames(batch, batch->varying + DIP_KIT_WORLD, batch->varying + DIP_KIT_NORMAL);
 }
@@ -93,8 +85,9 @@ static void add_lights(const Uniforms *uniforms, const DipKitPoints *points,
     dip_kit_light_all(ambient, uniforms->lights, LIGHTS, material, points, out);
 }
 
-// Gouraud: the light is computed at the vertices and becomes a varying. Flat shading is the same
-// with vertices that no two triangles share and that have the normal of their triangle.
+// Vertex shader for Gouraud shading: the light is computed at the vertices and becomes a varying.
+// Flat shading is the same with vertices that no two triangles share and that have the normal of
+// their triangle.
 static void gouraud_vertex(const DipVertexBatch *batch) {
     static const int slice = DIP_FRAGMENT_BATCH;
     const Uniforms *uniforms = batch->uniforms;
@@ -169,74 +162,61 @@ static void write_vertex(const DipAnimatedMesh *mesh, uint32_t v, int frame, int
 static void face_normal(const DipAnimatedMesh *mesh, const uint32_t corner[3], int frame,
                         float normal[3]) {
     const float *all = mesh->positions + (size_t)frame * mesh->vertex_count * 3;
-    float edge[2][3];
-    for (int e = 0; e < 2; e++) {
-        for (int i = 0; i < 3; i++) {
-            edge[e][i] = all[3 * corner[e + 1] + (uint32_t)i] - all[3 * corner[0] + (uint32_t)i];
-        }
-    }
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3;
-        const int k = (i + 2) % 3;
-        normal[i] = edge[0][j] * edge[1][k] - edge[0][k] * edge[1][j];
-    }
-    const float scale = 1.0f / sqrtf(normal[0] * normal[0] + normal[1] * normal[1] +
-                                     normal[2] * normal[2] + 1e-30f);
-    for (int i = 0; i < 3; i++) {
-        normal[i] *= scale;
-    }
+    const DipKitVector first = dip_kit_vector(all + 3 * corner[0]);
+    const DipKitVector a = dip_kit_minus(dip_kit_vector(all + 3 * corner[1]), first);
+    const DipKitVector b = dip_kit_minus(dip_kit_vector(all + 3 * corner[2]), first);
+    const DipKitVector c = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    const DipKitVector unit = dip_kit_times(c, dip_kit_per_length(c, 1e-30f));
+    normal[0] = unit.x;
+    normal[1] = unit.y;
+    normal[2] = unit.z;
 }
 
-// Makes the smooth and the flat mesh of a pair of key frames.
-static bool make_pair(Content *content, const DipAnimatedMesh *mesh, int frame, DipError *err) {
-    const int next = (frame + 1) % content->frames;
-    const size_t row_bytes = ATTRIBUTES * sizeof(float);
-    float *rows = malloc((mesh->vertex_count + mesh->index_count) * row_bytes);
+// Makes the smooth or the flat mesh of a key frame and the next one.
+static bool make_mesh(DipMesh **to, const DipAnimatedMesh *mesh, int frame, int next, bool flat,
+                      DipError *err) {
+    const uint32_t count = flat ? mesh->index_count : mesh->vertex_count;
+    float *rows = malloc((size_t)count * ATTRIBUTES * sizeof *rows);
     uint32_t *order = malloc(mesh->index_count * sizeof *order);
-    if (!rows || !order) {
-        free(rows);
-        free(order);
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "model", "out of memory");
-    }
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        write_vertex(mesh, v, frame, next, NULL, rows + (size_t)v * ATTRIBUTES);
-    }
-    float *flat = rows + (size_t)mesh->vertex_count * ATTRIBUTES;
-    for (uint32_t k = 0; k < mesh->index_count; k++) {
+    for (uint32_t v = 0; rows && order && v < count; v++) {
         float normals[2][3];
-        face_normal(mesh, mesh->indices + k - k % 3, frame, normals[0]);
-        face_normal(mesh, mesh->indices + k - k % 3, next, normals[1]);
-        write_vertex(mesh, mesh->indices[k], frame, next, (const float(*)[3])normals,
-                     flat + (size_t)k * ATTRIBUTES);
-        order[k] = k;
+        if (flat) {
+            face_normal(mesh, mesh->indices + v - v % 3, frame, normals[0]);
+            face_normal(mesh, mesh->indices + v - v % 3, next, normals[1]);
+        }
+        write_vertex(mesh, flat ? mesh->indices[v] : v, frame, next,
+                     flat ? (const float(*)[3])normals : NULL, rows + (size_t)v * ATTRIBUTES);
     }
-    const DipMeshData smooth_data = {"smooth",           rows,          ATTRIBUTES,
-                                     mesh->vertex_count, mesh->indices, mesh->index_count};
-    const DipMeshData flat_data = {"flat",           flat, ATTRIBUTES, mesh->index_count, order,
-                                   mesh->index_count};
-    content->smooth[frame] = dip_mesh_create(&smooth_data, err);
-    content->flat[frame] = content->smooth[frame] ? dip_mesh_create(&flat_data, err) : NULL;
+    for (uint32_t k = 0; order && k < mesh->index_count; k++) {
+        order[k] = flat ? k : mesh->indices[k];
+    }
+    const DipMeshData data = {flat ? "flat" : "smooth", rows, ATTRIBUTES, count, order,
+                              mesh->index_count};
+    if (rows && order) {
+        *to = dip_mesh_create(&data, err);
+    } else {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "model", "out of memory");
+    }
     free(rows);
     free(order);
-    return content->flat[frame] != NULL;
+    return *to != NULL;
 }
 
 static void destroy(void *pointer) {
     Content *content = pointer;
     for (int f = 0; f < MAX_FRAMES; f++) {
-        dip_mesh_destroy(&content->smooth[f]);
-        dip_mesh_destroy(&content->flat[f]);
+        dip_mesh_destroy(&content->meshes[0][f]);
+        dip_mesh_destroy(&content->meshes[1][f]);
     }
     dip_animated_pose_destroy(&content->pose);
     dip_animated_model_destroy(&content->model);
 }
 
-static bool load(Content *content, const char *assets, DipError *err) {
+static bool create(DipGalleryRoom *room, DipError *err) {
+    Content *content = room->content;
     char file[PATH_MAX];
-    const int length = snprintf(file, sizeof file, "%s/gallery/penguin.md2", assets);
-    if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, assets, 0, "model",
-                             "the name of the folder is too long");
+    if (!dip_kit_asset(file, sizeof file, room->def, "gallery/penguin.md2", "model", err)) {
+        return false;
     }
     content->model = dip_animated_model_load(file, NULL, NULL, err);
     content->pose = content->model ? dip_animated_pose_create(content->model, err) : NULL;
@@ -248,21 +228,16 @@ static bool load(Content *content, const char *assets, DipError *err) {
         return dip_error_set(err, DIP_ERROR_RANGE, file, 0, "model",
                              "the model needs a skin and 1 to %d key frames", MAX_FRAMES);
     }
-    content->frames = def->key_frame_count;
     DipTextureDef skin = def->textures[0];
     skin.wrap_u = skin.wrap_v = DIP_WRAP_CLAMP;
-    content->stock.textures[0].plain = dip_texture_create(&skin, err);
-    bool made = content->stock.textures[0].plain != NULL;
-    for (int f = 0; made && f < content->frames; f++) {
-        made = make_pair(content, &def->meshes[0], f, err);
+    room->stock.textures[0].plain = dip_texture_create(&skin, err);
+    bool made = room->stock.textures[0].plain != NULL;
+    for (int f = 0; made && f < 2 * def->key_frame_count; f++) {
+        const int frame = f / 2;
+        made = make_mesh(&content->meshes[f % 2][frame], &def->meshes[0], frame,
+                         (frame + 1) % def->key_frame_count, f % 2 == 1, err);
     }
     return made;
-}
-
-static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
-    return dip_kit_plane(&content->stock.meshes[0], 24.0f, 24.0f, 48, 48, err) &&
-           load(content, room->assets, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -274,7 +249,7 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, 0.78, 0.0}};
 }
 
-// A white light from above, an orange point that circles, and a blue spot that sweeps.
+// Sets a white light from above, an orange point that circles, and a blue spot that sweeps.
 static void set_lights(DipKitLight lights[LIGHTS], double turn) {
     lights[0] = (DipKitLight){.kind = DIP_KIT_DIRECTIONAL,
                               .direction = {-0.36f, -0.80f, -0.48f},
@@ -298,57 +273,56 @@ static void set_lights(DipKitLight lights[LIGHTS], double turn) {
     lights[2].direction[2] = (float)(z / size);
 }
 
-static void fill_uniforms(Uniforms *uniforms, const DipGalleryView *view, bool is_floor) {
-    uniforms->textured = !is_floor && model_looks[view->look].textured;
-    uniforms->material = is_floor ? (DipKitMaterial){{0.36f, 0.44f, 0.54f}, {0.25f, 0.25f, 0.3f}, 5}
-                                  : (DipKitMaterial){{1.0f, 1.0f, 1.0f}, {0.55f, 0.55f, 0.55f}, 5};
-    set_lights(uniforms->lights, view->turn);
+static Uniforms uniforms_of(const DipGalleryView *view, bool is_floor) {
+    Uniforms uniforms = {
+        .textured = !is_floor && model_looks[view->look].textured,
+        .material = is_floor ? (DipKitMaterial){{0.36f, 0.44f, 0.54f}, {0.25f, 0.25f, 0.3f}, 5}
+                             : (DipKitMaterial){{1.0f, 1.0f, 1.0f}, {0.55f, 0.55f, 0.55f}, 5}};
+    set_lights(uniforms.lights, view->turn);
+    return uniforms;
 }
 
 // Draws one copy of the model. The copies are at different times of the animation.
-static DipDraw *add_copy(Content *content, int copy, DipKitList *list) {
+static DipDraw *add_copy(int copy, DipKitList *list) {
     const DipGalleryView *view = list->view;
+    const Content *content = view->content;
     const Look *look = &model_looks[view->look];
     dip_animated_pose_set(content->pose, 0, view->time_s + 0.37 * copy);
     const DipObjectPose *posed = dip_animated_pose_object(content->pose, 0);
-    const DipMatrix move = dip_matrix_translation(1.45 * (copy - 1), 0.0, copy == 1 ? 0.4 : -0.5);
-    const DipMatrix spin = dip_matrix_rotation(1, -0.5 * DIP_PI + 0.6 * dip_sin(view->turn + copy) -
-                                                      0.3 * (copy - 1)); // it looks along +x
+    const double angle = -0.5 * DIP_PI + 0.6 * dip_sin(view->turn + copy) - 0.3 * (copy - 1);
     DipMatrix own = dip_matrix_identity();
     for (int i = 0; i < 12; i++) {
         own.m[i] = (double)posed->transform[i];
     }
-    const DipMatrix model = dip_matrix_multiply3(&move, &spin, &own);
-    Uniforms *uniforms = &content->uniforms[copy];
-    fill_uniforms(uniforms, view, false);
-    uniforms->blend = posed->blend;
-    DipMesh *const *meshes = look->flat ? content->flat : content->smooth;
-    DipDraw *draw = dip_kit_add(list, meshes[posed->key_frame], uniforms, &model,
-                                look->gouraud ? shade_gouraud : shade_phong);
+    const DipMatrix model =
+        dip_kit_chain3(dip_matrix_translation(1.45 * (copy - 1), 0.0, copy == 1 ? 0.4 : -0.5),
+                       dip_matrix_rotation(1, angle), own); // The model itself looks along +x.
+    Uniforms uniforms = uniforms_of(view, false);
+    uniforms.blend = posed->blend;
+    DipDraw *draw = dip_kit_add(list, content->meshes[look->flat][posed->key_frame], &uniforms,
+                                &model, look->gouraud ? shade_gouraud : shade_phong);
     draw->vertex_shader = look->gouraud ? gouraud_vertex : phong_vertex;
     draw->varying_count = look->gouraud ? LIT_VARYINGS : DIP_KIT_VARYINGS;
     draw->value_only_varying_count = look->gouraud ? 3 : DIP_KIT_VALUES_ONLY;
-    draw->bounds_to_clip = NULL; // the mesh's box holds the first key frame of the pair only
+    draw->bounds_to_clip = NULL; // The mesh's box holds only the first key frame.
     return draw;
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.05f, 0.07f, 0.10f};
-    Content *content = pointer;
     const DipDrawState wireframe = {
         .fill = DIP_FILL_WIREFRAME,
         .line_width = dip_kit_clamp((float)view->target.height / 320.0f, 1.0f, 8.0f)};
-    const DipSampler skin = dip_kit_sampler(view, &content->stock.textures[0]);
+    const DipSampler skin = dip_kit_sampler(view, &view->stock->textures[0]);
     const DipMatrix identity = dip_matrix_identity();
     DipKitList list = dip_kit_list(view, 0.1, err);
-    Uniforms *ground = &content->uniforms[COPIES];
+    const Uniforms ground = uniforms_of(view, true);
     for (int copy = 0; copy < COPIES; copy++) {
-        DipDraw *copied = add_copy(content, copy, &list);
+        DipDraw *copied = add_copy(copy, &list);
         copied->samplers = &skin;
         copied->state = model_looks[view->look].wireframe ? &wireframe : NULL;
     }
-    fill_uniforms(ground, view, true);
-    dip_kit_add(&list, content->stock.meshes[0], ground, &identity, shade_phong);
+    dip_kit_add(&list, view->stock->meshes[0], &ground, &identity, shade_phong);
     return dip_kit_show(&list, clear_lin);
 }
 
@@ -358,8 +332,9 @@ const DipGalleryScene dip_gallery_model = {
              .text =
                  "An MD2 model with key-frame animation under a directional, a point and a spot "
                  "light. The looks change the shading.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+             DIP_KIT_LOOKS("Phong", "Gouraud", "flat", "Phong, plain", "flat, plain",
+                           "lit wireframe")},
+    .meshes = {{DIP_KIT_PLANE, {24.0f, 24.0f, 48, 48}}},
     .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,

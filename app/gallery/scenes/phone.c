@@ -1,20 +1,19 @@
-// The gallery scene "phone": the mobile phone of seed 001, with a die in the background.
+// The gallery scene "phone": the mobile phone of seed 001 (gallery.h), and a die behind it.
 //
 // The phone is a box like the die, with other dimensions; all its faces show the same texture, so
-// its narrow sides stretch it. Its display is a quad of its own just above the box. What the seed
-// calls a taken picture is taken live here: a first pass draws the die as the phone's camera sees
-// it, and the display's shader samples that target.
-#include "app/gallery/kit/die.h"
+// its narrow sides stretch it. Its display is a quad of its own just above the box. In the
+// seed, the display shows a picture that the phone took. Here it shows a live one: a first pass
+// draws the die as the phone's camera sees it, and the display's shader samples that target.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
-#include "renderer/base/assert.h"
 #include "renderer/base/pages.h"
-#include "renderer/base/trig.h"
 
 enum { PHOTO_WIDTH = 288, PHOTO_HEIGHT = 512 };
 enum { DIE, TABLE, BODY, DISPLAY, OBJECTS, PHOTO_OBJECTS = BODY };
 
-static const float body_size[3] = {0.92f, 1.72f, 0.10f};
+#define BODY_SIZE                                                                                  \
+    { 0.92f, 1.72f, 0.10f }
+static const float body_size[3] = BODY_SIZE;
 
 typedef struct Uniforms {
     DipKitObject object;
@@ -22,14 +21,9 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipKitStock stock;
     DipPipeline *pipeline; // of the photo's size
     DipTarget photo;
-    Uniforms seen[OBJECTS];
-    Uniforms taken[PHOTO_OBJECTS];
 } Content;
-
-static const char *const looks[] = {"live picture"};
 
 // --- shaders -------------------------------------------------------------------------------------
 
@@ -71,7 +65,7 @@ static void shade_display(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Dark brushed metal with a lens and a lamp, as on a phone's back.
+// Paints dark brushed metal with a lens and a lamp, as on a phone's back.
 static void paint_body(float u, float v, float rgba[4]) {
     const float brushed = dip_kit_turbulence(u * 4.0f, v * 96.0f, 96, 3, 2);
     const float x = (u - 0.5f) * 0.55f;
@@ -88,11 +82,10 @@ static void paint_body(float u, float v, float rgba[4]) {
     }
 }
 
-// Planks of a table.
+// Paints the planks of a table.
 static void paint_table(float u, float v, float rgba[4]) {
     const float plank = u * 8.0f;
-    const float gap = plank - dip_kit_floor(plank);
-    const float edge = dip_kit_smooth(0.0f, 0.02f, gap < 0.5f ? gap : 1.0f - gap);
+    const float edge = dip_kit_smooth(0.0f, 0.02f, dip_kit_to_edge(plank));
     const float grain = dip_kit_turbulence(u * 128.0f, v * 8.0f, 128, 4, 9);
     const float light = (0.5f + 0.2f * dip_kit_random((int)plank, 1, 1) + 0.25f * (grain - 0.5f)) *
                         (0.3f + 0.7f * edge);
@@ -107,25 +100,12 @@ static void destroy(void *pointer) {
     dip_lines_free(content->photo.rgba8);
 }
 
-static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
-    DipMesh **meshes = content->stock.meshes;
-    DipKitTexture *textures = content->stock.textures;
-    DipTarget *photo = &content->photo;
-    *photo = (DipTarget){
-        .stride_bytes = (size_t)PHOTO_WIDTH * 4, .width = PHOTO_WIDTH, .height = PHOTO_HEIGHT};
-    photo->rgba8 = dip_lines_alloc(photo->stride_bytes * PHOTO_HEIGHT);
-    if (!photo->rgba8) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "phone", "out of memory");
-    }
-    content->pipeline = dip_pipeline_create(room->pool, room->isa, PHOTO_WIDTH, PHOTO_HEIGHT, err);
-    return content->pipeline && dip_kit_die(&meshes[DIE], err) &&
-           dip_kit_plane(&meshes[TABLE], 12.0f, 12.0f, 8, 8, err) &&
-           dip_kit_box(&meshes[BODY], body_size[0], body_size[1], body_size[2], err) &&
-           dip_kit_quad(&meshes[DISPLAY], 0.84f, 1.50f, err) &&
-           dip_kit_die_texture(&textures[DIE], err) &&
-           dip_kit_texture(&textures[TABLE], "table", 512, 512, true, paint_table, err) &&
-           dip_kit_texture(&textures[BODY], "body", 256, 512, true, paint_body, err);
+static bool create(DipGalleryRoom *room, DipError *err) {
+    Content *content = room->content;
+    content->pipeline =
+        dip_pipeline_create(room->def->pool, room->def->isa, PHOTO_WIDTH, PHOTO_HEIGHT, err);
+    return content->pipeline &&
+           dip_kit_target(&content->photo, PHOTO_WIDTH, PHOTO_HEIGHT, "phone", err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -141,44 +121,42 @@ static DipMatrix place(int object, double turn) {
         return dip_matrix_identity();
     }
     if (object == DIE) {
-        const DipMatrix move =
-            dip_matrix_translation(1.35, 0.92 + 0.12 * dip_sin(3.0 * turn), -1.35);
-        const DipMatrix spin = dip_matrix_rotation(1, 2.0 * turn);
-        const DipMatrix tilt = dip_matrix_rotation(0, 0.7);
-        return dip_matrix_multiply3(&move, &tilt, &spin);
+        return dip_kit_chain3(
+            dip_matrix_translation(1.35, 0.92 + 0.12 * dip_sin(3.0 * turn), -1.35),
+            dip_matrix_rotation(0, 0.7), dip_matrix_rotation(1, 2.0 * turn));
     }
     const double lift = object == DISPLAY ? 0.5 * (double)body_size[2] + 0.002 : 0.0;
-    const DipMatrix move = dip_matrix_translation(-0.45, 0.5 * (double)body_size[1], 0.55);
-    const DipMatrix sway = dip_matrix_rotation(1, 0.25 + 0.45 * dip_sin(turn));
-    const DipMatrix out = dip_matrix_translation(0.0, 0.0, lift);
-    return dip_matrix_multiply3(&move, &sway, &out);
+    return dip_kit_chain3(dip_matrix_translation(-0.45, 0.5 * (double)body_size[1], 0.55),
+                          dip_matrix_rotation(1, 0.25 + 0.45 * dip_sin(turn)),
+                          dip_matrix_translation(0.0, 0.0, lift));
 }
 
 // Adds the first `count` objects. The display has no texture of its own.
-static void add_objects(Content *content, Uniforms *uniforms, int count, DipSampler *samplers,
-                        DipKitList *list) {
+static void add_objects(DipKitList *list, int count, DipSampler *samplers) {
+    const DipGalleryView *view = list->view;
+    const Uniforms uniforms = {.photo = ((const Content *)view->content)->photo};
     for (int i = 0; i < count; i++) {
-        const DipMatrix model = place(i, list->view->turn);
-        DipDraw *draw = dip_kit_add(list, content->stock.meshes[i], &uniforms[i], &model,
+        const DipMatrix model = place(i, view->turn);
+        DipDraw *draw = dip_kit_add(list, view->stock->meshes[i], &uniforms, &model,
                                     i == DISPLAY ? shade_display : shade);
         if (i != DISPLAY) {
-            samplers[i] = dip_kit_sampler(list->view, &content->stock.textures[i]);
+            samplers[i] = dip_kit_sampler(view, &view->stock->textures[i]);
             draw->samplers = &samplers[i];
         }
     }
 }
 
 // Draws the die and the table as the phone's camera sees them, always with four samples.
-static bool take_photo(Content *content, const DipGalleryView *view, DipError *err) {
+static bool take_photo(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.30f, 0.38f, 0.50f};
-    static const double eye[3] = {-0.45, 1.45, 1.0};
-    static const double target[3] = {1.30, 0.80, -1.35};
+    static const DipGalleryCamera from = {.eye = {-0.45, 1.45, 1.0}, .target = {1.30, 0.80, -1.35}};
+    const Content *content = view->content;
     const DipPerspective lens = {
         .fov_deg = 50.0, .aspect = (double)PHOTO_WIDTH / PHOTO_HEIGHT, .near_distance = 0.1};
     DipKitList list = {.view = view, .err = err};
     DipSampler samplers[PHOTO_OBJECTS];
-    list.failed = !dip_kit_look_at(&list.seen, eye, target, &lens, err);
-    add_objects(content, content->taken, PHOTO_OBJECTS, samplers, &list);
+    list.failed = !dip_kit_look_at(&list.seen, &from, &lens, err);
+    add_objects(&list, PHOTO_OBJECTS, samplers);
     DipPass pass = dip_kit_pass(view, list.draws, list.count, clear_lin);
     pass.target = content->photo;
     pass.sample_count = 4;
@@ -186,14 +164,12 @@ static bool take_photo(Content *content, const DipGalleryView *view, DipError *e
     return !list.failed && dip_kit_draw(view, content->pipeline, &pass, err);
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.10f, 0.12f, 0.16f};
-    Content *content = pointer;
     DipSampler samplers[OBJECTS];
     DipKitList list = dip_kit_list(view, 0.1, err);
-    content->seen[DISPLAY].photo = content->photo;
-    add_objects(content, content->seen, OBJECTS, samplers, &list);
-    return take_photo(content, view, err) && dip_kit_show(&list, clear_lin);
+    add_objects(&list, OBJECTS, samplers);
+    return take_photo(view, err) && dip_kit_show(&list, clear_lin);
 }
 
 const DipGalleryScene dip_gallery_phone = {
@@ -202,8 +178,14 @@ const DipGalleryScene dip_gallery_phone = {
              .text =
                  "A phone made of one box and one quad. Its display shows a target that another "
                  "pass has drawn.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+             DIP_KIT_LOOKS("live picture")},
+    .meshes = {[DIE] = {.shape = DIP_KIT_DIE},
+               [TABLE] = {DIP_KIT_PLANE, {12.0f, 12.0f, 8, 8}},
+               [BODY] = {DIP_KIT_BOX, BODY_SIZE},
+               [DISPLAY] = {DIP_KIT_QUAD, {0.84f, 1.50f}}},
+    .textures = {[DIE] = DIP_KIT_DIE_TEXTURE,
+                 [TABLE] = {"table", 512, 512, DIP_WRAP_CLAMP, paint_table},
+                 [BODY] = {"body", 256, 512, DIP_WRAP_CLAMP, paint_body}},
     .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,

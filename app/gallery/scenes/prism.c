@@ -1,18 +1,17 @@
-// The gallery scene "prism": the tessellated and twisted prism of seed 001.
+// The gallery scene "prism": the tessellated and twisted prism of seed 001 (gallery.h).
 //
 // The sides and bases of a plain prism are patches. Tessellation divides them, and the domain
 // function turns each new vertex about the axis by an angle that grows with its height. The factor
-// breathes, so fractional partitioning lets the new vertices slide apart instead of appearing
-// suddenly. A lit wireframe of the same mesh lies over the surface.
+// of the tessellation rises and falls with time. With fractional partitioning, new vertices then
+// slide apart instead of appearing suddenly. A lit wireframe of the same mesh lies over the
+// surface.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 #include "renderer/shapes/tessellate.h"
 
 typedef struct Look {
     int sides;
-    float factor; // 0: it breathes
+    float factor; // of the tessellation; 0: it rises and falls with time
     DipPartitioning partitioning;
     float line_px; // width of the wireframe's lines in a picture of 480 rows
 } Look;
@@ -24,10 +23,6 @@ static const Look prism_looks[] = {
     {24, 9.0f, DIP_PARTITIONING_FRACTIONAL_ODD, 0.5f},
     {6, 0.0f, DIP_PARTITIONING_INTEGER, 1.2f},
 };
-static const char *const looks[] = {"6 slices, fractional factor", "6 slices, factor 64",
-                                    "3 slices, fractional factor", "24 slices, factor 9",
-                                    "6 slices, whole factor"};
-
 enum { PRISM, FLOOR }; // Meshes.
 
 static const float height = 3.0f;
@@ -40,12 +35,8 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipKitStock stock;
-    double mesh_time_s; // Of the prism's mesh, if there is one.
-    int mesh_look;
-    Uniforms solid;
-    Uniforms wire;
-    Uniforms ground;
+    double time_s; // The time and the look for which the prism's mesh was made.
+    int look;
 } Content;
 
 // --- tessellation --------------------------------------------------------------------------------
@@ -73,18 +64,18 @@ static void twist(const DipDomainBatch *batch) {
     }
 }
 
-// Makes the mesh of a time and look, unless the other pane has made it already.
-static bool prepare_mesh(Content *content, double time_s, int look_index, DipError *err) {
-    DipMesh **mesh = &content->stock.meshes[PRISM];
-    if (*mesh && content->mesh_time_s == time_s && content->mesh_look == look_index) {
+// Makes the prism's mesh, unless the other pane has made the same one already.
+static bool prepare_mesh(const DipGalleryView *view, DipError *err) {
+    Content *content = view->content;
+    DipMesh **mesh = &view->stock->meshes[PRISM];
+    if (*mesh && content->time_s == view->time_s && content->look == view->look) {
         return true;
     }
-    const Look *look = &prism_looks[look_index];
-    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    const Look *look = &prism_looks[view->look];
     const float factor =
-        look->factor > 0.0f ? look->factor : (float)(7.0 - 6.0 * dip_cos(2.0 * turn));
+        look->factor > 0.0f ? look->factor : (float)(7.0 - 6.0 * dip_cos(2.0 * view->turn));
     const DipTessellationFactors factors = {{factor, factor, factor, factor}, {factor, factor}};
-    const double rate = 0.9 * dip_sin(turn);
+    const double rate = 0.9 * dip_sin(view->turn);
     DipShape prism;
     DipShape pieces = {0};
     if (!dip_shape_prism(&prism, 1.0f, height, look->sides, false, err)) {
@@ -106,8 +97,8 @@ static bool prepare_mesh(Content *content, double time_s, int look_index, DipErr
     const bool made =
         dip_tessellate(&pieces, &def, err) && dip_kit_mesh(mesh, "prism", &pieces, err);
     dip_shape_free(&prism);
-    content->mesh_time_s = time_s;
-    content->mesh_look = look_index;
+    content->time_s = view->time_s;
+    content->look = view->look;
     return made;
 }
 
@@ -138,15 +129,6 @@ static void shade(DipFragmentBatch *batch) {
     }
 }
 
-// --- content -------------------------------------------------------------------------------------
-
-static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
-    (void)room;
-    return dip_kit_prism(&content->stock.meshes[FLOOR], 2.6f, 0.3f, 96, true, err) &&
-           prepare_mesh(content, 0.0, 0, err);
-}
-
 // --- drawing -------------------------------------------------------------------------------------
 
 static DipGalleryCamera camera(double turn) {
@@ -155,27 +137,26 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, -0.1, 0.0}};
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.03f, 0.035f, 0.05f};
+    static const Uniforms solid = {.base = 0.12f};
+    static const Uniforms wire = {.tint = {1.0f, 0.95f, 0.8f}, .base = 0.55f, .line_mix = 0.85f};
+    static const Uniforms ground = {.tint = {0.16f, 0.17f, 0.20f}, .base = 0.12f, .line_mix = 1.0f};
     const DipDrawState wireframe = {
         .depth_test = DIP_DEPTH_NEARER_OR_EQUAL,
         .fill = DIP_FILL_WIREFRAME,
         .line_width = dip_kit_clamp(
             prism_looks[view->look].line_px * (float)view->target.height / 480.0f, 0.25f, 8.0f)};
-    Content *content = pointer;
-    DipMesh *const *meshes = content->stock.meshes;
+    DipMesh *const *meshes = view->stock->meshes;
     const DipMatrix identity = dip_matrix_identity();
     const DipMatrix below = dip_matrix_translation(0.0, -0.5 * height - 0.16, 0.0);
-    content->solid.base = 0.12f;
-    content->wire = (Uniforms){.tint = {1.0f, 0.95f, 0.8f}, .base = 0.55f, .line_mix = 0.85f};
-    content->ground = (Uniforms){.tint = {0.16f, 0.17f, 0.20f}, .base = 0.12f, .line_mix = 1.0f};
-    if (!prepare_mesh(content, view->time_s, view->look, err)) {
+    if (!prepare_mesh(view, err)) {
         return false;
     }
     DipKitList list = dip_kit_list(view, 0.1, err);
-    dip_kit_add(&list, meshes[PRISM], &content->solid, &identity, shade);
-    dip_kit_add(&list, meshes[FLOOR], &content->ground, &below, shade);
-    dip_kit_add(&list, meshes[PRISM], &content->wire, &identity, shade)->state = &wireframe;
+    dip_kit_add(&list, meshes[PRISM], &solid, &identity, shade);
+    dip_kit_add(&list, meshes[FLOOR], &ground, &below, shade);
+    dip_kit_add(&list, meshes[PRISM], &wire, &identity, shade)->state = &wireframe;
     return dip_kit_show(&list, clear_lin);
 }
 
@@ -184,10 +165,11 @@ const DipGalleryScene dip_gallery_prism = {
              .title = "Tessellated prism",
              .text = "A prism whose sides are tessellated and twisted, with a lit wireframe over "
                      "it. The looks change slices and factors.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+             DIP_KIT_LOOKS("6 slices, fractional factor", "6 slices, factor 64",
+                           "3 slices, fractional factor", "24 slices, factor 9",
+                           "6 slices, whole factor")},
+    .meshes = {[FLOOR] = {DIP_KIT_PRISM, {2.6f, 0.3f, 96, 1}}},
     .content_bytes = sizeof(Content),
     .camera = camera,
-    .create = create,
     .draw = draw,
 };

@@ -1,12 +1,11 @@
 // The gallery scene "quads": pictures that fragment shaders compute by themselves, on three quads.
 //
-// As in seed 001 ("Horrible trick", "Flame", "ShaderToy shader"): rings that move outwards, a flame
-// whose light is summed along rays, and a wobbling sphere over a fluid, found by marching along
-// rays. No texture is read. Multisampling does not help here, since each pixel is shaded once; the
-// rings therefore fade out where they are narrower than two pixels, by their derivatives.
+// They come from seed 001 (gallery.h; "Horrible trick", "Flame", "ShaderToy shader"): rings that
+// move outwards, a flame whose light is summed along rays, and a wobbling sphere over a fluid,
+// which are found by marching along rays. No texture is read. Multisampling does not help here,
+// since each pixel is shaded once. Derivatives tell where rings are narrower than two pixels; there
+// they fade out.
 #include "app/gallery/kit/kit.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
 enum { RINGS, FLAME, BOWL, QUADS, FLAME_STEPS = 20, BOWL_STEPS = 36, SHADOW_STEPS = 8 };
 
@@ -14,13 +13,6 @@ typedef struct Uniforms {
     DipKitObject object;
     float turns; // time as turns of the loop, 0..1
 } Uniforms;
-
-typedef struct Content {
-    DipKitStock stock;
-    Uniforms uniforms[QUADS];
-} Content;
-
-static const char *const looks[] = {"three quads"};
 
 typedef float Lanes[DIP_FRAGMENT_BATCH];
 
@@ -40,12 +32,11 @@ static void shade_rings(DipFragmentBatch *batch) {
             fabsf(batch->varying_dx[DIP_KIT_UV][i]) + fabsf(batch->varying_dy[DIP_KIT_UV][i]);
         const float dv = fabsf(batch->varying_dx[DIP_KIT_UV + 1][i]) +
                          fabsf(batch->varying_dy[DIP_KIT_UV + 1][i]);
-        const float fade = dip_kit_smooth(0.5f, 0.2f, 0.5f * rings * (du > dv ? du : dv));
+        const float fade = dip_kit_smooth(0.5f, 0.2f, 0.5f * rings * dip_kit_greatest(du, dv));
         const float grey = 0.5f + 0.5f * wave * fade;
         const float warm = 1.0f - distance;
-        batch->colour[0][i] = grey * (0.30f + 0.65f * warm);
-        batch->colour[1][i] = grey * 0.62f;
-        batch->colour[2][i] = grey * (1.0f - 0.55f * warm);
+        dip_kit_set(batch->colour, i, grey * (0.30f + 0.65f * warm), grey * 0.62f,
+                    grey * (1.0f - 0.55f * warm));
     }
 }
 
@@ -80,53 +71,60 @@ static void shade_flame(DipFragmentBatch *batch) {
         const float g = glow[i] * (2.4f / FLAME_STEPS) * (1.15f - y);
         const float c = core[i] * (2.6f / FLAME_STEPS);
         const float blue = dip_kit_smooth(0.26f, 0.04f, y) * g;
-        batch->colour[0][i] = 0.010f + 0.95f * g + 0.5f * c;
-        batch->colour[1][i] = 0.008f + 0.26f * g * g + 0.75f * c;
-        batch->colour[2][i] = 0.014f + 0.02f * g + 0.30f * c * c + 0.8f * blue * (1.0f - 0.6f * c);
+        dip_kit_set(batch->colour, i, 0.010f + 0.95f * g + 0.5f * c,
+                    0.008f + 0.26f * g * g + 0.75f * c,
+                    0.014f + 0.02f * g + 0.30f * c * c + 0.8f * blue * (1.0f - 0.6f * c));
     }
 }
 
 // --- the sphere over the fluid -------------------------------------------------------------------
 
-// Height of the fluid's surface.
-static inline float fluid_at(float x, float z, float turns) {
-    return -1.0f + 0.13f * dip_kit_wave(0.31f * x + 4.0f * turns) +
-           0.11f * dip_kit_wave(0.37f * z - 0.15f * x - 5.0f * turns) +
-           0.04f * dip_kit_wave(0.9f * x + 0.7f * z + 8.0f * turns);
+// Returns the height of the fluid's surface above a point of the x-z plane.
+static inline float fluid_at(DipKitVector p, float turns) {
+    return -1.0f + 0.13f * dip_kit_wave(0.31f * p.x + 4.0f * turns) +
+           0.11f * dip_kit_wave(0.37f * p.z - 0.15f * p.x - 5.0f * turns) +
+           0.04f * dip_kit_wave(0.9f * p.x + 0.7f * p.z + 8.0f * turns);
 }
 
-// Signed distance, roughly, of a point from the sphere, whose surface waves distort.
-static inline float sphere_at(float x, float y, float z, float turns) {
-    const float bumps = dip_kit_wave(0.5f * x + 3.0f * turns) +
-                        dip_kit_wave(0.6f * y - 6.0f * turns) +
-                        dip_kit_wave(0.55f * z + 5.0f * turns);
-    return sqrtf(x * x + y * y + z * z) - 0.86f - 0.07f * bumps;
+// Returns roughly the signed distance of a point from the sphere, whose surface waves distort.
+static inline float sphere_at(DipKitVector p, float turns) {
+    const float bumps = dip_kit_wave(0.5f * p.x + 3.0f * turns) +
+                        dip_kit_wave(0.6f * p.y - 6.0f * turns) +
+                        dip_kit_wave(0.55f * p.z + 5.0f * turns);
+    return sqrtf(dip_kit_dot(p, p)) - 0.86f - 0.07f * bumps;
 }
 
-static inline float scene_at(float x, float y, float z, float turns) {
-    const float sphere = sphere_at(x, y, z, turns);
-    const float fluid = 0.75f * (y - fluid_at(x, z, turns));
-    return sphere < fluid ? sphere : fluid;
+// Returns roughly the distance of a point from the fluid.
+static inline float above_fluid(DipKitVector p, float turns) {
+    return 0.75f * (p.y - fluid_at(p, turns));
 }
 
+static inline float scene_at(DipKitVector p, float turns) {
+    return dip_kit_least(sphere_at(p, turns), above_fluid(p, turns));
+}
+
+// Returns a point that lies on the way from a to b: 0 is a, 1 is b.
+static inline DipKitVector point_between(DipKitVector a, DipKitVector b, float share) {
+    return dip_kit_plus(a, dip_kit_times(dip_kit_minus(b, a), share));
+}
+
+// Rays that begin at the eye of the fluid's picture.
 typedef struct March {
-    Lanes x, y, z;    // points that the rays have reached
-    Lanes dx, dy, dz; // directions, of unit length
-    Lanes shadow;     // share of the light
-    float light[3];   // where the light is
+    Lanes points[3];    // the points that the rays have reached
+    Lanes rays[3];      // directions, of unit length
+    Lanes shadow;       // share of the light that reaches each point
+    DipKitVector light; // where the light is
 } March;
+
+static const DipKitVector bowl_eye = {0.0f, 0.85f, 3.4f};
 
 static void begin_march(const DipFragmentBatch *batch, March *march) {
     for (int i = 0; i < batch->count; i++) {
-        const float dx = 1.15f * (batch->varying[DIP_KIT_UV][i] - 0.5f);
-        const float dy = 1.15f * (0.5f - batch->varying[DIP_KIT_UV + 1][i]) - 0.22f;
-        const float scale = 1.0f / sqrtf(dx * dx + dy * dy + 1.0f);
-        march->x[i] = 0.0f;
-        march->y[i] = 0.85f;
-        march->z[i] = 3.4f;
-        march->dx[i] = dx * scale;
-        march->dy[i] = dy * scale;
-        march->dz[i] = -scale;
+        const DipKitVector ray = {1.15f * (batch->varying[DIP_KIT_UV][i] - 0.5f),
+                                  1.15f * (0.5f - batch->varying[DIP_KIT_UV + 1][i]) - 0.22f,
+                                  -1.0f};
+        dip_kit_put(march->points, i, bowl_eye);
+        dip_kit_put(march->rays, i, dip_kit_times(ray, dip_kit_per_length(ray, 0.0f)));
     }
 }
 
@@ -138,47 +136,36 @@ static void find_shadows(int count, float turns, March *march) {
     for (int s = 0; s < SHADOW_STEPS; s++) {
         const float way = 0.06f + 0.94f * ((float)s + 0.5f) / SHADOW_STEPS;
         for (int i = 0; i < count; i++) {
-            const float x = march->x[i] + way * (march->light[0] - march->x[i]);
-            const float y = march->y[i] + way * (march->light[1] - march->y[i]);
-            const float z = march->z[i] + way * (march->light[2] - march->z[i]);
-            const float open =
-                dip_kit_clamp(0.5f + 2.2f * sphere_at(x, y, z, turns) / way, 0.0f, 1.0f);
-            march->shadow[i] = open < march->shadow[i] ? open : march->shadow[i];
+            const DipKitVector p = point_between(dip_kit_get(march->points, i), march->light, way);
+            const float open = dip_kit_clamp(0.5f + 2.2f * sphere_at(p, turns) / way, 0.0f, 1.0f);
+            march->shadow[i] = dip_kit_least(open, march->shadow[i]);
         }
     }
 }
 
-static void shade_hit(DipFragmentBatch *batch, const March *march, float turns, int i) {
-    static const float step = 0.02f;
-    const float x = march->x[i];
-    const float y = march->y[i];
-    const float z = march->z[i];
-    const float here = scene_at(x, y, z, turns);
-    float nx = scene_at(x + step, y, z, turns) - here;
-    float ny = scene_at(x, y + step, z, turns) - here;
-    float nz = scene_at(x, y, z + step, turns) - here;
-    const float n = 1.0f / sqrtf(nx * nx + ny * ny + nz * nz + 1e-12f);
-    nx *= n;
-    ny *= n;
-    nz *= n;
-    const float lx = march->light[0] - x;
-    const float ly = march->light[1] - y;
-    const float lz = march->light[2] - z;
-    const float l = 1.0f / sqrtf(lx * lx + ly * ly + lz * lz);
-    const float toward = (nx * lx + ny * ly + nz * lz) * l;
-    const float facing = -(nx * march->dx[i] + ny * march->dy[i] + nz * march->dz[i]);
-    const float rx = march->dx[i] + 2.0f * facing * nx;
-    const float ry = march->dy[i] + 2.0f * facing * ny;
-    const float rz = march->dz[i] + 2.0f * facing * nz;
-    const float mirror = (rx * lx + ry * ly + rz * lz) * l;
-    const float highlight = dip_kit_power(mirror > 0.0f ? mirror : 0.0f, 5);
-    const float rim = dip_kit_power(1.0f - dip_kit_clamp(facing, 0.0f, 1.0f), 1);
-    const bool sphere = sphere_at(x, y, z, turns) < 0.75f * (y - fluid_at(x, z, turns));
-    const float lit = (toward > 0.0f ? toward : 0.0f) * march->shadow[i];
-    const float distance = sqrtf(x * x + (y - 0.85f) * (y - 0.85f) + (z - 3.4f) * (z - 3.4f));
-    const float fog = dip_kit_smooth(4.0f, 10.0f, distance);
-    const float body[3] = {sphere ? 0.85f : 0.05f, sphere ? 0.28f : 0.30f, sphere ? 0.14f : 0.42f};
+static void shade_hit(DipFragmentBatch *batch, March *march, float turns, int i) {
     static const float sky[3] = {0.16f, 0.20f, 0.30f};
+    static const float step = 0.02f;
+    const DipKitVector p = dip_kit_get(march->points, i);
+    const DipKitVector ray = dip_kit_get(march->rays, i);
+    const float here = scene_at(p, turns);
+    DipKitVector normal = {scene_at((DipKitVector){p.x + step, p.y, p.z}, turns) - here,
+                           scene_at((DipKitVector){p.x, p.y + step, p.z}, turns) - here,
+                           scene_at((DipKitVector){p.x, p.y, p.z + step}, turns) - here};
+    normal = dip_kit_times(normal, dip_kit_per_length(normal, 1e-12f));
+    const DipKitVector to_light = dip_kit_minus(march->light, p);
+    const float l = dip_kit_per_length(to_light, 0.0f);
+    const float toward = dip_kit_dot(normal, to_light) * l;
+    const float facing = -dip_kit_dot(normal, ray);
+    const DipKitVector mirrored = dip_kit_plus(ray, dip_kit_times(normal, 2.0f * facing));
+    const float mirror = dip_kit_dot(mirrored, to_light) * l;
+    const float highlight = dip_kit_power(dip_kit_greatest(mirror, 0.0f), 5);
+    const float rim = dip_kit_power(1.0f - dip_kit_clamp(facing, 0.0f, 1.0f), 1);
+    const bool sphere = sphere_at(p, turns) < above_fluid(p, turns);
+    const float lit = dip_kit_greatest(toward, 0.0f) * march->shadow[i];
+    const DipKitVector from_eye = dip_kit_minus(p, bowl_eye);
+    const float fog = dip_kit_smooth(4.0f, 10.0f, sqrtf(dip_kit_dot(from_eye, from_eye)));
+    const float body[3] = {sphere ? 0.85f : 0.05f, sphere ? 0.28f : 0.30f, sphere ? 0.14f : 0.42f};
     for (int c = 0; c < 3; c++) {
         const float light =
             body[c] * (0.10f + 1.15f * lit) + 0.7f * highlight * march->shadow[i] + sky[c] * rim;
@@ -187,33 +174,23 @@ static void shade_hit(DipFragmentBatch *batch, const March *march, float turns, 
 }
 
 static void shade_bowl(DipFragmentBatch *batch) {
-    const Uniforms *uniforms = batch->uniforms;
-    const float turns = uniforms->turns;
+    const float turns = ((const Uniforms *)batch->uniforms)->turns;
     March march;
     begin_march(batch, &march);
     for (int s = 0; s < BOWL_STEPS; s++) {
         for (int i = 0; i < batch->count; i++) {
-            const float step = 0.9f * scene_at(march.x[i], march.y[i], march.z[i], turns);
-            const float length = step < 1.0f ? step : 1.0f;
-            march.x[i] += length * march.dx[i];
-            march.y[i] += length * march.dy[i];
-            march.z[i] += length * march.dz[i];
+            const DipKitVector p = dip_kit_get(march.points, i);
+            const float length = dip_kit_least(0.9f * scene_at(p, turns), 1.0f);
+            const DipKitVector way = dip_kit_times(dip_kit_get(march.rays, i), length);
+            dip_kit_put(march.points, i, dip_kit_plus(p, way));
         }
     }
-    march.light[0] = 2.6f * dip_kit_wave(turns);
-    march.light[1] = 2.4f;
-    march.light[2] = 2.6f * dip_kit_wave(turns + 0.25f);
+    march.light =
+        (DipKitVector){2.6f * dip_kit_wave(turns), 2.4f, 2.6f * dip_kit_wave(turns + 0.25f)};
     find_shadows(batch->count, turns, &march);
     for (int i = 0; i < batch->count; i++) {
         shade_hit(batch, &march, turns, i);
     }
-}
-
-// --- content -------------------------------------------------------------------------------------
-
-static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
-    (void)room;
-    return dip_kit_quad(&((DipKitStock *)content)->meshes[0], 2.0f, 2.0f, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -224,18 +201,17 @@ static DipGalleryCamera camera(double turn) {
         .target = {1.9 * dip_sin(turn), 0.0, 0.0}};
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.020f, 0.022f, 0.028f};
     static DipFragmentShader *const shaders[QUADS] = {shade_rings, shade_flame, shade_bowl};
-    Content *content = pointer;
+    const Uniforms uniforms = {.turns = view->turns};
     DipKitList list = dip_kit_list(view, 0.1, err);
     for (int q = 0; q < QUADS; q++) {
         // The outer quads turn towards the middle, like the wings of a triptych.
-        const DipMatrix move = dip_matrix_translation(2.12 * (q - 1), 0.0, q == 1 ? 0.0 : 0.35);
-        const DipMatrix turn = dip_matrix_rotation(1, -0.35 * (q - 1));
-        const DipMatrix model = dip_matrix_multiply(&move, &turn);
-        content->uniforms[q].turns = (float)(view->time_s / DIP_GALLERY_SECONDS);
-        dip_kit_add(&list, content->stock.meshes[0], &content->uniforms[q], &model, shaders[q]);
+        const DipMatrix model =
+            dip_kit_chain(dip_matrix_translation(2.12 * (q - 1), 0.0, q == 1 ? 0.0 : 0.35),
+                          dip_matrix_rotation(1, -0.35 * (q - 1)));
+        dip_kit_add(&list, view->stock->meshes[0], &uniforms, &model, shaders[q]);
     }
     return dip_kit_show(&list, clear_lin);
 }
@@ -246,10 +222,8 @@ const DipGalleryScene dip_gallery_quads = {
              .text =
                  "Rings, a flame and a ray-marched sphere over a fluid, each computed per pixel "
                  "in a fragment shader.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
-    .content_bytes = sizeof(Content),
+             DIP_KIT_LOOKS("three quads")},
+    .meshes = {{DIP_KIT_QUAD, {2.0f, 2.0f}}},
     .camera = camera,
-    .create = create,
     .draw = draw,
 };

@@ -1,13 +1,11 @@
-// The gallery scene "shadow": shadow mapping as seed 000 describes it.
+// The gallery scene "shadow": shadow mapping as seed 000 (gallery.h) describes it.
 //
-// A first pass draws the scene as the lamp sees it, without a colour target: it leaves depths
-// alone. The second pass draws the picture. Its fragment shader takes each point to the lamp's clip
-// space and compares its depth there with the stored one. The looks change the map's resolution
-// and its filter: nearest shows the texels of the map, linear averages four comparisons.
+// A first pass draws the scene as the lamp sees it, without a colour target: it leaves only
+// depths. The second pass draws the picture. Its fragment shader takes each point to the lamp's
+// clip space and compares its depth there with the stored one. The looks change the map's
+// resolution and its filter: nearest shows the texels of the map, linear averages four comparisons.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
 #include <string.h>
 
@@ -24,10 +22,7 @@ static const Look shadow_looks[] = {
     {256, DIP_SHADOW_NEAREST},
     {2048, DIP_SHADOW_NEAREST},
 };
-static const char *const looks[] = {"map of 1024x1024, 2x2 filter", "map of 256x256, 2x2 filter",
-                                    "map of 256x256, nearest", "map of 2048x2048, nearest"};
-
-// What all objects share in a frame.
+// The lamp and its shadow map, which all objects share in a frame.
 typedef struct Lamp {
     float to_clip[16]; // from world space to the lamp's clip space
     DipKitLight light;
@@ -41,16 +36,16 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipKitStock stock;
-    DipGalleryRoom room;
     DipPipeline *pipeline; // of the shadow map's size
     DipDepth *depth;
-    Lamp lamp;
-    Uniforms seen[OBJECTS];
-    DipKitObject casting[OBJECTS]; // the same objects with the lamp as the camera
 } Content;
 
 // --- shaders -------------------------------------------------------------------------------------
+
+// Returns row . (x, y, z, 1).
+static inline float row_at(const float row[4], DipKitVector p) {
+    return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
+}
 
 // Writes the share of the lamp's light that reaches each fragment.
 static void find_lit(DipFragmentBatch *batch, const Lamp *lamp, float *lit) {
@@ -59,31 +54,24 @@ static void find_lit(DipFragmentBatch *batch, const Lamp *lamp, float *lit) {
     float depth[DIP_FRAGMENT_BATCH];
     const float *m = lamp->to_clip;
     for (int i = 0; i < batch->count; i++) {
-        const float x = batch->varying[DIP_KIT_WORLD][i];
-        const float y = batch->varying[DIP_KIT_WORLD + 1][i];
-        const float z = batch->varying[DIP_KIT_WORLD + 2][i];
-        const float w = m[12] * x + m[13] * y + m[14] * z + m[15];
-        const float scale = 1.0f / (w > 0.01f ? w : 0.01f);
-        u[i] = 0.5f + 0.5f * scale * (m[0] * x + m[1] * y + m[2] * z + m[3]);
-        v[i] = 0.5f - 0.5f * scale * (m[4] * x + m[5] * y + m[6] * z + m[7]);
-        depth[i] = scale * (m[8] * x + m[9] * y + m[10] * z + m[11]);
+        const DipKitVector p = dip_kit_get(batch->varying + DIP_KIT_WORLD, i);
+        const float w = row_at(m + 12, p);
+        const float scale = 1.0f / dip_kit_greatest(w, 0.01f);
+        u[i] = 0.5f + 0.5f * scale * row_at(m, p);
+        v[i] = 0.5f - 0.5f * scale * row_at(m + 4, p);
+        depth[i] = scale * row_at(m + 8, p);
     }
     batch->sample_shadow(batch, &lamp->map, u, v, depth, lit);
 }
 
 static void shade(DipFragmentBatch *batch) {
-    static const float sky[3] = {0.035f, 0.045f, 0.075f};
+    static const float sky[3] = {0.14f, 0.18f, 0.30f};
     const Uniforms *uniforms = batch->uniforms;
     float normals[3][DIP_FRAGMENT_BATCH];
     float lit[DIP_FRAGMENT_BATCH];
     const DipKitPoints points = dip_kit_fragment_points(batch, normals);
     find_lit(batch, uniforms->lamp, lit);
-    for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < batch->count; i++) {
-            const float open = 0.7f + 0.3f * normals[1][i];
-            batch->colour[c][i] = sky[c] * open * uniforms->material.diffuse[c] * 4.0f;
-        }
-    }
+    dip_kit_light_sky(sky, 0.7f, &uniforms->material, &points, batch->colour);
     dip_kit_light_add(&uniforms->lamp->light, &uniforms->material, &points, lit, batch->colour);
 }
 
@@ -95,25 +83,14 @@ static void destroy(void *pointer) {
     dip_depth_destroy(&content->depth);
 }
 
-static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
-    DipMesh **meshes = content->stock.meshes;
-    content->room = *room;
-    return dip_kit_sphere(&meshes[SPHERE], 1.0f, 64, 32, err) &&
-           dip_kit_box(&meshes[BOX], 1.0f, 1.0f, 1.0f, err) &&
-           dip_kit_prism(&meshes[COLUMN], 1.0f, 1.0f, 32, true, err) &&
-           dip_kit_plane(&meshes[FLOOR], 40.0f, 40.0f, 20, 20, err);
-}
-
 // Makes the shadow map of the chosen resolution, unless the last frame had the same.
-static bool prepare_map(Content *content, int texels, DipError *err) {
+static bool prepare_map(const DipGalleryView *view, int texels, DipError *err) {
+    Content *content = view->content;
     if (content->depth && dip_depth_width(content->depth) == texels) {
         return true;
     }
-    dip_pipeline_destroy(&content->pipeline);
-    dip_depth_destroy(&content->depth);
-    content->pipeline =
-        dip_pipeline_create(content->room.pool, content->room.isa, texels, texels, err);
+    destroy(content);
+    content->pipeline = dip_pipeline_create(view->def->pool, view->def->isa, texels, texels, err);
     content->depth = content->pipeline ? dip_depth_create(texels, texels, 1, err) : NULL;
     return content->depth != NULL;
 }
@@ -138,73 +115,68 @@ static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *materi
     }
     if (index < 9) { // a ring of columns
         const double angle = 2.0 * DIP_PI * (index - 1) / 8.0;
-        const DipMatrix move =
-            dip_matrix_translation(3.6 * dip_cos(angle), 1.1, 3.6 * dip_sin(angle));
-        const DipMatrix size = dip_matrix_scaling(0.2, 2.2, 0.2);
         *mesh = COLUMN;
-        return dip_matrix_multiply(&move, &size);
+        return dip_kit_chain(
+            dip_matrix_translation(3.6 * dip_cos(angle), 1.1, 3.6 * dip_sin(angle)),
+            dip_matrix_scaling(0.2, 2.2, 0.2));
     }
     *material = (DipKitMaterial){.specular = {0.5f, 0.5f, 0.5f}, .exponent_doubled = 5};
     memcpy(material->diffuse, colours[index - 9], sizeof material->diffuse);
     const double angle = turn + 2.0 * DIP_PI * (index - 9) / 3.0;
     const double height = 0.95 + 0.35 * dip_sin(3.0 * turn + 2.0 * index);
-    const DipMatrix move =
-        dip_matrix_translation(1.5 * dip_cos(angle), height, 1.5 * dip_sin(angle));
-    const DipMatrix spin_y = dip_matrix_rotation(1, 2.0 * turn);
-    const DipMatrix spin_x = dip_matrix_rotation(0, 3.0 * turn);
-    const DipMatrix spin = dip_matrix_multiply(&spin_y, &spin_x);
     const double size = index == 9 ? 0.62 : index == 10 ? 0.95 : 0.5;
-    const DipMatrix scale = dip_matrix_scaling(size, index == 11 ? 1.1 : size, size);
     *mesh = index == 9 ? SPHERE : index == 10 ? BOX : COLUMN;
-    return dip_matrix_multiply3(&move, &spin, &scale);
+    return dip_kit_chain3(
+        dip_matrix_translation(1.5 * dip_cos(angle), height, 1.5 * dip_sin(angle)),
+        dip_kit_chain(dip_matrix_rotation(1, 2.0 * turn), dip_matrix_rotation(0, 3.0 * turn)),
+        dip_matrix_scaling(size, index == 11 ? 1.1 : size, size));
 }
 
 // Moves the lamp on a circle above the ring, shining at its middle.
 static bool set_lamp(Lamp *lamp, double turn, DipKitCamera *from_lamp, DipError *err) {
-    static const double middle[3] = {0.0, 0.4, 0.0};
+    const DipGalleryCamera at = {.eye = {4.4 * dip_cos(-turn), 6.2, 4.4 * dip_sin(-turn)},
+                                 .target = {0.0, 0.4, 0.0}};
     const DipPerspective lens = {.fov_deg = 84.0, .aspect = 1.0, .near_distance = 0.5};
-    const double eye[3] = {4.4 * dip_cos(-turn), 6.2, 4.4 * dip_sin(-turn)};
+    double way[3];
+    double squared = 0.0;
     lamp->light = (DipKitLight){.kind = DIP_KIT_SPOT,
                                 .colour = {3.4f, 3.0f, 2.4f},
                                 .reach = 7.0f,
                                 .inner_cos = 0.86f,
                                 .outer_cos = 0.76f};
-    double length = 0.0;
     for (int i = 0; i < 3; i++) {
-        lamp->light.position[i] = (float)eye[i];
-        length += (middle[i] - eye[i]) * (middle[i] - eye[i]);
+        way[i] = at.target[i] - at.eye[i];
+        squared += way[i] * way[i];
     }
     for (int i = 0; i < 3; i++) {
-        lamp->light.direction[i] = (float)((middle[i] - eye[i]) / sqrt(length));
+        lamp->light.position[i] = (float)at.eye[i];
+        lamp->light.direction[i] = (float)(way[i] / sqrt(squared));
     }
-    if (!dip_kit_look_at(from_lamp, eye, middle, &lens, err)) {
-        return false;
-    }
+    const bool made = dip_kit_look_at(from_lamp, &at, &lens, err);
     dip_matrix_floats(&from_lamp->to_clip, lamp->to_clip);
-    return true;
+    return made;
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.015f, 0.02f, 0.035f};
-    // The bias that 2x2 comparisons need: twice the slope, and a few units for rounding.
+    static const DipKitObject plain;
+    // 2x2 comparisons need this bias: twice the slope, and a few units for rounding.
     static const DipDrawState caster = {.depth_bias = {.slope = -2.0f, .relative = -8.0f}};
     const Look *look = &shadow_looks[view->look];
-    Content *content = pointer;
+    const Content *content = view->content;
+    Lamp lamp;
     DipKitList list = dip_kit_list(view, 0.1, err);
     DipKitList shadows = {.view = view, .err = err};
-    if (!prepare_map(content, look->texels, err) ||
-        !set_lamp(&content->lamp, view->turn, &shadows.seen, err)) {
+    if (!prepare_map(view, look->texels, err) || !set_lamp(&lamp, view->turn, &shadows.seen, err)) {
         return false;
     }
-    content->lamp.map = (DipShadowMap){content->depth, look->filter};
+    lamp.map = (DipShadowMap){content->depth, look->filter};
     for (int i = 0; i < OBJECTS; i++) {
-        Uniforms *uniforms = &content->seen[i];
-        int index;
-        const DipMatrix model = place(i, view->turn, &index, &uniforms->material);
-        const DipMesh *mesh = content->stock.meshes[index];
-        uniforms->lamp = &content->lamp;
-        dip_kit_add(&list, mesh, uniforms, &model, shade);
-        dip_kit_add(&shadows, mesh, &content->casting[i], &model, NULL)->state = &caster;
+        Uniforms uniforms = {.lamp = &lamp};
+        int mesh;
+        const DipMatrix model = place(i, view->turn, &mesh, &uniforms.material);
+        dip_kit_add(&list, view->stock->meshes[mesh], &uniforms, &model, shade);
+        dip_kit_add(&shadows, view->stock->meshes[mesh], &plain, &model, NULL)->state = &caster;
     }
     const DipPass shadow_pass = {
         .draws = shadows.draws,
@@ -222,11 +194,14 @@ const DipGalleryScene dip_gallery_shadow = {
              .title = "Shadow mapping",
              .text = "Shadows of a moving lamp from a depth-only pass. The looks change the map's "
                      "resolution and filter.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+             DIP_KIT_LOOKS("map of 1024x1024, 2x2 filter", "map of 256x256, 2x2 filter",
+                           "map of 256x256, nearest", "map of 2048x2048, nearest")},
+    .meshes = {[SPHERE] = {DIP_KIT_SPHERE, {1.0f, 64, 32}},
+               [BOX] = {DIP_KIT_BOX, {1.0f, 1.0f, 1.0f}},
+               [COLUMN] = {DIP_KIT_PRISM, {1.0f, 1.0f, 32, 1}},
+               [FLOOR] = {DIP_KIT_PLANE, {40.0f, 40.0f, 20, 20}}},
     .content_bytes = sizeof(Content),
     .camera = camera,
-    .create = create,
     .destroy = destroy,
     .draw = draw,
 };

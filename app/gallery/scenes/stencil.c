@@ -1,19 +1,18 @@
-// The gallery scene "stencil": a mirror and an outline, drawn with stencil masks as in seed 001.
+// The gallery scene "stencil": a mirror and an outline, drawn with stencil masks.
 //
-// The mirror in the floor: (1) its surface writes 1 into the stencil buffer and no colour. (2) The
-// objects are drawn upside down, but only where the stencil value is 1. (3) The glass is blended
-// over them. The outline: the middle object writes 2, and is then drawn a little larger and in one
-// colour where the stencil value is not 2. The inset draws the same masks by themselves and then
-// fills each value with a colour.
+// Both techniques come from seed 001 (gallery.h). The mirror in the floor is drawn in three steps.
+// Its surface first writes 1 into the stencil buffer and no colour. The objects are then drawn
+// upside down, but only where the stencil value is 1. At last the glass is blended over them. For
+// the outline, the middle object writes 2, and is then drawn a little larger and in one colour
+// where the stencil value is not 2. The inset draws only the masks and fills each value with a
+// colour.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
 #include <string.h>
 
 enum { SPHERE, BOX, PRISM, PLANE, QUAD };
-enum { OBJECTS = 5, OUTLINED = 0, DRAWS = 2 * OBJECTS + 6, MIRROR_VALUE = 1, OUTLINE_VALUE = 2 };
+enum { OBJECTS = 5, OUTLINED = 0, MIRROR_VALUE = 1, OUTLINE_VALUE = 2 };
 
 typedef struct Uniforms {
     DipKitObject object;
@@ -21,33 +20,24 @@ typedef struct Uniforms {
     float alpha;
 } Uniforms;
 
-typedef struct Content {
-    DipKitStock stock;
-    Uniforms uniforms[DRAWS];
-} Content;
-
-static const char *const looks[] = {"mirror, outline and mask", "the masks alone"};
-
 #define FACE(test, result)                                                                         \
     { test, DIP_STENCIL_KEEP, DIP_STENCIL_KEEP, result }
 #define STENCIL(value, test, result)                                                               \
     { true, value, 0xff, 0xff, FACE(test, result), FACE(test, result) }
+#define EQUAL(value) STENCIL(value, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)
 
 enum { NO_COLOUR = DIP_CHANNEL_RED | DIP_CHANNEL_GREEN | DIP_CHANNEL_BLUE | DIP_CHANNEL_ALPHA };
 
-// Writes the mirror's mask and the depth of infinity is left, so that mirrored objects are drawn
-// into the floor.
+// Writes the mirror's mask, and leaves the depths at infinity, so that the mirrored objects, which
+// lie below the floor, pass the depth test.
 static const DipDrawState mark_mirror = {
     .kept_channels = NO_COLOUR,
     .keep_depth = true,
     .stencil = STENCIL(MIRROR_VALUE, DIP_COMPARE_ALWAYS, DIP_STENCIL_REPLACE)};
-static const DipDrawState inside_mirror = {
-    .stencil = STENCIL(MIRROR_VALUE, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
+static const DipDrawState inside_mirror = {.stencil = EQUAL(MIRROR_VALUE)};
 // The glass replaces the depths of the mirrored objects by its own.
-static const DipDrawState glass = {.blend = DIP_BLEND_MODE_ALPHA,
-                                   .depth_test = DIP_DEPTH_ALWAYS,
-                                   .stencil =
-                                       STENCIL(MIRROR_VALUE, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
+static const DipDrawState glass = {
+    .blend = DIP_BLEND_MODE_ALPHA, .depth_test = DIP_DEPTH_ALWAYS, .stencil = EQUAL(MIRROR_VALUE)};
 static const DipDrawState mark_object = {
     .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_ALWAYS, DIP_STENCIL_REPLACE)};
 static const DipDrawState outside_object = {
@@ -55,15 +45,11 @@ static const DipDrawState outside_object = {
     .keep_depth = true,
     .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_NOT_EQUAL, DIP_STENCIL_KEEP)};
 static const DipDrawState plain_ordered = {.ordered = true};
-// For the inset: fills the pixels of one stencil value.
-static const DipDrawState fill_none = {.depth_test = DIP_DEPTH_ALWAYS,
-                                       .stencil = STENCIL(0, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
-static const DipDrawState fill_mirror = {
-    .depth_test = DIP_DEPTH_ALWAYS,
-    .stencil = STENCIL(MIRROR_VALUE, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
-static const DipDrawState fill_object = {
-    .depth_test = DIP_DEPTH_ALWAYS,
-    .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
+// For the inset: each fills the pixels of one stencil value.
+static const DipDrawState fills[] = {
+    {.depth_test = DIP_DEPTH_ALWAYS, .stencil = EQUAL(0)},
+    {.depth_test = DIP_DEPTH_ALWAYS, .stencil = EQUAL(MIRROR_VALUE)},
+    {.depth_test = DIP_DEPTH_ALWAYS, .stencil = EQUAL(OUTLINE_VALUE)}};
 
 // --- shaders -------------------------------------------------------------------------------------
 
@@ -75,12 +61,7 @@ static void shade(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     float normals[3][DIP_FRAGMENT_BATCH];
     const DipKitPoints points = dip_kit_fragment_points(batch, normals);
-    for (int c = 0; c < 3; c++) {
-        for (int i = 0; i < batch->count; i++) {
-            batch->colour[c][i] =
-                sky[c] * (0.75f + 0.25f * normals[1][i]) * uniforms->material.diffuse[c];
-        }
-    }
+    dip_kit_light_sky(sky, 0.75f, &uniforms->material, &points, batch->colour);
     dip_kit_light_add(&sun, &uniforms->material, &points, NULL, batch->colour);
 }
 
@@ -92,18 +73,6 @@ static void shade_flat(DipFragmentBatch *batch) {
         }
         batch->alpha[i] = uniforms->alpha;
     }
-}
-
-// --- content -------------------------------------------------------------------------------------
-
-static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
-    DipMesh **meshes = ((DipKitStock *)content)->meshes;
-    (void)room;
-    return dip_kit_sphere(&meshes[SPHERE], 0.8f, 64, 32, err) &&
-           dip_kit_box(&meshes[BOX], 1.2f, 1.2f, 1.2f, err) &&
-           dip_kit_prism(&meshes[PRISM], 0.7f, 1.4f, 6, false, err) &&
-           dip_kit_plane(&meshes[PLANE], 1.0f, 1.0f, 16, 16, err) &&
-           dip_kit_quad(&meshes[QUAD], 2.0f, 2.0f, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -124,39 +93,35 @@ static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *materi
     const double angle = 2.0 * DIP_PI * (index - 1) / (OBJECTS - 1) + 2.0 * turn + 0.4;
     const double radius = index == OUTLINED ? 0.0 : 2.35;
     const double height = index == OUTLINED ? 1.9 : 1.3;
-    const DipMatrix move = dip_matrix_translation(radius * dip_cos(angle),
-                                                  height + 0.25 * dip_sin(3.0 * turn + 1.6 * index),
-                                                  radius * dip_sin(angle));
-    const DipMatrix spin_x = dip_matrix_rotation(0, 0.5 + 2.0 * turn);
-    const DipMatrix spin_y = dip_matrix_rotation(1, 3.0 * turn + index);
     *mesh = index == OUTLINED ? PRISM : index % 2 ? SPHERE : BOX;
     *material = (DipKitMaterial){.specular = {0.5f, 0.5f, 0.5f}, .exponent_doubled = 6};
     memcpy(material->diffuse, colours[index], sizeof material->diffuse);
-    return dip_matrix_multiply3(&move, &spin_y, &spin_x);
+    return dip_kit_chain3(dip_matrix_translation(radius * dip_cos(angle),
+                                                 height + 0.25 * dip_sin(3.0 * turn + 1.6 * index),
+                                                 radius * dip_sin(angle)),
+                          dip_matrix_rotation(1, 3.0 * turn + index),
+                          dip_matrix_rotation(0, 0.5 + 2.0 * turn));
 }
 
-// Appends a draw whose uniforms begin as a copy of `look`, and returns it.
-static DipDraw *add(Content *content, DipKitList *list, int mesh, const DipMatrix *model,
-                    const Uniforms *look, DipFragmentShader *shader, const DipDrawState *state) {
-    Uniforms *uniforms = &content->uniforms[list->count];
-    *uniforms = *look;
-    DipDraw *draw = dip_kit_add(list, content->stock.meshes[mesh], uniforms, model, shader);
+// Appends a draw and returns it.
+static DipDraw *add(DipKitList *list, int mesh, const DipMatrix *model, const Uniforms *look,
+                    DipFragmentShader *shader, const DipDrawState *state) {
+    DipDraw *draw = dip_kit_add(list, list->view->stock->meshes[mesh], look, model, shader);
     draw->state = state;
     return draw;
 }
 
 // Adds the objects; `outside` is applied to them last. In the mirror they wind the other way round.
-static void add_objects(Content *content, DipKitList *list, const DipMatrix *outside,
-                        bool mirrored) {
+static void add_objects(DipKitList *list, DipMatrix outside, bool mirrored) {
     for (int i = OBJECTS - 1; i >= 0; i--) {
         int mesh;
         Uniforms look = {.alpha = 1.0f};
-        const DipMatrix place_now = place(i, list->view->turn, &mesh, &look.material);
-        const DipMatrix model = dip_matrix_multiply(outside, &place_now);
+        const DipMatrix model =
+            dip_kit_chain(outside, place(i, list->view->turn, &mesh, &look.material));
         const DipDrawState *state = mirrored        ? &inside_mirror
                                     : i == OUTLINED ? &mark_object
                                                     : &plain_ordered;
-        add(content, list, mesh, &model, &look, shade, state)->cull =
+        add(list, mesh, &model, &look, shade, state)->cull =
             mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
     }
 }
@@ -164,51 +129,44 @@ static void add_objects(Content *content, DipKitList *list, const DipMatrix *out
 static const Uniforms mirror_look = {.material = {.diffuse = {0.10f, 0.13f, 0.17f}},
                                      .alpha = 0.30f};
 
-static bool draw_picture(Content *content, const DipGalleryView *view, DipError *err) {
+static bool draw_picture(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.36f, 0.43f, 0.52f};
     static const double up[3] = {0.0, 1.0, 0.0};
     static const Uniforms floor_look = {.material = {{0.52f, 0.47f, 0.40f}, {0, 0, 0}, 1}};
     static const Uniforms rim_look = {.material = {{0.10f, 0.09f, 0.08f}, {0.3f, 0.3f, 0.3f}, 4}};
     static const Uniforms outline_look = {.material = {.diffuse = {1.0f, 0.85f, 0.25f}},
                                           .alpha = 1.0f};
-    const DipMatrix identity = dip_matrix_identity();
-    const DipMatrix upside_down = dip_matrix_reflection(up, 0.0);
     const DipMatrix mirror = dip_matrix_scaling(6.2, 1.0, 6.2);
-    const DipMatrix low = dip_matrix_translation(0.0, -0.06, 0.0);
-    const DipMatrix wide = dip_matrix_scaling(6.6, 1.0, 6.6);
-    const DipMatrix rim = dip_matrix_multiply(&low, &wide);
-    const DipMatrix lower = dip_matrix_translation(0.0, -0.12, 0.0);
-    const DipMatrix wider = dip_matrix_scaling(60.0, 1.0, 60.0);
-    const DipMatrix ground = dip_matrix_multiply(&lower, &wider);
+    const DipMatrix rim =
+        dip_kit_chain(dip_matrix_translation(0.0, -0.06, 0.0), dip_matrix_scaling(6.6, 1.0, 6.6));
+    const DipMatrix ground =
+        dip_kit_chain(dip_matrix_translation(0.0, -0.12, 0.0), dip_matrix_scaling(60.0, 1.0, 60.0));
     int mesh;
     DipKitMaterial material;
-    const DipMatrix outlined = place(OUTLINED, view->turn, &mesh, &material);
-    const DipMatrix grow = dip_matrix_scaling(1.09, 1.09, 1.09);
-    const DipMatrix grown = dip_matrix_multiply(&outlined, &grow);
+    const DipMatrix grown = dip_kit_chain(place(OUTLINED, view->turn, &mesh, &material),
+                                          dip_matrix_scaling(1.09, 1.09, 1.09));
     DipKitList list = dip_kit_list(view, 0.1, err);
     // The mirrored objects lie below the floor. They must be drawn before it, and the glass then
     // covers their depths, so that the floor around the mirror hides nothing of them.
-    add(content, &list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror);
-    add_objects(content, &list, &upside_down, true);
-    add(content, &list, PLANE, &mirror, &mirror_look, shade_flat, &glass);
-    add(content, &list, PLANE, &rim, &rim_look, shade, &plain_ordered);
-    add(content, &list, PLANE, &ground, &floor_look, shade, &plain_ordered);
-    add_objects(content, &list, &identity, false);
-    add(content, &list, mesh, &grown, &outline_look, shade_flat, &outside_object);
+    add(&list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror);
+    add_objects(&list, dip_matrix_reflection(up, 0.0), true);
+    add(&list, PLANE, &mirror, &mirror_look, shade_flat, &glass);
+    add(&list, PLANE, &rim, &rim_look, shade, &plain_ordered);
+    add(&list, PLANE, &ground, &floor_look, shade, &plain_ordered);
+    add_objects(&list, dip_matrix_identity(), false);
+    add(&list, mesh, &grown, &outline_look, shade_flat, &outside_object);
     return dip_kit_show(&list, clear_lin);
 }
 
 // Draws the masks into a rectangle of the picture: first the stencil values without any colour,
 // then a quad over everything for each value.
-static bool draw_mask(Content *content, const DipGalleryView *view, const DipTargetRegion *inset,
-                      DipError *err) {
+static bool draw_mask(const DipGalleryView *view, const DipTargetRegion *inset, DipError *err) {
     static const DipDrawState mark_object_only = {
         .kept_channels = NO_COLOUR,
         .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_ALWAYS, DIP_STENCIL_REPLACE)};
-    static const Uniforms fills[3] = {{.material = {.diffuse = {0.02f, 0.02f, 0.03f}}},
+    static const Uniforms looks[3] = {{.material = {.diffuse = {0.02f, 0.02f, 0.03f}}},
                                       {.material = {.diffuse = {0.20f, 0.55f, 0.85f}}},
                                       {.material = {.diffuse = {1.0f, 0.85f, 0.25f}}}};
-    static const DipDrawState *const states[3] = {&fill_none, &fill_mirror, &fill_object};
     static const float black[3] = {0.0f, 0.0f, 0.0f};
     const DipMatrix mirror = dip_matrix_scaling(6.2, 1.0, 6.2);
     const DipMatrix front = dip_matrix_translation(0.0, 0.0, 0.5);
@@ -216,11 +174,11 @@ static bool draw_mask(Content *content, const DipGalleryView *view, const DipTar
     Uniforms look = {.alpha = 1.0f};
     const DipMatrix outlined = place(OUTLINED, view->turn, &mesh, &look.material);
     DipKitList list = dip_kit_list(view, 0.1, err);
-    add(content, &list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror);
-    add(content, &list, mesh, &outlined, &look, shade_flat, &mark_object_only);
+    add(&list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror);
+    add(&list, mesh, &outlined, &look, shade_flat, &mark_object_only);
     list.seen = (DipKitCamera){.to_clip = dip_matrix_identity()};
     for (int value = 0; value < 3; value++) {
-        add(content, &list, QUAD, &front, &fills[value], shade_flat, states[value]);
+        add(&list, QUAD, &front, &looks[value], shade_flat, &fills[value]);
     }
     DipPass pass = dip_kit_pass(view, list.draws, list.count, black);
     pass.attachments.colour_load = DIP_LOAD_KEEP;
@@ -228,15 +186,14 @@ static bool draw_mask(Content *content, const DipGalleryView *view, const DipTar
     return !list.failed && dip_kit_draw(view, view->pipeline, &pass, err);
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     const int width = view->target.width;
     const int height = view->target.height;
     const DipTargetRegion whole = {0, 0, width, height};
     const DipTargetRegion corner = {width - width / 4 - width / 40, height / 30, width - width / 40,
                                     height / 30 + height / 4};
     const bool alone = view->look == 1 || corner.x1 <= corner.x0 || corner.y1 <= corner.y0;
-    return draw_picture(pointer, view, err) &&
-           draw_mask(pointer, view, alone ? &whole : &corner, err);
+    return draw_picture(view, err) && draw_mask(view, alone ? &whole : &corner, err);
 }
 
 const DipGalleryScene dip_gallery_stencil = {
@@ -244,10 +201,12 @@ const DipGalleryScene dip_gallery_stencil = {
              .title = "Stencil: mirror and outline",
              .text = "A mirror in the floor and an outline, each masked by the stencil buffer. The "
                      "inset shows the masks.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
-    .content_bytes = sizeof(Content),
+             DIP_KIT_LOOKS("mirror, outline and mask", "the masks alone")},
+    .meshes = {[SPHERE] = {DIP_KIT_SPHERE, {0.8f, 64, 32}},
+               [BOX] = {DIP_KIT_BOX, {1.2f, 1.2f, 1.2f}},
+               [PRISM] = {DIP_KIT_PRISM, {0.7f, 1.4f, 6, 0}},
+               [PLANE] = {DIP_KIT_PLANE, {1.0f, 1.0f, 16, 16}},
+               [QUAD] = {DIP_KIT_QUAD, {2.0f, 2.0f}}},
     .camera = camera,
-    .create = create,
     .draw = draw,
 };

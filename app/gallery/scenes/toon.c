@@ -1,11 +1,9 @@
-// The gallery scene "toon": toon shading as in seed 001, with an outline.
+// The gallery scene "toon": toon shading as in seed 001 (gallery.h), with outlines.
 //
 // The fragment shader replaces the smooth intensity of the light by steps: the seed's four, or a
-// number of equal bands. The highlight has steps, too. The outline needs no stencil: each object is
-// drawn once more, a little larger and in a dark colour, and only its back faces.
+// number of equal bands. The highlight has steps, too. Outlines need no stencil: of each object,
+// the back faces are drawn once more, a little larger and in a dark colour.
 #include "app/gallery/kit/kit.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
 #include <string.h>
 
@@ -16,15 +14,9 @@ typedef struct Uniforms {
     float colour[3];
     float light[3]; // unit vector towards the light
     int step_size;  // 256 intensities are divided into bands of this size; 0: the seed's four steps
-    float grow;     // outline: distance by which vertices move along their normals
+    float grow;     // outline: how far vertices move along their normals, at distance 1
 } Uniforms;
 
-typedef struct Content {
-    DipKitStock stock;
-    Uniforms uniforms[2 * OBJECTS];
-} Content;
-
-static const char *const looks[] = {"four steps", "8 bands", "5 bands", "16 bands"};
 static const int step_sizes[] = {0, 32, 52, 16};
 
 // --- shaders -------------------------------------------------------------------------------------
@@ -42,25 +34,21 @@ static float banded(float intensity, int step_size) {
 
 static void shade(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
-    const float *eye = uniforms->object.eye;
+    const DipKitVector eye = dip_kit_vector(uniforms->object.eye);
+    const DipKitVector light = dip_kit_vector(uniforms->light);
     for (int i = 0; i < batch->count; i++) {
-        const float x = batch->varying[DIP_KIT_NORMAL][i];
-        const float y = batch->varying[DIP_KIT_NORMAL + 1][i];
-        const float z = batch->varying[DIP_KIT_NORMAL + 2][i];
-        const float unit = 1.0f / sqrtf(x * x + y * y + z * z + 1e-30f);
-        const float toward =
-            unit * (x * uniforms->light[0] + y * uniforms->light[1] + z * uniforms->light[2]);
-        const float ex = eye[0] - batch->varying[DIP_KIT_WORLD][i];
-        const float ey = eye[1] - batch->varying[DIP_KIT_WORLD + 1][i];
-        const float ez = eye[2] - batch->varying[DIP_KIT_WORLD + 2][i];
-        const float e = 1.0f / sqrtf(ex * ex + ey * ey + ez * ez);
+        const DipKitVector normal = dip_kit_get(batch->varying + DIP_KIT_NORMAL, i);
+        const float unit = dip_kit_per_length(normal, 1e-30f);
+        const float toward = unit * dip_kit_dot(normal, light);
+        const DipKitVector to_eye =
+            dip_kit_minus(eye, dip_kit_get(batch->varying + DIP_KIT_WORLD, i));
+        const float e = dip_kit_per_length(to_eye, 0.0f);
         // The eye's vector is compared with the light's mirrored vector, 2 (n.l) n - l.
-        const float along = unit * (x * ex + y * ey + z * ez) * e;
-        const float across =
-            (uniforms->light[0] * ex + uniforms->light[1] * ey + uniforms->light[2] * ez) * e;
+        const float along = unit * dip_kit_dot(normal, to_eye) * e;
+        const float across = dip_kit_dot(light, to_eye) * e;
         const float mirrored = 2.0f * toward * along - across;
-        const float peak = dip_kit_power(mirrored > 0.0f ? mirrored : 0.0f, 5);
-        const float lit = toward > 0.0f ? toward : 0.0f;
+        const float peak = dip_kit_power(dip_kit_greatest(mirrored, 0.0f), 5);
+        const float lit = dip_kit_greatest(toward, 0.0f);
         const int step = uniforms->step_size;
         const float diffuse = step ? banded(lit, step) : four_steps(lit);
         const float highlight = step ? banded(peak, step) : peak > 0.1f ? four_steps(peak) : 0.0f;
@@ -73,13 +61,11 @@ static void shade(DipFragmentBatch *batch) {
 
 static void shade_outline(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
-        batch->colour[0][i] = 0.012f;
-        batch->colour[1][i] = 0.010f;
-        batch->colour[2][i] = 0.022f;
+        dip_kit_set(batch->colour, i, 0.012f, 0.010f, 0.022f);
     }
 }
 
-// Moves each vertex along its normal. The distance grows with that of the eye, so that lines have
+// Moves each vertex along its normal, farther the farther it is from the eye, so that outlines have
 // the same width everywhere.
 static void outline_vertex(const DipVertexBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
@@ -149,7 +135,7 @@ static void knot_ring(double t, float (*vertices)[DIP_SHAPE_ATTRIBUTES]) {
     }
 }
 
-static bool make_knot(DipMesh **mesh, DipError *err) {
+static bool create(DipGalleryRoom *room, DipError *err) {
     enum { COLUMNS = AROUND + 1 };
     static float vertices[(ALONG + 1) * COLUMNS][DIP_SHAPE_ATTRIBUTES];
     static uint32_t indices[ALONG * AROUND * 6];
@@ -168,16 +154,8 @@ static bool make_knot(DipMesh **mesh, DipError *err) {
     }
     const DipMeshData data = {
         "knot", &vertices[0][0], DIP_SHAPE_ATTRIBUTES, (ALONG + 1) * COLUMNS, indices, count};
-    *mesh = dip_mesh_create(&data, err);
-    return *mesh != NULL;
-}
-
-static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
-    DipMesh **meshes = ((DipKitStock *)content)->meshes;
-    (void)room;
-    return make_knot(&meshes[KNOT], err) && dip_kit_sphere(&meshes[SPHERE], 0.55f, 64, 32, err) &&
-           dip_kit_prism(&meshes[COLUMN], 1.3f, 0.5f, 48, true, err) &&
-           dip_kit_plane(&meshes[FLOOR], 40.0f, 40.0f, 8, 8, err);
+    room->stock.meshes[KNOT] = dip_mesh_create(&data, err);
+    return room->stock.meshes[KNOT] != NULL;
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -193,11 +171,9 @@ static DipMatrix place(int index, double turn, int *mesh, float colour[3]) {
                                               {0.28f, 0.18f, 0.48f}, {0.60f, 0.68f, 0.70f}};
     memcpy(colour, colours[index], sizeof colours[index]);
     if (index == 0) {
-        const DipMatrix spin = dip_matrix_rotation(1, turn);
-        const DipMatrix tilt = dip_matrix_rotation(0, 0.5 * dip_sin(turn));
-        const DipMatrix lift = dip_matrix_translation(0.0, 1.05, 0.0);
         *mesh = KNOT;
-        return dip_matrix_multiply3(&lift, &spin, &tilt);
+        return dip_kit_chain3(dip_matrix_translation(0.0, 1.05, 0.0), dip_matrix_rotation(1, turn),
+                              dip_matrix_rotation(0, 0.5 * dip_sin(turn)));
     }
     if (index < 4) {
         const double angle = -turn + 2.0 * DIP_PI * index / 3.0;
@@ -210,28 +186,25 @@ static DipMatrix place(int index, double turn, int *mesh, float colour[3]) {
     return dip_matrix_translation(0.0, index == 4 ? -0.75 : -1.0, 0.0);
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.62f, 0.74f, 0.80f};
-    Content *content = pointer;
     DipKitList list = dip_kit_list(view, 0.1, err);
     const double side = 0.55 * dip_sin(view->turn);
     const double size = sqrt(side * side + 0.64 + 0.49);
     for (int i = 0; i < OBJECTS; i++) {
-        Uniforms *uniforms = &content->uniforms[i];
-        int mesh;
-        const DipMatrix model = place(i, view->turn, &mesh, uniforms->colour);
-        uniforms->light[0] = (float)(side / size);
-        uniforms->light[1] = (float)(0.8 / size);
-        uniforms->light[2] = (float)(0.7 / size);
-        uniforms->step_size = step_sizes[view->look];
-        uniforms->grow = 0.0042f;
-        dip_kit_add(&list, content->stock.meshes[mesh], uniforms, &model, shade);
-        if (mesh != FLOOR) {
-            DipDraw *outline =
-                dip_kit_add(&list, content->stock.meshes[mesh], uniforms, &model, shade_outline);
+        Uniforms uniforms = {
+            .light = {(float)(side / size), (float)(0.8 / size), (float)(0.7 / size)},
+            .step_size = step_sizes[view->look],
+            .grow = 0.0042f};
+        int index;
+        const DipMatrix model = place(i, view->turn, &index, uniforms.colour);
+        const DipMesh *mesh = view->stock->meshes[index];
+        dip_kit_add(&list, mesh, &uniforms, &model, shade);
+        if (index != FLOOR) {
+            DipDraw *outline = dip_kit_add(&list, mesh, &uniforms, &model, shade_outline);
             outline->vertex_shader = outline_vertex;
             outline->varying_count = outline->value_only_varying_count = 0;
-            outline->bounds_to_clip = NULL; // the vertices leave the mesh's box
+            outline->bounds_to_clip = NULL; // The vertices leave the mesh's box.
             outline->cull = DIP_CULL_FRONT;
         }
     }
@@ -243,9 +216,10 @@ const DipGalleryScene dip_gallery_toon = {
              .title = "Toon shading",
              .text = "Light in steps: the seed's four, or a number of equal bands, for the diffuse "
                      "part and for the highlight. Outlines are grown back faces.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
-    .content_bytes = sizeof(Content),
+             DIP_KIT_LOOKS("four steps", "8 bands", "5 bands", "16 bands")},
+    .meshes = {[SPHERE] = {DIP_KIT_SPHERE, {0.55f, 64, 32}},
+               [COLUMN] = {DIP_KIT_PRISM, {1.3f, 0.5f, 48, 1}},
+               [FLOOR] = {DIP_KIT_PLANE, {40.0f, 40.0f, 8, 8}}},
     .camera = camera,
     .create = create,
     .draw = draw,

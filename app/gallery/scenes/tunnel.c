@@ -1,31 +1,22 @@
-// The gallery scene "tunnel": the anisotropy tunnel, which seed 002's filtering settings call for.
+// The gallery scene "tunnel": a tunnel that shows what anisotropic filtering does.
 //
-// The camera flies through a long tube of stone. Its wall meets the picture at every angle, and far
-// away its texels are very long and narrow. The colours show which mip level each pixel reads: red
-// is the sharpest, then orange, yellow, green and blue. With anisotropic filtering the sharp levels
-// reach farther. Without advanced filtering they reach less far at the diagonals, because the
-// level then depends on the angle; with it, every ring has one colour.
+// Seed 002 (gallery.h) asks for these filtering settings. The camera flies through a long tube of
+// stone. Its wall meets the picture at every angle, and far away its texels are very long and
+// narrow. The colours show which mip level each pixel reads: red is the sharpest, then orange,
+// yellow, green and blue. With anisotropic filtering the sharp levels reach farther. Without
+// advanced filtering (aaf=off) they reach less far at the diagonals, because the level then depends
+// on the angle. With advanced filtering, every ring has one colour.
 #include "app/gallery/kit/kit.h"
-#include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
-enum { SIDES = 96, TEXELS = 512, ROUND = 6 };
+enum { SIDES = 96, ROUND = 6 };
 
-// The tube lies along z. Its texture repeats ROUND times around it and once every REPEAT units.
+// The tube lies along z. Its texture repeats ROUND times around it and once in each unit of length.
 static const float length = 120.0f;
-static const float repeat = 1.0f;
 
 typedef struct Uniforms {
     DipKitObject object;
     float tint; // share of the mip colours in the picture
 } Uniforms;
-
-typedef struct Content {
-    DipKitStock stock; // The tube and its stone.
-    Uniforms uniforms;
-} Content;
-
-static const char *const looks[] = {"mip colours over stone", "stone", "mip colours"};
 
 // --- shaders -------------------------------------------------------------------------------------
 
@@ -52,15 +43,11 @@ static void shade(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Blocks of stone in courses, with dark joints and a different shade for each block.
+// Paints blocks of stone in courses, with dark joints and a different shade for each block.
 static void paint_stone(float u, float v, float rgba[4]) {
     const int course = (int)(v * 4.0f);
     const float along = u * 4.0f + (course % 2 ? 0.5f : 0.0f);
-    const float du = along - dip_kit_floor(along);
-    const float dv = v * 4.0f - (float)course;
-    const float edge_u = du < 0.5f ? du : 1.0f - du;
-    const float edge_v = dv < 0.5f ? dv : 1.0f - dv;
-    const float edge = edge_u < edge_v ? edge_u : edge_v;
+    const float edge = dip_kit_least(dip_kit_to_edge(along), dip_kit_to_edge(v * 4.0f));
     const float block = dip_kit_random((int)along % 4, course, 7);
     const float grain = dip_kit_turbulence(u * 16.0f, v * 16.0f, 16, 5, 3);
     const float light =
@@ -71,13 +58,13 @@ static void paint_stone(float u, float v, float rgba[4]) {
     rgba[2] = light * 0.88f;
 }
 
-// Makes the tube from the sides of a prism: turned to lie along z, seen from inside.
-static bool make_tube(DipMesh **mesh, DipError *err) {
+// Makes the tube from the sides of a prism, which are turned to lie along z.
+static bool create(DipGalleryRoom *room, DipError *err) {
     DipShape shape;
     if (!dip_shape_prism(&shape, 1.0f, length, SIDES, true, err)) {
         return false;
     }
-    shape.vertex_count = 4 * SIDES; // the two bases come after the sides
+    shape.vertex_count = 4 * SIDES; // The two bases come after the sides.
     shape.index_count = 6 * SIDES;
     for (uint32_t v = 0; v < shape.vertex_count; v++) {
         float *vertex = shape.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
@@ -85,16 +72,9 @@ static bool make_tube(DipMesh **mesh, DipError *err) {
         vertex[1] = vertex[2];
         vertex[2] = -along - 0.5f * length + 2.0f;
         vertex[DIP_SHAPE_TEXTURE] *= ROUND;
-        vertex[DIP_SHAPE_TEXTURE + 1] *= length / repeat;
+        vertex[DIP_SHAPE_TEXTURE + 1] *= length;
     }
-    return dip_kit_mesh(mesh, "tube", &shape, err);
-}
-
-static bool create(void *content, const DipGalleryRoom *room, DipError *err) {
-    DipKitStock *stock = content;
-    (void)room;
-    return make_tube(&stock->meshes[0], err) &&
-           dip_kit_texture(&stock->textures[0], "stone", TEXELS, TEXELS, false, paint_stone, err);
+    return dip_kit_mesh(&room->stock.meshes[0], "tube", &shape, err);
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -106,21 +86,20 @@ static DipGalleryCamera camera(double turn) {
                               .target = {0.6 * dip_sin(turn), 0.4 * dip_sin(2.0 * turn), -10.0}};
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.0f, 0.0f, 0.0f};
     static const float tints[] = {0.5f, 0.0f, 1.5f};
-    Content *content = pointer;
+    const Uniforms uniforms = {.tint = tints[view->look]};
     const double travelled = 12.0 * view->time_s / DIP_GALLERY_SECONDS;
-    const DipMatrix forwards = dip_matrix_translation(0.0, 0.0, travelled - (int)travelled);
-    const DipMatrix turned = dip_matrix_rotation(2, view->turn);
-    const DipMatrix model = dip_matrix_multiply(&forwards, &turned);
+    const DipMatrix model =
+        dip_kit_chain(dip_matrix_translation(0.0, 0.0, travelled - (int)travelled),
+                      dip_matrix_rotation(2, view->turn));
     DipKitList list = dip_kit_list(view, 0.02, err);
     DipSampler samplers[2];
-    samplers[0] = samplers[1] = dip_kit_sampler(view, &content->stock.textures[0]);
+    samplers[0] = samplers[1] = dip_kit_sampler(view, &view->stock->textures[0]);
     dip_kit_show_mip_colours(&samplers[1], view);
-    content->uniforms.tint = tints[view->look];
-    DipDraw *tube = dip_kit_add(&list, content->stock.meshes[0], &content->uniforms, &model, shade);
-    tube->cull = DIP_CULL_FRONT; // seen from inside
+    DipDraw *tube = dip_kit_add(&list, view->stock->meshes[0], &uniforms, &model, shade);
+    tube->cull = DIP_CULL_FRONT; // The camera sees the tube from inside.
     tube->repeating_varyings = 1u << DIP_KIT_UV | 1u << (DIP_KIT_UV + 1);
     tube->samplers = samplers;
     return dip_kit_show(&list, clear_lin);
@@ -131,9 +110,8 @@ const DipGalleryScene dip_gallery_tunnel = {
              .title = "Anisotropy tunnel",
              .text = "A tube whose colours show the mip level of each pixel. Compare af=16 with "
                      "af=none, and af=16,aaf=on with af=16.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
-    .content_bytes = sizeof(Content),
+             DIP_KIT_LOOKS("mip colours over stone", "stone", "mip colours")},
+    .textures = {{"stone", 512, 512, DIP_WRAP_REPEAT, paint_stone}},
     .camera = camera,
     .create = create,
     .draw = draw,

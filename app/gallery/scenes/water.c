@@ -1,22 +1,20 @@
 // The gallery scene "water": the pools of the courtyard's fountain, seen through.
 //
-// The first pass draws the courtyard with its light map, and a mosaic on the floor of the pool. It
-// keeps its depths. The second pass starts from these depths and draws the water: either blended
-// over the picture, or with refraction, where it reads the first pass's picture a little beside the
-// pixel, displaced by the waves of a normal map. Fresnel's term mixes in the sky.
+// The first pass draws the courtyard with its light map, and a mosaic on the floor of the pool. Its
+// depths are kept. The second pass starts from these depths and draws the water, either blended
+// over the picture, or with refraction: the water's shader then reads the first pass's picture a
+// little beside the pixel, by as much as the waves of a normal map say. Fresnel's term mixes in the
+// sky.
 #include "app/gallery/kit/kit.h"
 #include "assets/model.h"
-#include "renderer/base/assert.h"
 #include "renderer/base/pages.h"
-#include "renderer/base/trig.h"
 
 #include <limits.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Attributes of the courtyard's vertices: position, coordinates of the colours and of the light
-// map.
+// Attributes of the courtyard's vertices: the position, the texture coordinates of the colours, and
+// those of the light map.
 enum { UV0 = 3, UV1 = 5, ATTRIBUTES = 7, VARYINGS = 4 };
 // Varyings of the water: two layers of waves, then the position.
 enum { WAVE0 = 0, WAVE1 = 2, POSITION = 4, WATER_VARYINGS = 7 };
@@ -25,46 +23,44 @@ typedef struct Uniforms {
     float to_clip[16];
     float colour[3];
     float light_scale; // 0: there is no light map
-    float cutoff;
+    float cutoff;      // Fragments with less alpha are clipped.
+    float turns;       // for the floor of the pool: the time as turns of the loop, 0..1
 } Uniforms;
 
-// An object of the courtyard. Only its uniforms and samplers change from frame to frame.
+// An object of the courtyard. From frame to frame only its uniforms' matrix and its first sampler
+// change.
 typedef struct Object {
     DipMatrix model;
-    int mesh;
-    int material;
-    DipCull cull;
+    const DipMaterialDef *material;
+    DipDraw draw;
     Uniforms uniforms;
     DipSampler samplers[2];
 } Object;
 
 enum { POOL_FLOOR, SCREEN }; // Meshes of the stock.
 
-// What the water's shader needs of a frame.
+// What the shaders of the water need.
 typedef struct Water {
     float to_clip[16];
     float eye[3];
-    float scroll[2]; // of both layers of waves
+    float scroll[2]; // how far each of the two layers of waves has moved
     DipTarget picture;
     bool refracts;
 } Water;
 
 typedef struct Content {
-    DipKitStock stock; // The texture is the mosaic.
     DipModel *model;
     const DipSceneDef *def; // belongs to the model
-    DipTexture **textures;
+    DipTexture **textures;  // as in `def`, then their compressed forms
     DipTexture **compressed;
     DipMesh **meshes;
     Object *objects;
-    DipDraw *draws;
+    DipDraw *draws; // of one pass: all objects and a quad
     Uniforms pool_floor;
-    DipTarget picture;                     // of the first pass
-    DipDepth *depths[DIP_MAX_SAMPLES + 1]; // by the number of samples
+    DipTarget picture;                     // drawn by the first pass
+    DipDepth *depths[DIP_MAX_SAMPLES + 1]; // [number of samples]; drawn by the first pass
     Water water;
 } Content;
-
-static const char *const looks[] = {"refracted", "blended"};
 
 // --- shaders of the courtyard --------------------------------------------------------------------
 
@@ -98,23 +94,23 @@ static void clip_court(DipFragmentBatch *batch) {
     }
 }
 
-// A clear sky, brighter towards the horizon. The texture coordinates of the dome give the height.
+// Shades a clear sky, brighter towards the horizon. The texture coordinates of the dome give the
+// height.
 static void shade_sky(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         const float u = batch->varying[0][i];
         const float v = batch->varying[1][i];
         const float cloud = 0.5f + 0.25f * dip_kit_wave(1.3f * u + 0.4f * v) +
                             0.25f * dip_kit_wave(2.1f * v - 0.7f * u);
-        batch->colour[0][i] = 0.16f + 0.20f * cloud;
-        batch->colour[1][i] = 0.30f + 0.18f * cloud;
-        batch->colour[2][i] = 0.58f + 0.12f * cloud;
+        dip_kit_set(batch->colour, i, 0.16f + 0.20f * cloud, 0.30f + 0.18f * cloud,
+                    0.58f + 0.12f * cloud);
     }
 }
 
-// The mosaic under water, with the light that the waves focus on it.
+// Shades the mosaic under water, with the light that the waves focus on it.
 static void shade_pool_floor(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
-    const float turns = uniforms->light_scale;
+    const float turns = uniforms->turns;
     batch->sample_colour(batch, &batch->samplers[0], 0, batch->colour);
     for (int i = 0; i < batch->count; i++) {
         const float x = 5.0f * batch->varying[0][i];
@@ -124,7 +120,7 @@ static void shade_pool_floor(DipFragmentBatch *batch) {
         const float b = dip_kit_wave(0.5f * x - 1.2f * z - bend - 6.0f * turns);
         const float c = dip_kit_wave(0.8f * (x + z) + 2.0f * bend - 3.0f * turns);
         const float line = 1.0f - fabsf(a + b + c) * 0.5f;
-        const float caustic = dip_kit_power(line > 0.0f ? line : 0.0f, 2);
+        const float caustic = dip_kit_power(dip_kit_greatest(line, 0.0f), 2);
         for (int k = 0; k < 3; k++) {
             batch->colour[k][i] *= 0.55f + 0.75f * caustic;
         }
@@ -147,13 +143,14 @@ static void water_vertex(const DipVertexBatch *batch) {
     }
 }
 
-// Schlick's approximation for water seen from air.
+// Returns the share of the light that water reflects: Schlick's approximation, seen from air.
 static inline float fresnel(float cosine) {
     const float left = 1.0f - dip_kit_clamp(cosine, 0.0f, 1.0f);
     return 0.02f + 0.98f * left * left * left * left * left;
 }
 
-// Writes the picture under the water, read beside each fragment by its wave.
+// Writes the colours under the water. Each is read from the picture beside its fragment, as far
+// away as the fragment's wave says.
 static void refract_picture(DipFragmentBatch *batch, const Water *water,
                             float (*waves)[DIP_FRAGMENT_BATCH],
                             float (*under)[DIP_FRAGMENT_BATCH]) {
@@ -186,22 +183,19 @@ static void shade_water(DipFragmentBatch *batch) {
     if (water->refracts) {
         refract_picture(batch, water, waves, under);
     }
+    const DipKitVector eye = dip_kit_vector(water->eye);
     for (int i = 0; i < batch->count; i++) {
-        const float ex = water->eye[0] - batch->varying[POSITION][i];
-        const float ey = water->eye[1] - batch->varying[POSITION + 1][i];
-        const float ez = water->eye[2] - batch->varying[POSITION + 2][i];
-        const float e = 1.0f / sqrtf(ex * ex + ey * ey + ez * ez);
-        const float nx = waves[0][i];
-        const float nz = waves[1][i];
-        const float n = 1.0f / sqrtf(nx * nx + 1.0f + nz * nz);
-        const float facing = n * e * (nx * ex + ey + nz * ez);
+        const DipKitVector to_eye = dip_kit_minus(eye, dip_kit_get(batch->varying + POSITION, i));
+        const DipKitVector normal = {waves[0][i], 1.0f, waves[1][i]};
+        const float e = dip_kit_per_length(to_eye, 0.0f);
+        const float n = dip_kit_per_length(normal, 0.0f);
+        const float facing = n * e * dip_kit_dot(normal, to_eye);
         const float share = fresnel(facing);
-        const float rx = 2.0f * facing * n * nx - e * ex;
-        const float ry = 2.0f * facing * n - e * ey;
-        const float rz = 2.0f * facing * n * nz - e * ez;
-        const float toward = rx * sun[0] + ry * sun[1] + rz * sun[2];
-        const float glint = dip_kit_power(toward > 0.0f ? toward : 0.0f, 8);
-        const float up = dip_kit_clamp(ry, 0.0f, 1.0f);
+        const DipKitVector mirrored =
+            dip_kit_minus(dip_kit_times(normal, 2.0f * facing * n), dip_kit_times(to_eye, e));
+        const float toward = dip_kit_dot(mirrored, dip_kit_vector(sun));
+        const float glint = dip_kit_power(dip_kit_greatest(toward, 0.0f), 8);
+        const float up = dip_kit_clamp(mirrored.y, 0.0f, 1.0f);
         const float sky[3] = {0.62f - 0.42f * up, 0.70f - 0.34f * up, 0.80f - 0.18f * up};
         // The bowls above the pool have no floor of their own, so their water is deep.
         const float seen = batch->varying[POSITION + 1][i] > 1.0f ? 0.25f : 1.0f;
@@ -219,7 +213,7 @@ static void shade_screen(DipFragmentBatch *batch) {
     const Water *water = batch->uniforms;
     float u[DIP_FRAGMENT_BATCH];
     float v[DIP_FRAGMENT_BATCH];
-    for (int i = 0; i < batch->count; i++) { // the middle of the pixel, also at an edge
+    for (int i = 0; i < batch->count; i++) { // At an edge, a fragment need not lie in the middle.
         u[i] = (dip_kit_floor(batch->x[i]) + 0.5f) / (float)water->picture.width;
         v[i] = (dip_kit_floor(batch->y[i]) + 0.5f) / (float)water->picture.height;
     }
@@ -228,16 +222,13 @@ static void shade_screen(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Rings of tiles around the pedestal: white and blue, with a wave in gold.
+// Paints rings of tiles around the pedestal: white and blue, with a wave in gold.
 static void paint_mosaic(float u, float v, float rgba[4]) {
     const float tiles = 44.0f;
     const float x = u * tiles;
     const float z = v * tiles;
-    const float gap_x = x - dip_kit_floor(x);
-    const float gap_z = z - dip_kit_floor(z);
-    const float edge_x = gap_x < 0.5f ? gap_x : 1.0f - gap_x;
-    const float edge_z = gap_z < 0.5f ? gap_z : 1.0f - gap_z;
-    const float joint = dip_kit_smooth(0.03f, 0.09f, edge_x < edge_z ? edge_x : edge_z);
+    const float joint =
+        dip_kit_smooth(0.03f, 0.09f, dip_kit_least(dip_kit_to_edge(x), dip_kit_to_edge(z)));
     const float cx = (dip_kit_floor(x) + 0.5f) / tiles - 0.5f;
     const float cz = (dip_kit_floor(z) + 0.5f) / tiles - 0.5f;
     const float radius = sqrtf(cx * cx + cz * cz);
@@ -262,10 +253,7 @@ static void forget_size(Content *content) {
 static void destroy(void *pointer) {
     Content *content = pointer;
     const DipSceneDef *def = content->def;
-    for (int t = 0; content->compressed && t < def->texture_count; t++) {
-        dip_texture_destroy(&content->compressed[t]);
-    }
-    for (int t = 0; content->textures && t < def->texture_count; t++) {
+    for (int t = 0; content->textures && t < 2 * def->texture_count; t++) {
         dip_texture_destroy(&content->textures[t]);
     }
     for (int m = 0; content->meshes && m < def->mesh_count; m++) {
@@ -273,7 +261,6 @@ static void destroy(void *pointer) {
     }
     forget_size(content);
     free(content->textures);
-    free(content->compressed);
     free(content->meshes);
     free(content->objects);
     free(content->draws);
@@ -302,51 +289,66 @@ static bool make_mesh(DipMesh **mesh, const DipMeshDef *def, DipError *err) {
     return *mesh != NULL;
 }
 
-// The floor of the pool: the upper base of an eight-sided prism, with the courtyard's attributes.
+// Makes the floor of the pool: an eight-sided prism, of which only the upper base is seen. Its
+// vertices begin with the courtyard's attributes.
 static bool make_pool_floor(DipMesh **mesh, DipError *err) {
-    float rows[64][ATTRIBUTES];
     DipShape prism;
     if (!dip_shape_prism(&prism, 2.74f, 0.02f, 8, false, err)) {
         return false;
     }
     const DipMatrix turn = dip_matrix_rotation(1, DIP_PI / 8.0);
     for (uint32_t v = 0; v < prism.vertex_count; v++) {
-        const float *in = prism.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
-        const double point[4] = {(double)in[0], (double)in[1] + 0.31, (double)in[2], 1.0};
+        float *row = prism.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
+        const double point[4] = {(double)row[0], (double)row[1] + 0.31, (double)row[2], 1.0};
         double turned[4];
         dip_matrix_apply(&turn, point, turned);
         for (int i = 0; i < 3; i++) {
-            rows[v][i] = (float)turned[i];
+            row[i] = (float)turned[i];
         }
-        rows[v][UV0] = 0.5f + rows[v][0] / 5.6f;
-        rows[v][UV0 + 1] = 0.5f + rows[v][2] / 5.6f;
-        rows[v][UV1] = rows[v][UV1 + 1] = 0.0f;
+        row[UV0] = 0.5f + row[0] / 5.6f;
+        row[UV0 + 1] = 0.5f + row[2] / 5.6f;
+        row[UV1] = row[UV1 + 1] = 0.0f;
     }
-    const DipMeshData data = {"pool floor",       &rows[0][0],   ATTRIBUTES,
-                              prism.vertex_count, prism.indices, prism.index_count};
-    *mesh = dip_mesh_create(&data, err);
-    dip_shape_free(&prism);
-    return *mesh != NULL;
+    return dip_kit_mesh(mesh, "pool floor", &prism, err);
 }
 
-static void place_objects(Content *content) {
-    const DipSceneDef *def = content->def;
-    for (int o = 0; o < def->object_count; o++) {
-        const float *t = def->objects[o].transform;
-        Object *object = &content->objects[o];
-        object->model = dip_matrix_identity();
-        for (int i = 0; i < 12; i++) {
-            object->model.m[i] = (double)t[i];
-        }
-        const float determinant = t[0] * (t[5] * t[10] - t[6] * t[9]) -
-                                  t[1] * (t[4] * t[10] - t[6] * t[8]) +
-                                  t[2] * (t[4] * t[9] - t[5] * t[8]);
-        object->mesh = def->objects[o].mesh;
-        object->material = def->meshes[object->mesh].material;
-        object->cull = def->materials[object->material].double_sided ? DIP_CULL_NONE
-                       : determinant < 0.0f                          ? DIP_CULL_FRONT
-                                                                     : DIP_CULL_BACK;
+static void prepare_object(Content *content, const DipObjectDef *from, Object *object) {
+    const DipMaterialDef *material =
+        &content->def->materials[content->def->meshes[from->mesh].material];
+    const bool lit = material->light_map != DIP_NO_TEXTURE;
+    const bool textured = material->colour_texture != DIP_NO_TEXTURE;
+    const bool clipped = material->surface == DIP_SURFACE_CLIPPED && textured;
+    const float *t = from->transform;
+    const float determinant = t[0] * (t[5] * t[10] - t[6] * t[9]) -
+                              t[1] * (t[4] * t[10] - t[6] * t[8]) +
+                              t[2] * (t[4] * t[9] - t[5] * t[8]);
+    object->material = material;
+    object->model = dip_matrix_identity();
+    for (int i = 0; i < 12; i++) {
+        object->model.m[i] = (double)t[i];
     }
+    memcpy(object->uniforms.colour, material->base_colour_lin, sizeof object->uniforms.colour);
+    object->uniforms.light_scale = lit ? material->light_map_scale : 0.0f;
+    object->uniforms.cutoff = material->alpha_cutoff;
+    if (lit) {
+        object->samplers[1] =
+            (DipSampler){.texture = content->textures[material->light_map], .max_anisotropy = 1};
+    }
+    object->draw = (DipDraw){
+        .mesh = content->meshes[from->mesh],
+        .vertex_shader = court_vertex,
+        .fragment_shader =
+            material->surface == DIP_SURFACE_SKY || !textured ? shade_sky : shade_court,
+        .clip_shader = clipped ? clip_court : NULL,
+        .varying_count = VARYINGS,
+        .clip_varying_count = clipped ? 2 : 0,
+        .uniforms = &object->uniforms,
+        .samplers = object->samplers,
+        .bounds_to_clip = object->uniforms.to_clip,
+        .cull = material->double_sided ? DIP_CULL_NONE
+                : determinant < 0.0f   ? DIP_CULL_FRONT
+                                       : DIP_CULL_BACK,
+    };
 }
 
 static bool make_textures(Content *content, DipPool *pool, DipError *err) {
@@ -366,44 +368,36 @@ static bool make_textures(Content *content, DipPool *pool, DipError *err) {
     return made;
 }
 
-static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
+static bool create(DipGalleryRoom *room, DipError *err) {
+    Content *content = room->content;
     char file[PATH_MAX];
     const char *files[1] = {file};
     const DipModelOptions options = {.normal_maps = true};
-    const int length = snprintf(file, sizeof file, "%s/courtyard/court.gltf", room->assets);
-    if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, room->assets, 0, "water",
-                             "the name of the folder is too long");
+    if (!make_pool_floor(&room->stock.meshes[POOL_FLOOR], err) ||
+        !dip_kit_asset(file, sizeof file, room->def, "courtyard/court.gltf", "water", err)) {
+        return false;
     }
-    content->model = dip_model_load_with(files, 1, &options, room->pool, NULL, err);
+    content->model = dip_model_load_with(files, 1, &options, room->def->pool, NULL, err);
     if (!content->model) {
         return false;
     }
     const DipSceneDef *def = content->def = dip_model_scene_def(content->model);
-    content->textures = calloc((size_t)def->texture_count, sizeof *content->textures);
-    content->compressed = calloc((size_t)def->texture_count, sizeof *content->compressed);
+    content->textures = calloc(2 * (size_t)def->texture_count, sizeof *content->textures);
     content->meshes = calloc((size_t)def->mesh_count, sizeof *content->meshes);
     content->objects = calloc((size_t)def->object_count, sizeof *content->objects);
     content->draws = calloc((size_t)def->object_count + 1, sizeof *content->draws);
-    if (!content->textures || !content->compressed || !content->meshes || !content->objects ||
-        !content->draws) {
+    if (!content->textures || !content->meshes || !content->objects || !content->draws) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water", "out of memory");
     }
-    bool made = make_textures(content, room->pool, err);
+    content->compressed = content->textures + def->texture_count;
+    bool made = make_textures(content, room->def->pool, err);
     for (int m = 0; made && m < def->mesh_count; m++) {
         made = make_mesh(&content->meshes[m], &def->meshes[m], err);
     }
-    place_objects(content);
+    for (int o = 0; made && o < def->object_count; o++) {
+        prepare_object(content, &def->objects[o], &content->objects[o]);
+    }
     return made;
-}
-
-static bool create(void *pointer, const DipGalleryRoom *room, DipError *err) {
-    Content *content = pointer;
-    DipKitStock *stock = &content->stock;
-    return make_pool_floor(&stock->meshes[POOL_FLOOR], err) &&
-           dip_kit_quad(&stock->meshes[SCREEN], 2.0f, 2.0f, err) &&
-           dip_kit_texture(&stock->textures[0], "mosaic", 512, 512, true, paint_mosaic, err) &&
-           load(content, room, err);
 }
 
 // Makes the first pass's picture and depths, unless a frame of this size and number of samples had
@@ -412,14 +406,10 @@ static bool prepare_target(Content *content, const DipTarget *size, int samples,
     DipTarget *picture = &content->picture;
     if (picture->width != size->width || picture->height != size->height) {
         forget_size(content);
-        picture->stride_bytes = size->stride_bytes;
-        picture->rgba8 = dip_lines_alloc(size->stride_bytes * (size_t)size->height);
-        if (!picture->rgba8) {
-            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water",
-                                 "no memory for %dx%d pixels", size->width, size->height);
+        if (!dip_kit_target(picture, size->width, size->height, "water", err)) {
+            *picture = (DipTarget){0};
+            return false;
         }
-        picture->width = size->width;
-        picture->height = size->height;
     }
     if (!content->depths[samples]) {
         content->depths[samples] = dip_depth_create(size->width, size->height, samples, err);
@@ -437,60 +427,28 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.45 * dip_cos(angle), 0.62, -0.45 * dip_sin(angle)}};
 }
 
-// Sets a sampler to a texture of the courtyard, compressed if the settings say so.
-static DipSampler court_sampler(const Content *content, const DipGalleryView *view, int texture) {
-    const DipKitTexture both = {content->textures[texture], content->compressed[texture]};
-    return dip_kit_sampler(view, &both);
-}
-
-static void fill_draw(Content *content, const DipGalleryView *view, Object *object, DipDraw *draw) {
-    const DipMaterialDef *material = &content->def->materials[object->material];
-    Uniforms *uniforms = &object->uniforms;
-    DipSampler *samplers = object->samplers;
-    memcpy(uniforms->colour, material->base_colour_lin, sizeof uniforms->colour);
-    uniforms->light_scale =
-        material->light_map != DIP_NO_TEXTURE ? material->light_map_scale : 0.0f;
-    uniforms->cutoff = material->alpha_cutoff;
-    if (material->light_map != DIP_NO_TEXTURE) {
-        samplers[1] =
-            (DipSampler){.texture = content->textures[material->light_map], .max_anisotropy = 1};
-    }
-    const bool textured = material->colour_texture != DIP_NO_TEXTURE;
-    if (textured) {
-        samplers[0] = court_sampler(content, view, material->colour_texture);
-    }
-    const bool clipped = material->surface == DIP_SURFACE_CLIPPED && textured;
-    *draw = (DipDraw){
-        .mesh = content->meshes[object->mesh],
-        .vertex_shader = court_vertex,
-        .fragment_shader =
-            material->surface == DIP_SURFACE_SKY || !textured ? shade_sky : shade_court,
-        .clip_shader = clipped ? clip_court : NULL,
-        .varying_count = VARYINGS,
-        .clip_varying_count = clipped ? 2 : 0,
-        .uniforms = uniforms,
-        .samplers = samplers,
-        .bounds_to_clip = uniforms->to_clip,
-        .cull = object->cull,
-    };
-}
-
 // Lists everything but the water. Returns the number of draws.
-static int list_court(Content *content, const DipGalleryView *view, const DipKitCamera *seen,
+static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipSampler *mosaic) {
-    const DipSceneDef *def = content->def;
+    Content *content = view->content;
     int count = 0;
-    for (int o = 0; o < def->object_count; o++) {
+    for (int o = 0; o < content->def->object_count; o++) {
         Object *object = &content->objects[o];
-        if (def->materials[object->material].surface != DIP_SURFACE_WATER) {
-            const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);
-            dip_matrix_floats(&to_clip, object->uniforms.to_clip);
-            fill_draw(content, view, object, &content->draws[count++]);
+        const int texture = object->material->colour_texture;
+        if (object->material->surface == DIP_SURFACE_WATER) {
+            continue;
         }
+        const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);
+        dip_matrix_floats(&to_clip, object->uniforms.to_clip);
+        if (texture != DIP_NO_TEXTURE) {
+            const DipKitTexture both = {content->textures[texture], content->compressed[texture]};
+            object->samplers[0] = dip_kit_sampler(view, &both);
+        }
+        content->draws[count++] = object->draw;
     }
     dip_matrix_floats(&seen->to_clip, content->pool_floor.to_clip);
-    content->pool_floor.light_scale = (float)(view->time_s / DIP_GALLERY_SECONDS);
-    content->draws[count++] = (DipDraw){.mesh = content->stock.meshes[POOL_FLOOR],
+    content->pool_floor.turns = view->turns;
+    content->draws[count++] = (DipDraw){.mesh = view->stock->meshes[POOL_FLOOR],
                                         .vertex_shader = court_vertex,
                                         .fragment_shader = shade_pool_floor,
                                         .varying_count = 2,
@@ -501,27 +459,25 @@ static int list_court(Content *content, const DipGalleryView *view, const DipKit
 }
 
 // Lists the water's draws after those in `draws`. Returns their number.
-static int list_water(Content *content, const DipGalleryView *view, const DipKitCamera *seen,
+static int list_water(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipDrawState *state, DipSampler *waves, DipDraw *draws) {
-    const DipSceneDef *def = content->def;
+    Content *content = view->content;
     Water *water = &content->water;
     int count = 0;
     dip_matrix_floats(&seen->to_clip, water->to_clip);
     memcpy(water->eye, seen->eye, sizeof water->eye);
-    const float turns = (float)(view->time_s / DIP_GALLERY_SECONDS);
-    water->scroll[0] = turns;
-    water->scroll[1] = -turns;
+    water->scroll[0] = view->turns;
+    water->scroll[1] = -view->turns;
     water->picture = content->picture;
     water->refracts = view->look == 0;
-    for (int o = 0; o < def->object_count; o++) {
-        const Object *object = &content->objects[o];
-        const DipMaterialDef *material = &def->materials[object->material];
+    for (int o = 0; o < content->def->object_count; o++) {
+        const DipMaterialDef *material = content->objects[o].material;
         if (material->surface != DIP_SURFACE_WATER || material->normal_map == DIP_NO_TEXTURE) {
             continue;
         }
         *waves = view->filter;
         waves->texture = content->textures[material->normal_map];
-        draws[count++] = (DipDraw){.mesh = content->meshes[object->mesh],
+        draws[count++] = (DipDraw){.mesh = content->objects[o].draw.mesh,
                                    .vertex_shader = water_vertex,
                                    .fragment_shader = shade_water,
                                    .varying_count = WATER_VARYINGS,
@@ -536,20 +492,20 @@ static int list_water(Content *content, const DipGalleryView *view, const DipKit
     return count;
 }
 
-static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.30f, 0.42f, 0.62f};
     static const DipDrawState copies = {.depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true};
     static const DipDrawState blended = {.blend = DIP_BLEND_MODE_ALPHA, .keep_depth = true};
-    Content *content = pointer;
+    Content *content = view->content;
     const bool refracts = view->look == 0;
     const int samples = dip_quality_sample_count(view->quality);
-    const DipSampler mosaic = dip_kit_sampler(view, &content->stock.textures[0]);
+    const DipSampler mosaic = dip_kit_sampler(view, &view->stock->textures[0]);
     DipKitCamera seen;
     if (!prepare_target(content, &view->target, samples, err) ||
         !dip_kit_camera(&seen, view, 0.1, err)) {
         return false;
     }
-    const int court_count = list_court(content, view, &seen, &mosaic);
+    const int court_count = list_court(view, &seen, &mosaic);
     DipPass court = dip_kit_pass(view, content->draws, court_count, clear_lin);
     court.attachments.depth = content->depths[samples];
     if (refracts) {
@@ -559,14 +515,14 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
         return false;
     }
     DipSampler waves;
-    content->draws[0] = (DipDraw){.mesh = content->stock.meshes[SCREEN],
+    content->draws[0] = (DipDraw){.mesh = view->stock->meshes[SCREEN],
                                   .vertex_shader = dip_kit_screen_vertex,
                                   .fragment_shader = shade_screen,
                                   .uniforms = &content->water,
                                   .state = &copies};
     const int first = refracts ? 1 : 0;
-    const int count = list_water(content, view, &seen, refracts ? NULL : &blended, &waves,
-                                 content->draws + first);
+    const int count =
+        list_water(view, &seen, refracts ? NULL : &blended, &waves, content->draws + first);
     DipPass water = dip_kit_pass(view, content->draws, first + count, clear_lin);
     water.attachments = (DipAttachments){
         .colour_load = refracts ? DIP_LOAD_DISCARD : DIP_LOAD_KEEP,
@@ -583,8 +539,9 @@ const DipGalleryScene dip_gallery_water = {
              .text =
                  "The fountain's pool over a mosaic, with waves that refract it, or blended over "
                  "it.",
-             .looks = looks,
-             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+             DIP_KIT_LOOKS("refracted", "blended")},
+    .meshes = {[SCREEN] = {DIP_KIT_QUAD, {2.0f, 2.0f}}},
+    .textures = {{"mosaic", 512, 512, DIP_WRAP_CLAMP, paint_mosaic}},
     .content_bytes = sizeof(Content),
     .camera = camera,
     .create = create,

@@ -1,6 +1,7 @@
-// Computes squared differences of pictures, and means of these differences.
+// Computes squared differences of pictures, their sums, and the metrics that follow from sums.
 #include "app/measure/metrics/difference.h"
 
+#include "app/measure/metrics/metrics.h"
 #include "renderer/base/srgb.h"
 
 #include <math.h>
@@ -51,16 +52,45 @@ void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count, DipPi
     }
 }
 
-DipMapSum dip_map_sum(const float *map, size_t pixel_count, DipPixelMask mask) {
-    DipMapSum sum = {0};
-    dip_map_sum_add(&sum, map, pixel_count, mask);
-    return sum;
-}
-
-double dip_map_mean(DipMapSum sum) {
-    return sum.pixel_count > 0.0 ? sum.sum / sum.pixel_count : 0.0;
-}
-
 double dip_psnr_db(double mean_squared_codes) {
     return mean_squared_codes > 0.0 ? 10.0 * log10(255.0 * 255.0 / mean_squared_codes) : INFINITY;
+}
+
+// --- metrics from sums ---------------------------------------------------------------------------
+
+const char *const dip_metric_region_names[DIP_METRIC_REGION_COUNT] = {"all",
+#define REGION_NAME(NAME, name, text) name,
+                                                                      DIP_SEEN_LIST(REGION_NAME)
+#undef REGION_NAME
+};
+
+void dip_metric_sums_add(DipMetricSums *to, const DipMetricSums *sums) {
+    double *values = (double *)to;
+    const double *added = (const double *)sums;
+    for (int i = 0; i < DIP_METRIC_SUM_COUNT; i++) {
+        values[i] += added[i];
+    }
+}
+
+static double mean(double sum, double count) {
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+DipMetrics dip_metrics_of(const DipMetricSums *sums, int region) {
+    const DipMetricRegionSums *r = &sums->regions[region];
+    return (DipMetrics){
+        .rmse_lin = sqrt(mean(r->squared_lin, r->pixels)),
+        .psnr_db = dip_psnr_db(mean(r->squared_codes, r->pixels)),
+        .ssim = r->ssim_pixels > 0.0 ? r->ssim / r->ssim_pixels : 1.0,
+        .flip = mean(r->flip, r->pixels),
+    };
+}
+
+DipFlickerMetrics dip_flicker_metrics_of(const DipMetricSums *sums) {
+    return (DipFlickerMetrics){
+        .steady = sqrt(mean(sums->squared_static, sums->bursts)),
+        .flicker = sqrt(mean(sums->squared_flicker, sums->bursts)),
+        .step = sqrt(mean(sums->squared_step, sums->bursts)),
+        .two_mean = sqrt(mean(sums->squared_two_mean, sums->bursts)),
+    };
 }

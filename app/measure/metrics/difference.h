@@ -1,6 +1,6 @@
-// Differences of two pictures pixel by pixel, and the metrics computed from their means: the root
-// mean square error in linear light and the peak signal-to-noise ratio on sRGB codes (the 8-bit
-// values of the channels). `test` is the picture that is judged; `truth` is the picture that it is
+// Computes differences of two pictures pixel by pixel, and metrics from their means: the root mean
+// square error in linear light and the peak signal-to-noise ratio on sRGB codes (the 8-bit values
+// of the channels). `test` is the picture that is judged; `truth` is the picture that it is
 // compared with.
 //
 // A map has one value per pixel: width * height values with rows packed. Sums are computed in
@@ -10,10 +10,6 @@
 #define DIP_APP_MEASURE_METRICS_DIFFERENCE_H
 
 #include "app/measure/metrics/picture.h"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 // Writes test - truth in linear light, 3 values per pixel in -1..1. truth_lin has 3 values per
 // pixel in 0..1.
@@ -33,22 +29,13 @@ typedef struct DipMapSum {
     double pixel_count;
 } DipMapSum;
 
-// Sums a map over the pixels that `mask` selects. Values that are not a number (SSIM near the
-// border) are skipped and not counted.
-DipMapSum dip_map_sum(const float *map, size_t pixel_count, DipPixelMask mask);
-
-// Adds the next pixels of a map to a sum, with the same result as if all were summed at once.
+// Adds the next pixels of a map that `mask` selects to a sum, with the same result as if all pixels
+// were added at once. Values that are not a number (SSIM near the border) are skipped and not
+// counted.
 void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count, DipPixelMask mask);
-
-// Returns the mean; 0 if the sum has no pixels.
-double dip_map_mean(DipMapSum sum);
 
 // Returns the peak signal-to-noise ratio in decibels: 10 log10(255^2 / mean_squared_codes). It is
 // infinite if mean_squared_codes is 0.
 double dip_psnr_db(double mean_squared_codes);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

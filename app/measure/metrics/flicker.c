@@ -30,7 +30,6 @@ void dip_flicker_restart(DipFlicker *flicker) {
     memset(flicker->deviation, 0, flicker->value_count * sizeof *flicker->deviation);
     flicker->added = 0;
     flicker->frame_count = 0;
-    flicker->squares = 0.0;
     flicker->step_squares = 0.0;
     flicker->pair_squares = 0.0;
 }
@@ -47,7 +46,6 @@ void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count) 
         const double from_old_mean = e - mean[i];
         mean[i] += from_old_mean / flicker->frame_count;
         deviation[i] += from_old_mean * (e - mean[i]);
-        flicker->squares += e * e;
         if (flicker->frame_count > 1) {
             flicker->step_squares += (e - before) * (e - before);
             flicker->pair_squares += 0.25 * (e + before) * (e + before);
@@ -60,7 +58,7 @@ void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count) 
 DipFlickerResult dip_flicker_result(const DipFlicker *flicker) {
     const double frames = flicker->frame_count;
     const double values = (double)flicker->value_count;
-    DipFlickerResult result = {.squared = flicker->squares / (values * frames)};
+    DipFlickerResult result = {0};
     for (size_t i = 0; i < flicker->value_count; i++) {
         result.squared_static += flicker->mean[i] * flicker->mean[i] / values;
         result.squared_flicker += flicker->deviation[i] / (values * frames);

@@ -1,4 +1,4 @@
-// Error over time, split into a part that stays constant and a part that flickers.
+// Splits the error over time into a part that stays constant and a part that flickers.
 //
 // Let e = test - truth be the difference of a tested picture from the converged picture (the truth)
 // of the same instant, per pixel and channel, in linear light. Over a burst (a few successive
@@ -12,10 +12,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // Running sums over a burst of successive frames. Owns its arrays. Use one per thread.
 typedef struct DipFlicker {
     double *mean;      // Mean of e so far, per value.
@@ -24,7 +20,6 @@ typedef struct DipFlicker {
     size_t value_count;
     size_t added; // Values of the last frame so far.
     int frame_count;
-    double squares;      // Sum of e^2 over all values and frames.
     double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.
     double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and pairs of frames.
 } DipFlicker;
@@ -44,7 +39,6 @@ void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count);
 // Mean squares over all values of the burst. A single frame has no previous frame, so its
 // squared_step and squared_two_mean are 0.
 typedef struct DipFlickerResult {
-    double squared;         // e^2.
     double squared_static;  // Square of the mean of e over time.
     double squared_flicker; // Variance of e over time.
     double squared_step;    // Squared change of e from one frame to the next.
@@ -53,9 +47,5 @@ typedef struct DipFlickerResult {
 } DipFlickerResult;
 
 DipFlickerResult dip_flicker_result(const DipFlicker *flicker);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

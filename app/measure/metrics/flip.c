@@ -1,9 +1,8 @@
-// FLIP version 1.6, step by step: opponent colours, contrast sensitivity, CIELab with Hunt's
-// effect, HyAB distance, edges and points, error.
+// Computes FLIP version 1.6 in the paper's steps: opponent colours, contrast sensitivity, CIELab
+// with Hunt's effect, HyAB distance, edges and points, error.
 #include "app/measure/metrics/flip.h"
 
-#include "app/measure/metrics/internal/convolve.h"
-#include "app/measure/metrics/internal/flip_kernels.h"
+#include "app/measure/metrics/internal/filters.h"
 #include "renderer/base/srgb.h"
 
 #include <math.h>
@@ -12,6 +11,16 @@
 
 // White point D65 in XYZ, the reference white of both the opponent colours and CIELab.
 static const float white[3] = {0.950428545f, 1.0f, 1.088900371f};
+
+// Takes linear sRGB to XYZ. It follows from sRGB's primaries and D65; its entries are exact
+// fractions.
+static const float rgb_to_xyz[3][3] = {
+    {(float)(10135552.0 / 24577794.0), (float)(8788810.0 / 24577794.0),
+     (float)(4435075.0 / 24577794.0)},
+    {(float)(2613072.0 / 12288897.0), (float)(8788810.0 / 12288897.0),
+     (float)(887015.0 / 12288897.0)},
+    {(float)(1425312.0 / 73733382.0), (float)(8788810.0 / 73733382.0),
+     (float)(70074185.0 / 73733382.0)}};
 
 // Planes of a DipFlipAnalysis.
 enum {
@@ -95,26 +104,23 @@ void dip_flip_analysis_free(DipFlipAnalysis *analysis) {
 
 // --- analysing a picture -----------------------------------------------------------------------
 
-// Converts linear sRGB to the opponent colours Y, Cx, Cz. The matrix follows from sRGB's primaries
-// and D65; its entries are exact fractions.
+// Returns row . (x, y, z).
+static float multiply(const float row[3], const float v[3]) {
+    return row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
+}
+
+// Converts linear sRGB to the opponent colours Y, Cx, Cz.
 static void to_opponent(const float rgb[3], float *luma, float *red_green, float *blue) {
-    static const float m[3][3] = {{(float)(10135552.0 / 24577794.0),
-                                   (float)(8788810.0 / 24577794.0),
-                                   (float)(4435075.0 / 24577794.0)},
-                                  {(float)(2613072.0 / 12288897.0), (float)(8788810.0 / 12288897.0),
-                                   (float)(887015.0 / 12288897.0)},
-                                  {(float)(1425312.0 / 73733382.0), (float)(8788810.0 / 73733382.0),
-                                   (float)(70074185.0 / 73733382.0)}};
     float xyz[3];
     for (int i = 0; i < 3; i++) {
-        xyz[i] = (m[i][0] * rgb[0] + m[i][1] * rgb[1] + m[i][2] * rgb[2]) / white[i];
+        xyz[i] = multiply(rgb_to_xyz[i], rgb) / white[i];
     }
     *luma = 116.0f * xyz[1] - 16.0f;
     *red_green = 500.0f * (xyz[0] - xyz[1]);
     *blue = 200.0f * (xyz[1] - xyz[2]);
 }
 
-// CIELab's compressive function.
+// Returns CIELab's compressive function.
 static float lightness(float x) {
     const float limit = 6.0f / 29.0f;
     return x > limit * limit * limit ? cbrtf(x) : x / (3.0f * limit * limit) + 4.0f / 29.0f;
@@ -127,25 +133,16 @@ static void to_lab(float luma, float red_green, float blue, float lab[3]) {
     static const float to_rgb[3][3] = {{3.241003275f, -1.537398934f, -0.498615861f},
                                        {-0.969224334f, 1.875930071f, 0.041554224f},
                                        {0.055639423f, -0.204011202f, 1.057148933f}};
-    static const float to_xyz[3][3] = {
-        {(float)(10135552.0 / 24577794.0), (float)(8788810.0 / 24577794.0),
-         (float)(4435075.0 / 24577794.0)},
-        {(float)(2613072.0 / 12288897.0), (float)(8788810.0 / 12288897.0),
-         (float)(887015.0 / 12288897.0)},
-        {(float)(1425312.0 / 73733382.0), (float)(8788810.0 / 73733382.0),
-         (float)(70074185.0 / 73733382.0)}};
     const float y = (luma + 16.0f) / 116.0f;
     const float xyz[3] = {(y + red_green / 500.0f) * white[0], y * white[1],
                           (y - blue / 200.0f) * white[2]};
-    float rgb[3];
+    float rgb[3], f[3];
     for (int i = 0; i < 3; i++) {
-        const float value = to_rgb[i][0] * xyz[0] + to_rgb[i][1] * xyz[1] + to_rgb[i][2] * xyz[2];
+        const float value = multiply(to_rgb[i], xyz);
         rgb[i] = value < 0.0f ? 0.0f : value > 1.0f ? 1.0f : value;
     }
-    float f[3];
     for (int i = 0; i < 3; i++) {
-        f[i] = lightness((to_xyz[i][0] * rgb[0] + to_xyz[i][1] * rgb[1] + to_xyz[i][2] * rgb[2]) /
-                         white[i]);
+        f[i] = lightness(multiply(rgb_to_xyz[i], rgb) / white[i]);
     }
     lab[0] = 116.0f * f[1] - 16.0f;
     lab[1] = 500.0f * (f[0] - f[1]) * (0.01f * lab[0]);
@@ -154,11 +151,8 @@ static void to_lab(float luma, float red_green, float blue, float lab[3]) {
 
 // A block while it is analysed, with its margin. Planes are packed.
 typedef struct Block {
-    DipPixelRect own; // Without the margin.
-    int x;            // Where it begins in the picture.
-    int y;
-    int width;
-    int height;
+    DipPixelRect own;   // Without the margin.
+    DipPixelRect whole; // With the margin.
     float *opponent[3];
     float *rows;
     float *other;
@@ -168,16 +162,11 @@ typedef struct Block {
 } Block;
 
 static Block block_of(const DipFlip *flip, int block) {
-    const DipPixelRect rect =
-        dip_picture_block_with_margin(flip->width, flip->height, block, flip->reach_px);
     const size_t plane = block_size(flip);
     float *at = flip->scratch;
     Block b = {
         .own = dip_picture_block(flip->width, flip->height, block),
-        .x = rect.x,
-        .y = rect.y,
-        .width = rect.width,
-        .height = rect.height,
+        .whole = dip_picture_block_with_margin(flip->width, flip->height, block, flip->reach_px),
         .opponent = {at, at + plane, at + 2 * plane},
         .rows = at + 3 * plane,
         .other = at + 4 * plane,
@@ -192,8 +181,8 @@ static Block block_of(const DipFlip *flip, int block) {
 
 static void filter(const Block *b, const DipKernel1D *across, const DipKernel1D *down,
                    const float *in, float *out) {
-    dip_convolve_rows(across, in, b->width, b->height, b->padded, b->rows);
-    dip_convolve_columns(down, b->rows, b->width, b->height, out);
+    dip_convolve_rows(across, in, b->whole.width, b->whole.height, b->padded, b->rows);
+    dip_convolve_columns(down, b->rows, b->whole.width, b->whole.height, out);
 }
 
 static void analyse_colours(const DipFlipKernels *k, const Block *b) {
@@ -210,12 +199,12 @@ static void analyse_features(const DipFlipKernels *k, const Block *b) {
     filter(b, &k->edge, &k->gauss, b->grey, out[PLANE_EDGE_X]);
     filter(b, &k->point, &k->gauss, b->grey, out[PLANE_POINT_X]);
     filter(b, &k->gauss, &k->edge, b->grey, out[PLANE_EDGE_Y]);
-    dip_convolve_columns(&k->point, b->rows, b->width, b->height, out[PLANE_POINT_Y]);
+    dip_convolve_columns(&k->point, b->rows, b->whole.width, b->whole.height, out[PLANE_POINT_Y]);
 }
 
 // Returns where row `y` of the picture begins within the block, without the margin on the left.
 static size_t row_in_block(const Block *b, int y) {
-    return (size_t)(y - b->y) * (size_t)b->width + (size_t)(b->own.x - b->x);
+    return (size_t)(y - b->whole.y) * (size_t)b->whole.width + (size_t)(b->own.x - b->whole.x);
 }
 
 // Returns where row `y` of the block begins within the picture.
@@ -226,9 +215,9 @@ static size_t row_in_picture(const DipFlip *flip, const Block *b, int y) {
 // Fills in the planes of the block. Only its own pixels have CIELab colours.
 static void analyse(const DipFlip *flip, const DipSrgbPicture *picture, const Block *b) {
     size_t i = 0;
-    for (int y = b->y; y < b->y + b->height; y++) {
-        const uint8_t *row = picture->rgba8 + (size_t)y * picture->stride_bytes + 4 * b->x;
-        for (int x = 0; x < b->width; x++, i++) {
+    for (int y = b->whole.y; y < b->whole.y + b->whole.height; y++) {
+        const uint8_t *row = picture->rgba8 + (size_t)y * picture->stride_bytes + 4 * b->whole.x;
+        for (int x = 0; x < b->whole.width; x++, i++) {
             const float rgb[3] = {flip->light[row[4 * x]], flip->light[row[4 * x + 1]],
                                   flip->light[row[4 * x + 2]]};
             to_opponent(rgb, &b->opponent[0][i], &b->opponent[1][i], &b->opponent[2][i]);
@@ -333,5 +322,29 @@ void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFli
     const int blocks = dip_picture_block_count(flip->width, flip->height);
     for (int block = 0; block < blocks; block++) {
         dip_flip_compare_block(flip, picture, block, with, map);
+    }
+}
+
+// --- the palette of maps -------------------------------------------------------------------------
+
+// This is Matplotlib's palette "magma" (public domain), approximated by one polynomial of sixth
+// degree per channel. Its 8-bit results differ from Matplotlib's table by at most 4.
+void dip_magma(float error, uint8_t rgb[3]) {
+    static const float coefficients[7][3] = {
+        {-0.002136485f, -0.000749655f, -0.005386128f},
+        {0.251660541f, 0.677523244f, 2.494026599f},
+        {8.353717279f, -3.577719515f, 0.314467903f},
+        {-27.668733086f, 14.264730781f, -13.649213188f},
+        {52.176139812f, -27.943606072f, 12.944169442f},
+        {-50.768525365f, 29.046582821f, 4.234152994f},
+        {18.655705066f, -11.489773520f, -5.601961509f},
+    };
+    const float t = error < 0.0f ? 0.0f : error > 1.0f ? 1.0f : error;
+    for (int c = 0; c < 3; c++) {
+        float value = 0.0f;
+        for (int k = 6; k >= 0; k--) {
+            value = value * t + coefficients[k][c];
+        }
+        rgb[c] = (uint8_t)(value < 0.0f ? 0.0f : value > 1.0f ? 255.0f : value * 255.0f + 0.5f);
     }
 }

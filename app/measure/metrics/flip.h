@@ -13,10 +13,6 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 // The default is for a screen that is 0.7 m and 3840 pixels wide, seen from a distance of 0.7 m.
 #define DIP_FLIP_PIXELS_PER_DEGREE     67.0206451
 #define DIP_FLIP_MIN_PIXELS_PER_DEGREE 5.0
@@ -34,9 +30,10 @@ typedef struct DipFlip {
 
 // The result of analysing a picture. Each plane has width * height values.
 typedef struct DipFlipAnalysis {
-    float *planes[7]; // L*, a*, b* as the eye resolves them, with Hunt's effect; edges in x and y;
-                      // points in x and y.
-    float *memory;    // Owned; holds all planes.
+    // L*, a* and b* as the eye resolves them, with Hunt's effect; then edges in x and y; then
+    // points in x and y.
+    float *planes[7];
+    float *memory; // Owned; holds all planes.
 } DipFlipAnalysis;
 
 // pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions
@@ -51,16 +48,16 @@ void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnaly
 void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                             DipFlipAnalysis *analysis);
 
-// Compares a picture, or a block of it, with a picture that was analysed. Writes the FLIP values at
-// their places in `map`, which has width * height values; 0 where the pictures look the same.
-// Exchanging the pictures does not change the values.
+// Compares a picture, or a block of it, with a picture that was analysed. Writes the FLIP value of
+// each pixel to `map`, which has width * height values; the value is 0 where the pictures look the
+// same. Exchanging the pictures does not change the values.
 void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFlipAnalysis *with,
                       float *map);
 void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                             const DipFlipAnalysis *with, float *map);
 
-#ifdef __cplusplus
-}
-#endif
+// Writes the sRGB colour in which maps show a FLIP value in 0..1: from black over purple and orange
+// to light yellow. Values outside 0..1 are clamped. Thread-safe.
+void dip_magma(float error, uint8_t rgb[3]);
 
 #endif

@@ -1,4 +1,4 @@
-// A histogram of FLIP values, and the search for the worst block.
+// Counts FLIP values in a histogram and searches for the worst block.
 #include "app/measure/metrics/flip_tail.h"
 
 #include <stddef.h>
@@ -75,8 +75,8 @@ void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int
     meter->frames++;
 }
 
-// The middle of the bin up to which at least this share of the values lies. The first bin counts as
-// 0, since most of its values are 0.
+// Returns the middle of the bin up to which at least this share of the values lies. The first bin
+// counts as 0, since most of its values are 0.
 static double percentile(const DipFlipTailMeter *meter, double total, double share) {
     double below = 0.0;
     for (int bin = 0; bin < BINS; bin++) {

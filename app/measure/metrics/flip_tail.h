@@ -1,15 +1,11 @@
-// The distribution of FLIP over the pixels of a burst (a series of successive frames, flicker.h),
-// and the part of the pictures where FLIP is worst. A mean over a picture hides small parts that
-// look bad.
+// Finds how FLIP is distributed over the pixels of a burst (a series of successive frames,
+// flicker.h), and in which part of the pictures it is worst. A mean over a picture hides small
+// parts that look bad.
 #ifndef DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
 #define DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
 
 #include <stdbool.h>
 #include <stdint.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 // Side of the blocks among which the worst one is found, in pixels.
 enum { DIP_FLIP_TAIL_BLOCK = 32 };
@@ -22,7 +18,7 @@ typedef struct DipFlipTail {
     double p50;
     double p95;
     double p99;
-    double worst; // Mean FLIP of the worst block. 0: all pictures are the same as the standard.
+    double worst;       // Mean FLIP of the worst block. 0: no picture differs from the truth.
     double worst_frame; // Index of the frame with the worst block.
     double worst_x;     // Left edge of the worst block, in pixels.
     double worst_y;     // Top edge.
@@ -54,9 +50,5 @@ void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int
 // Returns the distribution of everything added since the burst began, and the worst block. Of equal
 // blocks, it returns the first one.
 DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "app/measure/metrics/ssim.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,10 +65,7 @@ void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *t
     meter->test_lin = test_lin;
     meter->steps = 0;
     meter->squared_static = 0.0;
-    memset(meter->squared_lin, 0, sizeof meter->squared_lin);
-    memset(meter->squared_codes, 0, sizeof meter->squared_codes);
-    memset(meter->ssim, 0, sizeof meter->ssim);
-    memset(meter->flip_sums, 0, sizeof meter->flip_sums);
+    meter->sums = (DipMetricSums){.bursts = 0.0};
 }
 
 // --- blocks --------------------------------------------------------------------------------------
@@ -107,20 +105,26 @@ static bool measure_ssim(DipMeter *meter, int block) {
     return true;
 }
 
-static bool measure_block(DipMeter *meter, int block) {
-    return measure_flip(meter, block) &&
-           (meter->kind < DIP_METER_PICTURES || measure_ssim(meter, block));
-}
-
 // --- bands ---------------------------------------------------------------------------------------
 
-// Adds a map of `count` pixels from pixel `first` on to the sums of all regions.
-static void add_map(const DipMeter *meter, const float *map, size_t first, size_t count,
-                    DipMapSum sums[DIP_METRIC_REGION_COUNT]) {
-    dip_map_sum_add(&sums[0], map, count, (DipPixelMask){0});
-    for (int r = 1; meter->kind >= DIP_METER_PICTURES && r < DIP_METRIC_REGION_COUNT; r++) {
-        const DipPixelMask mask = {meter->standard.classes + first, (uint8_t)(r - 1)};
-        dip_map_sum_add(&sums[r], map, count, mask);
+// Index of a sum among the doubles of DipMetricRegionSums.
+#define SUM(name) (offsetof(DipMetricRegionSums, name) / sizeof(double))
+
+// Adds `count` values of a map, from pixel `first` on, to a sum of each region. Adds the number of
+// these pixels to the sum `pixels`, unless it is negative.
+static void add_map(DipMeter *meter, const float *map, size_t first, size_t count, size_t sum,
+                    int pixels) {
+    const int regions = meter->kind >= DIP_METER_PICTURES ? DIP_METRIC_REGION_COUNT : 1;
+    for (int r = 0; r < regions; r++) {
+        double *sums = (double *)&meter->sums.regions[r];
+        DipMapSum of_map = {.sum = sums[sum]};
+        const DipPixelMask mask = {r > 0 ? meter->standard.classes + first : NULL,
+                                   (uint8_t)(r - 1)};
+        dip_map_sum_add(&of_map, map, count, mask);
+        sums[sum] = of_map.sum;
+        if (pixels >= 0) {
+            sums[pixels] += of_map.pixel_count;
+        }
     }
 }
 
@@ -142,7 +146,7 @@ static void measure_light(DipMeter *meter, const DipSrgbPicture *test, size_t fi
         }
     }
     dip_difference_squared_map(meter->band, count, meter->band);
-    add_map(meter, meter->band, first, count, meter->squared_lin);
+    add_map(meter, meter->band, first, count, SUM(squared_lin), -1);
 }
 
 static void measure_band(DipMeter *meter, int y) {
@@ -157,12 +161,12 @@ static void measure_band(DipMeter *meter, int y) {
         measure_light(meter, &test, first, count);
     }
     dip_difference_codes_map(&test, &standard, meter->band);
-    add_map(meter, meter->band, first, count, meter->squared_codes);
+    add_map(meter, meter->band, first, count, SUM(squared_codes), SUM(pixels));
     if (meter->kind >= DIP_METER_FLIP) {
-        add_map(meter, meter->flip_map + first, first, count, meter->flip_sums);
+        add_map(meter, meter->flip_map + first, first, count, SUM(flip), -1);
     }
     if (meter->kind >= DIP_METER_PICTURES) {
-        add_map(meter, meter->ssim_map + first, first, count, meter->ssim);
+        add_map(meter, meter->ssim_map + first, first, count, SUM(ssim), SUM(ssim_pixels));
     }
 }
 
@@ -175,7 +179,8 @@ DipStep dip_meter_step(DipMeter *meter) {
     const int bands = (meter->height + rows - 1) / rows;
     if (meter->steps >= blocks) {
         measure_band(meter, (meter->steps - blocks) * rows);
-    } else if (!measure_block(meter, meter->steps)) {
+    } else if (!measure_flip(meter, meter->steps) ||
+               (meter->kind >= DIP_METER_PICTURES && !measure_ssim(meter, meter->steps))) {
         return DIP_STEP_FAILED;
     }
     if (++meter->steps < blocks + bands) {
@@ -187,21 +192,6 @@ DipStep dip_meter_step(DipMeter *meter) {
     return DIP_STEP_DONE;
 }
 
-DipMetricSums dip_meter_sums(const DipMeter *meter) {
-    DipMetricSums sums = {.bursts = 0.0};
-    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
-        sums.regions[r] = (DipMetricRegionSums){
-            .pixels = meter->squared_codes[r].pixel_count,
-            .squared_lin = meter->squared_lin[r].sum,
-            .squared_codes = meter->squared_codes[r].sum,
-            .ssim = meter->ssim[r].sum,
-            .ssim_pixels = meter->ssim[r].pixel_count,
-            .flip = meter->flip_sums[r].sum,
-        };
-    }
-    return sums;
-}
-
 bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
                    const DipMeterStandard *standard, DipMetricSums *sums) {
     DipStep step;
@@ -210,8 +200,7 @@ bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *tes
     do {
         step = dip_meter_step(meter);
     } while (step == DIP_STEP_WORKING);
-    const DipMetricSums added = dip_meter_sums(meter);
-    dip_metric_sums_add(sums, &added);
+    dip_metric_sums_add(sums, &meter->sums);
     return step == DIP_STEP_DONE;
 }
 

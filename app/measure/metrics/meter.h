@@ -10,11 +10,7 @@
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// What stepwise work has come to.
+// Says how far stepwise work has come.
 typedef enum DipStep {
     DIP_STEP_WORKING,
     DIP_STEP_RESULT, // There is a result, and more work may follow.
@@ -27,14 +23,15 @@ typedef enum DipMeterKind {
     DIP_METER_DIFFERENCES, // Squared differences of whole pictures.
     DIP_METER_FLIP,        // FLIP of whole pictures.
     DIP_METER_PICTURES,    // All metrics, by region, of bursts of one frame.
-    DIP_METER_BURSTS       // The same for bursts of several frames (flicker.h).
+    DIP_METER_BURSTS       // All metrics, by region, of bursts of several frames (flicker.h).
 } DipMeterKind;
 
 // The picture that others are compared with. Everything is borrowed and may be shared by threads.
 typedef struct DipMeterStandard {
     DipSrgbPicture picture;
-    const float *rgb_lin; // The same picture in linear light, 3 values per pixel; NULL: squared
-                          // differences in linear light are not measured.
+    // The same picture in linear light, 3 values per pixel. NULL: squared differences in linear
+    // light are not measured.
+    const float *rgb_lin;
     const DipFlipAnalysis *analysis; // The same picture, analysed. NULL: the meter analyses it.
     const uint8_t *classes; // What each pixel shows (DipSeen). Kinds without regions ignore it.
 } DipMeterStandard;
@@ -45,10 +42,10 @@ typedef struct DipMeter {
     int width;
     int height;
     DipFlip flip;
-    DipFlipAnalysis analysis; // Of the standard, if the meter analyses it.
+    DipFlipAnalysis analysis; // Analysis of the standard, if the meter makes it.
     int analysed;             // Blocks of the standard that the meter has analysed.
-    DipFlicker flicker;       // Of bursts of several frames.
-    double squared_static;    // Of the last frame, if bursts have one.
+    DipFlicker flicker;       // Only for bursts of several frames.
+    double squared_static;    // For bursts of one frame: the frame's squared static error.
     DipFlipTailMeter tail;    // The distribution of FLIP in the burst so far.
     float *flip_map;          // FLIP of each pixel of the last picture.
     float *ssim_map;
@@ -56,11 +53,8 @@ typedef struct DipMeter {
     DipSrgbPicture test;
     const float *test_lin;
     DipMeterStandard standard;
-    int steps; // Steps taken for the picture.
-    DipMapSum squared_lin[DIP_METRIC_REGION_COUNT];
-    DipMapSum squared_codes[DIP_METRIC_REGION_COUNT];
-    DipMapSum ssim[DIP_METRIC_REGION_COUNT];
-    DipMapSum flip_sums[DIP_METRIC_REGION_COUNT];
+    int steps;          // Steps taken for the picture.
+    DipMetricSums sums; // Of the picture. Complete once the picture is done; without its burst.
 } DipMeter;
 
 // Returns false when memory runs out; *meter then owns nothing.
@@ -75,17 +69,14 @@ void dip_meter_begin_burst(DipMeter *meter);
 // once, with the first of these pictures.
 void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard);
 
-// Begins the next picture of the burst, in place of one that is not done. If the caller has more
-// precise values than the 8-bit codes of `test`, test_lin is the picture in linear light; otherwise
-// it is NULL. Picture and standard are borrowed until the last step.
+// Begins the next picture of the burst. Forgets a picture whose last step was not taken. If the
+// caller has more precise values than the 8-bit codes of `test`, test_lin is the picture in linear
+// light; otherwise it is NULL. Picture and standard are borrowed until the last step.
 void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin);
 
 // Measures a block or a band of the picture. The values are to the bit those of the whole picture.
 // Returns DONE after the last one, and FAILED when memory runs out.
 DipStep dip_meter_step(DipMeter *meter);
-
-// Returns the sums of a picture that is done.
-DipMetricSums dip_meter_sums(const DipMeter *meter);
 
 // Sets the standard, begins a picture, steps to its end and adds its sums to *sums. Returns false
 // when memory runs out.
@@ -94,9 +85,5 @@ bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *tes
 
 // Ends the burst and adds its flicker to *sums. A single picture is a burst of one frame.
 void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

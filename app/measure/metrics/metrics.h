@@ -1,4 +1,4 @@
-// The metrics by which a picture is judged, and the sums that they are computed from.
+// Computes the metrics by which pictures are judged, from sums over their pixels.
 //
 // A burst is a series of successive frames (flicker.h). Sums can be added, also if they come from
 // several pictures, bursts or machines. The metrics of the total are then means over all pixels of
@@ -7,10 +7,6 @@
 #define DIP_APP_MEASURE_METRICS_METRICS_H
 
 #include "renderer/reference/seen.h"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 // Region 0 is the whole picture. Region 1 + c holds the pixels of class c (DipSeen: what a pixel
 // shows).
@@ -32,7 +28,7 @@ typedef struct DipMetricRegionSums {
 // DIP_METRIC_SUM_COUNT numbers.
 typedef struct DipMetricSums {
     DipMetricRegionSums regions[DIP_METRIC_REGION_COUNT];
-    // Number of bursts. Each field below is the sum, over the bursts, of the mean square of the
+    // Number of bursts. Each field below is the sum, over the bursts, of the mean square with the
     // same name in DipFlickerResult.
     double bursts;
     double squared_static;
@@ -65,9 +61,5 @@ typedef struct DipFlickerMetrics {
 } DipFlickerMetrics;
 
 DipFlickerMetrics dip_flicker_metrics_of(const DipMetricSums *sums);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -1,4 +1,4 @@
-// Dividing a picture into blocks, and cutting out a part of it.
+// Divides pictures into blocks and cuts out parts of them.
 #include "app/measure/metrics/picture.h"
 
 static int larger(int a, int b) {

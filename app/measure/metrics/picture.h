@@ -1,13 +1,10 @@
-// The pictures that metrics compare, and selections of the pixels that a metric covers.
+// Describes the pictures that metrics compare, divides them into blocks, and selects the pixels
+// that a metric covers.
 #ifndef DIP_APP_MEASURE_METRICS_PICTURE_H
 #define DIP_APP_MEASURE_METRICS_PICTURE_H
 
 #include <stddef.h>
 #include <stdint.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 // A view of a picture in 8-bit sRGB. A code is the 8-bit value of one channel. A pixel has four
 // bytes: the codes of red, green and blue, and a fourth byte that no metric reads. The top row
@@ -27,8 +24,8 @@ typedef struct DipPixelRect {
     int height;
 } DipPixelRect;
 
-// Pictures are judged in blocks, so that the work can pause between two of them. Blocks are counted
-// row by row; the last ones of a row and of a column are cut off by the border.
+// Pictures are judged in blocks, so that the work can pause between two blocks. Blocks are counted
+// row by row. The picture's border cuts off the last block of a row and of a column.
 enum { DIP_PICTURE_BLOCK = 96 }; // Side, pixels.
 
 int dip_picture_block_count(int width, int height);
@@ -46,9 +43,5 @@ typedef struct DipPixelMask {
     const uint8_t *classes;
     uint8_t wanted;
 } DipPixelMask;
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -1,7 +1,7 @@
 // Computes means, variances and the covariance of every window with separable filters.
 #include "app/measure/metrics/ssim.h"
 
-#include "app/measure/metrics/internal/convolve.h"
+#include "app/measure/metrics/internal/filters.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-// Structural similarity (Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From Error
-// Visibility to Structural Similarity", 2004) on the luma of sRGB codes.
+// Computes structural similarity (Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From
+// Error Visibility to Structural Similarity", 2004) on the luma of sRGB codes.
 //
 // Windows are Gaussian, 11x11, with a standard deviation of 1.5; K1 = 0.01, K2 = 0.03, L = 255;
 // luma is 0.299 R + 0.587 G + 0.114 B, not rounded. As in the authors' implementation, only windows
@@ -11,19 +11,11 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 enum { DIP_SSIM_RADIUS = 5 }; // Pixels.
 
 // Writes for each pixel the similarity of two windows around the pixel, one in each picture. A
 // similarity is at most 1. Pixels within DIP_SSIM_RADIUS of the border get not-a-number. Both
 // pictures must have the same size. Returns false when memory runs out. Thread-safe.
 bool dip_ssim_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

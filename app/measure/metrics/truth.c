@@ -6,6 +6,7 @@
 #include "app/measure/metrics/meter.h"
 #include "renderer/base/file.h"
 #include "renderer/base/hash.h"
+#include "renderer/base/srgb.h"
 #include "renderer/reference/convergence.h"
 
 #include <dirent.h>
@@ -29,23 +30,28 @@ const int dip_truth_level_samples[DIP_TRUTH_LEVELS] = {4, 16, DIP_TRUTH_SAMPLES}
 // What the next step does.
 typedef enum Phase { LOAD, PREPARE, DRAW, JOIN, MEASURE_FLOOR, STORE, END } Phase;
 
+// One half of a truth, as it is drawn, and as the meter compares it with the other half.
+typedef struct Half {
+    double *lin;    // Linear light. Owned; the other arrays lie in the same memory.
+    float *rounded; // The same in floats.
+    uint8_t *rgba8; // The same, encoded to sRGB.
+} Half;
+
 struct DipTruthJob {
     DipTruthDef def;
     const char *cache; // NULL: none.
     DipPool *pool;
     bool live;
     Phase phase;
-    int level; // Of dip_truth_level_samples; the last one has the samples of the def.
+    int level; // Index in dip_truth_level_samples; the last level has the samples of the def.
     DipSrgbEncodeTable encode;
     DipConvergence *convergence; // NULL if the def draws.
-    double *halves[HALVES];      // Linear light.
-    float *half_lin[HALVES];     // The same, rounded.
-    uint8_t *half_rgba8[HALVES]; // The same, encoded.
-    int drawn;                   // Tiles of the level drawn so far, in both halves together.
-    size_t joined;               // Pixels whose mean is computed.
-    DipMeter meter;              // Compares the halves.
+    Half halves[HALVES];
+    int drawn;      // Tiles of the level drawn so far, in both halves together.
+    size_t joined;  // Pixels whose mean is computed.
+    DipMeter meter; // Compares the halves.
     DipTruth truth;
-    bool has_truth; // `truth` is that of the last level that is complete.
+    bool has_truth; // True if `truth` is that of the last level that is complete.
 };
 
 static bool out_of_memory(DipError *err) {
@@ -87,31 +93,20 @@ static void find_key(const DipTruthDef *def, char key[33]) {
     dip_hash_hex(&hash, key);
 }
 
-// A file holds the truth's arrays one after the other, as they lie in memory, and then 32 digits of
-// their hash. Byte order and layout are those of the machine that wrote the file.
+// A file holds the truth's arrays one after the other, then its floor, and then 32 digits of the
+// hash of all this. The arrays lie in memory as they do in the file, with room for the rest behind
+// them. Byte order and layout are those of the machine that wrote the file.
+static size_t arrays_size(const DipTruth *truth) {
+    return (size_t)truth->width * (size_t)truth->height * (3 * sizeof(float) + 4 + 1);
+}
+
 static size_t file_size(const DipTruth *truth) {
-    const size_t pixels = (size_t)truth->width * (size_t)truth->height;
-    return pixels * (3 * sizeof(float) + 4 + 1) + sizeof(DipMetricSums) + 32;
+    return arrays_size(truth) + sizeof truth->floor + 32;
 }
 
 static bool file_name(const DipTruth *truth, const char *cache, char file[PATH_MAX]) {
     const int length = snprintf(file, PATH_MAX, "%s/truth-%s.bin", cache, truth->key);
     return length > 0 && length < PATH_MAX;
-}
-
-typedef struct Part {
-    void *bytes;
-    size_t size;
-} Part;
-
-enum { PARTS = 4 };
-
-static void list_parts(DipTruth *truth, Part parts[PARTS]) {
-    const size_t pixels = (size_t)truth->width * (size_t)truth->height;
-    parts[0] = (Part){truth->rgb_lin, pixels * 3 * sizeof(float)};
-    parts[1] = (Part){truth->rgba8, pixels * 4};
-    parts[2] = (Part){truth->classes, pixels};
-    parts[3] = (Part){&truth->floor, sizeof truth->floor};
 }
 
 static void hash_contents(const unsigned char *bytes, size_t size, char hex[33]) {
@@ -123,49 +118,37 @@ static void hash_contents(const unsigned char *bytes, size_t size, char hex[33])
 // Reads the truth, whose key, size and arrays are set. Returns false if there is no such file or if
 // the file is damaged.
 static bool load_file(DipTruth *truth, const char *cache) {
-    char name[PATH_MAX];
+    char name[PATH_MAX], hex[33];
     unsigned char *bytes;
     size_t size;
     if (!file_name(truth, cache, name) ||
         !dip_file_read(name, "truth", file_size(truth), &bytes, &size, NULL)) {
         return false;
     }
-    bool loaded = size == file_size(truth);
-    if (loaded) {
-        char hex[33];
+    bool whole = size == file_size(truth);
+    if (whole) {
         hash_contents(bytes, size - 32, hex);
-        loaded = memcmp(hex, bytes + size - 32, 32) == 0;
+        whole = memcmp(hex, bytes + size - 32, 32) == 0;
     }
-    Part parts[PARTS];
-    list_parts(truth, parts);
-    for (size_t p = 0, at = 0; loaded && p < PARTS; at += parts[p++].size) {
-        memcpy(parts[p].bytes, bytes + at, parts[p].size);
+    if (whole) {
+        memcpy(truth->rgb_lin, bytes, arrays_size(truth));
+        memcpy(&truth->floor, bytes + arrays_size(truth), sizeof truth->floor);
     }
     free(bytes);
-    return loaded;
+    return whole;
 }
 
-static bool store_file(DipTruth *truth, const char *cache, DipError *err) {
-    char name[PATH_MAX];
+static bool store_file(const DipTruth *truth, const char *cache, DipError *err) {
+    char name[PATH_MAX], hex[33];
+    unsigned char *bytes = (unsigned char *)truth->rgb_lin;
     const size_t size = file_size(truth);
-    unsigned char *bytes = malloc(size);
-    if (!bytes) {
-        return out_of_memory(err);
-    }
-    Part parts[PARTS];
-    list_parts(truth, parts);
-    for (size_t p = 0, at = 0; p < PARTS; at += parts[p++].size) {
-        memcpy(bytes + at, parts[p].bytes, parts[p].size);
-    }
-    char hex[33];
+    memcpy(bytes + arrays_size(truth), &truth->floor, sizeof truth->floor);
     hash_contents(bytes, size - 32, hex);
     memcpy(bytes + size - 32, hex, 32);
-    const bool stored = (file_name(truth, cache, name) ||
-                         dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, cache, 0, "--cache",
-                                               "the name is too long")) &&
-                        dip_whole_file_write(name, bytes, size, err);
-    free(bytes);
-    return stored;
+    return (file_name(truth, cache, name) ||
+            dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, cache, 0, "--cache",
+                                  "the name is too long")) &&
+           dip_whole_file_write(name, bytes, size, err);
 }
 
 static int64_t cache_bytes(const char *cache) {
@@ -212,12 +195,8 @@ static void free_halves(DipTruthJob *job) {
     dip_convergence_destroy(&job->convergence);
     dip_meter_free(&job->meter);
     for (int h = 0; h < HALVES; h++) {
-        free(job->halves[h]);
-        free(job->half_lin[h]);
-        free(job->half_rgba8[h]);
-        job->halves[h] = NULL;
-        job->half_lin[h] = NULL;
-        job->half_rgba8[h] = NULL;
+        free(job->halves[h].lin);
+        job->halves[h] = (Half){0};
     }
 }
 
@@ -232,19 +211,17 @@ DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, Dip
     job->level = live ? -1 : DIP_TRUTH_LEVELS - 2;
     next_level(job);
     job->phase = cache ? LOAD : PREPARE;
-    job->truth = (DipTruth){
-        .width = def->width,
-        .height = def->height,
-        .rgb_lin = malloc(pixel_count(job) * 3 * sizeof(float)),
-        .rgba8 = malloc(pixel_count(job) * 4),
-        .classes = malloc(pixel_count(job)),
-    };
+    job->truth = (DipTruth){.width = def->width, .height = def->height};
+    job->truth.rgb_lin = malloc(file_size(&job->truth));
     find_key(def, job->truth.key);
     dip_srgb_encode_table(&job->encode);
-    if (!job->truth.rgb_lin || !job->truth.rgba8 || !job->truth.classes) {
+    if (!job->truth.rgb_lin) {
         out_of_memory(err);
         dip_truth_job_destroy(&job);
+        return NULL;
     }
+    job->truth.rgba8 = (uint8_t *)(job->truth.rgb_lin + 3 * pixel_count(job));
+    job->truth.classes = job->truth.rgba8 + 4 * pixel_count(job);
     return job;
 }
 
@@ -264,14 +241,14 @@ static DipStep prepare(DipTruthJob *job, DipError *err) {
     const size_t pixels = pixel_count(job);
     bool made = true;
     for (int h = 0; h < HALVES; h++) {
-        job->halves[h] = malloc(pixels * 3 * sizeof(double));
-        job->half_lin[h] = malloc(pixels * 3 * sizeof(float));
-        job->half_rgba8[h] = malloc(pixels * 4);
-        made = made && job->halves[h] && job->half_lin[h] && job->half_rgba8[h];
-    }
-    if (!made) {
-        out_of_memory(err);
-        return DIP_STEP_FAILED;
+        Half *half = &job->halves[h];
+        half->lin = malloc(pixels * (3 * sizeof(double) + 3 * sizeof(float) + 4));
+        if (!half->lin) {
+            out_of_memory(err);
+            return DIP_STEP_FAILED;
+        }
+        half->rounded = (float *)(half->lin + 3 * pixels);
+        half->rgba8 = (uint8_t *)(half->rounded + 3 * pixels);
     }
     if (def->draw) {
         // The caller's function does not say what the pixels show.
@@ -303,7 +280,7 @@ static void draw_tile(void *context, int index, int worker) {
     Tiles *tiles = context;
     DipTruthJob *job = tiles->job;
     if (!dip_convergence_add_tile(job->convergence, tiles->first + index, samples_of_level(job),
-                                  (uint32_t)tiles->half + 1, 1.0, job->halves[tiles->half],
+                                  (uint32_t)tiles->half + 1, 1.0, job->halves[tiles->half].lin,
                                   tiles->half == 0 ? job->truth.classes : NULL, NULL)) {
         tiles->failed = true;
     }
@@ -322,13 +299,13 @@ static bool draw_tiles(DipTruthJob *job, DipError *err) {
 static DipStep draw(DipTruthJob *job, DipError *err) {
     const int half = job->drawn / part_count(job);
     if (job->drawn % part_count(job) == 0) {
-        memset(job->halves[half], 0, pixel_count(job) * 3 * sizeof(double));
+        memset(job->halves[half].lin, 0, pixel_count(job) * 3 * sizeof(double));
     }
     if (!job->def.draw) {
         if (!draw_tiles(job, err)) {
             return DIP_STEP_FAILED;
         }
-    } else if (job->def.draw(&job->def, half, job->halves[half], err)) {
+    } else if (job->def.draw(&job->def, half, job->halves[half].lin, err)) {
         job->drawn++;
     } else {
         return DIP_STEP_FAILED;
@@ -337,27 +314,23 @@ static DipStep draw(DipTruthJob *job, DipError *err) {
     return DIP_STEP_WORKING;
 }
 
-void dip_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin, size_t pixel_count,
-                      uint8_t *rgba8) {
-    for (size_t i = 0; i < pixel_count; i++) {
+// --- the mean and the floor ----------------------------------------------------------------------
+
+// Writes linear light as floats, and encoded to 8-bit sRGB (clamped to 0..1) with alpha 255.
+static void round_light(const DipTruthJob *job, const double *lin, size_t pixels, float *rounded,
+                        uint8_t *rgba8) {
+    for (size_t i = 0; i < pixels; i++) {
         for (size_t c = 0; c < 3; c++) {
-            const double value = fmin(fmax(rgb_lin[3 * i + c], 0.0), 1.0);
-            rgba8[4 * i + c] = table->code[(int)(value * DIP_LINEAR16_MAX + 0.5)];
+            const double value = fmin(fmax(lin[3 * i + c], 0.0), 1.0);
+            rounded[3 * i + c] = (float)lin[3 * i + c];
+            rgba8[4 * i + c] = job->encode.code[(int)(value * DIP_LINEAR16_MAX + 0.5)];
         }
         rgba8[4 * i + 3] = 255;
     }
 }
 
-// --- the mean and the floor ----------------------------------------------------------------------
-
-static void round_to_floats(const double *rgb_lin, size_t count, float *out) {
-    for (size_t i = 0; i < count; i++) {
-        out[i] = (float)rgb_lin[i];
-    }
-}
-
 static DipSrgbPicture half_picture(const DipTruthJob *job, int half) {
-    return (DipSrgbPicture){job->half_rgba8[half], 4 * (size_t)job->def.width, job->def.width,
+    return (DipSrgbPicture){job->halves[half].rgba8, 4 * (size_t)job->def.width, job->def.width,
                             job->def.height};
 }
 
@@ -368,7 +341,7 @@ static bool begin_floor(DipTruthJob *job, DipError *err) {
     const bool last = job->level == DIP_TRUTH_LEVELS - 1;
     const DipSrgbPicture first = half_picture(job, 0);
     const DipMeterStandard standard = {.picture = half_picture(job, 1),
-                                       .rgb_lin = job->half_lin[1],
+                                       .rgb_lin = job->halves[1].rounded,
                                        .classes = job->truth.classes};
     dip_meter_free(&job->meter);
     if (!dip_meter_init(&job->meter, last ? DIP_METER_PICTURES : DIP_METER_DIFFERENCES, def->width,
@@ -376,7 +349,7 @@ static bool begin_floor(DipTruthJob *job, DipError *err) {
         return out_of_memory(err);
     }
     dip_meter_set_standard(&job->meter, &standard);
-    dip_meter_begin(&job->meter, &first, job->half_lin[0]);
+    dip_meter_begin(&job->meter, &first, job->halves[0].rounded);
     job->phase = MEASURE_FLOOR;
     return true;
 }
@@ -388,16 +361,15 @@ static DipStep join_halves(DipTruthJob *job, DipError *err) {
     const size_t count = left < PIXELS_AT_ONCE ? left : PIXELS_AT_ONCE;
     job->has_truth = false;
     for (int h = 0; h < HALVES; h++) {
-        const double *half = job->halves[h] + 3 * from;
-        dip_truth_encode(&job->encode, half, count, job->half_rgba8[h] + 4 * from);
-        round_to_floats(half, 3 * count, job->half_lin[h] + 3 * from);
+        const Half *half = &job->halves[h];
+        round_light(job, half->lin + 3 * from, count, half->rounded + 3 * from,
+                    half->rgba8 + 4 * from);
     }
-    double *mean = job->halves[0] + 3 * from;
+    double *mean = job->halves[0].lin + 3 * from;
     for (size_t i = 0; i < 3 * count; i++) {
-        mean[i] = 0.5 * (mean[i] + job->halves[1][3 * from + i]);
+        mean[i] = 0.5 * (mean[i] + job->halves[1].lin[3 * from + i]);
     }
-    round_to_floats(mean, 3 * count, job->truth.rgb_lin + 3 * from);
-    dip_truth_encode(&job->encode, mean, count, job->truth.rgba8 + 4 * from);
+    round_light(job, mean, count, job->truth.rgb_lin + 3 * from, job->truth.rgba8 + 4 * from);
     job->joined += count;
     return count < left || begin_floor(job, err) ? DIP_STEP_WORKING : DIP_STEP_FAILED;
 }
@@ -410,7 +382,7 @@ static DipStep measure_floor(DipTruthJob *job, DipError *err) {
     if (step != DIP_STEP_DONE) {
         return step;
     }
-    job->truth.floor = dip_meter_sums(&job->meter);
+    job->truth.floor = job->meter.sums;
     job->truth.samples = HALVES * samples_of_level(job);
     job->has_truth = true;
     if (job->level < DIP_TRUTH_LEVELS - 1) {
@@ -517,7 +489,5 @@ DipMeterStandard dip_truth_standard(const DipTruth *truth) {
 
 void dip_truth_free(DipTruth *truth) {
     free(truth->rgb_lin);
-    free(truth->rgba8);
-    free(truth->classes);
     *truth = (DipTruth){0};
 }

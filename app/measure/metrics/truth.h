@@ -1,5 +1,5 @@
-// The truth: the converged picture that the pictures of all settings are compared with. It comes
-// with an estimate of its own error and is kept in a cache of files.
+// Draws truths. A truth is the converged picture with which the pictures of all settings are
+// compared. It comes with an estimate of its own error and is kept in a cache of files.
 //
 // A truth is the mean of two pictures, its halves, which are drawn with independent samples. The
 // difference of the halves is the truth's noise floor. The truth's own error is about half of this
@@ -10,19 +10,15 @@
 #include "app/measure/metrics/meter.h"
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
-#include "renderer/base/srgb.h"
 #include "renderer/scene/pose.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 struct DipReference; // renderer/reference/reference.h
 
-// Pictures have width * height pixels, the top row first, rows packed. Owns its arrays.
+// Pictures have width * height pixels, the top row first, rows packed. A truth owns its arrays,
+// which lie in one block of memory.
 typedef struct DipTruth {
     int width;
     int height;
@@ -55,10 +51,10 @@ typedef struct DipTruthDef {
     void *context;            // For `draw`.
 } DipTruthDef;
 
-// Samples per pixel of a half unless the user asks for another number, and of the halves of the
-// coarser truths that come before it where the truth is refined.
+// A truth that a user waits for is refined in levels: coarser truths come before it. The last level
+// has DIP_TRUTH_SAMPLES samples per pixel of a half, unless the user asks for another number.
 enum { DIP_TRUTH_SAMPLES = 64, DIP_TRUTH_LEVELS = 3 };
-extern const int dip_truth_level_samples[DIP_TRUTH_LEVELS]; // The last is DIP_TRUTH_SAMPLES.
+extern const int dip_truth_level_samples[DIP_TRUTH_LEVELS]; // Samples per pixel of a half.
 
 // A truth that is drawn in steps.
 typedef struct DipTruthJob DipTruthJob;
@@ -81,9 +77,10 @@ void dip_truth_job_destroy(DipTruthJob **job);
 // written.
 DipStep dip_truth_job_step(DipTruthJob *job, DipError *err);
 
-// Returns the finest complete truth, or NULL if there is none, or if the step before has begun to
-// put the next one together. Only the last one has the floor of all metrics and regions; the others
-// have that of the whole picture's squared differences. The truth is valid until the next step.
+// Returns the finest complete truth. Returns NULL if there is none, or if the last step has begun
+// to put the next one together. Only the truth of the last level has a floor of all metrics and
+// regions; the floors of the others have only the squared differences of the whole picture. The
+// truth is valid until the next step.
 const DipTruth *dip_truth_job_truth(const DipTruthJob *job);
 
 // Returns how much of the next truth is drawn, from 0 to 1. *samples: its samples per pixel, both
@@ -106,21 +103,14 @@ DipMeterStandard dip_truth_standard(const DipTruth *truth);
 // light. For the error of several truths, pass the sum of their floors.
 double dip_truth_floor_rmse(const DipMetricSums *floor, int region);
 
-// Returns whether the error of pictures is below three times the error of their truths. It then
-// cannot be told from the truths' noise: it is "at floor". `sums` are those of the pictures.
+// Returns whether the error of pictures is below three times the error of their truths. Such an
+// error is "at floor": it cannot be told from the truths' noise. floor: the sum of the truths'
+// floors. sums: those of the pictures.
 bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums);
-
-// Encodes linear light (3 values per pixel, clamped to 0..1) to 8-bit sRGB with alpha 255.
-void dip_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin, size_t pixel_count,
-                      uint8_t *rgba8);
 
 // Writes the name of the default cache folder: $XDG_CACHE_HOME/diptych, or $HOME/.cache/diptych if
 // XDG_CACHE_HOME is not set. Does not create the folder. Returns false if neither variable is set
 // or if the name does not fit.
 bool dip_truth_default_folder(char *folder, size_t size_bytes);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

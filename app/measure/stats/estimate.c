@@ -1,4 +1,4 @@
-// Student's t, intervals of logarithms, and order statistics.
+// Computes Student's t, intervals of logarithms, and order statistics.
 #include "app/measure/stats/estimate.h"
 
 #include "renderer/base/assert.h"
@@ -10,8 +10,8 @@
 
 // --- Student's t ---------------------------------------------------------------------------------
 
-// Probability that |t| is at most `t`, for a whole number of degrees of freedom (Abramowitz and
-// Stegun 26.7.3 and 26.7.4).
+// Returns the probability that |t| is at most `t`, for a whole number of degrees of freedom
+// (Abramowitz and Stegun 26.7.3 and 26.7.4).
 static double within_whole(double t, int degrees) {
     const double angle = atan(t / sqrt(degrees));
     const double cosine = cos(angle);
@@ -25,8 +25,8 @@ static double within_whole(double t, int degrees) {
     return odd ? 2.0 / DIP_PI * (angle + sin(angle) * sum) : sin(angle) * sum;
 }
 
-// Probability that a variable with Student's t distribution is at most `t`. Between whole degrees
-// of freedom it is linear in their reciprocal.
+// Returns the probability that a variable with Student's t distribution is at most `t`. Between
+// whole degrees of freedom, the probability is linear in their reciprocal.
 static double student_below(double t, double degrees) {
     if (degrees > 1000.0) {
         return 0.5 * erfc(-t / sqrt(2.0));
@@ -62,7 +62,7 @@ DipEstimate dip_estimate_make(double value, double log_error, double degrees) {
     }
     const double half = dip_student_quantile(0.975, degrees) * log_error;
     DipEstimate estimate = {value, value * exp(-half), value * exp(half), log_error, degrees};
-    if (isinf(estimate.high)) { // What may be anything has no interval.
+    if (isinf(estimate.high)) { // The value may be anything, so it has no interval.
         estimate.low = NAN;
         estimate.high = NAN;
     }

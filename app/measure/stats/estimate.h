@@ -1,24 +1,21 @@
-// A value and how well it is known, the median and the percentile. All functions are thread-safe.
+// Estimates, which are values with how well they are known; the median and the percentile. All
+// functions are thread-safe.
 #ifndef DIP_APP_MEASURE_STATS_ESTIMATE_H
 #define DIP_APP_MEASURE_STATS_ESTIMATE_H
 
 #include <string.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// Ends that are not known are NAN. No function returns low == value == high: what nothing was
-// learned about has no interval.
+// Ends that are not known are NAN. No function returns an interval of length 0: a value about whose
+// error nothing is known has no interval.
 typedef struct DipEstimate {
     double value;
-    double low;       // The interval from low to high holds the true value with 95 %, both sides
-    double high;      // together.
+    double low;       // The interval from low to high holds the true value with a probability of
+    double high;      // 95 %.
     double log_error; // Standard error of the value's logarithm, more than 0; NAN: not known.
     double degrees;   // Degrees of freedom of log_error; INFINITY for a normal distribution.
 } DipEstimate;
 
-// Returns a value of which nothing else is known.
+// Returns a value whose error is not known.
 DipEstimate dip_estimate_unknown(double value);
 
 // Returns the value with the interval value exp(+-t log_error), where t is the 97.5 % quantile of
@@ -26,8 +23,8 @@ DipEstimate dip_estimate_unknown(double value);
 // that is NAN, infinite or 0 gives dip_estimate_unknown.
 DipEstimate dip_estimate_make(double value, double log_error, double degrees);
 
-// Returns the estimate with another error of its logarithm added in quadrature, for example one
-// that several estimates share. The added error's degrees of freedom count as many.
+// Returns the estimate with another error of its logarithm added in quadrature, for example an
+// error that several estimates share. The degrees of freedom stay.
 DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error);
 
 // Returns the probability that the true value is at most `limit`: Student's t of the logarithm.
@@ -54,9 +51,5 @@ static inline double dip_percentile_of(const double *values, int count, double s
 // Returns the median of count >= 1 values. Reorders the values. Takes linear time (Hoare's
 // selection).
 double dip_median(double *values, int count);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

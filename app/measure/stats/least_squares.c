@@ -1,4 +1,4 @@
-// Normal equations, prices that are not negative, and D-optimal designs.
+// Solves normal equations, finds prices that are not negative, and chooses D-optimal designs.
 #include "app/measure/stats/least_squares.h"
 
 #include "renderer/base/assert.h"
@@ -133,7 +133,7 @@ static bool move(int terms, bool *used, const double *solution, double *prices) 
 void dip_least_squares_nonnegative(const DipNormalEquations *equations, double *prices) {
     const int terms = equations->terms;
     bool used[MAX] = {false};
-    bool failed[MAX] = {false}; // Terms that left the set at once: rounding made their slope.
+    bool failed[MAX] = {false}; // Terms that left the set at once, since rounding made their slope.
     double solution[MAX];
     memset(prices, 0, (size_t)terms * sizeof *prices);
     for (int round = 0; round < 10 * terms; round++) {

@@ -1,4 +1,4 @@
-// Linear least squares with prices that are not negative, and the choice of the rows to measure.
+// Fits prices that are not negative by linear least squares, and chooses the rows to measure.
 //
 // A row is one measurement: the amounts of `terms` kinds of work (a row of the matrix) and the time
 // that they took together. A price is the time for one unit of a kind of work. Amounts and times
@@ -6,10 +6,6 @@
 // kilobytes of stack; equal input gives equal output to the bit.
 #ifndef DIP_APP_MEASURE_STATS_LEAST_SQUARES_H
 #define DIP_APP_MEASURE_STATS_LEAST_SQUARES_H
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 enum { DIP_LEAST_SQUARES_MAX_TERMS = 64 };
 
@@ -48,9 +44,5 @@ void dip_least_squares_ridge(const DipNormalEquations *equations, double ridge, 
 // 0 <= given <= count <= rows.
 void dip_design_choose(const double *matrix, int rows, int terms, int given, int count,
                        int *chosen);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -1,4 +1,4 @@
-// Which frames a round draws, and the estimates of a fit.
+// Deals frames to rounds, and makes the estimates of a fit.
 #include "app/measure/stats/rounds_fit.h"
 
 #include "app/measure/stats/random.h"
@@ -47,14 +47,15 @@ typedef struct Variance {
     double value, degrees;
 } Variance;
 
-// Degrees of freedom of a sum: Satterthwaite 1946.
+// Returns the variance of a sum. Its degrees of freedom are those of Satterthwaite 1946.
 static Variance add_variance(Variance a, Variance b) {
     const double sum = a.value + b.value;
     const double parts = a.value * a.value / a.degrees + b.value * b.value / b.degrees;
     return (Variance){sum, parts > 0.0 ? sum * sum / parts : INFINITY};
 }
 
-// The variance of a unit's own luck, drawn towards that of all subjects of the base.
+// Returns the variance that a subject contributes to a unit, drawn towards the mean of all subjects
+// of the base.
 static Variance own_variance(const DipTimesFit *fit, const DipTimesBase *base, double own,
                              double pooled) {
     const double degrees = fit->units - 1 + base->pooled_degrees;
@@ -99,7 +100,7 @@ DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other) {
     Variance variance;
     if (subject == a->base || other == a->base) {
         variance = variance_of(fit, subject == a->base ? other : subject, DIP_TIMES_RATIO);
-    } else { // The base's luck cancels.
+    } else { // What the base contributes cancels.
         double squares = 0.0;
         for (int unit = 0; unit < fit->units; unit++) {
             const double move = dip_times_moves(fit, subject, unit)[DIP_TIMES_RATIO] -
@@ -119,7 +120,7 @@ double dip_times_spread(const DipTimesFit *fit, int subject) {
     return fit->subjects[subject].spread;
 }
 
-// An estimate of milliseconds: the error of the base's level comes on top.
+// Returns an estimate in milliseconds, to which the error of the base's level adds.
 static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
     const DipTimesSubject *s = &fit->subjects[subject];
     const DipTimesBase *base = &fit->bases[s->base];
@@ -144,7 +145,6 @@ DipAlong dip_times_along(const DipTimesFit *fit, int subject) {
         .p95_ms = in_ms(fit, subject, DIP_TIMES_P95),
         .worst_ms = in_ms(fit, subject, DIP_TIMES_WORST),
         .level_error = base->level_error,
-        .moment = base->moment,
         .kept = s->kept,
         .timed = s->timed,
     };

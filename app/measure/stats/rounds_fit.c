@@ -1,4 +1,4 @@
-// The fit of subjects beside their bases, from all units and from sets of them.
+// Fits subjects beside their bases, from all units and with each unit left out (rounds_fit.h).
 #include "app/measure/stats/rounds_fit.h"
 
 #include "app/measure/stats/estimate.h"
@@ -7,83 +7,67 @@
 #include <stdlib.h>
 #include <string.h>
 
-// More visits of a subject have their median taken instead of the mean of pairs.
+// If a subject has more visits, their median is taken instead of Hodges and Lehmann's estimate.
 enum { MOST_VISITS = 512 };
 
-// The variance that all subjects of a base have in the mean counts for at most this many degrees of
-// freedom beside a subject's own: subjects differ in how much luck they have.
+// A subject's variance is drawn towards the mean variance of all subjects of its base. That mean
+// counts for at most this many degrees of freedom, since some subjects are noisier than others.
 static const double most_pooled_degrees = 12.0;
 
-// The jackknife's variance is too great by about this where frames are dealt to rounds, since a
-// unit that is left out takes its frames' places with it (test_rounds).
+// Where frames are dealt to rounds, the jackknife's variance is too great by about this factor: a
+// unit that is left out takes with it the only times of its frames (test_rounds).
 static const double excess_of_dealt_frames = 1.25;
 
 // --- order of the log ----------------------------------------------------------------------------
 
-typedef struct Key {
-    int subject, moment, block, frame, index;
-} Key;
-
-static int compare_keys(const void *a, const void *b) {
-    const Key *x = a, *y = b;
-    const int of_x[] = {x->subject, x->moment, x->block, x->frame, x->index};
-    const int of_y[] = {y->subject, y->moment, y->block, y->frame, y->index};
-    for (int i = 0; i < 5; i++) {
-        if (of_x[i] != of_y[i]) {
-            return of_x[i] < of_y[i] ? -1 : 1;
-        }
+// Compares two elements of DipTimesWork.sorted by subject, round, block and frame.
+static int compare_places(const void *a, const void *b) {
+    const DipTimed *x = *(const DipTimed *const *)a, *y = *(const DipTimed *const *)b;
+    const int of_x[] = {x->subject, x->start, x->round, x->block, x->frame};
+    const int of_y[] = {y->subject, y->start, y->round, y->block, y->frame};
+    int side = 0;
+    for (int i = 0; side == 0 && i < 5; i++) {
+        side = (of_x[i] > of_y[i]) - (of_x[i] < of_y[i]);
     }
-    return 0;
+    return side;
 }
 
-static bool sort_times(DipTimesWork *w) {
+// The same. Frames with equal places keep their order.
+static int compare_times(const void *a, const void *b) {
+    const DipTimed *x = *(const DipTimed *const *)a, *y = *(const DipTimed *const *)b;
+    const int side = compare_places(a, b);
+    return side ? side : (x > y) - (x < y);
+}
+
+static void sort_times(DipTimesWork *w) {
     const DipTimes *times = w->times;
-    Key *keys = malloc((size_t)times->count * sizeof *keys + 1);
-    for (int i = 0; keys && i < times->count; i++) {
+    for (int i = 0; i < times->count; i++) {
         const DipTimed *t = &times->list[i];
         DIP_ASSERT(t->subject >= 0 && t->subject < times->subjects && t->start >= 0 &&
                    t->start < times->starts && t->round >= 0 && t->round < times->rounds &&
                    t->frame >= 0 && t->frame < times->frames);
-        keys[i] = (Key){t->subject, dip_times_round(times, t), t->block, t->frame, i};
+        w->sorted[i] = t;
     }
-    if (keys) {
-        qsort(keys, (size_t)times->count, sizeof *keys, compare_keys);
-        int at = 0;
-        for (int s = 0; s <= times->subjects; s++) {
-            while (at < times->count && keys[at].subject < s) {
-                at++;
-            }
-            w->first_of[s] = at;
+    qsort(w->sorted, (size_t)times->count, sizeof *w->sorted, compare_times);
+    for (int s = 0, at = 0; s <= times->subjects; s++) {
+        while (at < times->count && w->sorted[at]->subject < s) {
+            at++;
         }
-        for (int i = 0; i < times->count; i++) {
-            w->order[i] = keys[i].index;
-        }
+        w->first_of[s] = at;
     }
-    free(keys);
-    return keys != NULL;
 }
 
 // --- a subject's ratios along the path -----------------------------------------------------------
 
-// Returns the base's time of the same frame in the same visit, or NULL.
+// Returns the base's time of the same frame in the same block, or NULL.
 static const DipTimed *beside(const DipTimesWork *w, int base, const DipTimed *timed) {
-    const DipTimes *times = w->times;
-    int low = w->first_of[base], high = w->first_of[base + 1];
-    const int wanted[] = {dip_times_round(times, timed), timed->block, timed->frame};
-    while (low < high) {
-        const int middle = low + (high - low) / 2;
-        const DipTimed *t = &times->list[w->order[middle]];
-        const int here[] = {dip_times_round(times, t), t->block, t->frame};
-        int side = 0;
-        for (int i = 0; side == 0 && i < 3; i++) {
-            side = (here[i] > wanted[i]) - (here[i] < wanted[i]);
-        }
-        if (side == 0) {
-            return t;
-        }
-        *(side < 0 ? &low : &high) = side < 0 ? middle + 1 : middle;
-    }
-    return NULL;
+    DipTimed wanted = *timed;
+    wanted.subject = base;
+    const DipTimed *key = &wanted;
+    const DipTimed *const *found =
+        bsearch(&key, w->sorted + w->first_of[base],
+                (size_t)(w->first_of[base + 1] - w->first_of[base]), sizeof key, compare_places);
+    return found ? *found : NULL;
 }
 
 static double log_ratio(const DipTimesWork *w, const DipTimed *timed, const DipTimed *base) {
@@ -99,18 +83,17 @@ static int compare_pairs(const void *a, const void *b) {
     return x->frame != y->frame ? x->frame - y->frame : x->visit - y->visit;
 }
 
-// Lists the subject's frames beside its base in path order. Of those that were disturbed, only if
-// most were.
+// Lists the subject's frames beside its base in path order. Leaves out disturbed ones, unless most
+// are disturbed.
 static void list_pairs(DipTimesWork *w, int subject, DipTimesSubject *to) {
     const DipTimes *times = w->times;
-    const int from = w->first_of[subject], end = w->first_of[subject + 1];
     for (int pass = 0; pass < 2; pass++) {
-        int block = -1, moment = -1;
+        const DipTimed *last = NULL;
         w->pair_count = 0;
         w->visit_count = 0;
         to->timed = 0;
-        for (int i = from; i < end; i++) {
-            const DipTimed *t = &times->list[w->order[i]];
+        for (int i = w->first_of[subject]; i < w->first_of[subject + 1]; i++) {
+            const DipTimed *t = w->sorted[i];
             const DipTimed *base = beside(w, to->base, t);
             if (!base || !(t->ms > 0.0) || !(base->ms > 0.0)) {
                 continue;
@@ -119,11 +102,8 @@ static void list_pairs(DipTimesWork *w, int subject, DipTimesSubject *to) {
             if (pass == 0 && (t->wait > DIP_TIMED_MOST_WAIT || base->wait > DIP_TIMED_MOST_WAIT)) {
                 continue;
             }
-            if (t->block != block || dip_times_round(times, t) != moment) {
-                block = t->block;
-                moment = dip_times_round(times, t);
-                w->visit_count++;
-            }
+            w->visit_count += !last || !dip_times_same_visit(last, t);
+            last = t;
             w->pairs[w->pair_count++] = (DipTimesPair){
                 t->frame, w->visit_count - 1, dip_times_unit(times, t), log_ratio(w, t, base)};
         }
@@ -166,8 +146,8 @@ static double median_of_sorted(const double *sorted, int count, int without) {
     return 0.5 * (sorted[below + (below >= without)] + sorted[above + (above >= without)]);
 }
 
-// Writes the running medians over window / 2 values at either side; with or without the value in
-// the middle itself.
+// Writes for each value the median of the window / 2 values on either side, with or without the
+// value itself.
 static void running_median(const double *values, int count, int window, bool without, double *to,
                            double *sorted) {
     const int side = window / 2 < count ? window / 2 : count;
@@ -202,7 +182,7 @@ static int choose_window(DipTimesWork *w, const double *values, int count) {
         for (int i = 0; i < count; i++) {
             w->rest[i] = fabs(values[i] - w->smooth[i]);
         }
-        // Large misses are a visit's bad luck.
+        // A large miss comes from a disturbed visit, so it counts like a smaller one.
         double sum = 0.0;
         const double typical = dip_median(w->rest, count);
         for (int i = 0; i < count; i++) {
@@ -216,7 +196,7 @@ static int choose_window(DipTimesWork *w, const double *values, int count) {
     return best;
 }
 
-// Sets each value to the median of those of the same frame.
+// Writes for each value the median of all values of the same frame.
 static void median_of_frames(const double *values, const int *frames, int count, double *smooth,
                              double *scratch) {
     for (int first = 0, end; first < count; first = end) {
@@ -230,9 +210,9 @@ static void median_of_frames(const double *values, const int *frames, int count,
     }
 }
 
-// Returns what smoothing leaves that is common to all pairs: Hodges and Lehmann's estimate of the
-// visits' medians; and in w->spread, how far these lie apart. Frames of a visit share their
-// luck, so a visit counts once.
+// Returns what smoothing leaves in common to all pairs: Hodges and Lehmann's estimate of the
+// medians of the visits. Writes to w->spread how far these medians lie apart. What speeds up or
+// slows down one frame of a visit does so with the others, so a visit counts once.
 static double common_rest(DipTimesWork *w, int count, const int *visits, const double *rest) {
     int found = 0;
     double *of_visits = w->logs; // No longer needed.
@@ -260,8 +240,8 @@ static double common_rest(DipTimesWork *w, int count, const int *visits, const d
                                 : dip_median(of_visits, found);
 }
 
-// Takes what noise adds to the differences between frames off their times: a percentile would be
-// too high otherwise. The mean time stays.
+// Noise makes the times of frames differ more than they do in truth, so that a percentile would be
+// too high. Draws the times together by as much as noise adds. Their mean stays.
 static void take_off_noise(double *ms, int frames, double noise_variance) {
     double mean = 0.0, squares = 0.0, before = 0.0, after = 0.0;
     for (int f = 0; f < frames; f++) {
@@ -281,8 +261,8 @@ static void take_off_noise(double *ms, int frames, double noise_variance) {
     }
 }
 
-// Estimates the log ratio of each frame from the pairs in use, w->ratio. Returns the variance of
-// its noise.
+// Estimates the log ratio of each frame, w->ratio, from the first `count` pairs in use. Returns the
+// variance of the noise of these log ratios.
 static double fit_ratios(DipTimesWork *w, int count) {
     if (w->repeats) {
         median_of_frames(w->logs, w->pair_frames, count, w->smooth, w->of_visit);
@@ -303,7 +283,7 @@ static double fit_ratios(DipTimesWork *w, int count) {
     return 1.5 / (joined + 0.5) * noise * noise; // The variance of a median.
 }
 
-// Set -1 has the times of all units. The others lack one unit each, or have it alone.
+// Set -1 has the times of all units. Each other set lacks the unit of its index, or has it alone.
 static bool is_in_set(const DipTimesWork *w, int set, int unit) {
     return set < 0 || (unit == set) == w->is_alone;
 }
@@ -362,7 +342,7 @@ static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) 
     const bool all = w->is_base || 2 * subject->kept < subject->timed;
     double total = 0.0;
     for (int i = w->first_of[s]; i < w->first_of[s + 1]; i++) {
-        const DipTimed *t = &w->times->list[w->order[i]];
+        const DipTimed *t = w->sorted[i];
         if (t->ms > 0.0 && (all || !(t->wait > DIP_TIMED_MOST_WAIT))) {
             const double weight = exp(w->level[t->frame]);
             total += weight;
@@ -376,9 +356,9 @@ static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) 
     }
 }
 
-// Finds how far each unit moves the values: units - 1 times the difference that leaving it out
-// makes (the jackknife), or how far the unit alone is from the mean. Of units alone, those without
-// times take no part.
+// Finds how far each unit moves the values. This is units - 1 times the difference that leaving the
+// unit out makes (the jackknife). If sets have one unit alone, it is how far that unit is from the
+// mean of the units; units without times then take no part.
 static void find_moves(DipTimesWork *w, int s) {
     DipTimesFit *fit = w->fit;
     const int units = fit->units;
@@ -428,18 +408,18 @@ static bool has_moves(const DipTimesFit *fit, int subject) {
     return !isnan(dip_times_moves(fit, subject, 0)[DIP_TIMES_RATIO]);
 }
 
-static int list_members(const DipTimesWork *w, int base, int *members) {
+static int list_members(const DipTimesWork *w, int base) {
     int count = 0;
     for (int s = 0; s < w->times->subjects; s++) {
         if (w->times->base_of[s] == base && s != base && has_moves(w->fit, s)) {
-            members[count++] = s;
+            w->members[count++] = s;
         }
     }
     return count;
 }
 
-// Divides the variance of units into that of the base's luck, which moves all subjects alike, and
-// that of each subject's own.
+// Divides the variance of units into two parts: what the base contributes, which moves all subjects
+// alike, and what each subject contributes on its own.
 static void divide_variance(DipTimesFit *fit, DipTimesBase *base, const int *members, int count,
                             int v) {
     const int units = fit->units;
@@ -467,7 +447,7 @@ static void divide_variance(DipTimesFit *fit, DipTimesBase *base, const int *mem
     }
 }
 
-static void fit_base(DipTimesWork *w, int b, int *members) {
+static void fit_base(DipTimesWork *w, int b) {
     DipTimesFit *fit = w->fit;
     dip_times_fit_levels(w, b);
     for (int s = 0; s < w->times->subjects; s++) {
@@ -476,14 +456,14 @@ static void fit_base(DipTimesWork *w, int b, int *members) {
             fit_subject(w, s);
         }
     }
-    const int count = list_members(w, b, members);
+    const int count = list_members(w, b);
     for (int v = 0; fit->units > 1 && v < DIP_TIMES_VALUE_COUNT; v++) {
         for (int s = 0; s < w->times->subjects; s++) {
             if (w->times->base_of[s] == b && !has_moves(fit, s)) {
                 fit->subjects[s].variance[v] = NAN;
             }
         }
-        divide_variance(fit, &fit->bases[b], members, count, v);
+        divide_variance(fit, &fit->bases[b], w->members, count, v);
         for (int unit = 0; unit < fit->units; unit++) {
             const double move = dip_times_moves(fit, b, unit)[v];
             fit->subjects[b].variance[v] += move * move / (fit->units - 1);
@@ -494,7 +474,7 @@ static void fit_base(DipTimesWork *w, int b, int *members) {
 // --- memory --------------------------------------------------------------------------------------
 
 static void close_work(DipTimesWork *w) {
-    free(w->order);
+    free(w->sorted);
     free(w->first_of);
     free(w->cells);
     free(w->moments);
@@ -514,19 +494,22 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, int part, DipTimes
         .fit = fit,
         .part = part,
         .is_alone = times->complete && times->starts > 1,
-        .order = malloc(count * sizeof(int)),
-        .first_of = malloc(((size_t)times->subjects + 1) * sizeof(int)),
+        .sorted = malloc(count * sizeof(DipTimed *)),
+        .first_of = malloc((2 * (size_t)times->subjects + 1) * sizeof(int)),
         .cells = malloc(count * sizeof(DipTimesCell)),
         .moments = malloc(count * sizeof(DipTimesMoment)),
         .pairs = malloc(count * sizeof(DipTimesPair)),
         .visits = malloc(2 * count * sizeof(int)),
         .level = malloc((sets * (frames + 1) + count + all + 2 * frames) * sizeof(double)),
         .logs = malloc(4 * all * sizeof(double)),
+        .means = malloc(MOST_VISITS * (MOST_VISITS + 1) / 2 * sizeof(double)),
     };
-    if (!w->order || !w->first_of || !w->cells || !w->moments || !w->pairs || !w->visits ||
-        !w->level || !w->logs || !sort_times(w)) {
+    if (!w->sorted || !w->first_of || !w->cells || !w->moments || !w->pairs || !w->visits ||
+        !w->level || !w->logs || !w->means) {
         return false;
     }
+    w->members = w->first_of + times->subjects + 1;
+    sort_times(w);
     w->missing = w->level + sets * frames;
     w->speed = w->missing + sets;
     w->weights = w->speed + count;
@@ -536,14 +519,7 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, int part, DipTimes
     w->smooth = w->logs + all;
     w->rest = w->smooth + all;
     w->of_visit = w->rest + all;
-    size_t visits = 1; // Of one subject, at most.
-    for (int s = 0; s < times->subjects; s++) {
-        const size_t length = (size_t)(w->first_of[s + 1] - w->first_of[s]);
-        visits = times->base_of[s] != s && length > visits ? length : visits;
-    }
-    visits = visits < MOST_VISITS ? visits : MOST_VISITS;
-    w->means = malloc(visits * (visits + 1) / 2 * sizeof(double));
-    return w->means;
+    return true;
 }
 
 DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err) {
@@ -555,8 +531,7 @@ DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err) 
     const size_t subjects = (size_t)times->subjects, frames = (size_t)times->frames;
     DipTimesFit *fit = calloc(1, sizeof *fit);
     DipTimesWork w = {0};
-    int *members = malloc(subjects * sizeof *members);
-    bool made = fit && members;
+    bool made = fit;
     if (made) {
         fit->frames = times->frames;
         fit->units = times->starts > 1 ? times->starts : times->rounds;
@@ -571,11 +546,10 @@ DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err) 
     }
     for (int s = 0; made && s < times->subjects; s++) {
         if (times->base_of[s] == s) {
-            fit_base(&w, s, members);
+            fit_base(&w, s);
         }
     }
     close_work(&w);
-    free(members);
     if (!made) {
         dip_times_fit_free(&fit);
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "timing", "out of memory");

@@ -1,4 +1,7 @@
-// What the files of the fit share: intermediate values and memory. Private to this folder.
+// Declares what the files of the fit share: intermediate values and memory. Private to this folder.
+//
+// A unit is a start of the program, or a round if there is one start. Estimates are made anew with
+// each unit left out; how far they move shows how well they are known (the jackknife).
 #ifndef DIP_APP_MEASURE_STATS_ROUNDS_FIT_H
 #define DIP_APP_MEASURE_STATS_ROUNDS_FIT_H
 
@@ -6,7 +9,8 @@
 
 #include <math.h>
 
-// Of a subject's frames, over the base's mean time: their mean, 95th percentile and worst.
+// The values that are fitted: the mean, the 95th percentile and the worst of the times of a
+// subject's frames, each divided by the base's mean time.
 typedef enum DipTimesValue {
     DIP_TIMES_RATIO,
     DIP_TIMES_P95,
@@ -22,7 +26,7 @@ typedef struct DipTimesPair {
     double log_ratio;
 } DipTimesPair;
 
-// The base's times of one frame in a moment: in those visits of a round that draw the same frames.
+// The base's times of one frame in one moment.
 typedef struct DipTimesCell {
     int frame;
     int moment;
@@ -33,39 +37,38 @@ typedef struct DipTimesCell {
     double trust;  // 0 to 1: how well it agrees with the fit.
 } DipTimesCell;
 
-// A moment: its round (of all starts), and the first frame that its visits draw.
+// A moment: those visits of the base in a round that draw the same frames.
 typedef struct DipTimesMoment {
-    int round;
-    int first_frame;
+    int round;       // Counted over all starts.
+    int first_frame; // The first frame that the visits draw.
 } DipTimesMoment;
 
 typedef struct DipTimesBase {
     double level_ms; // Mean over the frames.
-    double moment;   // As in DipAlong.
     double level_error;
     double level_degrees;
-    double pooled[DIP_TIMES_VALUE_COUNT];   // Variance of a unit, of a subject's own luck: mean of
-                                            // subjects.
-    double pooled_degrees;                  // For how many degrees of freedom it counts.
-    double variance[DIP_TIMES_VALUE_COUNT]; // Variance of a unit, of luck that all subjects share.
+    // Mean over the subjects of the variance that each contributes to a unit.
+    double pooled[DIP_TIMES_VALUE_COUNT];
+    double pooled_degrees;                  // For how many degrees of freedom `pooled` counts.
+    double variance[DIP_TIMES_VALUE_COUNT]; // Variance that the base contributes to a unit.
 } DipTimesBase;
 
 typedef struct DipTimesSubject {
     int base;
     int timed, kept;
     double spread;                          // See dip_times_spread.
-    double doubt;                           // Variance of single frames about their neighbours.
+    double doubt;                           // Variance of what is not known of a single frame.
     double logs[DIP_TIMES_VALUE_COUNT];     // Logarithms of the values.
-    double variance[DIP_TIMES_VALUE_COUNT]; // Variance of a unit, of the subject's own luck.
+    double variance[DIP_TIMES_VALUE_COUNT]; // Variance that the subject contributes to a unit.
     double shares[DIP_TIMED_PARTS];
 } DipTimesSubject;
 
 struct DipTimesFit {
     int frames;
-    int units;     // Starts, or rounds if there is one start.
-    double excess; // By which the variance of units is too great.
+    int units;     // Number of starts, or of rounds if there is one start.
+    double excess; // Factor by which the variance of units is too great.
     DipTimesSubject *subjects;
-    DipTimesBase *bases; // [subject], of those that are bases.
+    DipTimesBase *bases; // [subject]; only those of bases are used.
     double *frame_ms;    // [subject * frames + frame]
     // How far a unit moves a value, as a logarithm: [(subject * units + unit) *
     // DIP_TIMES_VALUE_COUNT + v].
@@ -76,19 +79,20 @@ struct DipTimesFit {
 typedef struct DipTimesWork {
     const DipTimes *times;
     DipTimesFit *fit;
-    int part;      // The part of the times in which subjects differ; -1: in all.
-    bool is_alone; // A set has the pairs of one unit alone; otherwise it lacks them.
-    int *order;    // [count]: indices of times, those of a subject by round, block and frame.
-    int *first_of; // [subjects + 1]: where a subject's times begin in `order`.
+    int part;      // The part of the times in which subjects differ; -1: they differ in all parts.
+    bool is_alone; // True if a set has the pairs of one unit alone; otherwise it lacks them.
+    const DipTimed **sorted; // [count]: the times by subject, round, block and frame.
+    int *first_of;           // [subjects + 1]: where a subject's times begin in `sorted`.
+    int *members;            // [subjects]: those of a base whose moves are known.
     DipTimesCell *cells;
     int cell_count;
     DipTimesPair *pairs;
     int pair_count, visit_count;
     int window;      // Frames of the running median of the subject's log ratios.
-    bool repeats;    // Most frames were timed several times.
-    bool is_base;    // The subject is the base itself: it has no pairs.
-    double *level;   // [(1 + units) * frames]: log ms, with all units and with each left out.
-    double *missing; // [1 + units]: by how much more the variance of true levels is.
+    bool repeats;    // True if most frames were timed several times.
+    bool is_base;    // True if the subject is the base itself, which has no pairs.
+    double *level;   // [(1 + units) * frames]: log ms, with all units, then with each left out.
+    double *missing; // [1 + units]: how much greater the variance of the true levels is.
     double spread;   // Of the subject's visits.
     double doubt;    // Of the subject's frames.
     DipTimesMoment *moments; // [count]
@@ -97,16 +101,16 @@ typedef struct DipTimesWork {
     double *weights;                         // [the greater of count and frames]
     int *visits, *pair_frames;               // [count]: of the pairs in use.
     double *logs, *smooth, *rest, *of_visit; // [count] each.
-    double *means;                           // [visits (visits + 1) / 2]
+    double *means;                           // Scratch for Hodges and Lehmann's estimate.
     double *ratio;                           // [frames]: smoothed log ratio.
     double *time;                            // [frames]
 } DipTimesWork;
 
-// The base's own luck is expected to be that of the others, which counts as much as this many
-// units.
+// A base is expected to vary as much as the other subjects do. This expectation counts as much as
+// this many units.
 #define DIP_TIMES_BASE_DEGREES 1.0
 
-// What repetition within one log never shows.
+// An error that repetition within one log never shows, as a logarithm.
 #define DIP_TIMES_LEAST_ERROR 0.001
 
 // The standard deviation of normally distributed values is this many times the median of their
@@ -120,6 +124,10 @@ static inline int dip_times_unit(const DipTimes *times, const DipTimed *timed) {
 // Returns the index of a frame's round among those of all starts.
 static inline int dip_times_round(const DipTimes *times, const DipTimed *timed) {
     return timed->start * times->rounds + timed->round;
+}
+
+static inline bool dip_times_same_visit(const DipTimed *a, const DipTimed *b) {
+    return a->start == b->start && a->round == b->round && a->block == b->block;
 }
 
 static inline double *dip_times_moves(const DipTimesFit *fit, int subject, int unit) {

@@ -1,4 +1,4 @@
-// The base's levels: how long each frame takes at the machine's usual speed.
+// Fits the levels of a base: how long each of its frames takes at the machine's usual speed.
 #include "app/measure/stats/rounds_fit.h"
 
 #include "app/measure/stats/estimate.h"
@@ -18,22 +18,23 @@ static int compare_cells(const void *a, const void *b) {
                                   : x->visit - y->visit;
 }
 
-// Lists the base's times. Of those that were disturbed, only if most were.
+// Lists the base's times as cells and returns their number. Leaves out disturbed times, unless most
+// are disturbed.
 static int list_base_times(DipTimesWork *w, int base) {
     const DipTimes *times = w->times;
     const int from = w->first_of[base], end = w->first_of[base + 1];
     int disturbed = 0, count = 0, visit = -1;
     for (int i = from; i < end; i++) {
-        disturbed += times->list[w->order[i]].wait > DIP_TIMED_MOST_WAIT;
+        disturbed += w->sorted[i]->wait > DIP_TIMED_MOST_WAIT;
     }
     const bool all = 2 * disturbed > end - from;
     const DipTimed *last = NULL;
     int moment = 0;
     w->moment_count = 0;
     for (int i = from; i < end; i++) {
-        const DipTimed *t = &times->list[w->order[i]];
+        const DipTimed *t = w->sorted[i];
         const int round = dip_times_round(times, t);
-        if (!last || last->block != t->block || dip_times_round(times, last) != round) {
+        if (!last || !dip_times_same_visit(last, t)) {
             visit++;
             moment = w->moment_count;
             while (moment > 0 && w->moments[moment - 1].round == round &&
@@ -57,7 +58,8 @@ static int list_base_times(DipTimesWork *w, int base) {
     return count;
 }
 
-// Returns the end of the cell that begins at `first`: of the times of one frame in one moment.
+// Returns the end of the run of times that begins at `first` and belongs to one frame in one
+// moment.
 static int end_of_cell(const DipTimesWork *w, int first, int count) {
     int end = first;
     while (end < count && w->cells[end].moment == w->cells[first].moment &&
@@ -67,8 +69,8 @@ static int end_of_cell(const DipTimesWork *w, int first, int count) {
     return end;
 }
 
-// Joins the times of each cell: their median over the visits, after the visits' own speeds were
-// taken out.
+// Joins the times of one frame in one moment to one cell: their median over the visits, after the
+// speed of each visit was taken out.
 static void join_cells(DipTimesWork *w, int count) {
     double *speed = w->rest;   // [visit]
     double *sum = w->of_visit; // [visit]
@@ -124,7 +126,8 @@ static void trust_cells(DipTimesWork *w, int left_out, const double *level) {
     }
 }
 
-// Sets levels, or speeds, to the weighted means of what remains.
+// Sets the levels of frames, or the speeds of moments, to the weighted means of what `other`, the
+// other of the two, leaves of the times.
 static void fit_side(DipTimesWork *w, int left_out, double *to, int count, const double *other,
                      bool is_level) {
     memset(to, 0, (size_t)count * sizeof *to);
@@ -143,7 +146,6 @@ static void fit_side(DipTimesWork *w, int left_out, double *to, int count, const
     }
 }
 
-// Fills values that are not known from their neighbours: linear between them, constant beyond.
 void dip_times_fill_gaps(double *values, int count) {
     int last = -1;
     for (int i = 0; i < count; i++) {
@@ -178,10 +180,10 @@ static void fit_levels(DipTimesWork *w, int left_out, double *level) {
     }
 }
 
-// Returns the variance of the noise that the levels of single frames have, beyond what is common to
-// all frames: from how far levels move when a unit is left out. The jackknife of a median is twice
-// too large (Efron 1982, The Jackknife, the Bootstrap and Other Resampling Plans, chapter 3), and
-// a robust fit to few cells is like a median.
+// Returns the variance of the noise that the levels of single frames have, beyond the noise that
+// all frames have in common. It shows in how far levels move when a unit is left out. The jackknife
+// of a median is twice too large (Efron 1982, The Jackknife, the Bootstrap and Other Resampling
+// Plans, chapter 3), and a robust fit to few cells is like a median.
 static double noise_of_levels(const DipTimesWork *w) {
     const int frames = w->times->frames, units = w->fit->units;
     double squares = 0.0;
@@ -202,8 +204,9 @@ static double noise_of_levels(const DipTimesWork *w) {
     return 0.5 * squares * (units - 1.0) / units;
 }
 
-// Writes the mean of up to `reach` frames on either side of each frame, of as many on one side as
-// on the other; of the one neighbour at the path's ends. Returns the mean square of what it misses.
+// Predicts the level of each frame as the mean of its neighbours: up to `reach` frames on either
+// side, as many on one side as on the other. At the path's ends, the only neighbour predicts.
+// Returns the mean square of how far the predictions miss the levels.
 static double predict_levels(const double *level, int frames, int reach, double *to) {
     double squares = 0.0;
     for (int f = 0; f < frames; f++) {
@@ -234,9 +237,10 @@ static int choose_reach(DipTimesWork *w, const double *level) {
 }
 
 // Joins each level with what its neighbours predict, each weighted by the inverse of its variance.
-// Neighbours miss by their own noise and by what changes along the path; both show in how they miss
-// the levels, which were timed in other rounds. `noise` is the levels' variance. Returns the
-// variance that remains, by which the true levels differ more than the joined ones do.
+// A prediction misses because the neighbours are noisy and because the path changes. Both show in
+// how far predictions miss the levels, which were timed in other rounds. `noise` is the variance of
+// the levels' noise. Returns how much greater the variance of the true levels is than that of the
+// joined ones.
 static double join_neighbours(DipTimesWork *w, int reach, double noise, double *level) {
     const int frames = w->times->frames;
     if (frames < 3 || !(noise > 0.0)) { // Nothing tells how noisy the levels are.
@@ -262,11 +266,12 @@ static double deviation(const double *values, int count) {
     return sqrt(squares / (count - 1));
 }
 
-// Returns the median of what the base's frames took in a round beyond their level; NAN without any.
+// Returns how much slower than their levels the base's frames were in a round: the median of the
+// logarithms; NAN if the round has none of these frames.
 static double speed_of_round(DipTimesWork *w, int base, int round, const double *level) {
     int count = 0;
     for (int i = w->first_of[base]; i < w->first_of[base + 1]; i++) {
-        const DipTimed *t = &w->times->list[w->order[i]];
+        const DipTimed *t = w->sorted[i];
         if (dip_times_round(w->times, t) == round && t->ms > 0.0) {
             w->logs[count++] = log(t->ms) - level[t->frame];
         }
@@ -274,8 +279,8 @@ static double speed_of_round(DipTimesWork *w, int base, int round, const double 
     return count > 0 ? dip_median(w->logs, count) : NAN;
 }
 
-// Finds the rounds' speeds, relates the levels to the usual one (the median), and tells how far the
-// mean of the starts, or of groups of successive rounds, can be off.
+// Finds the speeds of the rounds and relates the levels to the usual speed, their median. Finds
+// from the starts, or from groups of successive rounds, how far off the levels' mean can be.
 static void judge_speeds(DipTimesWork *w, int b) {
     const DipTimes *times = w->times;
     DipTimesBase *base = &w->fit->bases[b];
@@ -300,7 +305,6 @@ static void judge_speeds(DipTimesWork *w, int b) {
             of_groups[group_count++] = sum / (known - before);
         }
     }
-    base->moment = known > 1 ? deviation(w->rest, known) : NAN;
     base->level_error = NAN;
     if (group_count > 1) {
         base->level_error =

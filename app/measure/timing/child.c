@@ -1,4 +1,4 @@
-// Starting another program and talking with it through pipes.
+// Starts another program and talks with it through pipes.
 #include "app/measure/timing/child.h"
 
 #include "app/measure/timing/thread_use.h"
@@ -22,7 +22,7 @@ extern char **environ;
 
 struct DipChild {
     DipChildDef def; // Its texts are borrowed.
-    pid_t pid;       // 0 if there is no process
+    pid_t pid;       // 0 if there is no process.
     FILE *to;
     FILE *from;
     DipThreadWatch *watch; // NULL if the machine does not tell.
@@ -160,47 +160,41 @@ void dip_child_stop(DipChild **child_pointer, bool at_once) {
 
 // --- asking ------------------------------------------------------------------------------------
 
-// How long the threads of the child were on a core and waited for one.
-typedef struct Use {
-    double wait_ms; // NAN: not known.
-    double cpu_ms;
-    double switches;
-} Use;
-
-static Use use_between(const DipThreadUse *before, const DipThreadUse *after) {
-    return (Use){
-        .wait_ms = after->has_wait ? 1e-6 * (double)(after->wait_ns - before->wait_ns) : NAN,
-        .cpu_ms = 1e-6 * (double)(after->cpu_ns - before->cpu_ns),
-        .switches = (double)(after->switches - before->switches),
-    };
+// Writes how the threads of the child spent the time of a frame. timed->wait is in milliseconds for
+// now; NAN if it is not known.
+static void set_use(DipTimed *timed, const DipThreadUse *before, const DipThreadUse *after) {
+    timed->wait = after->has_wait ? 1e-6 * (double)(after->wait_ns - before->wait_ns) : NAN;
+    timed->cpu_ms = 1e-6 * (double)(after->cpu_ns - before->cpu_ns);
+    timed->switches = (double)(after->switches - before->switches);
 }
 
-static bool store_number(const char *word, size_t length, const char *name, double *value) {
-    return length == strlen(name) && memcmp(word, name, length) == 0 &&
-           dip_number_parse(word + length + 1, strlen(word + length + 1), value);
+static void store_number(const char *word, const char *value, const char *name, double *to) {
+    if (strcmp(word, name) == 0) {
+        dip_number_parse(value, strlen(value), to);
+    }
 }
 
 // Stores one NAME=VALUE of an answer. Ignores an unknown name.
-static void store_word(const char *word, DipBenchSample *sample, Use *use) {
-    const char *equals = strchr(word, '=');
-    const size_t length = equals ? (size_t)(equals - word) : 0;
-    store_number(word, length, "wait_ms", &use->wait_ms);
-    store_number(word, length, "cpu_ms", &use->cpu_ms);
-    store_number(word, length, "switches", &use->switches);
-    if (length == strlen("hash") && memcmp(word, "hash", length) == 0) {
-        snprintf(sample->hash, sizeof sample->hash, "%s", equals + 1);
+static void store_word(char *word, DipBenchSample *sample, DipTimed *timed) {
+    char *value = strchr(word, '=');
+    if (!value) {
+        return;
     }
-    for (int stage = 0; length && stage < DIP_BENCH_STAGE_COUNT; stage++) {
-        const char *name = dip_bench_stage_names[stage];
-        const size_t name_length = strlen(name);
-        if (length == name_length + 3 && memcmp(word, name, name_length) == 0 &&
-            memcmp(word + name_length, "_ms", 3) == 0) {
-            dip_number_parse(equals + 1, strlen(equals + 1), &sample->ms[stage]);
-        }
+    *value++ = '\0';
+    store_number(word, value, "wait_ms", &timed->wait);
+    store_number(word, value, "cpu_ms", &timed->cpu_ms);
+    store_number(word, value, "switches", &timed->switches);
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s_ms", dip_bench_stage_names[stage]);
+        store_number(word, value, name, &sample->ms[stage]);
+    }
+    if (strcmp(word, "hash") == 0) {
+        snprintf(sample->hash, sizeof sample->hash, "%s", value);
     }
 #define STORE_COUNTER(name, text)                                                                  \
-    if (length == strlen(#name) && memcmp(word, #name, length) == 0) {                             \
-        sample->counters.name = strtoull(equals + 1, NULL, 10);                                    \
+    if (strcmp(word, #name) == 0) {                                                                \
+        sample->counters.name = strtoull(value, NULL, 10);                                         \
     }
     DIP_COUNTER_LIST(STORE_COUNTER)
 #undef STORE_COUNTER
@@ -217,17 +211,15 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
         return false;
     }
     const DipThreadUse after = dip_thread_watch_read(child->watch);
-    // Older builds do not tell. The watch also sees how long the child waits until it reads the
-    // request.
-    Use use = use_between(&before, &after);
+    // Newer builds answer how long their threads waited. For older ones, the watch's figures stand,
+    // which include the wait until the child reads the request.
+    set_use(timed, &before, &after);
     char *rest = NULL;
     for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {
-        store_word(word, sample, &use);
+        store_word(word, sample, timed);
     }
     dip_bench_sample_time(sample, timed);
-    timed->wait = use.wait_ms / timed->ms;
-    timed->cpu_ms = use.cpu_ms;
-    timed->switches = use.switches;
+    timed->wait /= timed->ms;
     return timed->ms > 0.0 ||
            dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, child->def.key,
                                  "%s answered without a time", child->def.program);
@@ -235,15 +227,16 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
 
 // --- answering ---------------------------------------------------------------------------------
 
-static void answer(const DipBenchSample *sample, const Use *use) {
+static void answer(const DipBenchSample *sample, const DipTimed *timed) {
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         printf("%s_ms=%.6f ", dip_bench_stage_names[stage], sample->ms[stage]);
     }
 #define PRINT_COUNTER(name, text) printf("%s=%" PRIu64 " ", #name, sample->counters.name);
     DIP_COUNTER_LIST(PRINT_COUNTER)
 #undef PRINT_COUNTER
-    if (!isnan(use->wait_ms)) {
-        printf("wait_ms=%.6f cpu_ms=%.6f switches=%.0f ", use->wait_ms, use->cpu_ms, use->switches);
+    if (!isnan(timed->wait)) {
+        printf("wait_ms=%.6f cpu_ms=%.6f switches=%.0f ", timed->wait, timed->cpu_ms,
+               timed->switches);
     }
     printf("hash=%s\n", sample->hash);
     fflush(stdout);
@@ -265,8 +258,9 @@ bool dip_child_serve(const char *what, int count, int frames,
         done = draw(context, line, &sample, err);
         if (done) {
             const DipThreadUse after = dip_thread_watch_read(watch);
-            const Use use = use_between(&before, &after);
-            answer(&sample, &use);
+            DipTimed timed;
+            set_use(&timed, &before, &after);
+            answer(&sample, &timed);
         }
     }
     dip_thread_watch_close(&watch);

@@ -1,4 +1,4 @@
-// Timing frames in another process: another build of this program, or this one started anew. The
+// Times frames in another process: another build of this program, or this one started anew. The
 // process runs as a child, `PROGRAM ... --serve`, and is controlled through two pipes.
 //
 // The protocol consists of lines of text. The child first sends the greeting "diptych-WHAT 1
@@ -20,8 +20,8 @@ typedef struct DipChildDef {
     int argc;
     const char *what; // The command: "bench".
     int count;        // Combinations that the greeting must state.
-    int frames;       // Frames that it must state.
-    const char *key;  // Of errors.
+    int frames;       // Frames that the greeting must state.
+    const char *key;  // The key of errors.
 } DipChildDef;
 
 // Starts a program and its watch. Fails if the program cannot be started or does not send the
@@ -31,12 +31,13 @@ DipChild *dip_child_start(const DipChildDef *def, DipError *err);
 // Returns the number of the child's threads; 0 if the machine does not tell.
 int dip_child_thread_count(const DipChild *child);
 
-// Closes the child's standard input and waits until it has ended. `at_once`: ends it, because its
-// answer is no longer read, so it must not complain that it cannot be written.
+// Closes the child's standard input and waits until the child has ended. at_once: sends the child a
+// signal to end first. Its answer is then no longer read, so it must not complain that it cannot
+// write one.
 void dip_child_stop(DipChild **child, bool at_once);
 
-// Asks for a frame. Writes its time, the parts of the time, and how long the child's threads waited
-// (NAN if the machine does not tell).
+// Asks for a frame. Writes the frame's time, the parts of this time, and how long the child's
+// threads waited (NAN if the machine does not tell).
 bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample, DipTimed *timed,
                     DipError *err);
 

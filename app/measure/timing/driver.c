@@ -1,4 +1,4 @@
-// Plans starts and rounds as lists of frames, and draws the next frame of a list in each step.
+// Plans starts and rounds as lists of frames. Each step draws the next frame of a list.
 #include "app/measure/timing/driver.h"
 
 #include "app/measure/stats/random.h"
@@ -25,8 +25,11 @@ typedef struct Draw {
 
 typedef struct Block {
     int base;
-    int first; // Index of its first subject in DipDriver.members.
-    int count; // Subjects besides the base.
+    int first;       // Index of its first subject in DipDriver.members.
+    int count;       // Subjects besides the base.
+    int number;      // Differs between the blocks of a round and those of its repetition.
+    int nth_of_base; // The round has of_base blocks of this base, and this is the nth of them.
+    int of_base;
 } Block;
 
 // What the next step does.
@@ -36,32 +39,34 @@ struct DipDriver {
     DipDriverDef def; // Its starts and rounds change if starts take long.
     DipDriverCalls calls;
     DipThreadWatch *watch; // NULL if the caller has its own, or if the machine does not tell.
-    int *base_of;
+    int *base_of;          // Owned; the other arrays of numbers lie in the same memory.
     int *deal; // [copy * frames + frame]: the round that draws it; NULL if every round draws all
                // frames.
     Stage stage;
     int start; // The start that has begun; -1: none.
-    // The round that is drawn next, of all starts. Rounds that repeat the others follow them.
+    // The round that is drawn next, counted over all starts. Rounds that repeat the others follow
+    // them.
     int round;
     bool starts_are_fixed;
 
     // The plan of the start or of the round.
     Draw *plan;
     int plan_count, plan_room;
-    int next;      // Index of the draw of the next step.
-    int *members;  // Subjects of the round, grouped by base.
-    Block *blocks; // In the order in which they are drawn.
-    int *order;    // Scratch for shuffling.
-    int *frames;   // Frames of the round, then those that only the base draws.
+    bool plan_failed; // Memory ran out.
+    int next;         // Index of the draw of the next step.
+    int *members;     // Subjects of the round, grouped by base.
+    Block *blocks;    // In the order in which they are drawn.
+    int *order;       // Scratch for shuffling.
+    int *frames;      // Frames of the round, then those that only the base draws.
     int frame_count, all_frame_count;
-    bool *is_needed; // [subject]: the round draws it.
-    int *score;      // [subject]: undisturbed frames less three times the disturbed ones.
+    int *is_needed; // [subject]: 1 if the round draws it.
+    int *score;     // [subject]: undisturbed frames less three times the disturbed ones.
 
     DipTimed *fresh; // Frames of the incomplete round.
     int fresh_count;
     DipTimed *log;     // Frames of all complete rounds.
-    double *base_wait; // [log]: wait of the base's frame beside it.
-    int log_count, log_room;
+    double *base_wait; // [log]: how long the base's frame beside it waited.
+    int log_count;
     int *log_begin; // [round]: index of its first frame in the log.
 
     double settle_ms[SETTLE_RUNS];
@@ -70,8 +75,8 @@ struct DipDriver {
 
     int64_t origin_ns, visit_ns, start_begin_ns, round_begin_ns, start_ns;
     bool has_begun;
-    int64_t drawn, left;            // Frames of starts and rounds, of rounds.
-    int64_t paced, pace_ns;         // All frames of this driver, and their time.
+    int64_t drawn;                  // Frames of starts and rounds so far.
+    int64_t left;                   // Frames of rounds that are still to come.
     double wait_ms, cpu_ms, run_ms; // Sums over all timed frames.
     bool has_wait, settled;
     int repeated;
@@ -89,16 +94,17 @@ static bool is_base(const DipDriver *d, int subject) {
     return d->base_of[subject] == subject;
 }
 
-// The round whose frames the driver's round draws.
+// Returns the round whose frames the driver's round draws, for the first time or again.
 static int first_round_of(const DipDriver *d) {
     return d->round % round_count(d);
 }
 
-// The round of a frame, of all starts.
+// Returns the round of a frame, counted over all starts.
 static int round_of(const DipDriver *d, const DipTimed *timed) {
     return timed->start * d->def.rounds + timed->round;
 }
 
+// Returns whether the driver's round repeats another one.
 static bool repeats(const DipDriver *d) {
     return d->round >= round_count(d);
 }
@@ -109,30 +115,31 @@ static bool is_disturbed(const DipDriver *d, double wait, double base_wait) {
 
 // --- plans ---------------------------------------------------------------------------------------
 
-static bool add_draw(DipDriver *d, DipDriverPhase phase, int subject, int block, int frame,
+static void add_draw(DipDriver *d, DipDriverPhase phase, int subject, int block, int frame,
                      bool begins_visit) {
     if (d->plan_count == d->plan_room) {
         const int room = d->plan_room ? 2 * d->plan_room : 256;
         Draw *plan = realloc(d->plan, (size_t)room * sizeof *plan);
-        if (!plan) {
-            return false;
+        d->plan = plan ? plan : d->plan;
+        DipTimed *fresh = realloc(d->fresh, (size_t)room * sizeof *fresh);
+        d->fresh = fresh ? fresh : d->fresh;
+        if (!plan || !fresh) {
+            d->plan_failed = true;
+            return;
         }
-        d->plan = plan;
         d->plan_room = room;
     }
     d->plan[d->plan_count++] = (Draw){phase, subject, block, frame, begins_visit};
-    return true;
 }
 
 static bool plan_start(DipDriver *d) {
-    bool done = true;
     d->plan_count = d->next = 0;
     for (int s = 0; s < d->def.subjects; s++) {
-        for (int f = 0; done && f < d->def.warm_frames; f++) {
-            done = add_draw(d, DIP_DRIVER_WARM_UP, s, 0, f, false);
+        for (int f = 0; f < d->def.warm_frames; f++) {
+            add_draw(d, DIP_DRIVER_WARM_UP, s, 0, f, false);
         }
     }
-    return done;
+    return !d->plan_failed;
 }
 
 static void list_frames(DipDriver *d, int round) {
@@ -180,7 +187,7 @@ static int add_blocks(DipDriver *d, int base, int first, int *block_count, uint6
     for (int at = 0; at < count || (alone && at == 0); at += d->def.block_subjects) {
         const int rest = count - at;
         const int size = rest < d->def.block_subjects ? rest : d->def.block_subjects;
-        d->blocks[(*block_count)++] = (Block){base, first + at, size};
+        d->blocks[(*block_count)++] = (Block){.base = base, .first = first + at, .count = size};
     }
     return first + count;
 }
@@ -189,39 +196,33 @@ static int subject_of(const DipDriver *d, const Block *block, int visit) {
     return visit < block->count ? d->members[block->first + visit] : block->base;
 }
 
-static bool plan_visit(DipDriver *d, int subject, int number, int block_of_base,
-                       int blocks_of_base) {
-    bool done = add_draw(d, DIP_DRIVER_UNTIMED, subject, number, d->frames[0], true);
-    for (int f = 0; done && f < d->frame_count; f++) {
-        done = add_draw(d, DIP_DRIVER_TIMED, subject, number, d->frames[f], false);
+static void plan_visit(DipDriver *d, int subject, const Block *block) {
+    add_draw(d, DIP_DRIVER_UNTIMED, subject, block->number, d->frames[0], true);
+    for (int f = 0; f < d->frame_count; f++) {
+        add_draw(d, DIP_DRIVER_TIMED, subject, block->number, d->frames[f], false);
     }
-    // The frames that only the base draws are shared by its blocks.
-    for (int f = d->frame_count + block_of_base;
-         done && is_base(d, subject) && f < d->all_frame_count; f += blocks_of_base) {
-        done = add_draw(d, DIP_DRIVER_TIMED, subject, number, d->frames[f], false);
+    // The blocks of a base share the frames that only the base draws.
+    for (int f = d->frame_count + block->nth_of_base; is_base(d, subject) && f < d->all_frame_count;
+         f += block->of_base) {
+        add_draw(d, DIP_DRIVER_TIMED, subject, block->number, d->frames[f], false);
     }
-    return done;
 }
 
-static bool plan_block(DipDriver *d, const Block *block, int number, int block_of_base,
-                       int blocks_of_base, uint64_t *random) {
-    bool done = true;
+static void plan_block(DipDriver *d, const Block *block, uint64_t *random) {
     for (int v = 0; v <= block->count; v++) {
         d->order[v] = v;
     }
-    for (int f = 0; done && d->def.in_turn && f < d->frame_count; f++) {
+    for (int f = 0; d->def.in_turn && f < d->frame_count; f++) {
         dip_random_shuffle(random, d->order, block->count + 1);
-        for (int v = 0; done && v <= block->count; v++) {
-            done = add_draw(d, DIP_DRIVER_TIMED, subject_of(d, block, d->order[v]), number,
-                            d->frames[f], true);
+        for (int v = 0; v <= block->count; v++) {
+            add_draw(d, DIP_DRIVER_TIMED, subject_of(d, block, d->order[v]), block->number,
+                     d->frames[f], true);
         }
     }
     dip_random_shuffle(random, d->order, block->count + 1);
-    for (int v = 0; done && !d->def.in_turn && v <= block->count; v++) {
-        done =
-            plan_visit(d, subject_of(d, block, d->order[v]), number, block_of_base, blocks_of_base);
+    for (int v = 0; !d->def.in_turn && v <= block->count; v++) {
+        plan_visit(d, subject_of(d, block, d->order[v]), block);
     }
-    return done;
 }
 
 static void shuffle_blocks(DipDriver *d, int count, uint64_t *random) {
@@ -233,14 +234,25 @@ static void shuffle_blocks(DipDriver *d, int count, uint64_t *random) {
     }
 }
 
+// Numbers the blocks, and counts those of each base.
+static void number_blocks(DipDriver *d, int count) {
+    for (int b = 0; b < count; b++) {
+        Block *block = &d->blocks[b];
+        block->number = b + (repeats(d) ? d->def.subjects : 0);
+        for (int other = 0; other < count; other++) {
+            const bool same = d->blocks[other].base == block->base;
+            block->of_base += same;
+            block->nth_of_base += same && other < b;
+        }
+    }
+}
+
 // Each round has a seed of its own, so that its order does not depend on which rounds were known.
-// Blocks of a repetition have numbers of their own.
 static bool plan_round(DipDriver *d) {
     const int round = first_round_of(d);
     uint64_t random = d->def.seed * UINT64_C(0x9e3779b97f4a7c15) +
                       (uint64_t)d->round * UINT64_C(0x632be59bd9b4e019);
     int blocks = 0, first = 0;
-    bool done = true;
     d->plan_count = d->next = d->fresh_count = 0;
     list_frames(d, round);
     find_needed(d, round);
@@ -250,43 +262,22 @@ static bool plan_round(DipDriver *d) {
         }
     }
     shuffle_blocks(d, blocks, &random);
-    for (int b = 0; done && b < blocks; b++) {
-        int of_base = 0, before = 0;
-        for (int other = 0; other < blocks; other++) {
-            of_base += d->blocks[other].base == d->blocks[b].base;
-            before += other < b && d->blocks[other].base == d->blocks[b].base;
-        }
-        done = plan_block(d, &d->blocks[b], b + (repeats(d) ? d->def.subjects : 0), before, of_base,
-                          &random);
+    number_blocks(d, blocks);
+    for (int b = 0; b < blocks; b++) {
+        plan_block(d, &d->blocks[b], &random);
     }
-    if (done && d->plan_count > 0) {
-        DipTimed *fresh = realloc(d->fresh, (size_t)d->plan_count * sizeof *fresh);
-        done = fresh != NULL;
-        d->fresh = fresh ? fresh : d->fresh;
-    }
-    return done;
+    return !d->plan_failed;
 }
 
 // --- complete rounds -----------------------------------------------------------------------------
 
-static bool add_to_log(DipDriver *d, const DipTimed *timed, double base_wait) {
-    if (d->log_count == d->log_room) {
-        const int room = d->log_room ? 2 * d->log_room : 256;
-        DipTimed *log = realloc(d->log, (size_t)room * sizeof *log);
-        d->log = log ? log : d->log;
-        double *wait = realloc(d->base_wait, (size_t)room * sizeof *wait);
-        d->base_wait = wait ? wait : d->base_wait;
-        if (!log || !wait) {
-            return false;
-        }
-        d->log_room = room;
-    }
+static void add_to_log(DipDriver *d, const DipTimed *timed, double base_wait) {
     d->log[d->log_count] = *timed;
     d->base_wait[d->log_count++] = base_wait;
-    return true;
 }
 
-// Returns the base's frame beside fresh frame `at`; a base's frame is beside itself.
+// Returns the index of the base's fresh frame that was drawn beside fresh frame `at`. A base's
+// frame counts as beside itself.
 static int find_beside(const DipDriver *d, int at) {
     const DipTimed *timed = &d->fresh[at];
     const int base = d->base_of[timed->subject];
@@ -308,7 +299,8 @@ static int find_in_log(const DipDriver *d, const DipTimed *timed) {
     return i;
 }
 
-// Whether a base's frame of a repetition is in the log already, beside another subject's.
+// Returns whether a base's frame of a repetition is in the log already, because another subject's
+// frame beside it was kept.
 static bool is_in_log(const DipDriver *d, const DipTimed *timed) {
     bool found = false;
     for (int i = d->log_begin[round_count(d)]; i < d->log_count && !found; i++) {
@@ -319,11 +311,10 @@ static bool is_in_log(const DipDriver *d, const DipTimed *timed) {
     return found;
 }
 
-// Replaces disturbed frames of the log by those of a repetition that waited less. The base's frames
-// beside them join the log.
-static bool keep_better(DipDriver *d) {
-    bool done = true;
-    for (int at = 0; done && at < d->fresh_count; at++) {
+// Replaces disturbed frames of the log by those of a repetition that waited less. Adds the base's
+// frames beside them to the log.
+static void keep_better(DipDriver *d) {
+    for (int at = 0; at < d->fresh_count; at++) {
         const DipTimed *timed = &d->fresh[at];
         if (is_base(d, timed->subject)) {
             continue;
@@ -334,15 +325,15 @@ static bool keep_better(DipDriver *d) {
             timed->wait + base->wait < d->log[to].wait + d->base_wait[to]) {
             d->log[to] = *timed;
             d->base_wait[to] = base->wait;
-            done = is_in_log(d, base) || add_to_log(d, base, base->wait);
+            if (!is_in_log(d, base)) {
+                add_to_log(d, base, base->wait);
+            }
         }
     }
-    return done;
 }
 
 // Adds the fresh frames to the log.
-static bool end_round(DipDriver *d) {
-    bool done = true;
+static void end_round(DipDriver *d) {
     for (int i = 0; i < d->fresh_count; i++) {
         const DipTimed *timed = &d->fresh[i];
         d->run_ms += timed->ms;
@@ -350,17 +341,16 @@ static bool end_round(DipDriver *d) {
         d->cpu_ms += timed->cpu_ms;
     }
     if (repeats(d)) {
-        done = keep_better(d);
+        keep_better(d);
         d->repeated += d->fresh_count;
     } else {
         d->log_begin[d->round] = d->log_count;
-        for (int i = 0; done && i < d->fresh_count; i++) {
-            done = add_to_log(d, &d->fresh[i], d->fresh[find_beside(d, i)].wait);
+        for (int i = 0; i < d->fresh_count; i++) {
+            add_to_log(d, &d->fresh[i], d->fresh[find_beside(d, i)].wait);
         }
         d->log_begin[d->round + 1] = d->log_count;
     }
     d->round++;
-    return done;
 }
 
 static bool use_two_starts(DipDriver *d) {
@@ -373,7 +363,8 @@ static bool use_two_starts(DipDriver *d) {
     return true;
 }
 
-// Decides on the number of starts, while all rounds so far would be of the first start in any case.
+// Decides on the number of starts after the first round, which belongs to the first start in any
+// case.
 static void fix_starts(DipDriver *d, int64_t round_ns) {
     const double room_ns = d->def.most_start * (double)round_ns * d->def.rounds;
     if (!d->starts_are_fixed && d->def.starts > 2 && d->def.most_start > 0.0 && d->start == 0 &&
@@ -381,6 +372,14 @@ static void fix_starts(DipDriver *d, int64_t round_ns) {
         use_two_starts(d);
     }
     d->starts_are_fixed = true;
+}
+
+// Returns whether a known frame is the one that the round plans to draw.
+static bool is_of_draw(const DipDriver *d, const DipTimed *timed, const Draw *draw) {
+    return timed->subject == draw->subject && timed->block == draw->block &&
+           timed->frame == draw->frame && round_of(d, timed) == first_round_of(d) &&
+           timed->round >= 0 && timed->round < d->def.rounds && timed->ms > 0.0 &&
+           isfinite(timed->ms) && timed->wait >= 0.0;
 }
 
 bool dip_driver_resume(DipDriver *d, const DipTimed *known, int count) {
@@ -400,11 +399,7 @@ bool dip_driver_resume(DipDriver *d, const DipTimed *known, int count) {
                 continue;
             }
             const DipTimed *timed = &known[at + d->fresh_count];
-            if (at + d->fresh_count == count || timed->subject != draw->subject ||
-                timed->block != draw->block || timed->frame != draw->frame ||
-                round_of(d, timed) != first_round_of(d) || timed->round < 0 ||
-                timed->round >= d->def.rounds || !(timed->ms > 0.0) || !isfinite(timed->ms) ||
-                !(timed->wait >= 0.0)) {
+            if (at + d->fresh_count == count || !is_of_draw(d, timed, draw)) {
                 return false;
             }
             d->fresh[d->fresh_count++] = *timed;
@@ -414,9 +409,7 @@ bool dip_driver_resume(DipDriver *d, const DipTimed *known, int count) {
         if (d->fresh_count > 0) {
             d->origin_ns = -known[at - 1].begin_ns;
         }
-        if (!end_round(d)) {
-            return false;
-        }
+        end_round(d);
     }
     return true;
 }
@@ -480,8 +473,6 @@ static bool draw_frame(DipDriver *d, const Draw *draw, DipTimed *timed, DipError
         timed->wait = 0.0;
         d->has_wait = false;
     }
-    d->paced++;
-    d->pace_ns += ns;
     return true;
 }
 
@@ -513,6 +504,7 @@ static bool draw_settling(DipDriver *d, DipError *err) {
                      fabs(median - d->settle_last_ms) <= settle_tolerance * d->settle_last_ms;
         d->settle_last_ms = median;
     }
+    d->stage = d->settled || d->settle_runs == SETTLE_RUNS * SETTLE_TRIES ? PLAN : SETTLE;
     return true;
 }
 
@@ -546,54 +538,47 @@ static bool begin_round(DipDriver *d, DipError *err) {
            (plan_start(d) || out_of_memory(err));
 }
 
-static void end_start(DipDriver *d) {
-    d->start_ns = now_ns(d) - d->start_begin_ns;
-    d->stage = d->def.settle && d->settle_runs == 0 ? SETTLE : PLAN;
-}
-
-static DipDriverStep fail(DipDriver *d) {
-    d->stage = FAILED;
-    return DIP_DRIVER_FAILED;
-}
-
-static DipDriverStep complete_round(DipDriver *d, DipError *err) {
+static bool complete_round(DipDriver *d, DipError *err) {
     d->stage = PLAN;
-    if (!end_round(d)) {
-        out_of_memory(err);
-        return fail(d);
-    }
+    end_round(d);
     fix_starts(d, now_ns(d) - d->round_begin_ns);
-    return !d->calls.keep || d->calls.keep(d->calls.context, d->fresh, d->fresh_count, err)
-               ? DIP_DRIVER_ROUND
-               : fail(d);
+    return !d->calls.keep || d->calls.keep(d->calls.context, d->fresh, d->fresh_count, err);
+}
+
+// Plans and draws. *step stays as it is unless a round is complete or all work is done.
+static bool take_step(DipDriver *d, DipDriverStep *step, DipError *err) {
+    while (d->stage == PLAN || (d->stage == WARM_UP && d->next == d->plan_count)) {
+        if (d->stage == WARM_UP) {
+            d->start_ns = now_ns(d) - d->start_begin_ns;
+            d->stage = d->def.settle && d->settle_runs == 0 ? SETTLE : PLAN;
+        } else if (!begin_round(d, err)) {
+            return false;
+        }
+    }
+    if (d->stage == SETTLE) {
+        return draw_settling(d, err);
+    }
+    if (d->stage == DONE) {
+        *step = DIP_DRIVER_DONE;
+        return true;
+    }
+    if (!draw_next(d, err)) {
+        return false;
+    }
+    if (d->stage == DRAW && d->next == d->plan_count) {
+        *step = DIP_DRIVER_ROUND;
+        return complete_round(d, err);
+    }
+    return true;
 }
 
 DipDriverStep dip_driver_step(DipDriver *d, DipError *err) {
-    while (d->stage == PLAN || (d->stage == WARM_UP && d->next == d->plan_count)) {
-        if (d->stage == WARM_UP) {
-            end_start(d);
-        } else if (!begin_round(d, err)) {
-            return fail(d);
-        }
-    }
-    switch (d->stage) {
-    case SETTLE:
-        if (!draw_settling(d, err)) {
-            return fail(d);
-        }
-        d->stage = d->settled || d->settle_runs == SETTLE_RUNS * SETTLE_TRIES ? PLAN : SETTLE;
-        return DIP_DRIVER_WORKING;
-    case DONE:
-        return DIP_DRIVER_DONE;
-    case FAILED:
+    DipDriverStep step = DIP_DRIVER_WORKING;
+    if (d->stage == FAILED || !take_step(d, &step, err)) {
+        d->stage = FAILED;
         return DIP_DRIVER_FAILED;
-    default:
-        if (!draw_next(d, err)) {
-            return fail(d);
-        }
-        return d->stage == DRAW && d->next == d->plan_count ? complete_round(d, err)
-                                                            : DIP_DRIVER_WORKING;
     }
+    return step;
 }
 
 void dip_driver_drop_round(DipDriver *d) {
@@ -608,26 +593,27 @@ void dip_driver_drop_round(DipDriver *d) {
 
 static bool open_driver(DipDriver *d, const DipDriverDef *def) {
     const size_t subjects = (size_t)def->subjects;
-    const size_t copies = (size_t)(def->base_copies > 0 ? def->base_copies : 1);
-    d->base_of = malloc(subjects * sizeof *d->base_of);
-    d->members = malloc(subjects * sizeof *d->members);
+    const size_t deals = (size_t)def->base_copies * (size_t)def->frames;
+    const size_t frames = def->base_copies > 0 ? deals : (size_t)def->frames;
+    const size_t rounds = (size_t)round_count(d);
+    d->base_of = calloc(5 * subjects + 1 + frames + rounds + 1 + deals, sizeof *d->base_of);
     d->blocks = malloc(subjects * sizeof *d->blocks);
-    d->order = malloc((subjects + 1) * sizeof *d->order);
-    d->is_needed = malloc(subjects * sizeof *d->is_needed);
-    d->score = malloc(subjects * sizeof *d->score);
-    d->frames = malloc(copies * (size_t)def->frames * sizeof *d->frames);
-    d->log_begin = calloc((size_t)round_count(d) + 1, sizeof *d->log_begin);
-    if (!d->base_of || !d->members || !d->blocks || !d->order || !d->is_needed || !d->score ||
-        !d->frames || !d->log_begin) {
+    if (!d->base_of || !d->blocks) {
         return false;
     }
+    d->members = d->base_of + subjects;
+    d->is_needed = d->members + subjects;
+    d->score = d->is_needed + subjects;
+    d->order = d->score + subjects;
+    d->frames = d->order + subjects + 1;
+    d->log_begin = d->frames + frames;
     for (int s = 0; s < def->subjects; s++) {
         d->base_of[s] = def->base_of ? def->base_of[s] : s;
     }
     if (def->base_copies > 0) {
-        d->deal = malloc(copies * (size_t)def->frames * sizeof *d->deal);
-        if (!d->deal ||
-            !dip_rounds_deal(def->frames, round_count(d), (int)copies, def->seed, d->deal, NULL)) {
+        d->deal = d->log_begin + rounds + 1;
+        if (!dip_rounds_deal(def->frames, round_count(d), def->base_copies, def->seed, d->deal,
+                             NULL)) {
             return false;
         }
     }
@@ -638,7 +624,10 @@ static bool open_driver(DipDriver *d, const DipDriverDef *def) {
         d->left += d->plan_count;
     }
     d->round = 0;
-    return true;
+    // A repetition adds at most one frame of the base for each frame of the rounds.
+    d->log = malloc(2 * (size_t)d->left * sizeof *d->log);
+    d->base_wait = malloc(2 * (size_t)d->left * sizeof *d->base_wait);
+    return d->log && d->base_wait;
 }
 
 DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCalls *calls, DipError *err) {
@@ -669,18 +658,11 @@ void dip_driver_destroy(DipDriver **driver) {
     if (d) {
         dip_thread_watch_close(&d->watch);
         free(d->base_of);
-        free(d->deal);
-        free(d->plan);
-        free(d->members);
         free(d->blocks);
-        free(d->order);
-        free(d->is_needed);
-        free(d->score);
-        free(d->frames);
+        free(d->plan);
         free(d->fresh);
         free(d->log);
         free(d->base_wait);
-        free(d->log_begin);
         free(d);
     }
     *driver = NULL;
@@ -711,8 +693,6 @@ DipDriverProgress dip_driver_progress(const DipDriver *d) {
         .rounds = repeats(d) ? rounds : d->round,
         .searched = repeats(d) ? d->round - rounds : 0,
         .all_rounds = rounds,
-        .seconds_left =
-            d->paced > 0 ? 1e-9 * (double)d->pace_ns / (double)d->paced * (double)left : 0.0,
     };
 }
 

@@ -4,16 +4,18 @@
 // quality settings. Each subject has a base, another subject with which it is compared; a base is
 // its own base. Subjects without anything to compare with are all bases. A measurement runs these
 // phases:
-//   1. Start. Several starts have luck of their own: where memory lies, which cores the threads
-//      get. The caller may start a new process for each; every start has equally many rounds.
-//      After the call, each subject draws its first frames untimed.
+//   1. Start. Where memory lies and which cores the threads get makes a whole start faster or
+//      slower, so a measurement may have several starts, each with as many rounds. The caller may
+//      start a new process for each. When a start begins, each subject draws its first frames
+//      untimed.
 //   2. Settling, once. Subject 0 draws frame 0 until two successive medians of five times agree
 //      within 2 %, but for at most 20 medians.
 //   3. Rounds. Frames are dealt to rounds at random (app/measure/stats/rounds.h), or each round
-//      draws them all. In a round, the subjects of a base are put into blocks of a few subjects and
-//      the base, in an order that is shuffled from the seed, and the blocks of all bases are
-//      shuffled. A visit draws the round's frames of one subject in order and times each; before
-//      them it draws the first one untimed, because the previous subject has used the caches.
+//      draws them all. A round puts the subjects of a base into blocks: a few subjects and the
+//      base, in an order that is shuffled from the seed. The blocks of all bases are shuffled, too.
+//      A block visits each of its subjects once. A visit draws the round's frames of one subject in
+//      order and times each; before them it draws the first one untimed, because the previous
+//      subject has used the caches.
 //   4. Repetition. A frame is disturbed if its threads, or those of its base, waited too long for a
 //      core. As long as a subject has fewer than three quarters of its frames undisturbed, the
 //      blocks of its disturbed rounds are drawn again, each round at most once. A frame's new times
@@ -31,19 +33,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct DipDriverDef {
     int subjects;
     const int *base_of; // [subject]; borrowed. NULL: every subject is a base.
     int block_subjects; // Subjects of a block besides the base, at least 1.
     int starts;         // At least 1.
-    int rounds;         // Of each start, at least 1.
-    int frames;         // Of the path.
-    // Rounds in which a frame of the base is timed, at most all; a subject's frame is timed in one
-    // of them, and frames is at least starts * rounds. 0: every round draws all frames of all.
+    int rounds;         // Rounds of each start, at least 1.
+    int frames;         // Frames of the path.
+    // In how many rounds each frame of a base is timed, at most all. Each frame of another subject
+    // is timed in one of these rounds, and `frames` is at least starts * rounds. 0: every round
+    // draws all frames of all subjects.
     int base_copies;
     int warm_frames; // Frames that each subject draws untimed when a start begins.
     uint64_t seed;   // Equal seeds lead to equal orders.
@@ -52,7 +51,9 @@ typedef struct DipDriverDef {
     // Every frame then follows another subject's, so none finds warm caches, and none is untimed.
     bool in_turn;
     int64_t rest_ns; // Rest before each timed frame, in which another process' threads fall asleep.
-    double most_wait; // A frame that waited for more of its time is disturbed. 0: none is.
+    // A frame is disturbed if its threads waited for more than this share of its time, summed over
+    // the threads. 0: no frame is disturbed.
+    double most_wait;
     // If a start takes more than this share of its rounds' time, as the first start and round show,
     // there are only 2 starts, with as many rounds in all. 0: there are always `starts`.
     double most_start;
@@ -70,7 +71,7 @@ typedef struct DipDriverTurn {
     DipDriverPhase phase;
     int subject;
     int start;
-    int round; // Of the start; -1 before the rounds.
+    int round; // Index of the round within its start; -1 before the rounds.
     int frame;
 } DipDriverTurn;
 
@@ -123,11 +124,10 @@ DipTimes dip_driver_times(const DipDriver *driver);
 
 typedef struct DipDriverProgress {
     int64_t drawn; // Frames of starts and rounds so far, without those that were resumed.
-    int64_t total; // With those to come, but without settling and repetitions.
+    int64_t total; // The same and all that are to come, but without settling and repetitions.
     int rounds;    // Complete rounds of all starts, without repetitions.
     int searched;  // Rounds that were searched for disturbed frames to draw again.
     int all_rounds;
-    double seconds_left; // For the same frames, at the pace so far; 0 before the first frame.
 } DipDriverProgress;
 
 DipDriverProgress dip_driver_progress(const DipDriver *driver);
@@ -143,9 +143,5 @@ typedef struct DipDriverMachine {
 
 // `threads` is the number of threads that a frame keeps busy.
 DipDriverMachine dip_driver_machine(const DipDriver *driver, int threads);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

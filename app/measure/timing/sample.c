@@ -1,4 +1,4 @@
-// Taking the times and counters of a frame.
+// Takes the times and counters of a frame.
 #include "app/measure/timing/sample.h"
 
 #include <string.h>

@@ -1,4 +1,5 @@
-// What one drawing of a frame gives: times of stages, counters, and the hash of the picture.
+// A sample is what one drawing of a frame gives: times of stages, counters, and the hash of the
+// picture.
 #ifndef DIP_APP_MEASURE_TIMING_SAMPLE_H
 #define DIP_APP_MEASURE_TIMING_SAMPLE_H
 
@@ -37,8 +38,8 @@ void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool ha
 // Writes the sample's time, and those of its stages as the parts of the time.
 void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed);
 
-// Adds a frame's counters to sums in the order of DIP_COUNTER_LIST. The sums are whole numbers, so
-// that they do not depend on the order of the frames.
+// Adds a frame's counters to sums in the order of DIP_COUNTER_LIST. All sums are whole numbers, so
+// the order in which frames are added does not change them.
 static inline void dip_counters_add(const DipCounters *counters, double sums[DIP_COUNTER_COUNT]) {
 #define DIP_COUNTER_ADD(name, text) *sums++ += (double)counters->name;
     DIP_COUNTER_LIST(DIP_COUNTER_ADD)

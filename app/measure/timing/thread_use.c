@@ -46,8 +46,8 @@ static bool add_thread(DipThreadWatch *watch, const char *folder, const char *th
     return read_thread(file, &sum);
 }
 
-// A thread with less priority than this one draws no timed frame, so that its waiting tells
-// nothing.
+// Returns whether a thread has less priority than the calling one. Such a thread draws no timed
+// frame, so how long it waits tells nothing about a frame.
 static bool is_background(const char *thread) {
     return getpriority(PRIO_PROCESS, (id_t)strtoul(thread, NULL, 10)) >
            getpriority(PRIO_PROCESS, 0);

@@ -1,5 +1,5 @@
-// What the threads of a process got from the processor: time on a core, time spent waiting for
-// one, and how often another process took their core away.
+// Tells what the threads of a process got from the processor: how long they ran on a core, how long
+// they waited for one, and how often another process took their core away.
 //
 // A frame whose threads waited was disturbed by another process, whatever its time says. On Linux
 // the figures come from /proc/self/task/*/schedstat (the first number is the time on a core, the
@@ -10,10 +10,6 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 // Sums over all threads since the process began.
 typedef struct DipThreadUse {
@@ -39,12 +35,8 @@ DipThreadWatch *dip_thread_watch_open_process(long pid);
 // Returns the number of threads that are watched; 0 without a watch.
 int dip_thread_watch_count(const DipThreadWatch *watch);
 
-// Reads the sums. Takes a few microseconds per thread. Without a watch only the processor time of
-// this process and its switches are known. The switches are always those of this process.
+// Reads the sums. Takes a few microseconds per thread. `switches` always counts those of this
+// process. Without a watch, only this number and this process' time on a core are known.
 DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

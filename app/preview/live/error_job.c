@@ -143,7 +143,7 @@ static void end_pane(DipErrorJob *job) {
     float *map = job->flip[job->pane];
     job->flip[job->pane] = job->meter.flip_map;
     job->meter.flip_map = map;
-    job->sums[job->pane] = dip_meter_sums(&job->meter);
+    job->sums[job->pane] = job->meter.sums;
     job->pane++;
     job->has_begun = false;
 }

@@ -249,7 +249,7 @@ static bool step_errors(DipLivePrices *live) {
         live->errors_left = 0;
         return false;
     }
-    live->sums[live->judged] = dip_meter_sums(&live->meter);
+    live->sums[live->judged] = live->meter.sums;
     live->samples[live->judged] = live->truth.samples;
     live->errors_left--;
     return show_errors(live);

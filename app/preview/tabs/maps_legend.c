@@ -1,6 +1,6 @@
 // What the maps' tab says of the values: colour scales with their distribution, keys, and tables
 // of the whole frame and of the pixel under the mouse.
-#include "app/measure/metrics/magma.h"
+#include "app/measure/metrics/flip.h"
 #include "app/preview/tabs/maps_tab_private.h"
 #include "app/preview/tools/map_colours.h"
 

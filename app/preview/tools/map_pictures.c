@@ -1,5 +1,5 @@
 // Draws the maps' pictures.
-#include "app/measure/metrics/magma.h"
+#include "app/measure/metrics/flip.h"
 #include "app/preview/tools/maps.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "app/report/page/picture_set.h"
 
 #include "app/files/pictures.h"
-#include "app/measure/metrics/magma.h"
+#include "app/measure/metrics/flip.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -58,7 +58,7 @@ void dip_made_result(DipBenchResult *result, const DipBenchPlan *plan, const dou
     for (int f = 0; f < frames; f++) {
         DipBenchSample sample = {.counters = {.texels_fetched = 10 * (uint64_t)(f + 1)}};
         snprintf(sample.hash, sizeof sample.hash, "%d", f);
-        dip_bench_result_set_first(result, 0, f, &sample);
+        *dip_bench_result_first(result, 0, f) = sample;
     }
 }
 

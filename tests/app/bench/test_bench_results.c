@@ -163,7 +163,7 @@ static void ratios_are_the_other_programs_time_over_this_ones(void **state) {
     assert_non_null(strstr(text, " same\n"));
     free(text);
     DipBenchSample changed = {.hash = "else"};
-    dip_bench_result_set_first(&results[1], 0, 1, &changed);
+    *dip_bench_result_first(&results[1], 0, 1) = changed;
     text = dip_printed(print_ratios, results);
     assert_non_null(strstr(text, " 1 of 2 differ\n"));
     free(text);

@@ -3,6 +3,7 @@
 #include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/ssim.h"
 #include "tests/app/cost/made_report.h"
+#include "tests/app/measure/map_sum.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

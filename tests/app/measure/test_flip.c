@@ -1,7 +1,8 @@
 // Tests FLIP against the values that its authors' implementation gives for the same pictures.
 #include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/flip.h"
-#include "app/measure/metrics/internal/flip_kernels.h"
+#include "app/measure/metrics/internal/filters.h"
+#include "tests/app/measure/map_sum.h"
 #include "tests/app/measure/patterns.h"
 
 #include <setjmp.h>

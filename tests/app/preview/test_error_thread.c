@@ -7,6 +7,7 @@
 #include "app/preview/live/error_thread.h"
 #include "app/report/report.h"
 #include "renderer/catalogue/scenes.h"
+#include "tests/app/measure/map_sum.h"
 
 #include <math.h>
 #include <setjmp.h>

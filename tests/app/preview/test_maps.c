@@ -1,7 +1,7 @@
 // Tests of the maps: their colours, their scale, the pixel under the pointer, the pictures, and the
 // work that they measure.
 #include "app/ui/canvas.h"
-#include "app/measure/metrics/magma.h"
+#include "app/measure/metrics/flip.h"
 #include "app/preview/tools/loupe.h"
 #include "app/preview/tools/map_colours.h"
 #include "app/preview/tools/maps.h"
