@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <sys/types.h>
 
-// A connection to a client. Zero-initialised it is not valid; -1 marks a closed descriptor.
+// A connection to a client. A closed descriptor is -1, so a zero-initialised wire is not valid.
 typedef struct DipWire {
     int in;
     int out;
@@ -33,7 +33,7 @@ typedef struct DipEndpoint {
     char path[128];
     dev_t device; // The socket's file, so that only this file is removed.
     ino_t inode;
-    int stdout_copy; // With standard output: the descriptor that stdout had before, or -1.
+    int stdout_copy; // Copy of the descriptor that standard output had before, or -1.
 } DipEndpoint;
 
 // Takes over standard input and output. What the program prints on standard output from now on goes

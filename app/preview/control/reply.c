@@ -1,5 +1,5 @@
 // Writes the preview's state, times, errors and prices as JSON.
-#include "app/preview/control/control_private.h"
+#include "app/preview/control/reply_private.h"
 
 #include "config/config.h"
 
@@ -20,7 +20,7 @@ static void append(cJSON *array, cJSON *item) {
 
 // --- state and settings --------------------------------------------------------------------------
 
-// Returns the time on the camera path, within the path's duration.
+// Returns the time on the camera path, from 0 to the path's duration.
 static double path_time_s(const DipPreviewState *state) {
     const DipCamTrack *track = state->track;
     const bool has_path = track->categories[track->active].path || track->categories[0].path;
@@ -187,29 +187,23 @@ void dip_reply_pick(cJSON *object, const DipPreviewMoment *moment, int x, int y)
 
 // --- prices --------------------------------------------------------------------------------------
 
-static const char *state_name(DipPriceState state) {
-    static const char *const names[] = {
-        [DIP_PRICE_UNKNOWN] = "unknown",   [DIP_PRICE_BASE] = "base",
-        [DIP_PRICE_MEASURED] = "measured", [DIP_PRICE_PREDICTED] = "predicted",
-        [DIP_PRICE_ROUGH] = "rough",
-    };
-    return names[state];
-}
+static const char *const state_names[] = {
+    [DIP_PRICE_UNKNOWN] = "unknown",   [DIP_PRICE_BASE] = "base",
+    [DIP_PRICE_MEASURED] = "measured", [DIP_PRICE_PREDICTED] = "predicted",
+    [DIP_PRICE_ROUGH] = "rough",
+};
 
-static const char *trust_name(DipPriceTrust trust) {
-    static const char *const names[] = {
-        [DIP_PRICE_TRUST_UNKNOWN] = "unknown",
-        [DIP_PRICE_TRUST_DOUBTFUL] = "doubtful",
-        [DIP_PRICE_TRUST_ZERO] = "zero",
-        [DIP_PRICE_TRUST_KNOWN] = "known",
-    };
-    return names[trust];
-}
+static const char *const trust_names[] = {
+    [DIP_PRICE_TRUST_UNKNOWN] = "unknown",
+    [DIP_PRICE_TRUST_DOUBTFUL] = "doubtful",
+    [DIP_PRICE_TRUST_ZERO] = "zero",
+    [DIP_PRICE_TRUST_KNOWN] = "known",
+};
 
 static void add_price(cJSON *object, DipPriceState state, DipPriceTrust trust, double ms,
                       double low, double high) {
-    cJSON_AddStringToObject(object, "state", state_name(state));
-    cJSON_AddStringToObject(object, "trust", trust_name(trust));
+    cJSON_AddStringToObject(object, "state", state_names[state]);
+    cJSON_AddStringToObject(object, "trust", trust_names[trust]);
     if (state != DIP_PRICE_UNKNOWN) {
         cJSON_AddNumberToObject(object, "ms", ms);
         cJSON_AddNumberToObject(object, "ms_low", low);
