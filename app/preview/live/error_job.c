@@ -138,7 +138,7 @@ static void begin_pane(DipErrorJob *job) {
     job->has_begun = true;
 }
 
-// Keeps the errors of the pane. The meter gets the memory of its old map.
+// Keeps the errors of the pane. Pane and meter exchange the memory of their maps.
 static void end_pane(DipErrorJob *job) {
     float *map = job->flip[job->pane];
     job->flip[job->pane] = job->meter.flip_map;

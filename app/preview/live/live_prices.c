@@ -1,4 +1,4 @@
-// Draws and judges the frames that the live report comes from.
+// Draws frames for the live report, and compares them with the truth.
 #include "app/preview/live/live_prices.h"
 
 #include "app/cost/plan.h"
@@ -29,13 +29,13 @@ struct DipLivePrices {
     uint8_t *rgba8; // Copy of the picture that is judged, rows packed. Owned; NULL: no meter yet.
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
-    int judged; // The row of this picture.
-    // Of each row: its errors against the truth of most samples that it was compared with.
+    int judged; // Row of the report whose picture this is.
+    // Errors of each row against the finest truth with which the row was compared.
     DipMetricSums sums[DIP_PRICES_LIVE_ROWS];
-    int samples[DIP_PRICES_LIVE_ROWS]; // Of this truth; 0: none.
-    DipLiveTruth truth;                // That of the last step.
+    int samples[DIP_PRICES_LIVE_ROWS]; // Samples of this truth; 0: no truth yet.
+    DipLiveTruth truth;                // The truth that the last step was given.
     int errors_left;         // Combinations whose errors are not known, if there is a truth.
-    DipProcessorShare share; // Of this thread, while it measures errors.
+    DipProcessorShare share; // This thread's share while it measures errors.
     int64_t progress_ns;     // When the text of the progress was written last.
 };
 
@@ -277,7 +277,7 @@ static void follow_truth(DipLivePrices *live, const DipLiveTruth *truth) {
         live->measures_errors = false;
     }
     if (live->truth.samples != truth->samples) {
-        live->meter.standard.picture.rgba8 = NULL; // Another picture in the same memory.
+        live->meter.standard.picture.rgba8 = NULL; // The memory holds another picture.
         live->measures_errors = live->errors_failed = false;
     }
     live->truth = *truth;

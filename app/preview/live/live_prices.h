@@ -38,7 +38,7 @@ void dip_live_prices_enter_scene(DipLivePrices *live);
 
 // What is known of the converged picture, and how far the next, better one is.
 typedef struct DipLiveTruth {
-    // Of the size and pose of the live picture. No pixels while there is none.
+    // Has the live picture's size and pose. It has no pixels while there is no truth.
     DipSrgbPicture picture;
     int samples;      // Per pixel. Errors against a truth of more samples replace those before.
     bool comes_first; // No time is taken until there is this truth, or a better one.
@@ -60,9 +60,11 @@ bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
 // another picture.
 void dip_live_prices_pause(DipLivePrices *live);
 
-// Return whether all times of the last picture are known at least roughly, so that its truth may be
-// drawn beside without disturbing them; and whether no better times will come.
+// Returns whether all times of the last picture are known at least roughly. Its truth may then be
+// drawn by another thread without disturbing them.
 bool dip_live_prices_have_times(const DipLivePrices *live);
+
+// Returns whether all times of the last picture are known as well as they ever will be.
 bool dip_live_prices_have_final_times(const DipLivePrices *live);
 
 // Returns whether errors are left that can be measured against the truth of the last step.

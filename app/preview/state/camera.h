@@ -1,4 +1,4 @@
-// The camera that the user flies.
+// Moves and turns the camera that the user flies.
 #ifndef DIP_APP_PREVIEW_STATE_CAMERA_H
 #define DIP_APP_PREVIEW_STATE_CAMERA_H
 

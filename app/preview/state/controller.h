@@ -1,4 +1,5 @@
-// Game controllers. A button does what its key does, and sticks and triggers fly the camera.
+// Lets game controllers act: a button does what a key or an action does, and sticks and triggers
+// fly the camera.
 #ifndef DIP_APP_PREVIEW_STATE_CONTROLLER_H
 #define DIP_APP_PREVIEW_STATE_CONTROLLER_H
 

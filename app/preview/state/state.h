@@ -5,7 +5,6 @@
 
 #include "app/preview/prices/choice.h"
 #include "app/preview/prices/costs.h"
-#include "app/preview/state/flight.h"
 #include "app/preview/state/path_editor.h"
 #include "app/preview/state/scene_words.h"
 #include "app/preview/state/tool_state.h"
@@ -71,6 +70,31 @@ typedef enum DipPreset {
     DIP_PRESET_COUNT
 } DipPreset;
 
+// The free camera: how mouse, wheel and keys fly it. The window's controls and the keys write what
+// the user wishes into this struct; the loop carries it out once in each turn (pilot.h).
+typedef struct DipFlight {
+    bool orbits;               // Dragging turns the camera about a point; the wheel zooms.
+    bool reset;                // The user wants the pose of the camera path. Cleared when done.
+    int speed_steps;           // Each step of the wheel is 1; see dip_flight_speed.
+    double base_speed_m_per_s; // Speed at 0 steps. Set by the loop.
+    // What the mouse has done since the last turn of the loop. Dragging counts in heights of a
+    // pane, to the right and upwards; the wheel counts in steps away from the user.
+    double drag_right;
+    double drag_up;
+    int zoom_steps;
+    // Steps that buttons have asked for since the last turn of the loop.
+    int right_steps;
+    int forward_steps;
+    bool pressed;  // A button that flies the camera was pressed over a pane and is held.
+    bool dragging; // The pointer has moved too far for a click.
+    int press_x;   // Where the button was pressed, in pixels of the window.
+    int press_y;
+    int drag_x; // Where the pointer was last.
+    int drag_y;
+    bool knows_centre; // `centre_world` is the point that the camera orbits now.
+    double centre_world[3];
+} DipFlight;
+
 typedef struct DipPreviewState {
     DipQuality quality[DIP_PANE_COUNT];
     DipQuality ini_quality;      // Settings that the requested pane began with.
@@ -98,11 +122,11 @@ typedef struct DipPreviewState {
     // Time within which a frame has to be drawn: one refresh of the display, unless the user has
     // chosen another time.
     double budget_ms;
-    bool has_budget;    // The user has chosen it.
+    bool has_budget;    // The user has chosen budget_ms.
     double refresh_ms;  // Time of one refresh of the display.
     double advised_ms;  // The budget for which the user took advice last, or 0.
-    bool wants_errors;  // Another program has asked for the errors, shown or not.
-    bool wants_prices;  // Another program has asked for the prices, shown or not.
+    bool wants_errors;  // Another program has subscribed to the errors.
+    bool wants_prices;  // Another program has subscribed to the prices.
     bool wants_picture; // Another program waits for a picture, even of a hidden window.
     bool measures_here; // Prices are measured in this view although there is a report.
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
@@ -112,8 +136,8 @@ typedef struct DipPreviewState {
     bool in_terminal; // The preview shows characters, without the window's tools.
     bool full_screen;
     DipToolState tools;
-    DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT]; // Settings before each change, a ring.
-    int undo_first;
+    // Settings before each change, the oldest first; behind them, those that UNDO has taken back.
+    DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT];
     int undo_count;
     int redo_count;
     bool screenshot;       // The user asked for a screenshot. Cleared when it is saved.
@@ -151,9 +175,9 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
 // Enlarges controls by a difference of the factor, which stays within 0.75 and 4.
 void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 
-// Finds a preset's settings. Those that are measured (up to BEST) are places on the front of what
-// can be chosen within the budget. Returns false, and leaves *quality as it is, while nothing was
-// measured or nothing fits.
+// Finds a preset's settings. The presets up to BEST are chosen among the measured settings that
+// keep within the budget. Returns false, and leaves *quality as it is, if nothing was measured or
+// nothing keeps within the budget.
 bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality);
 
 // Says in four lines how to make a cost report of this scene; the second and the fourth one are
@@ -172,7 +196,7 @@ int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_B
 // Chooses another budget, from 1 to 1000 ms; 0: one refresh of the display.
 void dip_preview_set_budget(DipPreviewState *state, double budget_ms);
 
-// Goes through the usual frame rates, from 24 to 240 frames a second; each step takes the next one.
+// Moves the budget by steps through the usual frame rates, from 24 to 240 frames a second.
 void dip_preview_step_frame_rate(DipPreviewState *state, int steps);
 
 // Takes the time between two refreshes of the display as the budget, unless the user has chosen
@@ -198,8 +222,9 @@ bool dip_preview_rests(const DipPreviewState *state, bool flying);
 // camera. Removes a notice that has ended.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
 
-// Time on the active camera path, from 0 to its length, and its length; 0 without a path. A path
-// that does not loop ends at its last key. A path that goes back has the time of its way there.
+// Return the time on the active camera path, from 0 to the path's length, and this length; both are
+// 0 without a path. A path that does not loop ends at its last key. On the way back of a path that
+// goes there and back, the time is that of the same place on the way there.
 int64_t dip_preview_path_ns(const DipPreviewState *state);
 int64_t dip_preview_path_length_ns(const DipPreviewState *state);
 

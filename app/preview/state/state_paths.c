@@ -69,7 +69,7 @@ void dip_state_choose_path(DipPreviewState *state, int category, int64_t now_ns)
 }
 
 void dip_state_next_path(DipPreviewState *state, int direction, int64_t now_ns) {
-    if (state->shows_gallery) { // each scene has one path
+    if (state->shows_gallery) { // Each scene has one path, so the next scene shows.
         state->scene_step = direction;
         ++state->scene_changes;
         return;
@@ -105,23 +105,9 @@ void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
     const int64_t span_ns = path ? dip_campath_span_ns(path, state->track->end) : 0;
     const int64_t at_ns = dip_camtrack_time(state->track, state->play_ns);
     const bool once = state->track->end == DIP_CAMPATH_END_once;
-    // Goes to the way there of the present round.
+    // Stays in the present round of the path, on its way there.
     const int64_t past_ns = once || span_ns == 0 ? at_ns : (at_ns % span_ns + span_ns) % span_ns;
     const int64_t to_ns = state->play_ns + path_ns - past_ns;
     state->play_ns = to_ns >= 0 ? to_ns : once ? 0 : to_ns + span_ns;
-    ++state->scene_changes;
-}
-
-void dip_state_step_time(DipPreviewState *state, int direction, int64_t now_ns) {
-    const int64_t to_ns = state->play_ns + direction * state->step_ns;
-    state->paused = true;
-    state->play_ns = to_ns > 0 ? to_ns : 0;
-    dip_preview_notice(state, now_ns, "Paused");
-    ++state->scene_changes;
-}
-
-void dip_state_seek(DipPreviewState *state, int milliseconds) {
-    const int64_t to_ns = state->play_ns + (int64_t)milliseconds * 1000000;
-    state->play_ns = to_ns > 0 ? to_ns : 0;
     ++state->scene_changes;
 }

@@ -32,17 +32,5 @@ void dip_state_choose_path(DipPreviewState *state, int category, int64_t now_ns)
 // Chooses the next category, in the given direction, whose path is not the current one. Several
 // categories may share a path.
 void dip_state_next_path(DipPreviewState *state, int direction, int64_t now_ns);
-// Pauses, and moves the time by one frame.
-void dip_state_step_time(DipPreviewState *state, int direction, int64_t now_ns);
-// Moves the time.
-void dip_state_seek(DipPreviewState *state, int milliseconds);
-
-// --- state_tools.c -------------------------------------------------------------------------------
-
-// Opens the dock with a tab, or folds it if the tab shows already.
-void dip_state_open_tab(DipPreviewState *state, DipTab tab);
-// Carries out an action of the dock or of a tool. Returns false if the action is none of these.
-bool dip_state_act_on_tools(DipPreviewState *state, DipAction action, int argument, bool reverse,
-                            int64_t now_ns);
 
 #endif

@@ -1,5 +1,5 @@
-// What the user has chosen of the tools for looking closer: the tab, the loupe, the comparison and
-// the map.
+// Holds what the user has chosen for the tools that look closer at the pictures: the tab, the
+// loupe, the comparison and the map.
 #ifndef DIP_APP_PREVIEW_STATE_TOOL_STATE_H
 #define DIP_APP_PREVIEW_STATE_TOOL_STATE_H
 
@@ -47,7 +47,7 @@ typedef struct DipToolState {
     DipTab tab;
     bool open;        // The dock shows its tab.
     bool bare;        // The window shows nothing but the panes.
-    double ui_scale;  // 0.5..4; multiplies the display's scale.
+    double ui_scale;  // 0.75..4; multiplies the display's scale.
     bool fixed_scale; // The user gave a scale, so that the window's size does not change it.
     bool loupe;       // The loupe follows the pointer or shows the pinned pixel.
     int zoom;         // 2, 4, 8, 16 or 32.
@@ -61,8 +61,7 @@ typedef struct DipToolState {
     bool blinked;       // BLINK: shows the requested pane.
     bool blinks;        // BLINK: changes between the panes by itself, twice a second.
     DipMap map;
-    double brightness; // Maps: the value that the end of the colour scale stands for is divided by
-                       // this.
+    double brightness; // Maps: divides the value at which the colour scale ends.
 } DipToolState;
 
 #endif
