@@ -22,8 +22,8 @@ enum {
 typedef struct Client {
     DipWire wire;
     bool ended;       // The client has closed its side; no further input comes.
-    bool broken;      // Nobody reads the output any more, so it is thrown away.
-    bool skips;       // The rest of a line that is too long is skipped.
+    bool broken;      // Nobody reads the output any more, so output is thrown away.
+    bool skips;       // The line is too long, and its rest is skipped.
     unsigned topics;  // Subscriptions, as bits 1 << DipControlTopic.
     uint64_t dropped; // Events that were dropped since the last event that was sent.
     int attempt;      // How often the first line has been put off.

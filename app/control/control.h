@@ -1,5 +1,5 @@
-// The control channel: other programs send requests as lines of JSON, and get a reply for every
-// line and the events that they subscribe to. docs/embedding.md describes the protocol.
+// Opens the control channel. Other programs send requests as lines of JSON over it, and get a reply
+// for every line, and the events that they subscribe to. docs/embedding.md describes the protocol.
 //
 // The channel reads and checks requests, and hands each of them to a function of its owner, which
 // carries it out. All functions must be called on one thread; none of them waits.
@@ -51,7 +51,7 @@ unsigned dip_control_topics(const DipControl *control);
 unsigned dip_control_subscriptions(const DipControl *control);
 
 // Sends an event to the clients that have subscribed to its topic. A client that reads too slowly
-// misses the event; the next event that it gets says how many it has missed. Takes ownership of
+// misses the event; the next event that reaches it says how many it has missed. Takes ownership of
 // `fields`, an object with the event's fields, or NULL if memory ran out.
 void dip_control_send(DipControl *control, DipControlTopic topic, struct cJSON *fields);
 

@@ -1,4 +1,5 @@
-// Reads requests by two tables: one of fields, one of the fields that each request has.
+// Reads requests by two tables: one describes all fields, the other says which fields each request
+// has.
 #include "app/control/request.h"
 
 #include "renderer/base/assert.h"
@@ -18,7 +19,7 @@ const char *const dip_control_verb_names[] = {DIP_CONTROL_VERB_LIST(NAME_OF)};
 const char *const dip_control_topic_names[] = {DIP_CONTROL_TOPIC_LIST(NAME_OF)};
 const char *const dip_control_part_names[] = {DIP_CONTROL_PART_LIST(NAME_OF)};
 
-// How a field stands in DipControlRequest.
+// The type of a field in DipControlRequest.
 typedef enum FieldKind {
     TEXT,   // char[size], not empty
     NUMBER, // double
@@ -29,11 +30,11 @@ typedef enum FieldKind {
 typedef struct Field {
     const char *name;
     FieldKind kind;
-    size_t offset; // In DipControlRequest.
+    size_t offset; // Offset of the field in DipControlRequest.
     size_t size;   // TEXT: bytes of the array. NAMES: number of names.
-    double least;  // NUMBER and WHOLE.
+    double least;  // NUMBER and WHOLE: the range of accepted values.
     double most;
-    const char *const *names; // NAMES.
+    const char *const *names; // NAMES: the accepted names.
 } Field;
 
 #define AT(field) offsetof(DipControlRequest, field)

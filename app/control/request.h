@@ -1,4 +1,4 @@
-// Requests of the control channel: one line of JSON becomes one checked struct.
+// Reads requests of the control channel: one line of JSON becomes one checked struct.
 //
 // docs/embedding.md describes the protocol. A request is an object such as
 // {"id": 7, "request": "seek", "time_s": 2.5}. The functions of this file only read requests; they
@@ -12,13 +12,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Changes when a client of the previous version would misread a reply or an event. New requests,
-// fields and topics do not change the number.
+// Version of the protocol. It changes when a client of the previous version would misread a reply
+// or an event. New requests, fields and topics do not change it.
 enum { DIP_CONTROL_PROTOCOL = 1 };
 
 enum {
     DIP_CONTROL_MAX_LINE_BYTES = 65536, // Longest line that is read, without its line feed.
-    DIP_CONTROL_TEXT_SIZE = 512,        // Sizes of texts, with their final 0.
+    DIP_CONTROL_TEXT_SIZE = 512,        // Bytes of texts, including the final 0.
     DIP_CONTROL_FILE_SIZE = 1024,
     DIP_CONTROL_NAME_SIZE = 64,
     DIP_CONTROL_MAX_SIZE_PX = 8192 // Largest width and height of a pane.
@@ -121,8 +121,8 @@ typedef struct DipControlRequest {
     unsigned show;    // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF.
     char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
     char name[DIP_CONTROL_NAME_SIZE];     // SCENE: name of a scene.
-    char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT.
-    double time_s;                        // SEEK: 0..86400.
+    char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT: file to write.
+    double time_s;                        // SEEK: time on the path, 0..86400.
     int width;                            // SIZE: size of a pane, in pixels.
     int height;
     int x; // PICK: a pixel of a pane.

@@ -1,5 +1,4 @@
-// The window with both panes, or the same in a terminal: the options of `diptych preview`, and its
-// run.
+// Shows both panes in a window or in a terminal, as the options of `diptych preview` say.
 #ifndef DIP_APP_PREVIEW_PREVIEW_H
 #define DIP_APP_PREVIEW_PREVIEW_H
 
@@ -9,7 +8,7 @@
 
 #include <stdbool.h>
 
-// Where the preview shows.
+// The display that the user asks for.
 typedef enum DipDisplayChoice {
     DIP_DISPLAY_AUTO, // In a window if one can be opened, otherwise in the terminal.
     DIP_DISPLAY_WINDOW,

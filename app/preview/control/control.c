@@ -15,12 +15,12 @@
 
 struct DipRemote {
     DipControl *control;
-    const DipPreviewMoment *moment; // That of the call that is running; NULL between calls.
+    const DipPreviewMoment *moment; // Valid during a call; NULL between calls.
     bool acted;                     // A request has been carried out in this turn.
     bool waits;                     // A request waits for the next picture.
     unsigned topics;
     unsigned subscriptions;
-    // What the last event of each topic said, as a hash, and when; and when the last notice ends.
+    // A hash of each topic's last event, when it was sent, and when the last notice ends.
     uint64_t told[DIP_CONTROL_TOPIC_COUNT];
     int64_t told_ns[DIP_CONTROL_TOPIC_COUNT];
     int64_t told_notice_ns;
@@ -86,7 +86,7 @@ static void set_paused(const DipPreviewMoment *moment, bool paused) {
 
 // --- scene and size ------------------------------------------------------------------------------
 
-// Finds a scene in the ring that dip_session_step_scene goes through.
+// Finds the place of a scene in the ring of scenes through which dip_session_step_scene goes.
 static bool find_scene(const DipSession *session, const char *name, int *scene, DipError *err) {
     if (strcmp(name, "models") == 0) {
         *scene = dip_gallery_scene_count();
@@ -188,26 +188,13 @@ static bool save(const DipPreviewMoment *moment, const char *file, cJSON *reply,
 // Adds the parts that a request asks for. A list becomes a field of the reply itself; any other
 // part becomes an object with the part's name.
 static void get(const DipPreviewMoment *moment, unsigned parts, cJSON *reply) {
-    static const struct {
-        void (*add)(cJSON *object, const DipPreviewMoment *moment);
-        bool is_list;
-    } rows[DIP_CONTROL_PART_COUNT] = {
-        [DIP_CONTROL_PART_STATE] = {dip_reply_state, false},
-        [DIP_CONTROL_PART_SETTINGS] = {dip_reply_settings, false},
-        [DIP_CONTROL_PART_TIMES] = {dip_reply_times, false},
-        [DIP_CONTROL_PART_ERRORS] = {dip_reply_errors, false},
-        [DIP_CONTROL_PART_PRICES] = {dip_reply_prices, false},
-        [DIP_CONTROL_PART_PATHS] = {dip_reply_paths, true},
-        [DIP_CONTROL_PART_SCENES] = {dip_reply_scenes, true},
-        [DIP_CONTROL_PART_STEPS] = {dip_reply_steps, true},
-    };
     for (int p = 0; p < DIP_CONTROL_PART_COUNT; ++p) {
         cJSON *object = !(parts >> p & 1) ? NULL
-                        : rows[p].is_list
+                        : dip_reply_parts[p].is_list
                             ? reply
                             : cJSON_AddObjectToObject(reply, dip_control_part_names[p]);
         if (object) {
-            rows[p].add(object, moment);
+            dip_reply_parts[p].add(object, moment);
         }
     }
 }
@@ -301,34 +288,35 @@ static uint64_t hash_of(const cJSON *object) {
     return hash.lanes[0];
 }
 
-// A topic whose events have the fields that a function adds. An event is sent if it says something
-// new, at most once in a period. A poll is sent even if nothing is new: it asks the subscribers for
-// their settings, and a subscriber whose settings have changed answers with the request `set`.
+// A topic whose events have the fields of a part. An event is sent if it says something new, at
+// most once in a period. A poll is sent even if nothing is new: it asks the subscribers for their
+// settings, and a subscriber whose settings have changed answers with the request `set`.
 typedef struct Topic {
-    void (*add)(cJSON *object, const DipPreviewMoment *moment);
+    bool is_part;
+    DipControlPart part;
     int64_t period_ns;
     bool repeats;       // The event is also sent if it says nothing new.
     bool needs_picture; // Nothing is sent before the first picture.
 } Topic;
 
 static const Topic events[DIP_CONTROL_TOPIC_COUNT] = {
-    [DIP_CONTROL_TOPIC_SETTINGS] = {dip_reply_settings, 0, false, false},
-    [DIP_CONTROL_TOPIC_TIMES] = {dip_reply_times, PERIOD_NS, false, true},
-    [DIP_CONTROL_TOPIC_ERRORS] = {dip_reply_errors, 0, false, false},
-    [DIP_CONTROL_TOPIC_PRICES] = {dip_reply_prices, PERIOD_NS, false, false},
-    [DIP_CONTROL_TOPIC_POLLS] = {dip_reply_settings, PERIOD_NS, true, false},
+    [DIP_CONTROL_TOPIC_SETTINGS] = {true, DIP_CONTROL_PART_SETTINGS, 0, false, false},
+    [DIP_CONTROL_TOPIC_TIMES] = {true, DIP_CONTROL_PART_TIMES, PERIOD_NS, false, true},
+    [DIP_CONTROL_TOPIC_ERRORS] = {true, DIP_CONTROL_PART_ERRORS, 0, false, false},
+    [DIP_CONTROL_TOPIC_PRICES] = {true, DIP_CONTROL_PART_PRICES, PERIOD_NS, false, false},
+    [DIP_CONTROL_TOPIC_POLLS] = {true, DIP_CONTROL_PART_SETTINGS, PERIOD_NS, true, false},
 };
 
 static void send_event(DipRemote *remote, DipControlTopic topic, bool always) {
     const DipPreviewMoment *moment = remote->moment;
     const Topic *event = &events[topic];
     const bool early = moment->now_ns - remote->told_ns[topic] < event->period_ns;
-    if (!event->add || !wants(remote, topic) || (early && !always) ||
+    if (!event->is_part || !wants(remote, topic) || (early && !always) ||
         (event->needs_picture && !moment->panes[0].rgba8)) {
         return;
     }
     cJSON *fields = cJSON_CreateObject();
-    event->add(fields, moment);
+    dip_reply_parts[event->part].add(fields, moment);
     const uint64_t hash = hash_of(fields);
     if (always || event->repeats || hash != remote->told[topic]) {
         remote->told_ns[topic] = moment->now_ns;

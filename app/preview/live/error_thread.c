@@ -16,8 +16,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-// The thread's priority below that of other threads. Where all compete for a processor, the thread
-// gets 0.4 of what another thread gets; an idle priority would get nothing.
+// By how much the thread's priority is below that of other threads. Where all compete for a
+// processor, the thread gets 0.4 of what another thread gets; with an idle priority it would get
+// nothing.
 enum { NICE = 4 };
 
 // A still that owns its pictures.
@@ -85,8 +86,8 @@ typedef struct Worker {
     uint64_t version;
 } Worker;
 
-// Gives the calling thread a lower priority. On Linux, priorities belong to threads; elsewhere they
-// belong to processes, so nothing is done there.
+// Gives the calling thread a lower priority. On Linux, each thread has a priority; elsewhere only
+// processes have one, so this function does nothing there.
 static void lower_priority(void) {
 #ifdef __linux__
     setpriority(PRIO_PROCESS, (id_t)syscall(SYS_gettid), NICE);
@@ -192,7 +193,7 @@ static bool must_wait(const Worker *worker) {
                        (worker->job && dip_error_job_next_samples(worker->job) > owner->limit)));
 }
 
-// Tells the owner how far the truth is. The caller holds the lock.
+// Tells the owner how much of the truth is drawn. The caller holds the lock.
 static void tell_progress(const Worker *worker) {
     DipErrorReading *reading = &worker->owner->reading;
     const bool works = worker->job && !worker->idle && !must_wait(worker);

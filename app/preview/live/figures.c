@@ -128,8 +128,8 @@ static int count_dropped(const DipFigures *figures, int64_t now_ns) {
     return (int)dropped;
 }
 
-// Takes the median of the last second. If no frame was drawn in it, the median before stays, unless
-// the settings have changed since. Returns whether the median is new.
+// Takes the median of the last second. If no frame was drawn in that second, the previous median
+// stays, unless the settings have changed since. Returns whether the median is new.
 static bool follow_median(DipPaneFigures *shown, const DipTiming *total, int64_t now_ns) {
     const int frames = dip_timing_per_second(total, now_ns);
     if (frames == 0 && shown->frames > 0) {

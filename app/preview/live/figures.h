@@ -45,7 +45,7 @@ static const double dip_taa_pace_share = 0.9;
 // Zero-initialise.
 typedef struct DipTaaPace {
     bool on;          // A pane used temporal antialiasing in the last frame.
-    int64_t since_ns; // Since when a pane uses it, if `on`.
+    int64_t since_ns; // When it was turned on, if `on`.
 } DipTaaPace;
 
 // What a pane with temporal antialiasing says about its speed.
@@ -56,8 +56,8 @@ typedef struct DipTaaSpeed {
 } DipTaaSpeed;
 
 // Notes at each turn whether a pane uses temporal antialiasing, and returns its speed.
-// `presented` holds the moments at which frames were presented. In the first second after temporal
-// antialiasing was turned on, no speed is too slow.
+// `presented` holds the moments at which frames were presented. No speed counts as too slow in the
+// first second after temporal antialiasing was turned on.
 DipTaaSpeed dip_taa_pace_update(DipTaaPace *pace, bool on, const DipTiming *presented,
                                 int64_t refresh_ns, int64_t now_ns);
 
@@ -96,8 +96,8 @@ typedef struct DipPaneFigures {
 typedef struct DipFigures {
     DipTiming total[DIP_PANE_COUNT];
     DipTiming stages[DIP_PANE_COUNT][DIP_STAGE_COUNT];
-    DipTiming presented;  // When pictures were presented; their times are 0.
-    DipTiming dropped;    // When refreshes had no new picture; their "times" are their numbers.
+    DipTiming presented; // When pictures were presented; their times are 0.
+    DipTiming dropped; // When refreshes had no new picture; instead of a time, how many they were.
     int64_t presented_ns; // When the last picture was presented; 0 before, and after a rest.
     int64_t updated_ns;   // When the shown times were updated.
     bool outdated;        // Settings have changed since the shown times were measured.

@@ -1,4 +1,4 @@
-// Rough prices of what the panes show, measured with painters of their own while nothing moves.
+// Measures rough prices of what the panes show, with painters of its own, while nothing moves.
 //
 // The loop calls dip_live_prices_step in each turn in which camera and scene rest and no event is
 // waiting. A step draws one frame or more within its budget. First come the times (price_job.h),
@@ -17,7 +17,7 @@ typedef struct DipLivePrices DipLivePrices;
 typedef struct DipLivePicture {
     DipPose pose;
     int64_t time_ns;
-    int width; // Size of a pane's frame.
+    int width; // Size of a pane's frame, in pixels.
     int height;
     int look;                 // Variant of a scene of the gallery.
     double pixels_per_degree; // For FLIP.
@@ -40,15 +40,15 @@ void dip_live_prices_enter_scene(DipLivePrices *live);
 typedef struct DipLiveTruth {
     // Has the live picture's size and pose. It has no pixels while there is no truth.
     DipSrgbPicture picture;
-    int samples;      // Per pixel. Errors against a truth of more samples replace those before.
-    bool comes_first; // No time is taken until there is this truth, or a better one.
+    int samples; // Samples per pixel. Errors against a finer truth replace the previous errors.
+    bool comes_first; // No frames are timed until there is a truth.
     int next_samples; // Samples of the truth that is being drawn; 0: none is.
     double drawn;     // How much of that truth is drawn, from 0 to 1.
     bool waits;       // The thread that draws it waits for a free processor.
 } DipLiveTruth;
 
-// Measures for about budget_ms milliseconds: the frame or block that is begun is finished. Forgets
-// the prices of any other picture first. Errors against a truth of fewer samples stay until all
+// Measures for about budget_ms milliseconds; what has been begun is finished. First forgets the
+// prices of any other picture. Errors against a truth of fewer samples stay until all
 // errors against the new one are known, because only errors against one truth can be compared.
 // Returns whether the panel must be drawn again, because prices or the text of their progress
 // (dip_prices_progress) have changed; the text changes four times a second at most.

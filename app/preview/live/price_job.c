@@ -13,15 +13,15 @@
 #include <string.h>
 
 enum {
-    BLOCK = 4,            // Combinations of a block, besides the base.
-    VISITS = BLOCK + 1,   // The base is one of them.
-    FRAMES_OF_A_VISIT = 2 // One untimed, one timed.
+    BLOCK = 4,            // Combinations in a block, not counting the base.
+    VISITS = BLOCK + 1,   // Combinations in a block, counting the base.
+    FRAMES_OF_A_VISIT = 2 // In a round, each combination draws an untimed and a timed frame.
 };
 
 // A combination of the block that is being timed. The first one is the base.
 typedef struct Member {
     DipQuality quality;
-    double counters[DIP_COST_COUNTER_COUNT]; // Of the frame that was drawn last.
+    double counters[DIP_COST_COUNTER_COUNT]; // Counters of the last frame.
 } Member;
 
 struct DipPriceJob {
@@ -31,7 +31,7 @@ struct DipPriceJob {
     DipQuality requested;
     bool follows; // The panes' settings are known.
     bool failed;
-    DipError failure; // Why, if `failed`.
+    DipError failure; // Why it failed, if `failed`.
     bool idle;        // Every combination is known.
     DipQuality wanted[DIP_PRICE_MAX_WANTED];
     int wanted_count;

@@ -1,11 +1,11 @@
 // Measures the times of the live report while the preview rests, a frame at a time.
 //
 // The job times combinations of settings in blocks: the base and a few combinations, each drawn
-// once in every round, in an order that is shuffled anew. A visit draws one frame untimed, because
-// the previous combination has used the caches, and times the next one. All times enter the log of
-// the live report (app/preview/prices/prices.h), which is estimated anew after each block. At first
-// every combination gets three rounds, so that all prices are soon known roughly; then each gets
-// five more. The combinations nearest to the requested settings come first.
+// once in every round, in an order that is shuffled anew. In a round, each combination draws one
+// frame untimed, because the previous combination has used the caches, and times the next frame.
+// All times enter the log of the live report (app/preview/prices/prices.h), which is estimated anew
+// after each block. At first every combination gets three rounds, so that all prices are soon known
+// roughly; then each gets five more. The combinations nearest to the requested settings come first.
 //
 // The caller gives the functions that draw and that tell the time, so that tests can replace them.
 #ifndef DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
@@ -29,7 +29,7 @@ typedef struct DipPriceJobCalls {
     bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
                  DipError *err);
     int64_t (*now_ns)(void *context);          // NULL means dip_clock_ns.
-    DipThreadUse (*thread_use)(void *context); // NULL: a watch of this process' threads.
+    DipThreadUse (*thread_use)(void *context); // NULL: that of this process.
     int threads;                               // Number of threads that draw a frame.
     void *context;
 } DipPriceJobCalls;

@@ -1,4 +1,4 @@
-// The preview on any display: handles events, lets time pass, draws and presents.
+// Runs the preview on any display: handles events, lets time pass, draws and presents.
 //
 // The owner calls dip_preview_turn until dip_preview_has_quit. A turn handles the events that have
 // arrived, and draws and presents at most one frame. If the turn presented a frame, it then waits

@@ -207,7 +207,7 @@ static bool save_screenshot(DipPreview *preview, char *file, size_t size_bytes, 
     return written;
 }
 
-// Names the file that was saved in a notice, or tells the error.
+// Shows a notice that names the saved file, or one that tells the error.
 static void tell_saved(DipPreview *preview, bool saved, const char *what, const char *file,
                        const DipError *err, int64_t now_ns) {
     char text[DIP_NOTICE_SIZE];

@@ -45,8 +45,8 @@ static bool shows_errors(const DipPreview *preview) {
 
 // Returns the samples of the finest truth that may be drawn now. Times and truths take turns, the
 // cheapest useful one first: rough times, then the first truth that prices can be compared with and
-// the errors against it, then better times, then finer truths. Where the user looks at errors, that
-// first truth comes before the times.
+// the errors against it, then better times, then finer truths. While the user looks at errors,
+// that first truth comes before the times.
 static int truth_limit(const DipPreview *preview) {
     if (!wants_prices(preview)) {
         return INT_MAX;

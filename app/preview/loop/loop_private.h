@@ -70,7 +70,7 @@ struct DipPreview {
     char title[128];         // The window's title.
     const void *judged_path; // The path and the scene for which state.stands holds.
     const void *judged_scene;
-    bool flying;           // The user moved the camera in this turn.
+    bool flying;           // The user or the path editor moved the camera in this turn.
     DipPose pose;          // Pose of the next frame.
     DipSessionFrame frame; // The frame that was drawn last.
     uint64_t frame_index;
@@ -84,10 +84,10 @@ struct DipPreview {
 
 // --- loop_draw.c ---------------------------------------------------------------------------------
 
-// Draws the frames of both panes. If their size or settings cannot be had, a notice says why and
-// they keep the ones they have.
+// Draws the frames of both panes. If memory runs out for a new size or for new settings, a notice
+// says so, and the panes keep the old size or settings.
 bool dip_loop_draw_panes(DipPreview *preview, DipError *err);
-// Returns whether a pane's sample pattern alternates, so that each frame differs from the last one.
+// Returns whether temporal antialiasing changes a pane's picture from frame to frame.
 bool dip_loop_alternates(const DipPreview *preview);
 // Adds the pose of the last frame to the file of saved poses.
 void dip_loop_save_pose(DipPreview *preview, int64_t now_ns);

@@ -16,8 +16,8 @@
 
 enum { MAX_DROPS = 64 };
 
-// A session that is being opened, and the result. While `running`, the main thread reads only
-// `running` and `done`.
+// A session that is being opened on a thread, and the result. While the thread is running, the main
+// thread reads only `running` and `done`.
 typedef struct Opening {
     pthread_t thread;
     bool running;
@@ -70,8 +70,8 @@ static void watch_config(DipWatch *watch, const DipConfig *config) {
     }
 }
 
-// Watches the files of the session, and the files in which an opening has found faults, because the
-// user is about to mend these.
+// Watches the files of the session, and the files in which an opening has found faults, because
+// the user is about to mend them.
 static void watch_session(DipReload *reload, const DipErrorList *faults) {
     const DipSessionOptions *options = &reload->options;
     if (!reload->watch) {

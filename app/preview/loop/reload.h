@@ -44,8 +44,8 @@ typedef struct DipReloadNews {
 } DipReloadNews;
 
 // Looks for changed files, and begins or ends an opening. Call it in every turn of the preview.
-// Returns whether there is news. prices: get the prices of a cost report that is opened. now_ns:
-// time on the preview's clock.
+// Returns whether there is news. If a cost report is opened, `prices` take its prices. now_ns: time
+// on the preview's clock.
 bool dip_reload_poll(DipReload *reload, DipPrices *prices, int64_t now_ns, DipReloadNews *news);
 
 // Puts the new session in the place of the old one, which is closed: nothing may use the old one's

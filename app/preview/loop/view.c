@@ -93,7 +93,7 @@ static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *lis
     return dip_ui_end(view->ui);
 }
 
-// Hands an event to the settings in characters. A click on a pane chooses the pane.
+// Hands an event to the settings that are drawn as characters. A click on a pane chooses the pane.
 static bool handle_in_text(const DipViewInput *input, const DipEvent *event) {
     DipPreviewState *state = input->state;
     if (dip_text_view_event(input->text, state, event, input->now_ns)) {

@@ -31,7 +31,7 @@ typedef struct DipViewInput {
     double scale; // The display's scale.
     int64_t now_ns;
     DipPreviewState *state;
-    const DipPaneFigures *figures; // [DIP_PANE_COUNT]
+    const DipPaneFigures *figures; // One for each pane.
     const DipPrices *prices;
     DipTools *tools;
     DipTextView *text; // The texts, if they are character cells; otherwise NULL.
@@ -48,7 +48,7 @@ bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *e
 // Draws what has changed since the last call, or everything if the size has changed.
 bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err);
 
-// The controls: their focus, and when the window must be drawn again (ui.h).
+// Returns the window's controls, which know their focus and when they must be drawn again (ui.h).
 DipUi *dip_view_ui(DipView *view);
 
 // Returns the picture, which is valid until the next dip_view_draw.

@@ -1,4 +1,4 @@
-// Maps controllers to keys and to directions of flight.
+// Turns buttons into keys and actions, and sticks and triggers into flight.
 #include "app/preview/state/controller.h"
 
 #include "app/preview/state/camera.h"

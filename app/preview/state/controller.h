@@ -11,7 +11,7 @@
 
 enum { DIP_MAX_CONTROLLERS = 4 };
 
-// The controllers that are connected. Any of them steers. Zero-initialise.
+// The controllers that are connected. Each of them steers the camera. Zero-initialise.
 typedef struct DipControllers {
     struct {
         bool used;

@@ -130,8 +130,8 @@ static bool take(DipPathEditor *editor, const DipCamPath *playing) {
     return say(editor, true, "Took the %zu keys of the path", editor->count);
 }
 
-// Changes the time from key to key to the next one in periods_ns. The time of a path that was taken
-// over may lie between two of these.
+// Changes the time from key to key to the next one in periods_ns. A path that was taken over may
+// have a time between two of these.
 static bool change_period(DipPathEditor *editor, bool longer) {
     const int count = (int)DIP_ARRAY_COUNT(periods_ns);
     int64_t found_ns = editor->period_ns;
@@ -251,8 +251,4 @@ bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *po
         dip_path_editor_stop(editor);
     }
     return true;
-}
-
-int64_t dip_path_editor_time_ns(const DipPathEditor *editor) {
-    return editor->fly ? dip_campath_time_at_end(editor->fly, editor->end, editor->at_ns) : 0;
 }

@@ -21,9 +21,9 @@ typedef struct DipPathEditor {
     size_t count;
     size_t capacity;
     size_t chosen;     // 0 if there are no keys.
-    int64_t period_ns; // From key to key.
+    int64_t period_ns; // Time from key to key.
     DipCamKey seen;    // The camera's pose.
-    bool has_seen;     // `seen` is known.
+    bool has_seen;     // The camera's pose is known.
     bool jumps;        // The camera moves to the chosen key in the next turn of the loop.
     DipCamPath *fly;   // The path while it is flown; otherwise NULL.
     DipCamPathEnd end; // What the flown path does at its end.
@@ -68,8 +68,5 @@ bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *po
 
 // Stops flying the path.
 void dip_path_editor_stop(DipPathEditor *editor);
-
-// Returns the time on the path that the editor flies, or 0 if it flies none.
-int64_t dip_path_editor_time_ns(const DipPathEditor *editor);
 
 #endif

@@ -172,7 +172,7 @@ static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose 
         dip_orbit_centre(session, pose, flight->centre_world);
         flight->knows_centre = true;
     }
-    // The scene follows the pointer: what lies before the centre moves with it.
+    // The scene seems to follow the pointer: what lies before the centre moves with it.
     dip_camera_orbit(pose, flight->centre_world, orbit_deg * flight->drag_right,
                      orbit_deg * flight->drag_up);
     dip_camera_zoom(pose, flight->centre_world, pow(zoom_per_step, flight->zoom_steps));

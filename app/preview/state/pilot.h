@@ -38,12 +38,12 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
 // Prepares the free camera for what a session shows.
 void dip_pilot_enter(DipFlight *flight, const DipSession *session);
 
-// What the loop knows in a turn.
+// What the loop gives to dip_pilot_turn.
 typedef struct DipPilotTurn {
     const DipSession *session;
     DipCameraKeys keys;                // What the held keys ask for.
     const DipControllers *controllers; // NULL: there are none.
-    double speed_m_per_s;              // Speed of the free camera before the wheel has changed it.
+    double speed_m_per_s;              // Speed of the free camera, not counting the wheel's steps.
     int64_t elapsed_ns;
 } DipPilotTurn;
 

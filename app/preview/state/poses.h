@@ -2,9 +2,8 @@
 // and appends poses to a file.
 //
 // The file of poses is a camera path in the text format (campaths/campath.h), with a second from
-// key to key. `--path poses.pth` flies from pose to pose, and the seven numbers of a line can be
-// given to
-// --pose.
+// key to key. `--path poses.pth` flies from pose to pose, and the seven numbers of a line are what
+// --pose takes.
 #ifndef DIP_APP_PREVIEW_STATE_POSES_H
 #define DIP_APP_PREVIEW_STATE_POSES_H
 

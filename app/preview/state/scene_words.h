@@ -1,4 +1,4 @@
-// The options of the command line that name a scene, for commands that the window tells its user.
+// Writes the options that name a scene, for the command lines that the window shows.
 #ifndef DIP_APP_PREVIEW_STATE_SCENE_WORDS_H
 #define DIP_APP_PREVIEW_STATE_SCENE_WORDS_H
 

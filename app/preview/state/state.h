@@ -1,5 +1,5 @@
-// The state of the preview, and how the user's actions change it. This part of the preview knows
-// neither pixels nor displays.
+// Holds the state of the preview, and changes it by the user's actions. The state knows neither
+// pixels nor displays.
 #ifndef DIP_APP_PREVIEW_STATE_STATE_H
 #define DIP_APP_PREVIEW_STATE_STATE_H
 
@@ -33,7 +33,7 @@ typedef enum DipAction {
     DIP_ACTION_CAMERA_BACK, // Gives the free camera the pose of the path.
     DIP_ACTION_ORBIT,       // Dragging turns the free camera about a point, or about itself.
     DIP_ACTION_SPEED,       // Makes the free camera faster by `argument` steps.
-    DIP_ACTION_PATH_END,    // Chooses what paths do at their end; the argument is 1 for the next.
+    DIP_ACTION_PATH_END,    // Chooses the next of the things that paths can do at their end.
     DIP_ACTION_PATH_EDIT,   // Edits a path; the argument is a DipPathEdit.
     DIP_ACTION_HELP,
     DIP_ACTION_PANEL,
@@ -75,7 +75,7 @@ typedef enum DipPreset {
 typedef struct DipFlight {
     bool orbits;               // Dragging turns the camera about a point; the wheel zooms.
     bool reset;                // The user wants the pose of the camera path. Cleared when done.
-    int speed_steps;           // Each step of the wheel is 1; see dip_flight_speed.
+    int speed_steps;           // Steps of the wheel; see dip_flight_speed.
     double base_speed_m_per_s; // Speed at 0 steps. Set by the loop.
     // What the mouse has done since the last turn of the loop. Dragging counts in heights of a
     // pane, to the right and upwards; the wheel counts in steps away from the user.
@@ -110,8 +110,8 @@ typedef struct DipPreviewState {
     bool manual;             // The user flies the camera; time stands still.
     bool shows_gallery;      // The panes show a scene of the gallery.
     int scene_step;          // The scene that the user asked for: 1 the next, -1 the one before.
-    int look;                // The scene's variant; the scene wraps it around.
-    const char *scene_title; // Of the gallery's scene; NULL if the panes show models.
+    int look;                // The scene's variant; numbers past the last variant begin anew.
+    const char *scene_title; // Title of the gallery's scene; NULL if the panes show models.
     const char *scene_look;  // Name of its variant.
     bool help;               // The help shows.
     char help_words[DIP_HELP_WORDS]; // The help shows only keys with this text.
@@ -164,7 +164,7 @@ bool dip_preview_needs_window(DipAction action);
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
 
-// Gives a setting of the panes whose settings the keys change one step. If the step does not fit
+// In the panes whose settings the keys change, gives a setting a step. If the step does not fit
 // the other settings, a notice says why and nothing changes.
 void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns);
 
@@ -238,8 +238,9 @@ void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *form
 // Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
 const char *dip_preview_category_name(int category);
 
-// Returns the name or the title of a path of the state's track. The name is that of its category,
-// or of the model's camera that it follows; the title prefers the camera.
+// Return the name and the title of a path of the state's track. The name is that of the path's
+// category or, beyond the categories, that of the model's camera that the path follows. The title
+// is the camera's name, if there is a camera, or else the title of the category.
 const char *dip_preview_path_name(const DipPreviewState *state, int category);
 const char *dip_preview_path_title(const DipPreviewState *state, int category);
 

@@ -248,7 +248,7 @@ void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms) {
     }
 }
 
-// Goes on to the next budget of the list: the first one, if the budget is not in the list.
+// Goes on to the next budget of the list, or to the first one if the present budget is not in it.
 static void next_budget(DipPreviewState *state, bool reverse) {
     double list[DIP_COST_MAX_BUDGETS];
     const int count = dip_preview_budgets(state, list);

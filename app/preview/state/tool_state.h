@@ -20,10 +20,10 @@ typedef enum DipTab {
 // How the two pictures stand beside each other.
 typedef enum DipComparison {
     DIP_COMPARE_SIDE_BY_SIDE,
-    DIP_COMPARE_WIPE,  // One picture: current left of a divider, requested right of it.
-    DIP_COMPARE_BLINK, // One picture that changes between both while a key is held, or by time.
+    DIP_COMPARE_WIPE,       // One picture: current left of a divider, requested right of it.
+    DIP_COMPARE_BLINK,      // One picture: current, and requested while a key is held or by turns.
     DIP_COMPARE_DIFFERENCE, // Absolute difference of the two, times a gain.
-    DIP_COMPARE_ALONE,      // One pane alone fills the place of both.
+    DIP_COMPARE_ALONE,      // One pane alone, as large as both.
     DIP_COMPARE_TRUTH,      // The converged picture in the current pane's place.
     DIP_COMPARISON_COUNT
 } DipComparison;
