@@ -18,9 +18,9 @@ DipWatch *dip_watch_create(void);
 void dip_watch_destroy(DipWatch **watch);
 
 // Replace the list of watched files: call dip_watch_begin_list, then dip_watch_file and
-// dip_watch_folder for each entry, then dip_watch_end_list. What is known about an entry that
-// was in the old list is kept, so that no change is missed. The files need not
-// exist. If memory runs out, an entry is left out.
+// dip_watch_folder for each entry, then dip_watch_end_list. What is known about an entry that was
+// in the old list is kept, so that no change is missed. The files need not exist. If memory runs
+// out, an entry is left out.
 void dip_watch_begin_list(DipWatch *watch);
 void dip_watch_end_list(DipWatch *watch);
 void dip_watch_file(DipWatch *watch, const char *file);
