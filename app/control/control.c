@@ -1,58 +1,176 @@
 // Accepts clients, answers their lines and sends them events.
 #include "app/control/control.h"
 
-#include "app/control/client_private.h"
+#include "app/control/endpoint_private.h"
 #include "renderer/base/utf8.h"
 
 #include <cjson/cJSON.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    OUT_BYTES = 262144,
+    // While a client has more unread bytes than this, its requests wait and its events are dropped.
+    // The rest of the buffer is room for one more reply.
+    FULL_BYTES = 131072
+};
+
+// A client. Both buffers have fixed sizes: a client that does not read gets no further events, and
+// its requests wait, until it reads again. Memory never grows, and nothing waits for the client.
+typedef struct Client {
+    DipWire wire;
+    bool ended;       // The client has closed its side; no further input comes.
+    bool broken;      // Nobody reads the output any more, so output is thrown away.
+    bool skips;       // The line is too long, and its rest is skipped.
+    unsigned topics;  // Subscriptions, as bits 1 << DipControlTopic.
+    uint64_t dropped; // Events that were dropped since the last event that was sent.
+    int attempt;      // How often the first line has been put off.
+    size_t in_first;  // Index in `in` of the first byte that is not used yet.
+    size_t in_bytes;  // Number of bytes in `in` that are not used yet.
+    size_t out_bytes;
+    char in[DIP_CONTROL_MAX_LINE_BYTES + 2]; // Room for the line, "\r" and "\n".
+    char out[OUT_BYTES];
+} Client;
+
 struct DipControl {
-    DipControlTarget target;
-    const char *version;
+    DipControlDef def;
     DipEndpoint endpoint;
-    DipClient *clients[DIP_CONTROL_MAX_CLIENTS]; // NULL: free.
+    Client *clients[DIP_CONTROL_MAX_CLIENTS]; // NULL: free.
     unsigned subscriptions;
 };
 
-// What is sent instead of a reply when memory runs out, and to a client that is one too many.
+// The first text is sent instead of a reply when memory runs out, the second one to a client that
+// is one too many.
 static const char no_memory[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"MEMORY\","
                                 "\"field\":\"\",\"message\":\"out of memory\"}}";
 static const char too_many[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"BUSY\","
                                "\"field\":\"\",\"message\":\"too many clients are connected\"}}\n";
 
+// --- input and output of a client ----------------------------------------------------------------
+
+static void drop_input(Client *client, size_t bytes) {
+    client->in_first += bytes;
+    client->in_bytes -= bytes;
+}
+
+// Reads what has arrived, as far as there is room.
+static void read_input(Client *client) {
+    memmove(client->in, client->in + client->in_first, client->in_bytes);
+    client->in_first = 0;
+    while (!client->ended && client->in_bytes < sizeof client->in) {
+        const ptrdiff_t count = dip_wire_read(&client->wire, client->in + client->in_bytes,
+                                              sizeof client->in - client->in_bytes);
+        client->ended = count < 0;
+        if (count <= 0) {
+            return;
+        }
+        client->in_bytes += (size_t)count;
+    }
+}
+
+// Skips the rest of a line that is too long. Returns whether the line's end has been reached.
+static bool skip(Client *client) {
+    const char *first = client->in + client->in_first;
+    const char *end = memchr(first, '\n', client->in_bytes);
+    drop_input(client, end ? (size_t)(end - first) + 1 : client->in_bytes);
+    client->skips = !end;
+    return end != NULL;
+}
+
+typedef enum Line {
+    NO_LINE,
+    WHOLE_LINE,
+    LONG_LINE // A line was too long. It has been removed, and is reported once.
+} Line;
+
+// Finds the first line. Its text is not terminated, and is valid until remove_line.
+static Line find_line(Client *client, const char **line, size_t *length) {
+    if (client->skips && !skip(client)) {
+        return NO_LINE;
+    }
+    const char *first = client->in + client->in_first;
+    const char *end = memchr(first, '\n', client->in_bytes);
+    *line = first;
+    *length = end ? (size_t)(end - first) : client->in_bytes;
+    if (*length > DIP_CONTROL_MAX_LINE_BYTES + 1) { // 1: a carriage return may end the line.
+        skip(client);
+        return LONG_LINE;
+    }
+    // The last line may end without a line feed.
+    return end || (client->ended && client->in_bytes > 0) ? WHOLE_LINE : NO_LINE;
+}
+
+static void remove_line(Client *client, size_t length) {
+    drop_input(client, length < client->in_bytes ? length + 1 : length);
+    client->attempt = 0;
+}
+
+static bool is_full(const Client *client) {
+    return client->out_bytes > FULL_BYTES;
+}
+
+// Appends a line to the output. Returns false if there is no room.
+static bool send_line(Client *client, const char *line, size_t length) {
+    if (client->broken) {
+        return true; // Nobody reads replies any more, but the client's requests still count.
+    }
+    if (length + 1 > sizeof client->out - client->out_bytes) {
+        return false;
+    }
+    memcpy(client->out + client->out_bytes, line, length);
+    client->out[client->out_bytes + length] = '\n';
+    client->out_bytes += length + 1;
+    return true;
+}
+
+// Writes as much output as fits now.
+static void write_output(Client *client) {
+    while (client->out_bytes > 0 && !client->broken) {
+        const ptrdiff_t count = dip_wire_write(&client->wire, client->out, client->out_bytes);
+        if (count < 0) {
+            client->broken = true;
+            client->out_bytes = 0;
+        }
+        if (count <= 0) {
+            return;
+        }
+        client->out_bytes -= (size_t)count;
+        memmove(client->out, client->out + count, client->out_bytes);
+    }
+}
+
 // --- sending -------------------------------------------------------------------------------------
 
-// Sends an object, or else the line that says that memory ran out. Deletes the object.
-static void send_object(DipClient *client, cJSON *object) {
+// Sends an object or, if memory has run out, the line that says so. Deletes the object.
+static void send_object(Client *client, cJSON *object) {
     char *line = object ? cJSON_PrintUnformatted(object) : NULL;
-    if (!line || !dip_client_send(client, line, strlen(line))) {
-        dip_client_send(client, no_memory, sizeof no_memory - 1);
+    if (!line || !send_line(client, line, strlen(line))) {
+        send_line(client, no_memory, sizeof no_memory - 1);
     }
     cJSON_free(line);
     cJSON_Delete(object);
 }
 
-static void add_names(cJSON *object, const char *name, const char *(*name_of)(int), int count,
+// Adds an array of the names whose bits are set.
+static void add_names(cJSON *object, const char *key, const char *const *names, int count,
                       unsigned bits) {
-    cJSON *names = cJSON_AddArrayToObject(object, name);
-    for (int i = 0; names && i < count; ++i) {
+    cJSON *array = cJSON_AddArrayToObject(object, key);
+    for (int i = 0; array && i < count; ++i) {
         if (bits >> i & 1) {
-            cJSON_AddItemToArray(names, cJSON_CreateStringReference(name_of(i)));
+            cJSON_AddItemToArray(array, cJSON_CreateStringReference(names[i]));
         }
     }
 }
 
-static void greet(const DipControl *control, DipClient *client) {
-    const unsigned topics = ~control->target.missing_topics;
+static void greet(const DipControl *control, Client *client) {
     cJSON *greeting = cJSON_CreateObject();
-    cJSON_AddStringToObject(greeting, "diptych", control->version);
+    cJSON_AddStringToObject(greeting, "diptych", control->def.version);
     cJSON_AddNumberToObject(greeting, "protocol", DIP_CONTROL_PROTOCOL);
     cJSON_AddNumberToObject(greeting, "max_line_bytes", DIP_CONTROL_MAX_LINE_BYTES);
-    add_names(greeting, "requests", dip_control_verb_name, DIP_CONTROL_VERB_COUNT, ~0u);
-    add_names(greeting, "topics", dip_control_topic_name, DIP_CONTROL_TOPIC_COUNT, topics);
+    add_names(greeting, "requests", dip_control_verb_names, DIP_CONTROL_VERB_COUNT, ~0u);
+    add_names(greeting, "topics", dip_control_topic_names, DIP_CONTROL_TOPIC_COUNT, ~0u);
     send_object(client, greeting);
 }
 
@@ -75,7 +193,7 @@ static cJSON *begin_reply(const DipControlId *id, bool ok) {
     return reply;
 }
 
-static void send_error(DipClient *client, const DipControlId *id, const DipError *err) {
+static void send_error(Client *client, const DipControlId *id, const DipError *err) {
     DipError mended = *err;
     dip_utf8_mend(mended.file);
     dip_utf8_mend(mended.key);
@@ -93,16 +211,16 @@ static void send_error(DipClient *client, const DipControlId *id, const DipError
 
 void dip_control_send(DipControl *control, DipControlTopic topic, cJSON *fields) {
     for (int c = 0; c < DIP_CONTROL_MAX_CLIENTS; ++c) {
-        DipClient *client = control->clients[c];
+        Client *client = control->clients[c];
         if (!client || !(client->topics >> topic & 1)) {
             continue;
         }
-        if (dip_client_is_full(client) || !fields) {
+        if (is_full(client) || !fields) {
             ++client->dropped;
             continue;
         }
         cJSON *event = cJSON_CreateObject();
-        cJSON_AddStringToObject(event, "event", dip_control_topic_name((int)topic));
+        cJSON_AddStringToObject(event, "event", dip_control_topic_names[topic]);
         if (client->dropped) {
             cJSON_AddNumberToObject(event, "dropped", (double)client->dropped);
         }
@@ -111,51 +229,29 @@ void dip_control_send(DipControl *control, DipControlTopic topic, cJSON *fields)
         }
         client->dropped = 0;
         send_object(client, event);
-        dip_client_write(client);
+        write_output(client);
     }
     cJSON_Delete(fields);
 }
 
 // --- requests ------------------------------------------------------------------------------------
 
-// Fails if the target cannot send events for one of the topics. The message names the first such.
-static bool check_topics(const DipControl *control, unsigned topics, DipError *err) {
-    const unsigned missing = topics & control->target.missing_topics;
-    for (int t = 0; t < DIP_CONTROL_TOPIC_COUNT; ++t) {
-        if (missing >> t & 1) {
-            return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "to",
-                                 "%s are not available yet", dip_control_topic_name(t));
-        }
-    }
-    return true;
-}
-
-static DipControlAnswer subscribe(DipControl *control, DipClient *client,
+static DipControlAnswer carry_out(DipControl *control, Client *client,
                                   const DipControlRequest *request, cJSON *reply, DipError *err) {
-    if (!check_topics(control, request->topics, err)) {
-        return DIP_CONTROL_REFUSED;
-    }
     if (request->verb == DIP_CONTROL_SUBSCRIBE) {
         client->topics |= request->topics;
         ++control->subscriptions;
-    } else {
+    } else if (request->verb == DIP_CONTROL_UNSUBSCRIBE) {
         client->topics &= ~request->topics;
+    } else {
+        return control->def.carry_out(control->def.context, request, client->attempt, reply, err);
     }
-    add_names(reply, "to", dip_control_topic_name, DIP_CONTROL_TOPIC_COUNT, client->topics);
+    add_names(reply, "to", dip_control_topic_names, DIP_CONTROL_TOPIC_COUNT, client->topics);
     return DIP_CONTROL_DONE;
 }
 
-static DipControlAnswer carry_out(DipControl *control, DipClient *client,
-                                  const DipControlRequest *request, cJSON *reply, DipError *err) {
-    const DipControlTarget *target = &control->target;
-    if (request->verb == DIP_CONTROL_SUBSCRIBE || request->verb == DIP_CONTROL_UNSUBSCRIBE) {
-        return subscribe(control, client, request, reply, err);
-    }
-    return target->carry_out(target->context, request, client->attempt, reply, err);
-}
-
-// Answers a line. Returns false if the target has put off the request.
-static bool answer(DipControl *control, DipClient *client, const char *line, size_t length) {
+// Answers a line. Returns false if the owner has put off the request.
+static bool answer(DipControl *control, Client *client, const char *line, size_t length) {
     DipControlRequest request;
     DipError err = {0};
     if (!dip_control_request_read(line, length, &request, &err)) {
@@ -175,7 +271,7 @@ static bool answer(DipControl *control, DipClient *client, const char *line, siz
     return result == DIP_CONTROL_REFUSED;
 }
 
-static void refuse_long_line(DipClient *client) {
+static void refuse_long_line(Client *client) {
     static const DipControlId no_id = {.kind = DIP_CONTROL_ID_NONE};
     DipError err;
     dip_error_set(&err, DIP_ERROR_OVERSIZED, NULL, 0, "line", "is longer than %d bytes",
@@ -184,29 +280,27 @@ static void refuse_long_line(DipClient *client) {
 }
 
 // Answers the lines that have arrived, until the client has too much left to read.
-static void answer_lines(DipControl *control, DipClient *client) {
+static void answer_lines(DipControl *control, Client *client) {
     const char *line;
     size_t length;
     for (;;) {
-        if (dip_client_is_full(client)) {
-            dip_client_write(client);
-            if (dip_client_is_full(client)) {
+        if (is_full(client)) {
+            write_output(client);
+            if (is_full(client)) {
                 return;
             }
         }
-        switch (dip_client_line(client, &line, &length)) {
-        case DIP_CLIENT_NO_LINE:
+        const Line found = find_line(client, &line, &length);
+        if (found == NO_LINE) {
             return;
-        case DIP_CLIENT_LONG_LINE:
+        }
+        if (found == LONG_LINE) {
             refuse_long_line(client);
-            break;
-        case DIP_CLIENT_LINE:
-            if (!answer(control, client, line, length)) {
-                ++client->attempt;
-                return;
-            }
-            dip_client_remove_line(client, length);
-            break;
+        } else if (answer(control, client, line, length)) {
+            remove_line(client, length);
+        } else {
+            ++client->attempt;
+            return;
         }
     }
 }
@@ -219,12 +313,13 @@ static void welcome(DipControl *control, DipWire wire) {
     while (c < DIP_CONTROL_MAX_CLIENTS && control->clients[c]) {
         ++c;
     }
-    DipClient *client = c < DIP_CONTROL_MAX_CLIENTS ? dip_client_create(wire) : NULL;
+    Client *client = c < DIP_CONTROL_MAX_CLIENTS ? calloc(1, sizeof *client) : NULL;
     if (!client) {
         dip_wire_write(&wire, too_many, sizeof too_many - 1);
         dip_wire_close(&wire);
         return;
     }
+    client->wire = wire;
     control->clients[c] = client;
     greet(control, client);
 }
@@ -247,13 +342,18 @@ DipControl *dip_control_open(const DipControlDef *def, DipError *err) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--control", "out of memory");
         return NULL;
     }
-    control->target = def->target;
-    control->version = def->version;
+    control->def = *def;
     if (!open_endpoint(control, def->where, err)) {
         free(control);
         return NULL;
     }
     return control;
+}
+
+static void drop_client(Client **client) {
+    dip_wire_close(&(*client)->wire);
+    free(*client);
+    *client = NULL;
 }
 
 void dip_control_close(DipControl **control_pointer) {
@@ -264,19 +364,18 @@ void dip_control_close(DipControl **control_pointer) {
     *control_pointer = NULL;
     for (int c = 0; c < DIP_CONTROL_MAX_CLIENTS; ++c) {
         if (control->clients[c]) {
-            dip_client_write(control->clients[c]);
+            write_output(control->clients[c]);
+            drop_client(&control->clients[c]);
         }
-        dip_client_destroy(&control->clients[c]);
     }
     dip_endpoint_close(&control->endpoint);
     free(control);
 }
 
-// Reads at most one buffer, so that a client that sends without a pause cannot hold up the caller.
-static void serve(DipControl *control, DipClient *client) {
-    dip_client_read(client);
-    answer_lines(control, client);
-    dip_client_write(client);
+// Returns whether the connection has served its purpose and can be closed.
+static bool is_done(const Client *client) {
+    const bool answered = client->ended && client->in_bytes == 0 && client->out_bytes == 0;
+    return answered && (client->broken || client->topics == 0 || dip_wire_is_cut(&client->wire));
 }
 
 void dip_control_poll(DipControl *control) {
@@ -285,12 +384,17 @@ void dip_control_poll(DipControl *control) {
         welcome(control, wire);
     }
     for (int c = 0; c < DIP_CONTROL_MAX_CLIENTS; ++c) {
-        if (!control->clients[c]) {
+        Client *client = control->clients[c];
+        if (!client) {
             continue;
         }
-        serve(control, control->clients[c]);
-        if (dip_client_is_done(control->clients[c])) {
-            dip_client_destroy(&control->clients[c]);
+        // Reads at most one buffer, so that a client that sends without a pause cannot hold up the
+        // caller.
+        read_input(client);
+        answer_lines(control, client);
+        write_output(client);
+        if (is_done(client)) {
+            drop_client(&control->clients[c]);
         }
     }
 }

@@ -1,8 +1,8 @@
-// The control channel: other programs send requests as lines of JSON, and get a reply for every
-// line and the events that they subscribe to. docs/embedding.md describes the protocol.
+// Opens the control channel. Other programs send requests as lines of JSON over it, and get a reply
+// for every line, and the events that they subscribe to. docs/embedding.md describes the protocol.
 //
-// The channel is one more source of events. It reads and checks requests, and hands each of them to
-// its target, which carries it out. All functions must be called on one thread; none of them waits.
+// The channel reads and checks requests, and hands each of them to a function of its owner, which
+// carries it out. All functions must be called on one thread; none of them waits.
 #ifndef DIP_APP_CONTROL_CONTROL_H
 #define DIP_APP_CONTROL_CONTROL_H
 
@@ -15,30 +15,24 @@ enum { DIP_CONTROL_MAX_CLIENTS = 8 }; // Clients that can be connected at once.
 typedef enum DipControlAnswer {
     DIP_CONTROL_DONE,
     DIP_CONTROL_REFUSED, // Nothing has changed; the error says why.
-    DIP_CONTROL_LATER    // The target wants to see the request again at the next poll.
+    DIP_CONTROL_LATER    // The function wants to see the request again at the next poll.
 } DipControlAnswer;
-
-// What the requests act on.
-typedef struct DipControlTarget {
-    void *context;
-    // Carries out a request, or refuses it and fills *err. Adds the fields of the reply to `reply`,
-    // an object. `attempt` counts how often the target has put off this request. `subscribe` and
-    // `unsubscribe` never reach the target.
-    DipControlAnswer (*carry_out)(void *context, const DipControlRequest *request, int attempt,
-                                  struct cJSON *reply, DipError *err);
-    unsigned missing_topics; // Topics without events, as bits; subscribing to them is refused.
-} DipControlTarget;
 
 typedef struct DipControlDef {
     const char *where;   // "-" for standard input and output, or the path of a socket. Borrowed
                          // until the channel is open.
     const char *version; // The program's version, for the greeting. Borrowed.
-    DipControlTarget target;
+    void *context;
+    // Carries out a request, or refuses it and fills *err. Adds the fields of the reply to `reply`,
+    // an object. `attempt` counts how often this function has put off this request. The channel
+    // itself carries out `subscribe` and `unsubscribe`.
+    DipControlAnswer (*carry_out)(void *context, const DipControlRequest *request, int attempt,
+                                  struct cJSON *reply, DipError *err);
 } DipControlDef;
 
 typedef struct DipControl DipControl;
 
-// Opens the channel. A socket can be opened only by this user. Fails with CONFLICT (the path is in
+// Opens the channel. Only this user can connect to a socket. Fails with CONFLICT (the path is in
 // use), OVERSIZED (the path is too long), IO or MEMORY.
 DipControl *dip_control_open(const DipControlDef *def, DipError *err);
 
@@ -57,7 +51,7 @@ unsigned dip_control_topics(const DipControl *control);
 unsigned dip_control_subscriptions(const DipControl *control);
 
 // Sends an event to the clients that have subscribed to its topic. A client that reads too slowly
-// misses the event; the next event that it gets says how many it has missed. Takes ownership of
+// misses the event; the next event that reaches it says how many it has missed. Takes ownership of
 // `fields`, an object with the event's fields, or NULL if memory ran out.
 void dip_control_send(DipControl *control, DipControlTopic topic, struct cJSON *fields);
 

@@ -1,4 +1,4 @@
-// Standard input and output, and the listening socket.
+// Takes over standard input and output, or listens on a socket, and moves bytes over connections.
 #include "app/control/endpoint_private.h"
 
 #include <errno.h>
@@ -96,7 +96,8 @@ bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *
     }
     if (fstat(STDIN_FILENO, &status) == 0 && S_ISSOCK(status.st_mode) &&
         fstat(wire->out, &status) == 0 && S_ISSOCK(status.st_mode)) {
-        // The parent made both with socketpair. Reading uses the duplicate, too.
+        // The parent made one socket for both, with socketpair. It is read through its duplicate,
+        // too.
         wire->in = wire->out;
         wire->socket = true;
     }
@@ -122,7 +123,8 @@ static bool is_in_use(const struct sockaddr_un *address) {
     return !refused;
 }
 
-// Removes the socket's file that an earlier run left behind.
+// Removes the socket's file that an earlier run left behind. Fails if the file is no socket, or if
+// a program listens on it.
 static bool remove_stale(const struct sockaddr_un *address, DipError *err) {
     struct stat status;
     const char *path = address->sun_path;

@@ -1,5 +1,5 @@
-// Where clients of the control channel come from: the program's standard input and output, or a
-// Unix domain socket that Diptych listens on. No function here waits.
+// Finds the clients of the control channel: the program at the other end of standard input and
+// output, or the programs that connect to a Unix domain socket. No function here waits.
 #ifndef DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
 #define DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
 
@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <sys/types.h>
 
-// A connection to a client. Zero-initialised it is not valid; -1 marks a closed descriptor.
+// A connection to a client. A closed descriptor is -1, so a zero-initialised wire is not valid.
 typedef struct DipWire {
     int in;
     int out;
@@ -31,9 +31,9 @@ void dip_wire_close(DipWire *wire);
 typedef struct DipEndpoint {
     int listener; // Listening socket, or -1 with standard input and output.
     char path[128];
-    dev_t device; // The socket's file, so that only this file is removed.
+    dev_t device; // Device and inode of the socket's file, so that only this file is removed.
     ino_t inode;
-    int stdout_copy; // With standard output: the descriptor that stdout had before, or -1.
+    int stdout_copy; // Copy of the descriptor that standard output had before, or -1.
 } DipEndpoint;
 
 // Takes over standard input and output. What the program prints on standard output from now on goes

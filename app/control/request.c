@@ -1,34 +1,49 @@
-// Reads requests by two tables: one of fields, one of the fields that each request has.
+// Reads requests by two tables: one describes all fields, the other says which fields each request
+// has.
 #include "app/control/request.h"
 
-#include "app/control/request_values_private.h"
-#include "renderer/base/utf8.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/utf8.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-static const double largest_id = 9007199254740992.0; // 2^53: doubles hold all whole numbers to it.
 
 // --- the tables ----------------------------------------------------------------------------------
 
 #define NAME_OF(name, NAME) #name,
 static const char *const pane_names[] = {"current", "requested"};
 static const char *const switch_names[] = {"on", "off"};
-static const char *const verb_names[] = {DIP_CONTROL_VERB_LIST(NAME_OF)};
-static const char *const topic_names[] = {DIP_CONTROL_TOPIC_LIST(NAME_OF)};
-static const char *const part_names[] = {DIP_CONTROL_PART_LIST(NAME_OF)};
+const char *const dip_control_verb_names[] = {DIP_CONTROL_VERB_LIST(NAME_OF)};
+const char *const dip_control_topic_names[] = {DIP_CONTROL_TOPIC_LIST(NAME_OF)};
+const char *const dip_control_part_names[] = {DIP_CONTROL_PART_LIST(NAME_OF)};
+
+// The type of a field in DipControlRequest.
+typedef enum FieldKind {
+    TEXT,   // char[size], not empty
+    NUMBER, // double
+    WHOLE,  // int
+    NAMES   // unsigned: a bit per name; in JSON a name or an array of names
+} FieldKind;
+
+typedef struct Field {
+    const char *name;
+    FieldKind kind;
+    size_t offset; // Offset of the field in DipControlRequest.
+    size_t size;   // TEXT: bytes of the array. NAMES: number of names.
+    double least;  // NUMBER and WHOLE: the range of accepted values.
+    double most;
+    const char *const *names; // NAMES: the accepted names.
+} Field;
 
 #define AT(field) offsetof(DipControlRequest, field)
 #define TEXT_FIELD(name)                                                                           \
-    { #name, DIP_FIELD_TEXT, AT(name), sizeof((DipControlRequest *)0)->name, 0, 0, NULL }
+    { #name, TEXT, AT(name), sizeof((DipControlRequest *)0)->name, 0, 0, NULL }
 #define NUMBER_FIELD(name, kind, least, most)                                                      \
     { #name, kind, AT(name), 0, least, most, NULL }
 #define NAMES_FIELD(name, field, names)                                                            \
-    { name, DIP_FIELD_NAMES, AT(field), DIP_ARRAY_COUNT(names), 0, 0, names }
+    { name, NAMES, AT(field), DIP_ARRAY_COUNT(names), 0, 0, names }
 
 // X(FIELD, its description)
 #define FIELD_LIST(X)                                                                              \
@@ -39,19 +54,19 @@ static const char *const part_names[] = {DIP_CONTROL_PART_LIST(NAME_OF)};
     X(CATEGORY, TEXT_FIELD(category))                                                              \
     X(SCENE, TEXT_FIELD(name))                                                                     \
     X(FILE_NAME, TEXT_FIELD(file))                                                                 \
-    X(TIME, NUMBER_FIELD(time_s, DIP_FIELD_NUMBER, 0, 86400))                                      \
-    X(WIDTH, NUMBER_FIELD(width, DIP_FIELD_INTEGER, 1, DIP_CONTROL_MAX_SIZE_PX))                   \
-    X(HEIGHT, NUMBER_FIELD(height, DIP_FIELD_INTEGER, 1, DIP_CONTROL_MAX_SIZE_PX))                 \
+    X(TIME, NUMBER_FIELD(time_s, NUMBER, 0, 86400))                                                \
+    X(WIDTH, NUMBER_FIELD(width, WHOLE, 1, DIP_CONTROL_MAX_SIZE_PX))                               \
+    X(HEIGHT, NUMBER_FIELD(height, WHOLE, 1, DIP_CONTROL_MAX_SIZE_PX))                             \
     X(SHOW, NAMES_FIELD("show", show, switch_names))                                               \
-    X(X_PIXEL, NUMBER_FIELD(x, DIP_FIELD_INTEGER, 0, DIP_CONTROL_MAX_SIZE_PX - 1))                 \
-    X(Y_PIXEL, NUMBER_FIELD(y, DIP_FIELD_INTEGER, 0, DIP_CONTROL_MAX_SIZE_PX - 1))                 \
-    X(TO, NAMES_FIELD("to", topics, topic_names))                                                  \
-    X(WHAT, NAMES_FIELD("what", parts, part_names))
+    X(X_PIXEL, NUMBER_FIELD(x, WHOLE, 0, DIP_CONTROL_MAX_SIZE_PX - 1))                             \
+    X(Y_PIXEL, NUMBER_FIELD(y, WHOLE, 0, DIP_CONTROL_MAX_SIZE_PX - 1))                             \
+    X(TO, NAMES_FIELD("to", topics, dip_control_topic_names))                                      \
+    X(WHAT, NAMES_FIELD("what", parts, dip_control_part_names))
 
 #define ENUMERATOR(field, ...)  field,
 #define DESCRIPTION(field, ...) __VA_ARGS__,
 enum { FIELD_LIST(ENUMERATOR) FIELD_COUNT };
-static const DipField fields[FIELD_COUNT] = {FIELD_LIST(DESCRIPTION)};
+static const Field fields[FIELD_COUNT] = {FIELD_LIST(DESCRIPTION)};
 
 #define BIT(field) (1u << (field))
 
@@ -59,7 +74,7 @@ static const DipField fields[FIELD_COUNT] = {FIELD_LIST(DESCRIPTION)};
 // row.
 typedef struct Row {
     unsigned needs;
-    unsigned may_have; // Besides those that it needs.
+    unsigned may_have; // Further fields, which may be missing.
 } Row;
 
 static const Row rows[DIP_CONTROL_VERB_COUNT] = {
@@ -82,31 +97,148 @@ static const unsigned usual_parts = BIT(DIP_CONTROL_PART_STATE) | BIT(DIP_CONTRO
 
 // --- words of messages ---------------------------------------------------------------------------
 
-static DipWords list_fields(unsigned bits) {
-    DipWords words = {""};
+// Words separated by spaces. The end of a text that is too long is cut off.
+typedef struct Words {
+    char text[224];
+} Words;
+
+static void add_word(Words *words, const char *word) {
+    const size_t length = strlen(words->text);
+    snprintf(words->text + length, sizeof words->text - length, "%s%s", length ? " " : "", word);
+}
+
+static Words list_names(const char *const *names, size_t count) {
+    Words words = {""};
+    for (size_t i = 0; i < count; ++i) {
+        add_word(&words, names[i]);
+    }
+    return words;
+}
+
+static Words list_fields(unsigned bits) {
+    Words words = {""};
     for (int f = 0; f < FIELD_COUNT; ++f) {
         if (bits & BIT(f)) {
-            dip_words_add(&words, fields[f].name);
+            add_word(&words, fields[f].name);
         }
     }
     return words;
 }
 
-// --- names -------------------------------------------------------------------------------------
-
-const char *dip_control_verb_name(int verb) {
-    DIP_ASSERT(verb >= 0 && verb < DIP_CONTROL_VERB_COUNT);
-    return verb_names[verb];
+// Describes a value for a message: 'text', a number, or its type. Long texts are cut.
+static Words describe(const cJSON *item) {
+    Words words = {""};
+    if (cJSON_IsString(item)) {
+        const size_t length = strlen(item->valuestring);
+        const size_t cut = dip_utf8_valid_bytes(item->valuestring, length < 40 ? length : 40);
+        snprintf(words.text, sizeof words.text, "'%.*s%s'", (int)cut, item->valuestring,
+                 cut < length ? "..." : "");
+    } else if (cJSON_IsNumber(item)) {
+        snprintf(words.text, sizeof words.text, "%.17g", item->valuedouble);
+    } else {
+        add_word(&words, cJSON_IsArray(item)    ? "an array"
+                         : cJSON_IsObject(item) ? "an object"
+                         : cJSON_IsNull(item)   ? "null"
+                                                : "a truth value");
+    }
+    return words;
 }
 
-const char *dip_control_topic_name(int topic) {
-    DIP_ASSERT(topic >= 0 && topic < DIP_CONTROL_TOPIC_COUNT);
-    return topic_names[topic];
+static bool refuse_type(const char *name, const cJSON *item, const char *accepted, DipError *err) {
+    const Words found = describe(item);
+    return dip_error_set(err, DIP_ERROR_TYPE, NULL, 0, name, "%s found, accepted %s", found.text,
+                         accepted);
 }
 
-const char *dip_control_part_name(int part) {
-    DIP_ASSERT(part >= 0 && part < DIP_CONTROL_PART_COUNT);
-    return part_names[part];
+// --- values of fields ----------------------------------------------------------------------------
+
+static bool read_text(const char *name, const cJSON *item, char *text, size_t size, DipError *err) {
+    if (!cJSON_IsString(item)) {
+        return refuse_type(name, item, "a text", err);
+    }
+    const size_t length = strlen(item->valuestring);
+    if (length == 0) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, name,
+                             "an empty text found, accepted a text of 1 to %zu bytes", size - 1);
+    }
+    if (length >= size) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, name,
+                             "a text of %zu bytes found, accepted 1 to %zu bytes", length,
+                             size - 1);
+    }
+    memcpy(text, item->valuestring, length + 1);
+    return true;
+}
+
+static bool is_whole(const cJSON *item) {
+    return cJSON_IsNumber(item) && floor(item->valuedouble) == item->valuedouble;
+}
+
+static bool check_number(const Field *field, const cJSON *item, DipError *err) {
+    const bool whole = field->kind == WHOLE;
+    const double value = item->valuedouble;
+    if (cJSON_IsNumber(item) && !(value >= field->least && value <= field->most)) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, field->name,
+                             "%.17g is out of range, accepted %g..%g", value, field->least,
+                             field->most);
+    }
+    return (whole ? is_whole(item) : cJSON_IsNumber(item)) ||
+           refuse_type(field->name, item, whole ? "a whole number" : "a number", err);
+}
+
+// Reads a text that is one of the names, and adds its bit. `what` says what the names stand for; it
+// is the word "topic" in the message "'x' is no topic, accepted ...".
+static bool read_name(const Field *field, const char *what, const cJSON *item, unsigned *bits,
+                      DipError *err) {
+    const Words accepted = list_names(field->names, field->size);
+    if (!cJSON_IsString(item)) {
+        return refuse_type(field->name, item, accepted.text, err);
+    }
+    for (size_t i = 0; i < field->size; ++i) {
+        if (strcmp(item->valuestring, field->names[i]) == 0) {
+            *bits |= 1u << i;
+            return true;
+        }
+    }
+    const Words found = describe(item);
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, field->name, "%s is no %s, accepted %s",
+                         found.text, what, accepted.text);
+}
+
+// Reads a name, or an array of at least one name.
+static bool read_names(const Field *field, const cJSON *item, unsigned *bits, DipError *err) {
+    if (!cJSON_IsArray(item)) {
+        return read_name(field, "name", item, bits, err);
+    }
+    const cJSON *name;
+    cJSON_ArrayForEach(name, item) {
+        if (!read_name(field, "name", name, bits, err)) {
+            return false;
+        }
+    }
+    const Words accepted = list_names(field->names, field->size);
+    return *bits || dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, field->name,
+                                  "an empty array found, accepted %s", accepted.text);
+}
+
+static bool read_value(const Field *field, const cJSON *item, DipControlRequest *request,
+                       DipError *err) {
+    char *to = (char *)request + field->offset;
+    if (field->kind == TEXT) {
+        return read_text(field->name, item, to, field->size, err);
+    }
+    if (field->kind == NAMES) {
+        return read_names(field, item, (unsigned *)to, err);
+    }
+    if (!check_number(field, item, err)) {
+        return false;
+    }
+    if (field->kind == WHOLE) {
+        *(int *)to = (int)item->valuedouble;
+    } else {
+        *(double *)to = item->valuedouble;
+    }
+    return true;
 }
 
 // --- requests ------------------------------------------------------------------------------------
@@ -120,10 +252,10 @@ static bool is_envelope(const char *name) {
 }
 
 static bool unknown_field(DipControlVerb verb, const char *name, DipError *err) {
-    const DipWords accepted = list_fields(rows[verb].needs | rows[verb].may_have);
+    const Words accepted = list_fields(rows[verb].needs | rows[verb].may_have);
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, name,
-                         "is no field of the request %s, accepted id request%s%s", verb_names[verb],
-                         accepted.text[0] ? " " : "", accepted.text);
+                         "is no field of the request %s, accepted id request%s%s",
+                         dip_control_verb_names[verb], accepted.text[0] ? " " : "", accepted.text);
 }
 
 static int find_field(unsigned bits, const char *name) {
@@ -150,15 +282,15 @@ static bool read_fields(const cJSON *object, DipControlRequest *request, DipErro
         if (given & BIT(f)) {
             return given_twice(item->string, err);
         }
-        if (!dip_field_read(&fields[f], item, request, err)) {
+        if (!read_value(&fields[f], item, request, err)) {
             return false;
         }
         given |= BIT(f);
     }
-    const DipWords missing = list_fields(row->needs & ~given);
+    const Words missing = list_fields(row->needs & ~given);
     return !missing.text[0] ||
            dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, missing.text,
-                         "is missing from the request %s", verb_names[request->verb]);
+                         "is missing from the request %s", dip_control_verb_names[request->verb]);
 }
 
 static bool check_settings(const DipControlRequest *request, DipError *err) {
@@ -175,48 +307,47 @@ static bool check_settings(const DipControlRequest *request, DipError *err) {
 }
 
 static bool read_verb(const cJSON *object, DipControlVerb *verb, DipError *err) {
-    static const DipField field = {"request", DIP_FIELD_NAMES, 0, DIP_CONTROL_VERB_COUNT, 0,
-                                   0,         verb_names};
+    static const Field field = {
+        .name = "request", .size = DIP_CONTROL_VERB_COUNT, .names = dip_control_verb_names};
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, "request");
+    unsigned bit = 0;
     if (!item) {
-        const DipWords accepted = dip_words_list(verb_names, DIP_CONTROL_VERB_COUNT);
+        const Words accepted = list_names(dip_control_verb_names, DIP_CONTROL_VERB_COUNT);
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "request", "is missing, accepted %s",
                              accepted.text);
     }
-    unsigned bits = 0;
-    if (!dip_field_read_name(&field, "request", item, &bits, err)) {
+    if (!read_name(&field, "request", item, &bit, err)) {
         return false;
     }
-    for (*verb = (DipControlVerb)0; bits > 1; bits >>= 1) {
+    for (*verb = (DipControlVerb)0; bit > 1; bit >>= 1) {
         ++*verb;
     }
     return true;
 }
 
 static bool read_id(const cJSON *object, DipControlId *id, DipError *err) {
-    static const DipField text_field = {"id", DIP_FIELD_TEXT, 0, sizeof id->text, 0, 0, NULL};
-    static const DipField number_field = {
-        "id", DIP_FIELD_INTEGER, 0, 0, -9007199254740992.0, 9007199254740992.0, NULL};
+    static const double largest = 9007199254740992.0; // Doubles hold all whole numbers to 2^53.
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, "id");
     if (!item || cJSON_IsNull(item)) {
         return true;
     }
-    DipControlId found = {.kind = DIP_CONTROL_ID_TEXT};
-    if (cJSON_IsNumber(item)) {
-        found.kind = DIP_CONTROL_ID_NUMBER;
-        if (!(fabs(item->valuedouble) <= largest_id)) {
-            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "id",
-                                 "is out of range, accepted whole numbers from -2^53 to 2^53");
-        }
-        if (!dip_field_read_number(&number_field, item, &found.number, err)) {
-            return false;
-        }
-    } else if (!cJSON_IsString(item)) {
-        return dip_field_refuse_type("id", item, "a whole number or a text", err);
-    } else if (!dip_field_read_text(&text_field, item, found.text, err)) {
-        return false;
+    if (cJSON_IsString(item)) {
+        DipControlId found = {.kind = DIP_CONTROL_ID_TEXT};
+        const bool done = read_text("id", item, found.text, sizeof found.text, err);
+        *id = done ? found : *id;
+        return done;
     }
-    *id = found;
+    if (!cJSON_IsNumber(item)) {
+        return refuse_type("id", item, "a whole number or a text", err);
+    }
+    if (!(fabs(item->valuedouble) <= largest)) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "id",
+                             "is out of range, accepted whole numbers from -2^53 to 2^53");
+    }
+    if (!is_whole(item)) {
+        return refuse_type("id", item, "a whole number", err);
+    }
+    *id = (DipControlId){.kind = DIP_CONTROL_ID_NUMBER, .number = item->valuedouble};
     return true;
 }
 
@@ -234,7 +365,7 @@ static bool check_envelope(const cJSON *object, DipError *err) {
 
 static bool read_object(const cJSON *object, DipControlRequest *request, DipError *err) {
     if (!cJSON_IsObject(object)) {
-        const DipWords found = dip_words_describe(object);
+        const Words found = describe(object);
         return dip_error_set(err, DIP_ERROR_TYPE, NULL, 0, "line",
                              "%s found, accepted an object such as {\"request\":\"get\"}",
                              found.text);
@@ -294,6 +425,7 @@ static bool read_line(const char *line, DipControlRequest *request, DipError *er
 
 bool dip_control_request_read(const char *line, size_t length, DipControlRequest *request,
                               DipError *err) {
+    char text[DIP_CONTROL_MAX_LINE_BYTES + 1];
     memset(request, 0, sizeof *request);
     length -= length > 0 && line[length - 1] == '\r';
     if (length > DIP_CONTROL_MAX_LINE_BYTES) {
@@ -303,13 +435,44 @@ bool dip_control_request_read(const char *line, size_t length, DipControlRequest
     if (!check_bytes(line, length, err)) {
         return false;
     }
-    char *text = malloc(length + 1);
-    if (!text) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "line", "out of memory");
-    }
     memcpy(text, line, length);
     text[length] = '\0';
-    const bool done = read_line(text, request, err);
-    free(text);
-    return done;
+    return read_line(text, request, err);
+}
+
+// --- changes of settings -------------------------------------------------------------------------
+
+// Returns whether a text of settings, "aa=4,af=16", has a part for a key.
+static bool names_key(const char *text, const char *key) {
+    const size_t length = strlen(key);
+    while (*text) {
+        const size_t part = strcspn(text, ",");
+        if (strcspn(text, "=,") == length && strncmp(text, key, length) == 0) {
+            return true;
+        }
+        text += part + (text[part] == ',');
+    }
+    return false;
+}
+
+// Parses a text that has the old steps of all settings that the change does not name, and then the
+// change itself, so that dip_quality_parse finds every mistake in the change.
+bool dip_control_change_settings(const DipQuality *from, const char *change, DipQuality *to,
+                                 DipError *err) {
+    char text[DIP_CONTROL_TEXT_SIZE + 256];
+    size_t length = 0;
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+        if (!names_key(change, info->key) && length < sizeof text) {
+            length += (size_t)snprintf(text + length, sizeof text - length, "%s=%s,", info->key,
+                                       info->steps[from->step[s]]);
+        }
+    }
+    if (length + strlen(change) >= sizeof text) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "change",
+                             "is a text of %zu bytes, accepted at most %d", strlen(change),
+                             DIP_CONTROL_TEXT_SIZE - 1);
+    }
+    strcpy(text + length, change);
+    return dip_quality_parse(text, to, err);
 }

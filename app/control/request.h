@@ -1,8 +1,8 @@
-// Requests of the control channel: one line of JSON becomes one checked struct.
+// Reads requests of the control channel: one line of JSON becomes one checked struct.
 //
 // docs/embedding.md describes the protocol. A request is an object such as
-// {"id": 7, "request": "seek", "time_s": 2.5}. Reading a request changes nothing; whoever carries
-// it out does.
+// {"id": 7, "request": "seek", "time_s": 2.5}. The functions of this file only read requests; they
+// carry none out.
 #ifndef DIP_APP_CONTROL_REQUEST_H
 #define DIP_APP_CONTROL_REQUEST_H
 
@@ -12,13 +12,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Changes when a client of the previous version would misread a reply or an event. New requests,
-// fields and topics do not change the number.
+// Version of the protocol. It changes when a client of the previous version would misread a reply
+// or an event. New requests, fields and topics do not change it.
 enum { DIP_CONTROL_PROTOCOL = 1 };
 
 enum {
     DIP_CONTROL_MAX_LINE_BYTES = 65536, // Longest line that is read, without its line feed.
-    DIP_CONTROL_TEXT_SIZE = 512,        // Sizes of texts, with their final 0.
+    DIP_CONTROL_TEXT_SIZE = 512,        // Bytes of texts, including the final 0.
     DIP_CONTROL_FILE_SIZE = 1024,
     DIP_CONTROL_NAME_SIZE = 64,
     DIP_CONTROL_MAX_SIZE_PX = 8192 // Largest width and height of a pane.
@@ -84,14 +84,15 @@ typedef enum DipControlPart {
         DIP_CONTROL_PART_COUNT
 } DipControlPart;
 
-const char *dip_control_verb_name(int verb);   // "set"
-const char *dip_control_topic_name(int topic); // "times"
-const char *dip_control_part_name(int part);   // "state"
+// The names in requests and events: "set", "times", "state".
+extern const char *const dip_control_verb_names[DIP_CONTROL_VERB_COUNT];
+extern const char *const dip_control_topic_names[DIP_CONTROL_TOPIC_COUNT];
+extern const char *const dip_control_part_names[DIP_CONTROL_PART_COUNT];
 
-// The panes by their names, as bits.
+// The bits that stand for the panes in a request.
 enum { DIP_CONTROL_PANE_CURRENT = 1, DIP_CONTROL_PANE_REQUESTED = 2 };
 
-// The words "on" and "off", as bits.
+// The bits that stand for the words "on" and "off" in a request.
 enum { DIP_CONTROL_ON = 1, DIP_CONTROL_OFF = 2 };
 
 // The id that a client gives a request, and that the reply repeats.
@@ -116,12 +117,12 @@ typedef struct DipControlRequest {
     // checked; `change` names only the settings to change (dip_control_change_settings).
     char settings[DIP_CONTROL_TEXT_SIZE];
     char change[DIP_CONTROL_TEXT_SIZE];
-    unsigned notices; // SET: DIP_CONTROL_OFF: the status line says nothing about it.
-    unsigned show;    // PANEL: whether the panel shows.
+    unsigned notices; // SET: with DIP_CONTROL_OFF, the status line does not name the change.
+    unsigned show;    // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF.
     char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
     char name[DIP_CONTROL_NAME_SIZE];     // SCENE: name of a scene.
-    char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT.
-    double time_s;                        // SEEK: 0..86400.
+    char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT: file to write.
+    double time_s;                        // SEEK: time on the path, 0..86400.
     int width;                            // SIZE: size of a pane, in pixels.
     int height;
     int x; // PICK: a pixel of a pane.

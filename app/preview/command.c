@@ -1,9 +1,94 @@
-// The command `diptych preview`: its help, and the session that it opens.
+// The command `diptych preview`: its options, its help, and the session that it opens.
 #include "app/preview/command.h"
 
-#include "app/preview/options.h"
+#include "app/cost/options.h"
 #include "app/preview/preview.h"
 #include "renderer/base/assert.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// --- options -------------------------------------------------------------------------------------
+
+#define FIELD(name) offsetof(DipPreviewOptions, name)
+
+// Reads an X11 identifier, 29 bits in decimal or, after 0x, in hexadecimal.
+static bool read_window(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    const bool hexadecimal = value[0] == '0' && (value[1] == 'x' || value[1] == 'X');
+    const char *digits = hexadecimal ? value + 2 : value;
+    const size_t length = strspn(digits, hexadecimal ? "0123456789abcdefABCDEF" : "0123456789");
+    const bool read = length > 0 && length <= 10 && !digits[length];
+    const unsigned long id = read ? strtoul(digits, NULL, hexadecimal ? 16 : 10) : 0;
+    if (id == 0 || id > 0x1ffffffful) {
+        return dip_option_refuse(err, DIP_ERROR_TYPE, row->name, value,
+                                 "an X11 window such as 12582914 or 0xc00002");
+    }
+    *(unsigned long *)((char *)fields + row->field) = id;
+    return true;
+}
+
+// Names in the order of DipDisplayChoice, of DipTerminalColours, and of hides_panel.
+static const char *const displays[] = {"auto", "window", "terminal"};
+static const char *const colours[] = {"auto", "true", "256", "none"};
+static const char *const panels[] = {"on", "off"};
+
+static const DipOptionRow rows[] = {
+    {"--cost", "FILE", DIP_OPTION_TEXT, FIELD(cost_report),
+     .text = "Read the cost.json that `diptych cost` wrote for this scene. The window then shows "
+             "what each setting costs and advises the best settings for a time budget."},
+    {"--control", "PATH|-", DIP_OPTION_TEXT, FIELD(control),
+     .text = "Let other programs control the preview: it reads requests as lines of JSON and "
+             "answers each of them. With a path, it listens on a Unix domain socket; with -, it "
+             "uses standard input and output. docs/embedding.md describes the requests."},
+    {"--window-id", "ID", DIP_OPTION_CUSTOM, FIELD(window_id), .read = read_window,
+     .text = "Show the preview inside this X11 window of another program, in the window's size, "
+             "until that program closes the window."},
+    {"--watch", NULL, DIP_OPTION_FLAG, FIELD(watch),
+     .text =
+         "Reload the scene when the ini, a model, one of its pictures or a camera path changes. "
+         "The camera, the time and the settings stay. If a file is bad, the window says so and "
+         "keeps what it shows."},
+    {"--ui-scale", "F", DIP_OPTION_NUMBER, FIELD(ui_scale), .least = 0.75, .most = 4,
+     .text = "Enlarge text and controls by F, from 0.75 to 4. The display's own scale counts, too. "
+             "Ctrl+= and Ctrl+- change it in the window."},
+    {"--panel", "on|off", DIP_OPTION_CHOICE, FIELD(hides_panel), .names = panels,
+     .most = DIP_ARRAY_COUNT(panels), .accepted = "a state of the panel; give on or off",
+     .text = "Show the panel with all settings, which is the default, or nothing but the panes, "
+             "for programs that have a panel of their own. The key / changes it in the window."},
+    {"--display", "auto|window|terminal", DIP_OPTION_CHOICE, FIELD(display), .names = displays,
+     .most = DIP_ARRAY_COUNT(displays), .accepted = "a display; give one of auto|window|terminal",
+     .text = "Where the preview shows. `terminal` draws half blocks and characters into the "
+             "terminal of standard output. `auto`, the default, opens a window, and uses the "
+             "terminal if there is no display to open a window on."},
+    {"--terminal-colours", "auto|true|256|none", DIP_OPTION_CHOICE, FIELD(terminal_colours),
+     .names = colours, .most = DIP_ARRAY_COUNT(colours),
+     .accepted = "a number of colours; give one of auto|true|256|none",
+     .text = "The colours of a preview in the terminal: 24 bits, a palette of 256, or characters "
+             "without colours. `auto`, the default, follows COLORTERM, TERM and NO_COLOR."},
+};
+
+static const DipOptionTable table = DIP_OPTION_TABLE("Drawing", rows);
+
+static const DipOptionPart parts[] = {
+    {&dip_scene_option_table, FIELD(session)},
+    {&dip_path_option_table, FIELD(session)},
+    {&dip_category_option_table, FIELD(session)},
+    {&dip_camera_option_table, FIELD(session)},
+    {&dip_pane_option_table, FIELD(session)},
+    {&dip_size_option_table, FIELD(session)},
+    {&dip_threads_option_table, FIELD(session)},
+    {&table, 0},
+    {&dip_viewing_option_table, FIELD(pixels_per_degree)},
+    {&dip_cache_option_table, FIELD(cache)},
+    {&dip_program_option_table, FIELD(program)},
+};
+static const DipOptionParts option_parts = {parts, DIP_ARRAY_COUNT(parts)};
+
+// --- the command ---------------------------------------------------------------------------------
+
+static bool check(const void *options, DipError *err) {
+    return dip_session_options_check(&((const DipPreviewOptions *)options)->session, err);
+}
 
 static bool run(DipSession *session, const void *options, DipError *err) {
     return dip_preview_run(session, options, err);
@@ -47,11 +132,11 @@ const DipCommand dip_preview_command = {
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),
     .lists_settings = true,
-    .parts = &dip_preview_option_parts,
+    .parts = &option_parts,
     .operands = {offsetof(DipPreviewOptions, session.models),
                  offsetof(DipPreviewOptions, session.model_count), DIP_MAX_MODELS},
     .options_size = sizeof(DipPreviewOptions),
-    .check = dip_preview_options_check,
+    .check = check,
     .describe_session = describe_session,
     .run = run,
 };

@@ -1,4 +1,4 @@
-// Opens the display and runs the loop.
+// Opens what the preview needs, and runs its loop.
 #include "app/preview/preview.h"
 
 #include "app/cost/context.h"
@@ -8,7 +8,7 @@
 #include "app/preview/control/control.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/loop/reload.h"
-#include "app/preview/state/speed.h"
+#include "app/preview/state/pilot.h"
 #include "app/preview/loop/view.h"
 #include "renderer/base/clock.h"
 
@@ -19,94 +19,13 @@ static bool load_scene_def(void *context, DipError *err) {
     return dip_session_keep_model(context, err);
 }
 
-// Loads the cost report if `file` is not NULL; otherwise *costs stays NULL.
-static bool load_costs(const DipSession *session, const char *file, DipCostReport **costs,
-                       DipPrices *prices, DipError *err) {
-    char scene[DIP_COST_TEXT];
-    if (!file) {
-        return true;
-    }
-    dip_cost_scene_name(session, scene);
-    *costs = dip_costs_load(prices, file, scene, err);
-    return *costs != NULL;
-}
-
-// What the preview needs beside its session and display.
-typedef struct Parts {
-    DipCostReport *costs;
-    DipPrices *prices;
-    DipReload *reload;
-    DipRemote *remote;
-    double ui_scale;
-    const char *notice; // Shown at first, or NULL.
-    char cache[PATH_MAX];
-    bool hides_panel;
-} Parts;
-
-static bool run_loop(DipSession *session, const DipDisplay *display, const Parts *parts,
-                     DipError *err) {
-    const DipPreviewDef def = {
-        .session = session,
-        .display = *display,
-        .costs = parts->costs,
-        .prices = parts->prices,
-        .measures_prices = true,
-        .cache = parts->cache[0] ? parts->cache : NULL,
-        .reload = parts->reload,
-        .flying_speed_m_per_s = dip_flying_speed(session),
-        .ui_scale = parts->ui_scale,
-        .notice = parts->notice,
-        .hides_panel = parts->hides_panel,
-        .control = parts->remote ? dip_remote_control(parts->remote) : (DipPreviewControl){0},
-        .load_scene_def = load_scene_def,
-        .context = session,
-    };
-    DipPreview *preview = dip_preview_create(&def, err);
-    bool done = preview != NULL;
-    while (done && !dip_preview_has_quit(preview)) {
-        done = dip_preview_turn(preview, err);
-    }
-    session->times.ended_ns = dip_clock_ns();
-    dip_preview_destroy(&preview);
-    return done;
-}
-
-static bool open_parts(Parts *parts, DipSession *session, const DipPreviewOptions *options,
-                       DipError *err) {
-    parts->reload = dip_reload_create(session, options->watch, err);
-    parts->prices = parts->reload ? dip_prices_create(err) : NULL;
-    if (!parts->prices ||
-        !load_costs(session, options->cost_report, &parts->costs, parts->prices, err)) {
-        return false;
-    }
-    dip_prices_set_viewing(parts->prices, options->pixels_per_degree);
-    if (!dip_cost_find_cache(options->cache, parts->cache, err)) {
-        if (options->cache) {
-            return false;
-        }
-        parts->cache[0] = '\0'; // The preview does without the user's folder.
-    }
-    dip_reload_set_prices(parts->reload, parts->prices);
-    if (options->control) {
-        parts->remote = dip_remote_open(options->control, err);
-    }
-    return !options->control || parts->remote;
-}
-
-static void close_parts(Parts *parts) {
-    dip_remote_close(&parts->remote);
-    dip_reload_destroy(&parts->reload);
-    dip_costs_free(&parts->costs);
-    dip_prices_destroy(&parts->prices);
-}
-
 static bool open_window(DipDisplay *display, const DipSession *session,
                         const DipPreviewOptions *options, DipError *err) {
     const DipToolState tools = {.ui_scale = options->ui_scale > 0.0 ? options->ui_scale : 1.0,
                                 .fixed_scale = options->ui_scale > 0.0};
     const int pane_height = session->pane_size.height;
     int height = pane_height;
-    for (int i = 0; i < 4 && !options->hides_panel; ++i) { // The dock follows the height's scale.
+    for (int i = 0; i < 4 && !options->hides_panel; ++i) { // The height depends on the scale.
         const double scale = dip_layout_scale(1.0, &tools, height);
         height = pane_height + (int)(scale * dip_layout_dock_height() + 0.5);
     }
@@ -116,7 +35,7 @@ static bool open_window(DipDisplay *display, const DipSession *session,
                                       height, err);
 }
 
-// Opens the terminal, which must not be where requests come from.
+// Opens the terminal. Fails if requests come from standard input, which the terminal needs.
 static bool open_terminal(DipDisplay *display, const DipPreviewOptions *options, DipError *err) {
     if (options->control && strcmp(options->control, "-") == 0) {
         return dip_error_set(
@@ -152,19 +71,72 @@ static bool open_display(DipDisplay *display, const DipSession *session,
     return false;
 }
 
+// Opens what the preview needs beside its session and its display: the cost report, the cache, the
+// reload and the control channel. Whatever was opened before a failure stays in *def and *remote.
+static bool open_parts(DipPreviewDef *def, DipRemote **remote, char cache[PATH_MAX],
+                       const DipPreviewOptions *options, DipError *err) {
+    char scene[DIP_COST_TEXT];
+    def->prices = dip_prices_create(err);
+    def->reload = def->prices ? dip_reload_create(def->session, options->watch, err) : NULL;
+    if (!def->reload) {
+        return false;
+    }
+    if (options->cost_report) {
+        dip_cost_scene_name(def->session, scene);
+        def->costs = dip_costs_load(def->prices, options->cost_report, scene, err);
+        if (!def->costs) {
+            return false;
+        }
+    }
+    dip_prices_set_viewing(def->prices, options->pixels_per_degree);
+    if (dip_cost_find_cache(options->cache, cache, err)) {
+        def->cache = cache[0] ? cache : NULL;
+    } else if (options->cache) {
+        return false; // Without the option, the preview does without the user's cache folder.
+    }
+    if (options->control) {
+        *remote = dip_remote_open(options->control, err);
+        def->control = *remote ? dip_remote_control(*remote) : def->control;
+    }
+    return !options->control || *remote;
+}
+
+static bool run_loop(const DipPreviewDef *def, DipError *err) {
+    DipPreview *preview = dip_preview_create(def, err);
+    bool done = preview != NULL;
+    while (done && !dip_preview_has_quit(preview)) {
+        done = dip_preview_turn(preview, err);
+    }
+    def->session->times.ended_ns = dip_clock_ns();
+    dip_preview_destroy(&preview);
+    return done;
+}
+
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err) {
-    Parts parts = {.ui_scale = options->ui_scale, .hides_panel = options->hides_panel};
-    DipDisplay display;
-    bool done = open_parts(&parts, session, options, err) &&
-                open_display(&display, session, options, &parts.notice, err);
+    char cache[PATH_MAX];
+    DipRemote *remote = NULL;
+    DipPreviewDef def = {
+        .session = session,
+        .measures_prices = true,
+        .flying_speed_m_per_s = dip_flying_speed(session),
+        .ui_scale = options->ui_scale,
+        .hides_panel = options->hides_panel,
+        .load_scene_def = load_scene_def,
+        .context = session,
+    };
+    bool done = open_parts(&def, &remote, cache, options, err) &&
+                open_display(&def.display, session, options, &def.notice, err);
     if (done) {
-        done = run_loop(session, &display, &parts, err);
+        done = run_loop(&def, err);
         if (options->window_id && options->display != DIP_DISPLAY_TERMINAL &&
-            dip_sdl_display_has_lost_host(&display)) {
+            dip_sdl_display_has_lost_host(&def.display)) {
             dip_log_note("the program that owns window %lu has closed it", options->window_id);
         }
-        display.close(display.context);
+        def.display.close(def.display.context);
     }
-    close_parts(&parts);
+    dip_remote_close(&remote);
+    dip_reload_destroy(&def.reload);
+    dip_costs_free(&def.costs);
+    dip_prices_destroy(&def.prices);
     return done;
 }

@@ -1,9 +1,35 @@
-// The window with both panes, or the same in a terminal.
+// Shows both panes in a window or in a terminal, as the options of `diptych preview` say.
 #ifndef DIP_APP_PREVIEW_PREVIEW_H
 #define DIP_APP_PREVIEW_PREVIEW_H
 
-#include "app/preview/options.h"
+#include "app/cli/command.h"
+#include "app/display/terminal/terminal_display.h"
 #include "app/session/session.h"
+
+#include <stdbool.h>
+
+// The display that the user asks for.
+typedef enum DipDisplayChoice {
+    DIP_DISPLAY_AUTO, // In a window if one can be opened, otherwise in the terminal.
+    DIP_DISPLAY_WINDOW,
+    DIP_DISPLAY_TERMINAL
+} DipDisplayChoice;
+
+// Models that are given as arguments are added to the models of --model.
+typedef struct DipPreviewOptions {
+    DipProgramOptions program;
+    DipSessionOptions session;
+    const char *cost_report;  // A cost.json of this scene, borrowed from argv, or NULL.
+    double pixels_per_degree; // Viewing distance for FLIP; 0 without the options.
+    const char *cache;        // Folder of the cached truths, borrowed from argv, or NULL.
+    const char *control;      // "-" or the path of a socket, borrowed from argv, or NULL.
+    unsigned long window_id;  // X11 window to open the preview in; 0: open a window of its own.
+    bool watch;               // Reload what the preview shows when a file changes.
+    int hides_panel;          // 1: --panel off.
+    double ui_scale;          // Factor by which controls are enlarged; 0 without the option.
+    DipDisplayChoice display;
+    DipTerminalColours terminal_colours;
+} DipPreviewOptions;
 
 // Shows the session until the user quits. Fails with RUNTIME if there is no display, with MISSING
 // if there is no font, or if drawing fails.

@@ -6,7 +6,7 @@
 #ifndef DIP_APP_PREVIEW_CELLS_TEXT_VIEW_H
 #define DIP_APP_PREVIEW_CELLS_TEXT_VIEW_H
 
-#include "app/preview/live/panel.h"
+#include "app/preview/live/figures.h"
 #include "app/preview/state/state.h"
 #include "app/preview/cells/text_screen.h"
 

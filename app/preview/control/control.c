@@ -1,12 +1,30 @@
-// Turns requests of other programs into actions of the preview.
-#include "app/preview/control/control_private.h"
+// Turns requests of other programs into actions of the preview, and changes of the preview into
+// events for these programs.
+#include "app/preview/control/control.h"
 
+#include "app/control/control.h"
 #include "app/files/pictures.h"
+#include "app/preview/control/reply_private.h"
+#include "app/preview/tools/layout.h"
+#include "renderer/base/hash.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+struct DipRemote {
+    DipControl *control;
+    const DipPreviewMoment *moment; // Valid during a call; NULL between calls.
+    bool acted;                     // A request has been carried out in this turn.
+    bool waits;                     // A request waits for the next picture.
+    unsigned topics;
+    unsigned subscriptions;
+    // A hash of each topic's last event, when it was sent, and when the last notice ends.
+    uint64_t told[DIP_CONTROL_TOPIC_COUNT];
+    int64_t told_ns[DIP_CONTROL_TOPIC_COUNT];
+    int64_t told_notice_ns;
+};
 
 // --- settings, paths and time --------------------------------------------------------------------
 
@@ -68,7 +86,7 @@ static void set_paused(const DipPreviewMoment *moment, bool paused) {
 
 // --- scene and size ------------------------------------------------------------------------------
 
-// Finds a scene in the ring that dip_session_step_scene goes through.
+// Finds the place of a scene in the ring of scenes through which dip_session_step_scene goes.
 static bool find_scene(const DipSession *session, const char *name, int *scene, DipError *err) {
     if (strcmp(name, "models") == 0) {
         *scene = dip_gallery_scene_count();
@@ -108,7 +126,8 @@ static DipControlAnswer show_scene(const DipPreviewMoment *moment, const char *n
     return DIP_CONTROL_LATER;
 }
 
-DipLayout dip_remote_layout(const DipPreviewMoment *moment, int width, int height) {
+// Returns where panes and dock lie in a window of the given size.
+static DipLayout layout_of(const DipPreviewMoment *moment, int width, int height) {
     const DipToolState *tools = &moment->state->tools;
     const double scale =
         dip_layout_scale(moment->display->scale(moment->display->context), tools, height);
@@ -125,14 +144,14 @@ static bool resize(const DipPreviewMoment *moment, const DipControlRequest *requ
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request",
                              "the host's window decides about the size");
     }
-    for (int i = 0; i < 4; ++i) { // The scale follows the height, and the height the scale.
+    for (int i = 0; i < 4; ++i) { // The scale depends on the height, and the height on the scale.
         const double scale = dip_layout_scale(display_scale, tools, height);
         dip_layout_window_size(request->width, request->height, scale, tools->open, tools->bare,
                                &width, &height);
     }
     display->set_size(display->context, width, height);
     display->size(display->context, &width, &height);
-    const DipRect pane = dip_remote_layout(moment, width, height).panes[DIP_PANE_CURRENT];
+    const DipRect pane = layout_of(moment, width, height).panes[DIP_PANE_CURRENT];
     cJSON_AddNumberToObject(reply, "width", pane.width);
     cJSON_AddNumberToObject(reply, "height", pane.height);
     return true;
@@ -166,28 +185,16 @@ static bool save(const DipPreviewMoment *moment, const char *file, cJSON *reply,
 
 // --- all requests --------------------------------------------------------------------------------
 
-// Adds the parts that a request asks for: each in an object of its name, but lists by themselves.
+// Adds the parts that a request asks for. A list becomes a field of the reply itself; any other
+// part becomes an object with the part's name.
 static void get(const DipPreviewMoment *moment, unsigned parts, cJSON *reply) {
-    static const struct {
-        void (*add)(cJSON *object, const DipPreviewMoment *moment);
-        bool is_list;
-    } rows[DIP_CONTROL_PART_COUNT] = {
-        [DIP_CONTROL_PART_STATE] = {dip_reply_state, false},
-        [DIP_CONTROL_PART_SETTINGS] = {dip_reply_settings, false},
-        [DIP_CONTROL_PART_TIMES] = {dip_reply_times, false},
-        [DIP_CONTROL_PART_ERRORS] = {dip_reply_errors, false},
-        [DIP_CONTROL_PART_PRICES] = {dip_reply_prices, false},
-        [DIP_CONTROL_PART_PATHS] = {dip_reply_paths, true},
-        [DIP_CONTROL_PART_SCENES] = {dip_reply_scenes, true},
-        [DIP_CONTROL_PART_STEPS] = {dip_reply_steps, true},
-    };
     for (int p = 0; p < DIP_CONTROL_PART_COUNT; ++p) {
         cJSON *object = !(parts >> p & 1) ? NULL
-                        : rows[p].is_list
+                        : dip_reply_parts[p].is_list
                             ? reply
-                            : cJSON_AddObjectToObject(reply, dip_control_part_name(p));
+                            : cJSON_AddObjectToObject(reply, dip_control_part_names[p]);
         if (object) {
-            rows[p].add(object, moment);
+            dip_reply_parts[p].add(object, moment);
         }
     }
 }
@@ -199,7 +206,8 @@ static bool needs_pictures(DipControlVerb verb) {
 }
 
 // At the first attempt, the pictures must show everything that has been asked for. Between two
-// attempts a picture is drawn, so that later requests of other clients cannot put this one off.
+// attempts a picture is drawn, so that later requests of other clients cannot put this one off for
+// ever.
 static bool pictures_are_ready(const DipRemote *remote, int attempt) {
     const DipPreviewMoment *moment = remote->moment;
     const bool exist = moment->panes[0].rgba8 && moment->picture.rgba8;
@@ -263,13 +271,132 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
     return act(remote->moment, request, reply, err) ? DIP_CONTROL_DONE : DIP_CONTROL_REFUSED;
 }
 
+// --- events --------------------------------------------------------------------------------------
+
+enum { PERIOD_NS = 250000000 }; // Least time between two events of times, prices or polls.
+
+static bool wants(const DipRemote *remote, DipControlTopic topic) {
+    return (remote->topics >> topic & 1) != 0;
+}
+
+// Returns a hash of an object's text.
+static uint64_t hash_of(const cJSON *object) {
+    char *text = cJSON_PrintUnformatted(object);
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_text(&hash, text);
+    cJSON_free(text);
+    return hash.lanes[0];
+}
+
+// A topic whose events have the fields of a part. An event is sent if it says something new, at
+// most once in a period. A poll is sent even if nothing is new: it asks the subscribers for their
+// settings, and a subscriber whose settings have changed answers with the request `set`.
+typedef struct Topic {
+    bool is_part;
+    DipControlPart part;
+    int64_t period_ns;
+    bool repeats;       // The event is also sent if it says nothing new.
+    bool needs_picture; // Nothing is sent before the first picture.
+} Topic;
+
+static const Topic events[DIP_CONTROL_TOPIC_COUNT] = {
+    [DIP_CONTROL_TOPIC_SETTINGS] = {true, DIP_CONTROL_PART_SETTINGS, 0, false, false},
+    [DIP_CONTROL_TOPIC_TIMES] = {true, DIP_CONTROL_PART_TIMES, PERIOD_NS, false, true},
+    [DIP_CONTROL_TOPIC_ERRORS] = {true, DIP_CONTROL_PART_ERRORS, 0, false, false},
+    [DIP_CONTROL_TOPIC_PRICES] = {true, DIP_CONTROL_PART_PRICES, PERIOD_NS, false, false},
+    [DIP_CONTROL_TOPIC_POLLS] = {true, DIP_CONTROL_PART_SETTINGS, PERIOD_NS, true, false},
+};
+
+static void send_event(DipRemote *remote, DipControlTopic topic, bool always) {
+    const DipPreviewMoment *moment = remote->moment;
+    const Topic *event = &events[topic];
+    const bool early = moment->now_ns - remote->told_ns[topic] < event->period_ns;
+    if (!event->is_part || !wants(remote, topic) || (early && !always) ||
+        (event->needs_picture && !moment->panes[0].rgba8)) {
+        return;
+    }
+    cJSON *fields = cJSON_CreateObject();
+    dip_reply_parts[event->part].add(fields, moment);
+    const uint64_t hash = hash_of(fields);
+    if (always || event->repeats || hash != remote->told[topic]) {
+        remote->told_ns[topic] = moment->now_ns;
+        remote->told[topic] = hash;
+        dip_control_send(remote->control, topic, fields);
+    } else {
+        cJSON_Delete(fields);
+    }
+}
+
+static void send_notice(DipRemote *remote) {
+    const DipPreviewState *state = remote->moment->state;
+    const bool same = remote->told_notice_ns == state->notice_end_ns;
+    remote->told_notice_ns = state->notice_end_ns;
+    if (!same && wants(remote, DIP_CONTROL_TOPIC_NOTICES)) {
+        cJSON *fields = cJSON_CreateObject();
+        cJSON_AddStringToObject(fields, "text", state->notice);
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_NOTICES, fields);
+    }
+}
+
+// Sends what has changed. After a subscription, sends everything once.
+static void send_events(DipRemote *remote) {
+    const unsigned topics = dip_control_topics(remote->control);
+    const unsigned subscriptions = dip_control_subscriptions(remote->control);
+    const bool always = subscriptions != remote->subscriptions;
+    if (topics != remote->topics) { // After a failure, only a new subscription measures again.
+        remote->moment->state->wants_errors = (topics >> DIP_CONTROL_TOPIC_ERRORS & 1) != 0;
+    }
+    remote->moment->state->wants_prices = (topics >> DIP_CONTROL_TOPIC_PRICES & 1) != 0;
+    remote->topics = topics;
+    remote->subscriptions = subscriptions;
+    for (int t = 0; t < DIP_CONTROL_TOPIC_COUNT; ++t) {
+        if (t == DIP_CONTROL_TOPIC_NOTICES) {
+            send_notice(remote);
+        } else {
+            send_event(remote, (DipControlTopic)t, always);
+        }
+    }
+}
+
+// Sends the colours of the pixel under the mouse, when the user has pressed a button.
+static void press(void *context, const DipPreviewMoment *moment, const DipEvent *event) {
+    static const char *const buttons[] = {
+        [DIP_MOUSE_LEFT] = "left",
+        [DIP_MOUSE_MIDDLE] = "middle",
+        [DIP_MOUSE_RIGHT] = "right",
+        [DIP_MOUSE_OTHER] = "other",
+    };
+    DipRemote *remote = context;
+    const DipFrame *frame = &moment->panes[0];
+    if (!wants(remote, DIP_CONTROL_TOPIC_PICKS) || !frame->rgba8) {
+        return;
+    }
+    const DipLayout layout = layout_of(moment, moment->picture.width, moment->picture.height);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipRect *pane = &layout.panes[p];
+        if (!dip_rect_holds(*pane, event->x, event->y)) {
+            continue;
+        }
+        cJSON *fields = cJSON_CreateObject();
+        cJSON_AddStringToObject(fields, "pane", dip_pane_names[p]);
+        cJSON_AddStringToObject(fields, "button", buttons[event->button]);
+        // If memory ran out for frames of the panes' size, the window shows smaller frames
+        // enlarged.
+        dip_reply_pick(fields, moment,
+                       (int)((int64_t)(event->x - pane->x) * frame->width / pane->width),
+                       (int)((int64_t)(event->y - pane->y) * frame->height / pane->height));
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_PICKS, fields);
+        return;
+    }
+}
+
 static bool turn(void *context, const DipPreviewMoment *moment) {
     DipRemote *remote = context;
     remote->moment = moment;
     remote->acted = remote->waits = false;
     dip_control_poll(remote->control);
     moment->state->wants_picture = remote->waits;
-    dip_remote_send_events(remote);
+    send_events(remote);
     remote->moment = NULL;
     return remote->acted;
 }
@@ -285,7 +412,8 @@ DipRemote *dip_remote_open(const char *where, DipError *err) {
     const DipControlDef def = {
         .where = where,
         .version = DIP_VERSION,
-        .target = {.context = remote, .carry_out = carry_out},
+        .context = remote,
+        .carry_out = carry_out,
     };
     remote->control = dip_control_open(&def, err);
     if (!remote->control) {
@@ -304,5 +432,5 @@ void dip_remote_close(DipRemote **remote) {
 }
 
 DipPreviewControl dip_remote_control(DipRemote *remote) {
-    return (DipPreviewControl){.context = remote, .turn = turn, .press = dip_remote_press};
+    return (DipPreviewControl){.context = remote, .turn = turn, .press = press};
 }

@@ -10,11 +10,11 @@ struct DipErrorJob {
     const char *scene_hash;
     const char *cache;
     DipStill still;
-    DipTruthJob *truth; // NULL: there is no still.
+    DipTruthJob *truth; // NULL if there is no still.
     DipMeter meter;
     float *flip[DIP_PANE_COUNT]; // FLIP of each pixel of a pane.
     DipMetricSums sums[DIP_PANE_COUNT];
-    bool judges; // A pane's picture is not judged by the newest truth yet.
+    bool judges; // A pane's picture has not been compared with the newest truth yet.
     int pane;    // The pane that is judged next, or now if has_begun.
     bool has_begun;
     DipErrorJobResult result;
@@ -107,7 +107,7 @@ bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err)
 
 // --- the errors --------------------------------------------------------------------------------
 
-// Returns the pane whose picture a pane shows.
+// Returns the pane whose picture a pane shows: if both are the same, the current pane.
 static int shown_pane(const DipErrorJob *job, int pane) {
     return job->still.rgba8[pane] ? pane : DIP_PANE_CURRENT;
 }
@@ -138,7 +138,7 @@ static void begin_pane(DipErrorJob *job) {
     job->has_begun = true;
 }
 
-// Keeps the errors of the pane. The meter gets the memory of its old map.
+// Keeps the errors of the pane. Pane and meter exchange the memory of their maps.
 static void end_pane(DipErrorJob *job) {
     float *map = job->flip[job->pane];
     job->flip[job->pane] = job->meter.flip_map;

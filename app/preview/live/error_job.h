@@ -37,7 +37,7 @@ typedef struct DipPaneError {
     double psnr_db;
     double flip;
     bool at_floor; // The error is too small to be told from the truth's own noise.
-    bool unjudged; // As in DipStill. The other members are 0.
+    bool unjudged; // The pane has no error (DipStill), and the other members are 0.
 } DipPaneError;
 
 typedef struct DipErrorJobResult {
@@ -75,8 +75,8 @@ int dip_error_job_next_samples(const DipErrorJob *job);
 // Returns how much of that truth is drawn, from 0 to 1.
 double dip_error_job_drawn(const DipErrorJob *job);
 
-// The pictures that belong to the result. They are complete between the step that returned
-// RESULT and the next step; later steps overwrite them. Rows are packed.
+// The pictures that belong to the result, for the next two functions. They are complete between the
+// step that returned RESULT and the next step; later steps overwrite them. Rows are packed.
 
 // Returns the FLIP value of each pixel of a pane, or NULL if the pane is not judged.
 const float *dip_error_job_flip(const DipErrorJob *job, int pane);

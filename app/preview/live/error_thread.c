@@ -16,8 +16,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-// The thread's priority below that of other threads. Where all compete for a processor, the thread
-// gets 0.4 of what another thread gets; an idle priority would get nothing.
+// By how much the thread's priority is below that of other threads. Where all compete for a
+// processor, the thread gets 0.4 of what another thread gets; with an idle priority it would get
+// nothing.
 enum { NICE = 4 };
 
 // A still that owns its pictures.
@@ -29,7 +30,8 @@ typedef struct Still {
 
 // Pictures of a result, which pass from the thread to the caller. There are three of these: the
 // thread fills one, the caller reads another, and the third one holds the newest pictures that the
-// caller has not asked for yet. They change places under the lock, so nobody copies pixels there.
+// caller has not asked for yet. They change places under the lock, so that no pixels are copied
+// under it.
 typedef struct Pictures {
     DipErrorPictures out; // Its pointers point into the arrays below.
     DipStill still;       // The still that was measured; its pictures are not valid.
@@ -45,7 +47,7 @@ struct DipErrorThread {
     const char *cache;
     Still staged; // The next still, which the caller fills without holding the lock.
     unsigned picture_number;
-    bool shown;
+    bool shown;    // A still was given since the last pause.
     Pictures held; // What the caller reads.
     DipStill last; // The last still, whose number is last_number.
     unsigned last_number;
@@ -62,7 +64,7 @@ struct DipErrorThread {
     Still asked;
     unsigned asked_number; // Number of the last still; results of older stills are dropped.
     bool resting;
-    int limit; // Samples of the truths that may be drawn.
+    int limit; // Greatest number of samples of a truth that may be drawn.
     DipErrorReading reading;
     bool news;
     Pictures newest;
@@ -84,8 +86,8 @@ typedef struct Worker {
     uint64_t version;
 } Worker;
 
-// Gives the calling thread a lower priority. On Linux, priorities belong to threads; elsewhere they
-// belong to processes, so nothing is done there.
+// Gives the calling thread a lower priority. On Linux, each thread has a priority; elsewhere only
+// processes have one, so this function does nothing there.
 static void lower_priority(void) {
 #ifdef __linux__
     setpriority(PRIO_PROCESS, (id_t)syscall(SYS_gettid), NICE);
@@ -191,7 +193,7 @@ static bool must_wait(const Worker *worker) {
                        (worker->job && dip_error_job_next_samples(worker->job) > owner->limit)));
 }
 
-// Tells the owner how far the truth is. The caller holds the lock.
+// Tells the owner how much of the truth is drawn. The caller holds the lock.
 static void tell_progress(const Worker *worker) {
     DipErrorReading *reading = &worker->owner->reading;
     const bool works = worker->job && !worker->idle && !must_wait(worker);
@@ -246,23 +248,12 @@ static void work(Worker *worker, bool fresh) {
             return;
         }
     }
-    switch (dip_error_job_step(worker->job, &err)) {
-    case DIP_STEP_WORKING:
-        break;
-    case DIP_STEP_RESULT:
-        if (!fill_pictures(worker)) {
-            answer(worker, DIP_ERROR_STATUS_FAILED);
-            break;
-        }
+    const DipStep step = dip_error_job_step(worker->job, &err);
+    if (step == DIP_STEP_RESULT && fill_pictures(worker)) {
         pass_pictures(worker);
         answer(worker, DIP_ERROR_STATUS_WORKING);
-        break;
-    case DIP_STEP_DONE:
-        answer(worker, DIP_ERROR_STATUS_DONE);
-        break;
-    case DIP_STEP_FAILED:
-        answer(worker, DIP_ERROR_STATUS_FAILED);
-        break;
+    } else if (step != DIP_STEP_WORKING) {
+        answer(worker, step == DIP_STEP_DONE ? DIP_ERROR_STATUS_DONE : DIP_ERROR_STATUS_FAILED);
     }
 }
 

@@ -12,8 +12,8 @@
 
 typedef struct DipErrorThread DipErrorThread;
 
-// The scene is borrowed, and so is the folder of the cached truths, which is NULL for no cache. The
-// thread starts, and allocates memory, with the first measurement.
+// The scene is borrowed, and so is `cache`, the folder of the cached truths; NULL: there is no
+// cache. The thread starts, and allocates memory, with the first measurement.
 DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
                                         const DipReflectionDef *reflection, const char *cache,
                                         DipError *err);
@@ -46,20 +46,20 @@ typedef struct DipErrorReading {
     DipErrorJobResult result;
     int next_samples; // Samples per pixel of the truth that is being drawn; 0: none is.
     double drawn;     // How much of that truth is drawn, from 0 to 1.
-    bool waits;       // Other threads have the processors most of the time.
+    bool waits;       // The thread waits for a processor most of the time.
 } DipErrorReading;
 
 // Reads the result for the last still. Returns whether the result is new since the previous call;
 // the members after the result may change without that.
 bool dip_error_thread_read(DipErrorThread *thread, DipErrorReading *reading);
 
-// Bins of FLIP from 0 to 1 in which pixels are counted.
+// Number of bins, from FLIP 0 to FLIP 1, in which pixels are counted.
 enum { DIP_ERROR_BINS = 100 };
 
 // How FLIP is distributed over the pixels of a pane.
 typedef struct DipErrorSpread {
     DipFlipTail tail;
-    uint32_t bins[DIP_ERROR_BINS]; // Numbers of pixels.
+    uint32_t bins[DIP_ERROR_BINS]; // Number of pixels in each bin.
 } DipErrorSpread;
 
 // The pictures behind a result: the truth, and the FLIP map of each pane. Rows are packed.
@@ -69,8 +69,8 @@ typedef struct DipErrorPictures {
     int height;
     DipErrorJobResult result;
     const uint8_t *truth_rgba8; // sRGB, four bytes per pixel.
-    // FLIP of each pixel. NULL if the pane is not judged, or if the panes' pictures have changed
-    // since while the truth still holds.
+    // FLIP of each pixel. NULL if the pane is not judged, or if only the truth still holds because
+    // the panes' pictures have changed.
     const float *flip[DIP_PANE_COUNT];
     DipErrorSpread spread[DIP_PANE_COUNT];
 } DipErrorPictures;

@@ -1,19 +1,106 @@
-// Collects the panes' frame times and turns them into figures that change slowly enough to be read.
+// Collects the panes' frame times, turns them into figures that change slowly enough to be read,
+// and formats the figures as the panel's lines of text.
 #ifndef DIP_APP_PREVIEW_LIVE_FIGURES_H
 #define DIP_APP_PREVIEW_LIVE_FIGURES_H
 
-#include "app/preview/live/panel.h"
-#include "app/preview/live/timing.h"
+#include "app/preview/live/error_thread.h"
+#include "renderer/scene/frame.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// --- times ---------------------------------------------------------------------------------------
+
+enum { DIP_TIMING_SAMPLES = 512 };
+
+// The newest frame times, in a ring. Zero-initialise.
+typedef struct DipTiming {
+    int64_t at_ns[DIP_TIMING_SAMPLES];
+    double ms[DIP_TIMING_SAMPLES];
+    unsigned count; // Number of times added so far.
+} DipTiming;
+
+void dip_timing_add(DipTiming *timing, int64_t now_ns, double ms);
+void dip_timing_clear(DipTiming *timing);
+
+// Returns the median of the times added in the last second. If there are none, returns the time
+// added last, or 0 if no time was ever added.
+double dip_timing_median_ms(const DipTiming *timing, int64_t now_ns);
+
+// Returns the number of times added in the last second, at most DIP_TIMING_SAMPLES.
+int dip_timing_per_second(const DipTiming *timing, int64_t now_ns);
+
+// Copies the times added in the last `span_ns`, the newest first, and their age in nanoseconds
+// unless age_ns is NULL. Returns their number.
+int dip_timing_recent(const DipTiming *timing, int64_t now_ns, int64_t span_ns,
+                      double ms[DIP_TIMING_SAMPLES], int64_t age_ns[DIP_TIMING_SAMPLES]);
+
+// --- the pace of temporal antialiasing -----------------------------------------------------------
+
+// Temporal antialiasing draws each frame with another sample pattern, and the eye averages the
+// frames. It can do so only if the frames follow each other at the display's refresh rate: at least
+// this share of the refreshes of the last second must show a new frame.
+static const double dip_taa_pace_share = 0.9;
+
+// Zero-initialise.
+typedef struct DipTaaPace {
+    bool on;          // A pane used temporal antialiasing in the last frame.
+    int64_t since_ns; // When it was turned on, if `on`.
+} DipTaaPace;
+
+// What a pane with temporal antialiasing says about its speed.
+typedef struct DipTaaSpeed {
+    bool too_slow;
+    int shown;  // Frames presented in the last second.
+    int wanted; // Refreshes of the display in a second.
+} DipTaaSpeed;
+
+// Notes at each turn whether a pane uses temporal antialiasing, and returns its speed.
+// `presented` holds the moments at which frames were presented. No speed counts as too slow in the
+// first second after temporal antialiasing was turned on.
+DipTaaSpeed dip_taa_pace_update(DipTaaPace *pace, bool on, const DipTiming *presented,
+                                int64_t refresh_ns, int64_t now_ns);
+
+// Returns when the frame after the one that was due at `due_ns` is due: one refresh later, so that
+// the mean rate is exactly the display's. If that moment has passed already, or lies further ahead
+// than one refresh, the frame is due one refresh after this turn's begin, `turn_ns`.
+int64_t dip_taa_pace_next_ns(int64_t due_ns, int64_t turn_ns, int64_t refresh_ns, int64_t now_ns);
+
+// --- figures -------------------------------------------------------------------------------------
+
+enum {
+#define DIP_STAGE_INDEX(name, text) DIP_STAGE_##name,
+    DIP_STAGE_LIST(DIP_STAGE_INDEX)
+#undef DIP_STAGE_INDEX
+        DIP_STAGE_COUNT
+};
+
+// The figures of a pane as the window shows them.
+typedef struct DipPaneFigures {
+    double ms;  // Median frame time of the last second in which frames were drawn.
+    int frames; // Number of these frames. 1: the time is that of a single frame.
+    double stage_ms[DIP_STAGE_COUNT];
+    int fps; // Pictures shown in the last second; 0 if no rate is shown.
+    DipEffects effects;
+    DipCounters counters;
+    bool copied; // The pane shows the other pane's picture, since the settings are the same.
+    DipErrorReading errors;
+    const DipTiming *times; // The newest frames' times; NULL if there are none. Borrowed.
+    int dropped;            // Refreshes of the last 5 seconds of movement without a new picture.
+    DipTaaSpeed taa_speed;  // Too slow only if the pane uses temporal antialiasing.
+    bool mip_colours;       // The pane shows mip colours, which have no error.
+    bool no_errors;         // The scene has no reference pictures, so the panel leaves errors out.
+} DipPaneFigures;
 
 // Zero-initialise.
 typedef struct DipFigures {
     DipTiming total[DIP_PANE_COUNT];
     DipTiming stages[DIP_PANE_COUNT][DIP_STAGE_COUNT];
-    DipTiming presented;
-    DipTiming dropped;    // Refreshes without a new picture, with their number as the time.
+    DipTiming presented; // When pictures were presented; their times are 0.
+    DipTiming dropped; // When refreshes had no new picture; instead of a time, how many they were.
     int64_t presented_ns; // When the last picture was presented; 0 before, and after a rest.
     int64_t updated_ns;   // When the shown times were updated.
-    bool outdated;        // True if settings have changed since the shown times were measured.
+    bool outdated;        // Settings have changed since the shown times were measured.
     DipPaneFigures shown[DIP_PANE_COUNT]; // What the window shows.
 } DipFigures;
 
@@ -32,5 +119,20 @@ void dip_figures_count_presented(DipFigures *figures, bool moving, int64_t refre
 // Updates the shown times if they are outdated or a quarter of a second old. `moving` is true if
 // frames follow each other without pauses. Only then is a frame rate shown.
 void dip_figures_update(DipFigures *figures, bool moving, int64_t now_ns);
+
+// --- the panel's lines ---------------------------------------------------------------------------
+
+typedef struct DipPanelLine {
+    bool head; // The line begins a group of lines.
+    char name[32];
+    char value[40];
+} DipPanelLine;
+
+enum { DIP_PANEL_MAX_LINES = 24 };
+
+// Fills in the panel's lines of times, errors and work, the most important first, so that a caller
+// with little room can leave out the last lines. Returns the number of lines.
+int dip_panel_lines(const DipPaneFigures *figures, int pane,
+                    DipPanelLine lines[DIP_PANEL_MAX_LINES]);
 
 #endif

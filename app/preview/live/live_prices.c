@@ -1,4 +1,4 @@
-// Draws and judges the frames that the live report comes from.
+// Draws frames for the live report, and compares them with the truth.
 #include "app/preview/live/live_prices.h"
 
 #include "app/cost/plan.h"
@@ -17,8 +17,8 @@ struct DipLivePrices {
     DipSession *session;
     DipPrices *prices;
     DipPriceJob *job;
-    // Indexed by the step of the setting gi, as in the cost report: a renderer that draws copies of
-    // meshes keeps them.
+    // One painter for each step of the setting gi, because a renderer keeps the copies of meshes
+    // that gi=off makes.
     DipPainter *painters[2];
     DipLivePicture picture;
     bool has_picture;
@@ -29,13 +29,13 @@ struct DipLivePrices {
     uint8_t *rgba8; // Copy of the picture that is judged, rows packed. Owned; NULL: no meter yet.
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
-    int judged; // The row of this picture.
-    // Of each row: its errors against the truth of most samples that it was compared with.
+    int judged; // Row of the report whose picture this is.
+    // Errors of each row against the finest truth with which the row was compared.
     DipMetricSums sums[DIP_PRICES_LIVE_ROWS];
-    int samples[DIP_PRICES_LIVE_ROWS]; // Of this truth; 0: none.
-    DipLiveTruth truth;                // That of the last step.
+    int samples[DIP_PRICES_LIVE_ROWS]; // Samples of this truth; 0: no truth yet.
+    DipLiveTruth truth;                // The truth that the last step was given.
     int errors_left;         // Combinations whose errors are not known, if there is a truth.
-    DipProcessorShare share; // Of this thread, while it measures errors.
+    DipProcessorShare share; // This thread's share while it measures errors.
     int64_t progress_ns;     // When the text of the progress was written last.
 };
 
@@ -144,15 +144,15 @@ static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
            a->pixels_per_degree == b->pixels_per_degree;
 }
 
-// Returns whether live prices start from what prices start from now. A report that was opened since
-// may have another baseline.
+// Returns whether the live report has the present baseline. A cost report that was opened since may
+// have another one.
 static bool has_same_base(const DipLivePrices *live) {
     const DipQuality base = dip_prices_base(live->prices);
     return dip_quality_equal(&base, &dip_prices_live(live->prices)->options.baseline);
 }
 
-// Forgets the prices of another picture. A painter that cannot have the new size is destroyed; the
-// next frame then fails with the reason.
+// Forgets the prices if the picture is another one. A painter that cannot have the new size is
+// destroyed; the next frame then fails with the reason.
 static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
     if (live->has_picture && is_same_picture(&live->picture, picture) && has_same_base(live)) {
         return;
@@ -232,7 +232,7 @@ static bool show_errors(const DipLivePrices *live) {
     return dip_prices_update_live(live->prices, false, NULL);
 }
 
-// Draws a picture or measures a part of it; there is a combination whose error is not known.
+// Draws the picture of a combination whose error is not known, or measures a part of it.
 // Returns whether an error has become known.
 static bool step_errors(DipLivePrices *live) {
     if (!live->measures_errors) {
@@ -277,7 +277,7 @@ static void follow_truth(DipLivePrices *live, const DipLiveTruth *truth) {
         live->measures_errors = false;
     }
     if (live->truth.samples != truth->samples) {
-        live->meter.standard.picture.rgba8 = NULL; // Another picture in the same memory.
+        live->meter.standard.picture.rgba8 = NULL; // The memory holds another picture.
         live->measures_errors = live->errors_failed = false;
     }
     live->truth = *truth;
@@ -319,7 +319,7 @@ static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
     }
 }
 
-// Tells the panel what is being measured, now and then. Returns whether the text is new.
+// Tells the panel what is being measured, four times a second. Returns whether the text is new.
 static bool show_progress(DipLivePrices *live) {
     const int64_t now_ns = dip_clock_ns();
     char text[DIP_PRICE_PROGRESS];

@@ -1,4 +1,4 @@
-// Rough prices of what the panes show, measured with painters of their own while nothing moves.
+// Measures rough prices of what the panes show, with painters of its own, while nothing moves.
 //
 // The loop calls dip_live_prices_step in each turn in which camera and scene rest and no event is
 // waiting. A step draws one frame or more within its budget. First come the times (price_job.h),
@@ -17,7 +17,7 @@ typedef struct DipLivePrices DipLivePrices;
 typedef struct DipLivePicture {
     DipPose pose;
     int64_t time_ns;
-    int width; // Size of a pane's frame.
+    int width; // Size of a pane's frame, in pixels.
     int height;
     int look;                 // Variant of a scene of the gallery.
     double pixels_per_degree; // For FLIP.
@@ -38,17 +38,17 @@ void dip_live_prices_enter_scene(DipLivePrices *live);
 
 // What is known of the converged picture, and how far the next, better one is.
 typedef struct DipLiveTruth {
-    // Of the size and pose of the live picture. No pixels while there is none.
+    // Has the live picture's size and pose. It has no pixels while there is no truth.
     DipSrgbPicture picture;
-    int samples;      // Per pixel. Errors against a truth of more samples replace those before.
-    bool comes_first; // No time is taken until there is this truth, or a better one.
+    int samples; // Samples per pixel. Errors against a finer truth replace the previous errors.
+    bool comes_first; // No frames are timed until there is a truth.
     int next_samples; // Samples of the truth that is being drawn; 0: none is.
     double drawn;     // How much of that truth is drawn, from 0 to 1.
     bool waits;       // The thread that draws it waits for a free processor.
 } DipLiveTruth;
 
-// Measures for about budget_ms milliseconds: the frame or block that is begun is finished. Forgets
-// the prices of any other picture first. Errors against a truth of fewer samples stay until all
+// Measures for about budget_ms milliseconds; what has been begun is finished. First forgets the
+// prices of any other picture. Errors against a truth of fewer samples stay until all
 // errors against the new one are known, because only errors against one truth can be compared.
 // Returns whether the panel must be drawn again, because prices or the text of their progress
 // (dip_prices_progress) have changed; the text changes four times a second at most.
@@ -60,9 +60,11 @@ bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
 // another picture.
 void dip_live_prices_pause(DipLivePrices *live);
 
-// Return whether all times of the last picture are known at least roughly, so that its truth may be
-// drawn beside without disturbing them; and whether no better times will come.
+// Returns whether all times of the last picture are known at least roughly. Its truth may then be
+// drawn by another thread without disturbing them.
 bool dip_live_prices_have_times(const DipLivePrices *live);
+
+// Returns whether all times of the last picture are known as well as they ever will be.
 bool dip_live_prices_have_final_times(const DipLivePrices *live);
 
 // Returns whether errors are left that can be measured against the truth of the last step.

@@ -1,4 +1,4 @@
-// Timing combinations of settings beside the base, in blocks.
+// Times combinations of settings beside the base, in blocks.
 #include "app/preview/live/price_job.h"
 
 #include "app/cost/context.h"
@@ -13,15 +13,15 @@
 #include <string.h>
 
 enum {
-    BLOCK = 4,            // Combinations of a block, besides the base.
-    VISITS = BLOCK + 1,   // The base is one of them.
-    FRAMES_OF_A_VISIT = 2 // One untimed, one timed.
+    BLOCK = 4,            // Combinations in a block, not counting the base.
+    VISITS = BLOCK + 1,   // Combinations in a block, counting the base.
+    FRAMES_OF_A_VISIT = 2 // In a round, each combination draws an untimed and a timed frame.
 };
 
 // A combination of the block that is being timed. The first one is the base.
 typedef struct Member {
     DipQuality quality;
-    double counters[DIP_COST_COUNTER_COUNT]; // Of the frame that was drawn last.
+    double counters[DIP_COST_COUNTER_COUNT]; // Counters of the last frame.
 } Member;
 
 struct DipPriceJob {
@@ -31,21 +31,23 @@ struct DipPriceJob {
     DipQuality requested;
     bool follows; // The panes' settings are known.
     bool failed;
-    DipError failure; // Why, if `failed`.
+    DipError failure; // Why it failed, if `failed`.
     bool idle;        // Every combination is known.
     DipQuality wanted[DIP_PRICE_MAX_WANTED];
     int wanted_count;
-    int rounds; // That each combination has at last: the first rounds, until all have them.
+    // Rounds that each wanted combination is to get: the first rounds until all combinations have
+    // them, then all rounds.
+    int rounds;
 
     DipDriver *driver; // Times the members; NULL: there is no block.
     Member members[VISITS];
     int member_count;
-    int rounds_before; // Of the members, when the block began.
+    int rounds_before; // Rounds that the members had when the block began.
 
-    int rounds_of[DIP_PRICES_LIVE_ROWS]; // In which a row of the report was timed.
+    int rounds_of[DIP_PRICES_LIVE_ROWS]; // Rounds in which each row was timed.
     int blocks;                          // Blocks that are complete.
-    double drawn_ms;                     // Time and number of the frames of this picture.
-    int drawn;
+    double drawn_ms;                     // Sum of the times of this picture's frames.
+    int drawn;                           // Number of these frames.
     double waited; // Share that the threads waited, summed over the rounds of all blocks.
     int waited_rounds;
 };
@@ -93,8 +95,8 @@ void dip_price_job_forget(DipPriceJob *job) {
 
 // --- what to time --------------------------------------------------------------------------------
 
-// Lists the combinations that are not timed yet in `rounds` rounds. The base is part of every
-// block, so it is not in the list.
+// Lists the combinations that were timed in fewer than `rounds` rounds. The base is not in the
+// list, because every block times it.
 static void list_with_rounds(DipPriceJob *job, int rounds) {
     const DipQuality base = dip_prices_base(job->prices);
     DipQuality all[DIP_PRICE_MAX_WANTED];
@@ -137,7 +139,7 @@ static void drop_block(DipPriceJob *job) {
     job->member_count = 0;
 }
 
-// Each round begins with the pattern of temporal AA that the round before timed last.
+// Each round begins with the sample pattern of temporal AA that the previous round timed last.
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     DipPriceJob *job = context;
     Member *member = &job->members[turn->subject];
@@ -201,7 +203,8 @@ static bool begin_block(DipPriceJob *job) {
     return !job->failed;
 }
 
-// Adds the block to the log. Rounds of the second time follow those of the first.
+// Adds the times of the block to the log. If its members were timed before, the numbers of their
+// new rounds follow those of the old ones.
 static bool log_block(DipPriceJob *job, const int rows[VISITS], DipError *err) {
     DipCostReport *report = dip_prices_live(job->prices);
     const DipTimes times = dip_driver_times(job->driver);
@@ -268,7 +271,7 @@ DipPriceProgress dip_price_job_progress(const DipPriceJob *job) {
     if (!progress.working) {
         return progress;
     }
-    const int blocks = (job->wanted_count + BLOCK - 1) / BLOCK; // With the one that is being timed.
+    const int blocks = (job->wanted_count + BLOCK - 1) / BLOCK; // Including the present one.
     const int visits = job->wanted_count + blocks;
     const bool first = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS;
     const int rounds = first ? job->rounds : job->rounds - DIP_PRICE_JOB_FIRST_ROUNDS;

@@ -1,13 +1,13 @@
 // Measures the times of the live report while the preview rests, a frame at a time.
 //
 // The job times combinations of settings in blocks: the base and a few combinations, each drawn
-// once in every round, in an order that is shuffled anew. A visit draws one frame untimed, because
-// the previous combination has used the caches, and times the next one. All times enter the log of
-// the live report (app/preview/prices/prices.h), which is estimated anew after each block. At first
-// every combination gets three rounds, so that all prices are soon known roughly; then each gets
-// five more. The combinations nearest to the requested settings come first.
+// once in every round, in an order that is shuffled anew. In a round, each combination draws one
+// frame untimed, because the previous combination has used the caches, and times the next frame.
+// All times enter the log of the live report (app/preview/prices/prices.h), which is estimated anew
+// after each block. At first every combination gets three rounds, so that all prices are soon known
+// roughly; then each gets five more. The combinations nearest to the requested settings come first.
 //
-// What draws and what tells the time are functions of the caller, so that tests need neither.
+// The caller gives the functions that draw and that tell the time, so that tests can replace them.
 #ifndef DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
 #define DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
 
@@ -23,14 +23,14 @@
 enum { DIP_PRICE_JOB_FIRST_ROUNDS = 3, DIP_PRICE_JOB_ROUNDS = 8 };
 
 typedef struct DipPriceJobCalls {
-    // Draws a frame with these settings. frame_index: see dip_painter_set_frame_index. Of *frame
-    // the counters and the times of the stages are used. If it fails, the job ends until it is told
-    // to forget.
+    // Draws a frame with these settings. frame_index: see dip_painter_set_frame_index. The
+    // job uses the counters and the stage times of *frame. After a failure, the job measures
+    // nothing until dip_price_job_forget.
     bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
                  DipError *err);
     int64_t (*now_ns)(void *context);          // NULL means dip_clock_ns.
-    DipThreadUse (*thread_use)(void *context); // NULL: a watch of this process' threads.
-    int threads;                               // That draw a frame.
+    DipThreadUse (*thread_use)(void *context); // NULL: that of this process.
+    int threads;                               // Number of threads that draw a frame.
     void *context;
 } DipPriceJobCalls;
 
@@ -58,8 +58,8 @@ typedef struct DipPriceProgress {
     bool first;          // Among them are some that have no time at all.
     bool failed;         // A frame could not be drawn, or memory ran out.
     int rounds;          // Rounds of the block that are complete.
-    int combinations;    // Combinations that are left, with those of the block.
-    double seconds_left; // Of drawing all of these; 0 before the first frame.
+    int combinations;    // Combinations that are left, including those of the block.
+    double seconds_left; // Time that drawing them takes; 0 before the first frame.
 } DipPriceProgress;
 
 DipPriceProgress dip_price_job_progress(const DipPriceJob *job);

@@ -8,9 +8,9 @@
 
 // Zero-initialise.
 typedef struct DipProcessorShare {
-    int64_t from_ns; // Time and processor time of the thread when its work began.
+    int64_t from_ns; // Time when the thread's work began, and its processor time then.
     int64_t from_used_ns;
-    int64_t worked_ns; // Sums over the last pieces of work.
+    int64_t worked_ns; // Sums of both over the last pieces of work.
     int64_t used_ns;
     bool low; // In the last half second of work, the thread had a processor for less than half.
 } DipProcessorShare;

@@ -1,7 +1,9 @@
-// Runs the turns of the preview.
+// Runs the turns of the preview: hands events to the state and the window, lets time pass, and
+// draws and presents what has changed.
 #include "app/preview/loop/loop_private.h"
 
 #include "app/cost/plan.h"
+#include "app/preview/loop/reload.h"
 #include "app/preview/tools/compare.h"
 
 #include <stdio.h>
@@ -21,17 +23,6 @@ static void follow_refresh(DipPreview *preview) {
     const double hz = preview->def.display.refresh_hz(preview->def.display.context);
     preview->refresh_ns = (int64_t)(1e9 / hz);
     dip_preview_follow_refresh(&preview->state, 1000.0 / hz);
-}
-
-static bool create_live_prices(DipPreview *preview, DipError *err) {
-    if (!preview->def.measures_prices) {
-        return true;
-    }
-    preview->live_prices = dip_live_prices_create(preview->def.session, preview->prices, err);
-    if (preview->live_prices) {
-        dip_live_prices_enter_scene(preview->live_prices);
-    }
-    return preview->live_prices != NULL;
 }
 
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
@@ -70,10 +61,13 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->tools = preview->view && preview->prices ? dip_tools_create(err) : NULL;
     preview->editor = preview->tools ? dip_path_editor_create(err) : NULL;
     preview->state.editor = preview->editor;
-    if (!preview->editor || !create_live_prices(preview, err)) {
+    preview->live_prices =
+        preview->editor ? dip_live_prices_create(def->session, preview->prices, err) : NULL;
+    if (!preview->live_prices) {
         dip_preview_destroy(&preview);
         return NULL;
     }
+    dip_loop_enter_scene(preview);
     if (def->ui_scale > 0.0) {
         preview->state.tools.ui_scale = def->ui_scale;
         preview->state.tools.fixed_scale = true;
@@ -126,6 +120,138 @@ void dip_loop_report(DipPreview *preview, const DipError *err, int64_t now_ns) {
     dip_preview_notice(&preview->state, now_ns, "%.120s", line);
 }
 
+// --- events --------------------------------------------------------------------------------------
+
+static DipPreviewMoment moment_of(DipPreview *preview, int64_t now_ns) {
+    return (DipPreviewMoment){
+        .state = &preview->state,
+        .session = preview->def.session,
+        .display = &preview->def.display,
+        .figures = preview->figures.shown,
+        .prices = preview->prices,
+        .panes = preview->frame.panes,
+        .picture = dip_view_picture(preview->view),
+        .drawn = preview->picture_number != 0 && !preview->redraw && !preview->resized &&
+                 preview->state.scene_changes == preview->drawn_changes,
+        .now_ns = now_ns,
+    };
+}
+
+static void take_control(DipPreview *preview) {
+    const DipPreviewControl *control = &preview->def.control;
+    if (control->turn && !preview->state.quit) {
+        const DipPreviewMoment moment = moment_of(preview, dip_loop_clock_ns(preview));
+        preview->redraw = control->turn(control->context, &moment) || preview->redraw;
+    }
+}
+
+// Hands an event to the window's controls. Returns whether one of them took it.
+static bool handle_in_window(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    const DipViewInput input = dip_loop_view_input(preview, now_ns);
+    preview->redraw = true;
+    return dip_view_handle(preview->view, &input, event);
+}
+
+static void drop_file(DipPreview *preview, const char *file, int64_t now_ns) {
+    if (preview->def.reload && file && !dip_reload_drop(preview->def.reload, file)) {
+        dip_preview_notice(&preview->state, now_ns, "Too many files wait to be opened");
+        preview->redraw = true;
+    }
+}
+
+// A key acts on the control with the focus or, if no control takes it, on the preview. Escape first
+// takes the focus away.
+static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
+    DipUi *ui = dip_view_ui(preview->view);
+    if (!preview->state.help) { // Letters typed into the help do not fly.
+        dip_keys_hold(&preview->held, event);
+    }
+    if (handle_in_window(preview, event, now_ns)) {
+        return;
+    }
+    if (event->key == DIP_KEYCODE_ESCAPE && dip_ui_focus(ui)) {
+        dip_ui_blur(ui);
+        return;
+    }
+    if (!dip_loupe_press(&preview->state, frame->width, frame->height, event)) {
+        dip_keys_press(&preview->state, event, now_ns);
+    }
+}
+
+static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    switch (event->kind) {
+    case DIP_EVENT_QUIT:
+        preview->state.quit = true;
+        break;
+    case DIP_EVENT_KEY_DOWN:
+        press_key(preview, event, now_ns);
+        break;
+    case DIP_EVENT_KEY_UP:
+        dip_keys_hold(&preview->held, event);
+        if (event->key == (DipKeycode)';' && preview->state.tools.blinked) {
+            preview->state.tools.blinked = false; // The key shows the other pane while it is held.
+            preview->redraw = true;
+        }
+        break;
+    case DIP_EVENT_MOUSE_DOWN:
+        if (preview->def.control.press) {
+            const DipPreviewMoment moment = moment_of(preview, now_ns);
+            preview->def.control.press(preview->def.control.context, &moment, event);
+        }
+        handle_in_window(preview, event, now_ns);
+        break;
+    case DIP_EVENT_MOUSE_UP:
+    case DIP_EVENT_MOUSE_MOVE:
+    case DIP_EVENT_MOUSE_WHEEL:
+        handle_in_window(preview, event, now_ns);
+        break;
+    case DIP_EVENT_RESIZE:
+        preview->resized = true;
+        break;
+    case DIP_EVENT_EXPOSE:
+        preview->exposed = true;
+        break;
+    case DIP_EVENT_DROP:
+        drop_file(preview, event->file, now_ns);
+        break;
+    default:
+        break;
+    }
+}
+
+// Waits up to timeout_ms for an event and handles it. Returns whether there was one.
+static bool take_event(DipPreview *preview, int timeout_ms) {
+    DipEvent event;
+    if (!preview->def.display.next_event(preview->def.display.context, timeout_ms, &event)) {
+        return false;
+    }
+    const int64_t now_ns = dip_loop_clock_ns(preview);
+    if (dip_controllers_concern(&event)) { // A button has an action or stands for a key.
+        DipEvent key;
+        if (dip_controllers_handle(&preview->controllers, &preview->state, &event, now_ns, &key)) {
+            handle_event(preview, &key, now_ns);
+        }
+        preview->redraw |= event.kind != DIP_EVENT_CONTROLLER_AXIS;
+    } else {
+        handle_event(preview, &event, now_ns);
+    }
+    return true;
+}
+
+// Moves the free camera as the held keys and the controllers say.
+static void fly(DipPreview *preview, int64_t elapsed_ns) {
+    const DipPilotTurn turn = {.session = preview->def.session,
+                               .keys = dip_keys_camera(&preview->held),
+                               .controllers = &preview->controllers,
+                               .speed_m_per_s = preview->def.flying_speed_m_per_s,
+                               .elapsed_ns = elapsed_ns};
+    preview->flying = dip_pilot_turn(&preview->state, &turn, &preview->pose);
+    preview->state.scene_changes += preview->flying;
+}
+
+// --- what a turn follows -------------------------------------------------------------------------
+
 static void follow_full_screen(DipPreview *preview) {
     const DipDisplay *display = &preview->def.display;
     if (preview->state.full_screen == preview->full_screen) {
@@ -137,8 +263,48 @@ static void follow_full_screen(DipPreview *preview) {
     }
 }
 
-// Notices whether the panes have another size, because the dock was opened or folded, or because
-// settings in characters show or hide.
+// Gives the requested pane the settings that the clipboard holds as text, if the user asked for it.
+static void paste_settings(DipPreview *preview, int64_t now_ns) {
+    const DipDisplay *display = &preview->def.display;
+    DipPreviewState *state = &preview->state;
+    DipQuality quality;
+    DipError err;
+    char text[512];
+    if (!state->paste_settings) {
+        return;
+    }
+    state->paste_settings = false;
+    if (!display->get_clipboard || !display->get_clipboard(display->context, text, sizeof text)) {
+        dip_preview_notice(state, now_ns, "The clipboard holds no text");
+        return;
+    }
+    text[strcspn(text, " \t\r\n")] = '\0';
+    if (!dip_quality_parse(text, &quality, &err)) {
+        dip_loop_report(preview, &err, now_ns);
+        return;
+    }
+    dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, now_ns);
+    dip_preview_notice(state, now_ns, "Pasted: %.120s", text);
+}
+
+// Copies the requested settings as text, if the user asked for it.
+static void copy_settings(DipPreview *preview, int64_t now_ns) {
+    const DipDisplay *display = &preview->def.display;
+    char text[256];
+    if (!preview->state.copy_settings) {
+        return;
+    }
+    preview->state.copy_settings = false;
+    dip_quality_format(&preview->state.quality[DIP_PANE_REQUESTED], text, sizeof text);
+    if (display->set_clipboard && display->set_clipboard(display->context, text)) {
+        dip_preview_notice(&preview->state, now_ns, "Copied: %s", text);
+    } else {
+        dip_preview_notice(&preview->state, now_ns, "This display has no clipboard: %s", text);
+    }
+}
+
+// Notices whether the panes have another size: the dock may have been opened or folded, or a
+// terminal may show or hide its settings.
 static void follow_layout(DipPreview *preview) {
     const DipLayout layout = dip_preview_layout(preview);
     int width, height;
@@ -148,7 +314,8 @@ static void follow_layout(DipPreview *preview) {
     preview->pane_height = height;
 }
 
-// Follows the prices and the budget in what can be chosen. Returns whether that is new.
+// Works out what can be chosen with the present prices and budget. Returns whether that has
+// changed.
 static bool choose(DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     return dip_preview_choose(&preview->choice, preview->prices,
@@ -176,7 +343,7 @@ static void follow_title(DipPreview *preview) {
     }
 }
 
-// Finds out whether anything moves, when another path or scene plays.
+// When another path or scene plays, finds out whether the camera or the scene moves.
 static void follow_motion(DipPreview *preview) {
     const DipSession *session = preview->def.session;
     const DipCamPath *path = dip_preview_playing_path(&preview->state);
@@ -189,8 +356,8 @@ static void follow_motion(DipPreview *preview) {
     }
 }
 
-// Draws and presents the picture if something has changed. Sets *shown to whether something has
-// changed.
+// Draws and presents the picture if something has changed, and sets *shown to whether it has. err
+// is not NULL.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
     DipPreviewState *state = &preview->state;
     const bool had_notice = state->notice[0] != '\0';
@@ -199,11 +366,11 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     preview->turn_ns = now_ns;
     follow_motion(preview);
     follow_title(preview);
-    dip_loop_fly(preview, elapsed_ns);
+    fly(preview, elapsed_ns);
     dip_preview_advance(state, elapsed_ns, now_ns);
     follow_full_screen(preview);
-    dip_loop_copy_settings(preview, now_ns);
-    dip_loop_paste_settings(preview, now_ns);
+    copy_settings(preview, now_ns);
+    paste_settings(preview, now_ns);
     dip_loop_follow_scene(preview, now_ns);
     dip_loop_follow_reload(preview, now_ns);
     preview->redraw |= choose(preview);
@@ -220,8 +387,8 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
         dip_loop_save_pose(preview, now_ns);
     }
     const bool new_errors = dip_loop_measure_errors(preview, now_ns);
-    bool new_prices = dip_loop_measure_prices(preview);
-    new_prices = choose(preview) || new_prices;
+    const bool measured = dip_loop_measure_prices(preview);
+    const bool new_prices = choose(preview) || measured;
     *shown = new_frame || new_errors || new_prices || preview->redraw || preview->exposed ||
              state->screenshot || (had_notice && !state->notice[0]) ||
              now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view)) || now_ns >= preview->blinks_ns;
@@ -236,17 +403,16 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
 // IDLE_WAIT_MS for an event.
 static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
-        const bool busy = preview->live_prices &&
-                          dip_live_prices_are_working(preview->live_prices) &&
-                          dip_prices_progress(preview->prices)[0] != '\0'; // Not paused.
-        dip_loop_take_event(preview, busy ? 0 : IDLE_WAIT_MS);
+        const bool busy = dip_live_prices_are_working(preview->live_prices) &&
+                          dip_prices_progress(preview->prices)[0] != '\0'; // Empty in a pause.
+        take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;
     }
     preview->due_ns = dip_taa_pace_next_ns(preview->due_ns, preview->turn_ns, preview->refresh_ns,
                                            dip_loop_clock_ns(preview));
     int64_t left_ns = preview->due_ns - dip_loop_clock_ns(preview);
     while (left_ns >= ns_per_ms && !preview->state.quit) {
-        dip_loop_take_event(preview, (int)(left_ns / ns_per_ms));
+        take_event(preview, (int)(left_ns / ns_per_ms));
         left_ns = preview->due_ns - dip_loop_clock_ns(preview);
     }
 }
@@ -258,25 +424,24 @@ static bool is_hidden(const DipPreview *preview) {
            !preview->state.wants_picture;
 }
 
-// A turn in which nothing is drawn or measured. Time stands still.
+// Runs a turn in which nothing is drawn or measured. Time stands still.
 static void rest_hidden(DipPreview *preview) {
     if (preview->errors) {
         dip_error_thread_pause(preview->errors);
     }
-    if (preview->live_prices) {
-        dip_live_prices_pause(preview->live_prices);
-    }
-    preview->figures.presented_ns = 0; // The time until the next picture says nothing.
+    dip_live_prices_pause(preview->live_prices);
+    preview->figures.presented_ns = 0; // No refresh is missed until the next picture.
     preview->exposed = true;
-    dip_loop_take_event(preview, IDLE_WAIT_MS);
+    take_event(preview, IDLE_WAIT_MS);
     preview->turn_ns = dip_loop_clock_ns(preview);
 }
 
 bool dip_preview_turn(DipPreview *preview, DipError *err) {
+    DipError unused;
     bool shown = false;
-    while (!preview->state.quit && dip_loop_take_event(preview, 0)) {
+    while (!preview->state.quit && take_event(preview, 0)) {
     }
-    dip_loop_take_control(preview);
+    take_control(preview);
     if (preview->state.quit) {
         return true; // The user has quit, so no further frame is drawn.
     }
@@ -284,7 +449,7 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
         rest_hidden(preview);
         return true;
     }
-    if (!draw_turn(preview, dip_loop_clock_ns(preview), &shown, err)) {
+    if (!draw_turn(preview, dip_loop_clock_ns(preview), &shown, err ? err : &unused)) {
         return false;
     }
     wait_for_turn(preview, shown);

@@ -1,4 +1,4 @@
-// The preview on any display: handles events, lets time pass, draws and presents.
+// Runs the preview on any display: handles events, lets time pass, draws and presents.
 //
 // The owner calls dip_preview_turn until dip_preview_has_quit. A turn handles the events that have
 // arrived, and draws and presents at most one frame. If the turn presented a frame, it then waits
@@ -8,7 +8,7 @@
 
 #include "app/display/display.h"
 #include "app/preview/tools/layout.h"
-#include "app/preview/live/panel.h"
+#include "app/preview/live/figures.h"
 #include "app/preview/prices/prices.h"
 #include "app/preview/state/state.h"
 #include "app/session/session.h"
@@ -28,11 +28,12 @@ typedef struct DipPreviewMoment {
     int64_t now_ns;
 } DipPreviewMoment;
 
-// A further source of events beside the display: another program that controls the preview
-// (app/preview/control/control.h). NULL functions are not called.
+// What lets another program control the preview (app/preview/control/control.h). NULL functions are
+// not called.
 typedef struct DipPreviewControl {
     void *context;
-    // Called once in each turn, before drawing. Returns whether the overlay may have changed.
+    // Called once in each turn, before drawing. Returns whether the program may have changed the
+    // state.
     bool (*turn)(void *context, const DipPreviewMoment *moment);
     // Called when the user presses a mouse button, before the preview acts on it.
     void (*press)(void *context, const DipPreviewMoment *moment, const DipEvent *event);
@@ -41,7 +42,7 @@ typedef struct DipPreviewControl {
 typedef struct DipPreviewDef {
     DipSession *session;         // Borrowed.
     DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
-    const DipCostReport *costs;  // Borrowed; NULL if there is no cost report.
+    DipCostReport *costs;        // Borrowed; NULL if there is no cost report.
     struct DipReload *reload;    // Borrowed; NULL: the preview ignores dropped files.
     DipPrices *prices;           // Borrowed; NULL: the preview has prices of its own.
     bool measures_prices;        // Measure rough prices while the dock is open and nothing moves.

@@ -7,7 +7,7 @@
 
 // Rough prices are measured for about this time in each turn.
 static const double price_budget_ms = 8.0;
-static const int least_truth_samples = 32; // Errors of prices against a coarser truth mislead.
+static const int least_truth_samples = 32; // A coarser truth is too noisy for prices.
 
 void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
     dip_maps_set_errors(preview->tools->maps, reading,
@@ -19,13 +19,13 @@ void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
 static bool wants_prices(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     const bool shown = (state->tools.open && !state->tools.bare) || state->wants_prices;
-    return preview->live_prices && dip_prices_are_rough(preview->prices) && shown &&
+    return preview->def.measures_prices && dip_prices_are_rough(preview->prices) && shown &&
            dip_preview_rests(state, preview->flying);
 }
 
-// Returns whether the tags of the settings or the advice wait for the truth, from which their
-// errors are measured. The thread that draws it begins only once all times are known, because it
-// would disturb them.
+// Returns whether the settings' price tags or the advice need the truth (the converged picture),
+// against which their errors are measured. The thread that draws the truth begins only once all
+// times are known, because it would disturb them.
 static bool prices_need_truth(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     const bool shown = state->tools.tab == DIP_TAB_SETTINGS || state->tools.tab == DIP_TAB_ADVICE;
@@ -33,7 +33,7 @@ static bool prices_need_truth(const DipPreview *preview) {
            (preview->errors || dip_live_prices_have_times(preview->live_prices));
 }
 
-// Returns whether the window shows errors of the panes or the truth.
+// Returns whether the window shows the panes' errors or the truth.
 static bool looks_at_errors(const DipPreview *preview) {
     return preview->state.panel || dip_maps_need_errors(&preview->state.tools);
 }
@@ -45,8 +45,8 @@ static bool shows_errors(const DipPreview *preview) {
 
 // Returns the samples of the finest truth that may be drawn now. Times and truths take turns, the
 // cheapest useful one first: rough times, then the first truth that prices can be compared with and
-// the errors against it, then better times, then finer truths. Where the user looks at errors, that
-// first truth comes before the times.
+// the errors against it, then better times, then finer truths. While the user looks at errors,
+// that first truth comes before the times.
 static int truth_limit(const DipPreview *preview) {
     if (!wants_prices(preview)) {
         return INT_MAX;
@@ -156,7 +156,7 @@ static DipLiveTruth truth_for_prices(const DipPreview *preview) {
 }
 
 bool dip_loop_measure_prices(DipPreview *preview) {
-    if (!preview->live_prices) {
+    if (!preview->def.measures_prices) {
         return false;
     }
     dip_prices_prefer_rough(preview->prices, preview->state.measures_here ||

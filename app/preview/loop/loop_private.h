@@ -1,7 +1,7 @@
-// The preview's memory, and what the files of the loop do for each other.
+// Holds the memory of a preview, and declares what the files of the loop do for each other.
 //
 // loop.c runs the turns. The functions of the other files each do one part of a turn. All run on
-// the thread that owns the preview. What a function fails with is what it calls fails with.
+// the thread that owns the preview. A function fails with the error of the function that it calls.
 #ifndef DIP_APP_PREVIEW_LOOP_LOOP_PRIVATE_H
 #define DIP_APP_PREVIEW_LOOP_LOOP_PRIVATE_H
 
@@ -12,14 +12,11 @@
 #include "app/preview/live/live_prices.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/state/pilot.h"
-#include "app/preview/live/taa_pace.h"
 #include "app/preview/loop/view.h"
 #include "app/session/session.h"
 
 #include <pthread.h>
 
-// Makes compressed textures on a thread of its own, before a change of settings needs them.
-//
 // The settings opt=standard and opt=advanced need compressed textures. This thread makes the
 // textures after the first picture shows, while further frames are drawn, so that a change to these
 // settings delays no frame. A frame that needs the textures earlier waits for them.
@@ -29,8 +26,8 @@ typedef struct DipPrefetch {
     bool running;
 } DipPrefetch;
 
-// Everything that decides what the pictures show. There is one exception: the sample pattern that
-// temporal antialiasing uses in this frame.
+// Everything that decides what the panes' pictures show, except the sample pattern that temporal
+// antialiasing uses in this frame.
 typedef struct Drawn {
     DipPose pose;
     int64_t play_ns;
@@ -45,21 +42,21 @@ struct DipPreview {
     DipPreviewDef def;
     DipPreviewState state;
     DipView *view;
-    DipPrices *prices;          // Owned unless it is that of the def.
-    DipPreviewChoice choice;    // Made anew in each turn in which prices have changed.
-    DipLivePrices *live_prices; // NULL if no prices are measured.
+    DipPrices *prices;       // Owned if def.prices is NULL; otherwise def.prices.
+    DipPreviewChoice choice; // Made anew in each turn in which prices have changed.
+    DipLivePrices *live_prices;
     DipTools *tools;
     DipPathEditor *editor;
     DipTextView text; // Used if the display shows characters.
     DipFigures figures;
     DipPrefetch prefetch;
     DipErrorThread *errors; // NULL until errors are first wanted.
-    bool no_truth;          // The thread could not be made for the prices, which do without.
+    bool no_truth;          // The thread could not be made, so prices have no errors.
     DipHeldKeys held;
     DipControllers controllers;
     int64_t turn_ns; // When the last turn began.
     int64_t refresh_ns;
-    int64_t due_ns; // When the frame of the last turn was due.
+    int64_t due_ns; // When the last presented frame was due.
     DipTaaPace taa_pace;
     bool full_screen;
     bool resized;   // The panes' size may have changed.
@@ -67,14 +64,14 @@ struct DipPreview {
     int pane_height;
     int tried_width; // Size that the renderers last got, or were refused for lack of memory.
     int tried_height;
-    int64_t blinks_ns;       // When the comparison shows another picture, or INT64_MAX.
-    bool redraw;             // The overlay may have changed.
-    bool exposed;            // The display lost its picture, so all of it must be presented.
+    int64_t blinks_ns;       // When a blinking comparison changes, or INT64_MAX.
+    bool redraw;             // What shows over and beside the panes may have changed.
+    bool exposed;            // The display has lost its picture and needs all of it.
     char title[128];         // The window's title.
-    const void *judged_path; // The path and the scene for which state.stands was found out.
+    const void *judged_path; // The path and the scene for which state.stands holds.
     const void *judged_scene;
-    bool flying;           // The user moved the camera in this turn.
-    DipPose pose;          // Pose of the frame.
+    bool flying;           // The user or the path editor moved the camera in this turn.
+    DipPose pose;          // Pose of the next frame.
     DipSessionFrame frame; // The frame that was drawn last.
     uint64_t frame_index;
     unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
@@ -85,32 +82,29 @@ struct DipPreview {
     unsigned picture_number; // Number of the current pictures; grows when `drawn` changes.
 };
 
-// --- loop_events.c -------------------------------------------------------------------------------
+// --- loop_draw.c ---------------------------------------------------------------------------------
 
-// Reads what the host sends over the control channel, and answers it.
-void dip_loop_take_control(DipPreview *preview);
-// Waits up to timeout_ms for an event and handles it. Returns whether there was one.
-bool dip_loop_take_event(DipPreview *preview, int timeout_ms);
-// Moves the free camera by the held keys and the controllers.
-void dip_loop_fly(DipPreview *preview, int64_t elapsed_ns);
-
-// --- loop_panes.c --------------------------------------------------------------------------------
-
-// Draws the frames of both panes. If their size or settings cannot be had, a notice says why and
-// they keep the ones they have.
+// Draws the frames of both panes. If memory runs out for a new size or for new settings, a notice
+// says so, and the panes keep the old size or settings.
 bool dip_loop_draw_panes(DipPreview *preview, DipError *err);
-// Returns whether a pane's sample pattern alternates, so that each frame differs from the last one.
+// Returns whether temporal antialiasing changes a pane's picture from frame to frame.
 bool dip_loop_alternates(const DipPreview *preview);
-// Lets the panes with temporal antialiasing say whether frames come fast enough. What they say
-// changes only as often as the other figures.
-void dip_loop_judge_taa(DipPreview *preview, int64_t now_ns);
+// Adds the pose of the last frame to the file of saved poses.
+void dip_loop_save_pose(DipPreview *preview, int64_t now_ns);
+// Draws the window and presents it; saves a screenshot if the user asked for one.
+bool dip_loop_show(DipPreview *preview, int64_t now_ns, DipError *err);
+// Waits until the thread that prepares textures has ended.
+void dip_prefetch_end(DipPrefetch *prefetch);
 
 // --- loop_scene.c --------------------------------------------------------------------------------
 
+// Tells the prices which scene the session shows now.
+void dip_loop_enter_scene(DipPreview *preview);
 // Shows the scene that the user has asked for. If it cannot be opened, a notice says why and
 // the old scene stays.
 void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns);
-// Takes over what was loaded of files that were dropped or have changed.
+// Replaces the session or the cost report by what was loaded from a file that was dropped or has
+// changed.
 void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns);
 
 // --- loop_measure.c ------------------------------------------------------------------------------
@@ -123,19 +117,6 @@ bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns);
 // Measures rough prices while the dock is open and the camera rests. Returns whether the dock must
 // be drawn again.
 bool dip_loop_measure_prices(DipPreview *preview);
-
-// --- loop_show.c ---------------------------------------------------------------------------------
-
-// Adds the pose of the last frame to the file of saved poses.
-void dip_loop_save_pose(DipPreview *preview, int64_t now_ns);
-// Gives the requested pane the settings that the clipboard holds as text, if the user asked for it.
-void dip_loop_paste_settings(DipPreview *preview, int64_t now_ns);
-// Copies the requested settings as text, if the user asked for it.
-void dip_loop_copy_settings(DipPreview *preview, int64_t now_ns);
-// Draws the window and presents it; saves a screenshot if the user asked for one.
-bool dip_loop_show(DipPreview *preview, int64_t now_ns, DipError *err);
-// Waits until the thread that prepares textures has ended.
-void dip_prefetch_end(DipPrefetch *prefetch);
 
 // --- loop.c --------------------------------------------------------------------------------------
 

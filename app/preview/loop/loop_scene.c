@@ -1,12 +1,17 @@
-// Replaces the scene: the gallery's next one, or a session of files that were dropped or have
-// changed.
+// Replaces the scene by the gallery's next one, or by that of a session whose files were dropped or
+// have changed.
 #include "app/preview/loop/loop_private.h"
 
 #include "app/cost/plan.h"
 #include "app/preview/loop/reload.h"
-#include "app/preview/state/speed.h"
 
 #include <string.h>
+
+void dip_loop_enter_scene(DipPreview *preview) {
+    if (preview->def.measures_prices) {
+        dip_live_prices_enter_scene(preview->live_prices);
+    }
+}
 
 void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     DipSession *session = preview->def.session;
@@ -21,19 +26,15 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
         }
         return;
     }
-    if (preview->live_prices) {
-        dip_live_prices_leave_scene(preview->live_prices);
-    }
+    dip_live_prices_leave_scene(preview->live_prices);
     if (!dip_session_step_scene(session, step, &failure)) {
         dip_loop_report(preview, &failure, now_ns);
         return;
     }
-    if (preview->live_prices) {
-        dip_live_prices_enter_scene(preview->live_prices);
-    }
+    dip_loop_enter_scene(preview);
     state->shows_gallery = session->shows_gallery;
     preview->judged_path = NULL;
-    preview->tried_width = 0; // the new renderers do not have the panes' size yet
+    preview->tried_width = 0; // The new renderers do not have the panes' size yet.
     state->look = preview->drawn_look = 0;
     state->play_ns = 0;
     state->manual = false;
@@ -71,9 +72,9 @@ static void follow_track(DipSession *session, DipPreviewState *state, const DipC
 
 // Puts the reload's new session in the place of the old one and updates the state.
 //
-// The settings that the user has chosen stay, unless the new session begins with others than the
-// old one: then the user has changed the ini. dropped: the user has dropped the file. Then the
-// camera begins the new path. Otherwise it stays where it is, on the same path at the same time.
+// The settings that the user has chosen stay, unless the new session begins with other settings
+// than the old one did, which means that the user has changed the ini. If the file was dropped, the
+// camera begins the new path. Otherwise it stays on the same path at the same time.
 static void hand_over(DipPreview *preview, bool dropped) {
     DipSession *session = preview->def.session;
     DipPreviewState *state = &preview->state;
@@ -105,20 +106,16 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     preview->judged_path = NULL; // The new path may lie where the old one lay.
     dip_error_thread_destroy(&preview->errors);
     preview->no_truth = false;
-    dip_loop_show_errors(preview, &nothing); // The pictures of the errors were the thread's.
+    dip_loop_show_errors(preview, &nothing); // The thread owned the error pictures.
     dip_prefetch_end(&preview->prefetch);
     preview->prefetch = (DipPrefetch){.running = false};
-    if (preview->live_prices) {
-        dip_live_prices_leave_scene(preview->live_prices);
-    }
+    dip_live_prices_leave_scene(preview->live_prices);
     hand_over(preview, dropped);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->drawn_quality[p] = dip_painter_quality(session->renderers[p]);
         dip_figures_forget(&preview->figures, p);
     }
-    if (preview->live_prices) {
-        dip_live_prices_enter_scene(preview->live_prices);
-    }
+    dip_loop_enter_scene(preview);
     preview->drawn_look = preview->state.look;
     preview->def.flying_speed_m_per_s = dip_flying_speed(session);
     dip_pilot_enter(&preview->state.flight, session);
@@ -128,13 +125,14 @@ static void use_new_session(DipPreview *preview, bool dropped) {
 
 void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns) {
     DipReloadNews news;
-    if (!preview->def.reload || !dip_reload_poll(preview->def.reload, now_ns, &news)) {
+    if (!preview->def.reload ||
+        !dip_reload_poll(preview->def.reload, preview->prices, now_ns, &news)) {
         return;
     }
     if (news.kind == DIP_RELOAD_SESSION) {
         use_new_session(preview, news.dropped);
     } else if (news.kind == DIP_RELOAD_COSTS) {
-        preview->state.costs = dip_reload_costs(preview->def.reload);
+        preview->state.costs = news.costs;
         preview->state.advised_ms = 0.0;
     }
     dip_preview_notice(&preview->state, now_ns, "%s", news.notice);

@@ -1,4 +1,4 @@
-// Opening sessions on a thread.
+// Opens sessions on a thread, from files that were dropped or have changed.
 #include "app/preview/loop/reload.h"
 
 #include "app/cost/plan.h"
@@ -16,8 +16,8 @@
 
 enum { MAX_DROPS = 64 };
 
-// A session that is being opened, and the result. While `running`, the main thread reads only
-// `running` and `done`.
+// A session that is being opened on a thread, and the result. While the thread is running, the main
+// thread reads only `running` and `done`.
 typedef struct Opening {
     pthread_t thread;
     bool running;
@@ -33,17 +33,16 @@ typedef struct Opening {
 
 struct DipReload {
     DipSession *session;
-    const DipSessionOptions *first_options; // Of the session as it was at first.
-    DipSessionOptions options;              // Of the session that the preview shows.
+    const DipSessionOptions *first_options; // Options of the session before the first reload.
+    DipSessionOptions options;              // Options of the session that the preview shows.
     DipWatch *watch;                        // NULL without --watch.
     bool changed; // A file has changed: the session is to be opened again.
     char changed_name[DIP_WATCH_NAME_SIZE];
-    const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first. In `names`.
+    const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first.
     int drop_count;
     char **names; // Every file that was ever dropped, each once. Options point to these names.
     int name_count;
     Opening opening;
-    DipPrices *prices;    // Borrowed, or NULL.
     DipCostReport *costs; // Owned; NULL: none was opened.
 };
 
@@ -71,8 +70,8 @@ static void watch_config(DipWatch *watch, const DipConfig *config) {
     }
 }
 
-// Watches the files of the session, and the files in which an opening has found faults, because the
-// user is about to mend these.
+// Watches the files of the session, and the files in which an opening has found faults, because
+// the user is about to mend them.
 static void watch_session(DipReload *reload, const DipErrorList *faults) {
     const DipSessionOptions *options = &reload->options;
     if (!reload->watch) {
@@ -327,39 +326,32 @@ void dip_reload_take(DipReload *reload) {
 
 // --- cost reports --------------------------------------------------------------------------------
 
-static bool open_costs(DipReload *reload, const char *file, DipReloadNews *news) {
+static bool open_costs(DipReload *reload, DipPrices *prices, const char *file,
+                       DipReloadNews *news) {
     char scene[DIP_COST_TEXT];
     DipError err;
     dip_cost_scene_name(reload->session, scene);
     news->dropped = true;
-    DipCostReport *costs = dip_costs_load(reload->prices, file, scene, &err);
+    DipCostReport *costs = dip_costs_load(prices, file, scene, &err);
     if (!costs) {
         return tell_error(news, &err);
     }
     dip_costs_free(&reload->costs);
-    reload->costs = costs;
+    news->costs = reload->costs = costs;
     return tell(news, DIP_RELOAD_COSTS, "Opened ", base_name(file));
-}
-
-void dip_reload_set_prices(DipReload *reload, DipPrices *prices) {
-    reload->prices = prices;
-}
-
-const DipCostReport *dip_reload_costs(const DipReload *reload) {
-    return reload->costs;
 }
 
 // --- turns ---------------------------------------------------------------------------------------
 
-static bool open_next_drop(DipReload *reload, DipReloadNews *news) {
+static bool open_next_drop(DipReload *reload, DipPrices *prices, DipReloadNews *news) {
     const char *file = reload->drops[0];
     --reload->drop_count;
     memmove(reload->drops, reload->drops + 1, (size_t)reload->drop_count * sizeof file);
-    return ends_with(file, ".json") ? open_costs(reload, file, news)
+    return ends_with(file, ".json") ? open_costs(reload, prices, file, news)
                                     : begin(reload, file, base_name(file), news);
 }
 
-bool dip_reload_poll(DipReload *reload, int64_t now_ns, DipReloadNews *news) {
+bool dip_reload_poll(DipReload *reload, DipPrices *prices, int64_t now_ns, DipReloadNews *news) {
     *news = (DipReloadNews){.kind = DIP_RELOAD_NOTHING};
     if (reload->watch && dip_watch_poll(reload->watch, now_ns, reload->changed_name)) {
         reload->changed = true;
@@ -368,7 +360,7 @@ bool dip_reload_poll(DipReload *reload, int64_t now_ns, DipReloadNews *news) {
         return atomic_load(&reload->opening.done) && finish(reload, news);
     }
     if (reload->drop_count > 0) {
-        return open_next_drop(reload, news);
+        return open_next_drop(reload, prices, news);
     }
     if (reload->changed) {
         reload->changed = false;

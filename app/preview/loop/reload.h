@@ -17,21 +17,22 @@ typedef struct DipReload DipReload;
 // NULL when memory runs out.
 DipReload *dip_reload_create(DipSession *session, bool watch, DipError *err);
 
-// Waits until a session that is being opened is open, and drops it. The session that the preview
-// shows stays; its options are again those that it had at first.
+// Waits for a session that is being opened, and closes it. The session that the preview shows stays
+// open and points to the options again that it had before the first reload.
 void dip_reload_destroy(DipReload **reload);
 
 // The user has dropped a file: a camera path (.pth, .bth), a cost report (.json), an ini (.ini), or
-// a model (any other name). The file takes the place of what it is named after on the command line:
-// an ini replaces everything, a model replaces models, scene and path, a path replaces the path.
-// Files are opened in the order in which they are dropped. Returns false if too many wait.
+// a model (any other name). The session then shows what it would show if the command line named
+// the file: an ini replaces everything, a model replaces models, scene and path, and a path
+// replaces the path. Files are opened in the order in which they are dropped. Returns false if too
+// many wait.
 bool dip_reload_drop(DipReload *reload, const char *file);
 
 typedef enum DipReloadKind {
     DIP_RELOAD_NOTHING, // There is no news.
     DIP_RELOAD_BEGUN,   // A session is being opened.
     DIP_RELOAD_SESSION, // A new session is whole: call dip_reload_take.
-    DIP_RELOAD_COSTS,   // A new cost report is loaded: use dip_reload_costs.
+    DIP_RELOAD_COSTS,   // A new cost report is loaded.
     DIP_RELOAD_FAULT    // Something cannot be opened. The log has all errors.
 } DipReloadKind;
 
@@ -39,21 +40,17 @@ typedef struct DipReloadNews {
     DipReloadKind kind;
     bool dropped;                 // The user dropped a file; false: a file has changed.
     char notice[DIP_NOTICE_SIZE]; // What to tell the user.
+    const DipCostReport *costs;   // COSTS: the report. It is valid until the next one is loaded.
 } DipReloadNews;
 
-// Goes on with what is to be done. Call it in every turn of the preview. Returns whether there is
-// news. now_ns: the preview's clock.
-bool dip_reload_poll(DipReload *reload, int64_t now_ns, DipReloadNews *news);
+// Looks for changed files, and begins or ends an opening. Call it in every turn of the preview.
+// Returns whether there is news. If a cost report is opened, `prices` take its prices. now_ns: time
+// on the preview's clock.
+bool dip_reload_poll(DipReload *reload, DipPrices *prices, int64_t now_ns, DipReloadNews *news);
 
 // Puts the new session in the place of the old one, which is closed: nothing may use the old one's
 // scene, frames and painters any more. The panes' settings are those with which the new session
 // begins.
 void dip_reload_take(DipReload *reload);
-
-// Gives the prices of reports that are opened to `prices`, which is borrowed.
-void dip_reload_set_prices(DipReload *reload, DipPrices *prices);
-
-// Returns the cost report that was dropped last. It is valid until the next one is loaded.
-const DipCostReport *dip_reload_costs(const DipReload *reload);
 
 #endif

@@ -1,4 +1,4 @@
-// Joins the panes and the overlay into one picture.
+// Draws the panes, the controls and the texts into one picture.
 #include "app/preview/loop/view.h"
 
 #include "app/preview/tools/maps.h"
@@ -45,9 +45,12 @@ void dip_view_destroy(DipView **view_pointer) {
     free(view);
 }
 
+DipPixels dip_view_pixels(const DipFrame *frame) {
+    return (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
+}
+
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame) {
-    view->frames[pane] =
-        (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
+    view->frames[pane] = dip_view_pixels(frame);
     view->versions[pane] = ++view->frame_count;
 }
 
@@ -90,7 +93,7 @@ static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *lis
     return dip_ui_end(view->ui);
 }
 
-// Hands an event to the settings in characters. A click on a pane chooses the pane.
+// Hands an event to the settings that are drawn as characters. A click on a pane chooses the pane.
 static bool handle_in_text(const DipViewInput *input, const DipEvent *event) {
     DipPreviewState *state = input->state;
     if (dip_text_view_event(input->text, state, event, input->now_ns)) {
@@ -111,7 +114,7 @@ bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *e
     if (input->text) {
         return handle_in_text(input, event);
     }
-    pass_over(view, input, NULL, NULL); // Tells where the controls lie now.
+    pass_over(view, input, NULL, NULL); // Lays the controls out anew.
     return pass_over(view, input, NULL, event);
 }
 

@@ -1,5 +1,5 @@
-// The preview as one picture: both panes (the pictures of the current and the requested settings)
-// side by side, and the overlay over the panes.
+// Draws the preview as one picture: both panes (the pictures of the current and the requested
+// settings), and the controls and texts over and beneath them.
 #ifndef DIP_APP_PREVIEW_LOOP_VIEW_H
 #define DIP_APP_PREVIEW_LOOP_VIEW_H
 
@@ -9,11 +9,14 @@
 
 typedef struct DipView DipView;
 
-// text: the view's texts are character cells (text_view.h), drawn by `text`, which is borrowed; the
-// picture then holds the panes only. NULL: all texts are drawn into the picture. Fails with MISSING
-// if the picture needs a font and there is none.
+// text: draws all texts as character cells (text_view.h), so that the picture holds the panes only;
+// borrowed. NULL: all texts are drawn into the picture. Fails with MISSING if the picture needs a
+// font and there is none.
 DipView *dip_view_create(DipTextView *text, DipError *err);
 void dip_view_destroy(DipView **view);
+
+// Returns the pixels of a frame, which are borrowed.
+DipPixels dip_view_pixels(const DipFrame *frame);
 
 // Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame);
@@ -28,7 +31,7 @@ typedef struct DipViewInput {
     double scale; // The display's scale.
     int64_t now_ns;
     DipPreviewState *state;
-    const DipPaneFigures *figures; // [DIP_PANE_COUNT]
+    const DipPaneFigures *figures; // One for each pane.
     const DipPrices *prices;
     DipTools *tools;
     DipTextView *text; // The texts, if they are character cells; otherwise NULL.
@@ -45,7 +48,7 @@ bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *e
 // Draws what has changed since the last call, or everything if the size has changed.
 bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err);
 
-// The controls: their focus, and when the window must be drawn again (ui.h).
+// Returns the window's controls, which know their focus and when they must be drawn again (ui.h).
 DipUi *dip_view_ui(DipView *view);
 
 // Returns the picture, which is valid until the next dip_view_draw.

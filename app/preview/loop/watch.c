@@ -1,5 +1,8 @@
-// Stamps of files: numbers that change when a file changes.
+// Compares stamps of files: numbers that change when a file changes.
 #include "app/preview/loop/watch.h"
+
+#include "renderer/base/assert.h"
+#include "renderer/base/hash.h"
 
 #include <dirent.h>
 #include <limits.h>
@@ -12,8 +15,8 @@
 static const int64_t period_ns = 250000000;
 enum {
     RESTING_POLLS = 2,  // Polls without a change after which the files count as at rest.
-    MAX_ENTRIES = 2048, // Files of a folder that are looked at, at most.
-    MAX_DEPTH = 1       // Levels of subfolders.
+    MAX_ENTRIES = 2048, // Greatest number of files of a folder that are looked at.
+    MAX_DEPTH = 1       // Levels of subfolders that are looked at.
 };
 
 // The state of a file or of the files in a folder.
@@ -27,17 +30,17 @@ typedef struct Stamp {
 typedef struct Entry {
     char *file; // Path of a file, or of a folder without a final slash.
     bool folder;
-    bool listed; // The list that is being made has the entry.
+    bool listed; // The list that is being made names the entry.
     Stamp stamp;
 } Entry;
 
 struct DipWatch {
     Entry *entries;
     int count;
-    int64_t next_ns; // When to look again.
-    bool changed;    // Something has changed and was not reported yet.
-    int resting;     // Polls without a change since then.
-    char name[DIP_WATCH_NAME_SIZE];
+    int64_t next_ns;                // When to look again.
+    bool changed;                   // Something has changed and was not reported yet.
+    int resting;                    // Polls since the last change.
+    char name[DIP_WATCH_NAME_SIZE]; // Name of a file that has changed.
 };
 
 DipWatch *dip_watch_create(void) {
@@ -59,22 +62,15 @@ void dip_watch_destroy(DipWatch **watch_pointer) {
 
 // --- stamps --------------------------------------------------------------------------------------
 
-// FNV-1a.
-static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size_bytes) {
-    const unsigned char *at = bytes;
-    for (size_t i = 0; i < size_bytes; ++i) {
-        hash = (hash ^ at[i]) * UINT64_C(0x100000001b3);
-    }
-    return hash;
-}
-
 static void add_file(Stamp *stamp, const char *name, const struct stat *status) {
-    const int64_t numbers[] = {(int64_t)status->st_mtim.tv_sec, (int64_t)status->st_mtim.tv_nsec,
-                               (int64_t)status->st_size, (int64_t)status->st_ino};
-    const int64_t time_ns = numbers[0] * INT64_C(1000000000) + numbers[1];
-    uint64_t hash = hash_bytes(UINT64_C(0xcbf29ce484222325), name, strlen(name));
-    hash = hash_bytes(hash, numbers, sizeof numbers);
-    stamp->hash += hash; // A sum is the same in any order.
+    const int64_t time_ns =
+        (int64_t)status->st_mtim.tv_sec * INT64_C(1000000000) + status->st_mtim.tv_nsec;
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_text(&hash, name);
+    dip_hash_integer(&hash, time_ns);
+    dip_hash_integer(&hash, status->st_size);
+    dip_hash_integer(&hash, (int64_t)status->st_ino);
+    stamp->hash += hash.lanes[0]; // A sum is the same in any order.
     ++stamp->count;
     if (stamp->count == 1 || time_ns > stamp->newest_ns) {
         stamp->newest_ns = time_ns;
@@ -89,7 +85,7 @@ static bool is_part_of_model(const char *name) {
         ".ppm",  ".pgm", ".hdr", ".gif", ".psd", ".pnm",  ".dxf", ".blend"};
     const char *ending = strrchr(name, '.');
     const bool screenshot = strncmp(name, "diptych-", 8) == 0;
-    for (size_t i = 0; ending && !screenshot && i < sizeof endings / sizeof *endings; ++i) {
+    for (size_t i = 0; ending && !screenshot && i < DIP_ARRAY_COUNT(endings); ++i) {
         if (strcasecmp(ending, endings[i]) == 0) {
             return true;
         }
@@ -183,7 +179,7 @@ void dip_watch_file(DipWatch *watch, const char *file) {
 }
 
 void dip_watch_folder(DipWatch *watch, const char *file) {
-    const size_t length = (size_t)(base_name(file) - file); // Of the folder, with its slash.
+    const size_t length = (size_t)(base_name(file) - file); // Length of the folder, with its slash.
     add_entry(watch, length == 0 ? strdup(".") : strndup(file, length > 1 ? length - 1 : 1), true);
 }
 

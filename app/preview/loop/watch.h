@@ -18,16 +18,15 @@ DipWatch *dip_watch_create(void);
 void dip_watch_destroy(DipWatch **watch);
 
 // Replace the list of watched files: call dip_watch_begin_list, then dip_watch_file and
-// dip_watch_folder for each entry, then dip_watch_end_list. An entry that was in the list before
-// keeps what is known about it, so that a change in the meantime is not lost. The files need not
-// exist. If memory runs out, an entry is left out.
+// dip_watch_folder for each entry, then dip_watch_end_list. What is known about an entry that was
+// in the old list is kept, so that no change is missed. The files need not exist. If memory runs
+// out, an entry is left out.
 void dip_watch_begin_list(DipWatch *watch);
 void dip_watch_end_list(DipWatch *watch);
 void dip_watch_file(DipWatch *watch, const char *file);
 
 // Watches the models, and the files that models use, in the folder of a file and in that folder's
-// subfolders. Other kinds of files do not count, and neither do screenshots of the
-// preview.
+// subfolders. Other kinds of files do not count, and neither do screenshots of the preview.
 void dip_watch_folder(DipWatch *watch, const char *file);
 
 // Looks at the files if a quarter of a second has passed since the last look. Returns true once

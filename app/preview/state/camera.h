@@ -1,4 +1,4 @@
-// The camera that the user flies.
+// Moves and turns the camera that the user flies.
 #ifndef DIP_APP_PREVIEW_STATE_CAMERA_H
 #define DIP_APP_PREVIEW_STATE_CAMERA_H
 
@@ -30,7 +30,7 @@ void dip_camera_look(DipPose *pose, double right_deg, double up_deg);
 // right axis. Stops 1 degree before the camera looks straight up or down.
 void dip_camera_orbit(DipPose *pose, const double centre_world[3], double right_deg, double up_deg);
 
-// Moves the camera to `factor` times its distance from a point, which must be above 0.
+// Moves the camera to `factor` times its distance from a point. The factor must be above 0.
 void dip_camera_zoom(DipPose *pose, const double centre_world[3], double factor);
 
 // Writes the point on the camera's line of sight that is nearest to a given point, but at least

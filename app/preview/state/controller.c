@@ -1,4 +1,4 @@
-// Maps controllers to keys and to directions of flight.
+// Turns buttons into keys and actions, and sticks and triggers into flight.
 #include "app/preview/state/controller.h"
 
 #include "app/preview/state/camera.h"
@@ -13,13 +13,13 @@ static const double trigger_dead_zone = 30.0 / 255.0;
 
 // --- buttons -----------------------------------------------------------------------------------
 
-// What a button does: what a key does or, without a key, an action. Buttons that move through the
-// controls of the panel are keys, because the control with the focus may take a key. Actions are
-// carried out whichever control has the focus.
+// A button stands for a key or carries out an action. Buttons that move through the controls of the
+// panel stand for keys, because the control with the focus may take a key. Actions are carried out
+// whichever control has the focus.
 typedef struct ButtonRow {
     int key; // A DipKeycode, or DIP_KEYCODE_NONE.
     unsigned modifiers;
-    DipAction action; // Without a key.
+    DipAction action; // Used if there is no key.
 } ButtonRow;
 
 static const ButtonRow button_rows[DIP_CONTROLLER_BUTTON_COUNT] = {

@@ -1,4 +1,5 @@
-// Game controllers. A button does what its key does, and sticks and triggers fly the camera.
+// Lets game controllers act: a button does what a key or an action does, and sticks and triggers
+// fly the camera.
 #ifndef DIP_APP_PREVIEW_STATE_CONTROLLER_H
 #define DIP_APP_PREVIEW_STATE_CONTROLLER_H
 
@@ -10,7 +11,7 @@
 
 enum { DIP_MAX_CONTROLLERS = 4 };
 
-// The controllers that are connected. Any of them steers. Zero-initialise.
+// The controllers that are connected. Each of them steers the camera. Zero-initialise.
 typedef struct DipControllers {
     struct {
         bool used;

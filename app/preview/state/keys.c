@@ -1,22 +1,22 @@
-// The table of keys.
+// Holds the table of keys, and carries out the action of a key.
 #include "app/preview/state/keys.h"
 
 #include "renderer/base/assert.h"
 
 #include <string.h>
 
-// Keys without modifiers; `other` does the same.
+// A key without modifiers. The key `other` does the same.
 #define KEY(key, other, action, argument, label, text)                                             \
     { key, other, DIP_ACTION_##action, argument, false, false, false, label, text }
 // Keys that go on acting while they are held.
 #define HELD(key, action, argument, reverse, label, text)                                          \
     { key, 0, DIP_ACTION_##action, argument, false, reverse, true, label, text }
-// Keys with Ctrl. A key that is held edits a path once.
+// Keys with Ctrl. A held key repeats the action of CTRL, but not that of EDIT.
 #define CTRL(key, action, argument, reverse, label, text)                                          \
     { key, 0, DIP_ACTION_##action, argument, true, reverse, true, label, text }
 #define EDIT(key, edit, label, text)                                                               \
     { key, 0, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_##edit, true, false, false, label, text }
-// Rows of the help alone. What the action needs decides where the row shows.
+// Rows that only the help has. A terminal shows the row unless its action needs a window.
 #define HELP(action, label, text)        KEY(0, 0, action, 0, label, text)
 #define SETTING(key, other, NAME, label) KEY(key, other, SETTING, DIP_SETTING_##NAME, label, NULL)
 #define PATH(digit)                      KEY('0' + digit, 0, PATH, digit, NULL, NULL)
@@ -156,8 +156,9 @@ static bool leave_tool(DipPreviewState *state) {
     return shows;
 }
 
-// While the help shows in a window, what the user types is searched there. Escape takes the words
-// back before it closes the help. Returns whether the key was such a key.
+// While the help shows in a window, the help shows only rows with the words that the user types.
+// The first Escape removes the words, and the second one closes the help. Returns whether the key
+// was used for this.
 static bool type_words(DipPreviewState *state, const DipEvent *event) {
     const size_t length = strlen(state->help_words);
     if (!state->help || state->in_terminal) {

@@ -1,4 +1,4 @@
-// The keys and their actions. One table defines both what a key does and what the help says.
+// Carries out what keys do. One table defines both what a key does and what the help says.
 #ifndef DIP_APP_PREVIEW_STATE_KEYS_H
 #define DIP_APP_PREVIEW_STATE_KEYS_H
 

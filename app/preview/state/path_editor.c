@@ -4,12 +4,10 @@
 #include "app/preview/state/poses.h"
 #include "renderer/base/assert.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-enum { MAX_FILES = 9999 };
 
 // The times from key to key that the user steps through.
 static const int64_t periods_ns[] = {100000000,  250000000,  500000000,  1000000000, 1500000000,
@@ -57,20 +55,25 @@ static bool reserve(DipPathEditor *editor, size_t count) {
     return true;
 }
 
-static bool say(char *text, size_t size_bytes, bool done, const char *what) {
-    snprintf(text, size_bytes, "%s", what);
+// Notes what an edit did, or why it did nothing. Returns `done`.
+__attribute__((format(printf, 3, 4))) static bool say(DipPathEditor *editor, bool done,
+                                                      const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(editor->said, sizeof editor->said, format, arguments);
+    va_end(arguments);
     return done;
 }
 
-static bool add(DipPathEditor *editor, char *text, size_t size_bytes) {
+static bool add(DipPathEditor *editor) {
     if (!editor->has_seen) {
-        return say(text, size_bytes, false, "The camera has no pose yet");
+        return say(editor, false, "The camera has no pose yet");
     }
     if (editor->count >= DIP_PATH_EDITOR_MAX_KEYS) {
-        return say(text, size_bytes, false, "The path has 10000 keys, and cannot have more");
+        return say(editor, false, "The path has 10000 keys, and cannot have more");
     }
     if (!reserve(editor, editor->count + 1)) {
-        return say(text, size_bytes, false, "There is no memory for another key");
+        return say(editor, false, "There is no memory for another key");
     }
     const size_t at = editor->count ? editor->chosen + 1 : 0;
     memmove(editor->keys + at + 1, editor->keys + at, (editor->count - at) * sizeof *editor->keys);
@@ -78,26 +81,23 @@ static bool add(DipPathEditor *editor, char *text, size_t size_bytes) {
     editor->chosen = at;
     editor->count++;
     editor->unsaved = true;
-    snprintf(text, size_bytes, "Added key %zu of %zu", at + 1, editor->count);
-    return true;
+    return say(editor, true, "Added key %zu of %zu", at + 1, editor->count);
 }
 
-static bool replace(DipPathEditor *editor, char *text, size_t size_bytes) {
+static bool replace(DipPathEditor *editor) {
     editor->keys[editor->chosen] = editor->seen;
     editor->unsaved = true;
-    snprintf(text, size_bytes, "Key %zu of %zu has the camera's pose now", editor->chosen + 1,
-             editor->count);
-    return true;
+    return say(editor, true, "Key %zu of %zu has the camera's pose now", editor->chosen + 1,
+               editor->count);
 }
 
-static bool delete_chosen(DipPathEditor *editor, char *text, size_t size_bytes) {
+static bool delete_chosen(DipPathEditor *editor) {
     const size_t at = editor->chosen;
     editor->count--;
     memmove(editor->keys + at, editor->keys + at + 1, (editor->count - at) * sizeof *editor->keys);
     editor->chosen = at > 0 ? at - 1 : 0;
     editor->unsaved = editor->count > 0;
-    snprintf(text, size_bytes, "Deleted key %zu; the path has %zu now", at + 1, editor->count);
-    return true;
+    return say(editor, true, "Deleted key %zu; the path has %zu now", at + 1, editor->count);
 }
 
 void dip_path_editor_choose(DipPathEditor *editor, size_t index) {
@@ -107,19 +107,18 @@ void dip_path_editor_choose(DipPathEditor *editor, size_t index) {
     editor->jumps = true;
 }
 
-static bool choose_beside(DipPathEditor *editor, size_t by, char *text, size_t size_bytes) {
+static bool choose_beside(DipPathEditor *editor, size_t by) {
     dip_path_editor_choose(editor, (editor->chosen + by) % editor->count);
-    snprintf(text, size_bytes, "Key %zu of %zu", editor->chosen + 1, editor->count);
-    return true;
+    return say(editor, true, "Key %zu of %zu", editor->chosen + 1, editor->count);
 }
 
-static bool take(DipPathEditor *editor, const DipCamPath *playing, char *text, size_t size_bytes) {
+static bool take(DipPathEditor *editor, const DipCamPath *playing) {
     if (!playing) {
-        return say(text, size_bytes, false, "There is no path");
+        return say(editor, false, "There is no path");
     }
     const DipCamPathInfo info = dip_campath_info(playing);
     if (info.key_count > DIP_PATH_EDITOR_MAX_KEYS || !reserve(editor, info.key_count)) {
-        return say(text, size_bytes, false, "The path has too many keys to be edited");
+        return say(editor, false, "The path has too many keys to be edited");
     }
     for (size_t i = 0; i < info.key_count; ++i) {
         editor->keys[i] = dip_campath_key(playing, i);
@@ -128,13 +127,12 @@ static bool take(DipPathEditor *editor, const DipCamPath *playing, char *text, s
     editor->chosen = 0;
     editor->period_ns = info.period_ns;
     editor->unsaved = false;
-    snprintf(text, size_bytes, "Took the %zu keys of the path", editor->count);
-    return true;
+    return say(editor, true, "Took the %zu keys of the path", editor->count);
 }
 
-// Changes the time from key to key to the next one in periods_ns. The time of a path that was taken
-// over may lie between two of these.
-static bool change_period(DipPathEditor *editor, bool longer, char *text, size_t size_bytes) {
+// Changes the time from key to key to the next one in periods_ns. A path that was taken over may
+// have a time between two of these.
+static bool change_period(DipPathEditor *editor, bool longer) {
     const int count = (int)DIP_ARRAY_COUNT(periods_ns);
     int64_t found_ns = editor->period_ns;
     for (int i = 0; i < count && longer && found_ns == editor->period_ns; ++i) {
@@ -145,99 +143,85 @@ static bool change_period(DipPathEditor *editor, bool longer, char *text, size_t
     }
     editor->unsaved |= found_ns != editor->period_ns && editor->count > 0;
     editor->period_ns = found_ns;
-    snprintf(text, size_bytes, "%.3g s from key to key", 1e-9 * (double)found_ns);
-    return true;
+    return say(editor, true, "%.3g s from key to key", 1e-9 * (double)found_ns);
 }
 
 // --- the whole path ------------------------------------------------------------------------------
 
-static bool make_path(const DipPathEditor *editor, DipCamPath **path, char *text,
-                      size_t size_bytes) {
+static bool make_path(DipPathEditor *editor, DipCamPath **path) {
     DipError err;
     if (dip_campath_create(editor->keys, editor->count, editor->period_ns, path, &err)) {
         return true;
     }
-    snprintf(text, size_bytes, "%.150s", err.message);
-    return false;
+    return say(editor, false, "%.150s", err.message);
 }
 
-static bool fly(DipPathEditor *editor, DipCamPathEnd end, char *text, size_t size_bytes) {
-    if (!make_path(editor, &editor->fly, text, size_bytes)) {
+static bool fly(DipPathEditor *editor, DipCamPathEnd end) {
+    if (!make_path(editor, &editor->fly)) {
         return false;
     }
     const bool last = editor->chosen + 1 == editor->count;
     editor->end = end;
     editor->at_ns = last ? 0 : (int64_t)editor->chosen * editor->period_ns;
-    snprintf(text, size_bytes, "Flying the path from key %zu of %zu", last ? 1 : editor->chosen + 1,
-             editor->count);
-    return true;
+    return say(editor, true, "Flying the path from key %zu of %zu", last ? 1 : editor->chosen + 1,
+               editor->count);
 }
 
-static bool free_name(char *file, size_t size_bytes) {
-    for (int i = 1; i <= MAX_FILES; ++i) {
-        snprintf(file, size_bytes, "path-%04d.pth", i);
-        if (access(file, F_OK) != 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool save(DipPathEditor *editor, char *text, size_t size_bytes) {
+static bool save(DipPathEditor *editor) {
     DipCamPath *path;
     DipError err;
     char file[DIP_PATH_EDITOR_FILE_BYTES], what[64];
-    if (!free_name(file, sizeof file)) {
-        return say(text, size_bytes, false, "No name from path-0001.pth to path-9999.pth is free");
+    if (!dip_saved_free_name("path", "pth", file, sizeof file)) {
+        return say(editor, false, "No name from path-0001.pth to path-9999.pth is free");
     }
-    if (!make_path(editor, &path, text, size_bytes)) {
+    if (!make_path(editor, &path)) {
         return false;
     }
     const bool saved = dip_campath_save_pth(path, file, &err);
     dip_campath_destroy(&path);
     if (!saved) {
-        dip_error_format(&err, text, size_bytes);
+        dip_error_format(&err, editor->said, sizeof editor->said);
         return false;
     }
     memcpy(editor->file, file, sizeof file);
     editor->unsaved = false;
     snprintf(what, sizeof what, "Saved %zu %s to", editor->count,
              editor->count == 1 ? "key" : "keys");
-    dip_saved_describe(what, file, text, size_bytes);
+    dip_saved_describe(what, file, editor->said, sizeof editor->said);
     return true;
 }
 
 bool dip_path_editor_edit(DipPathEditor *editor, DipPathEdit edit, const DipCamPath *playing,
-                          DipCamPathEnd end, char *text, size_t size_bytes) {
+                          DipCamPathEnd end) {
     const bool flew = editor->fly != NULL;
     dip_path_editor_stop(editor);
     switch (edit) {
     case DIP_PATH_EDIT_ADD:
-        return add(editor, text, size_bytes);
+        return add(editor);
     case DIP_PATH_EDIT_TAKE:
-        return take(editor, playing, text, size_bytes);
+        return take(editor, playing);
     case DIP_PATH_EDIT_SLOWER:
     case DIP_PATH_EDIT_FASTER:
-        return change_period(editor, edit == DIP_PATH_EDIT_SLOWER, text, size_bytes);
+        return change_period(editor, edit == DIP_PATH_EDIT_SLOWER);
     default:
         break;
     }
     if (editor->count == 0) {
-        return say(text, size_bytes, false, "The path has no key yet; Ctrl+N adds one");
+        return say(editor, false, "The path has no key yet; Ctrl+N adds one");
     }
     switch (edit) {
     case DIP_PATH_EDIT_REPLACE:
-        return replace(editor, text, size_bytes);
+        return replace(editor);
     case DIP_PATH_EDIT_DELETE:
-        return delete_chosen(editor, text, size_bytes);
+        return delete_chosen(editor);
     case DIP_PATH_EDIT_NEXT:
-        return choose_beside(editor, 1, text, size_bytes);
+        return choose_beside(editor, 1);
     case DIP_PATH_EDIT_BEFORE:
-        return choose_beside(editor, editor->count - 1, text, size_bytes);
+        return choose_beside(editor, editor->count - 1);
     case DIP_PATH_EDIT_FLY:
-        return flew ? say(text, size_bytes, true, "Stopped") : fly(editor, end, text, size_bytes);
+        return flew ? say(editor, true, "Stopped") : fly(editor, end);
     default:
-        return save(editor, text, size_bytes);
+        return save(editor);
     }
 }
 
@@ -267,8 +251,4 @@ bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *po
         dip_path_editor_stop(editor);
     }
     return true;
-}
-
-int64_t dip_path_editor_time_ns(const DipPathEditor *editor) {
-    return editor->fly ? dip_campath_time_at_end(editor->fly, editor->end, editor->at_ns) : 0;
 }

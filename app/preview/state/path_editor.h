@@ -1,7 +1,8 @@
-// The camera path that the user makes in the window, key by key, from poses of the camera.
+// Edits the camera path that the user makes in the window from poses of the camera.
 //
-// One of the keys is the chosen one: a new key follows it, and it can be replaced or deleted. The
-// path is saved in the text format (campaths/campath.h) under a name that no file has yet.
+// The path has keys: poses that the camera passes one after the other. One of them is the chosen
+// key: a new key is inserted behind it, and it can be replaced or deleted. The path is saved in the
+// text format (campaths/campath.h) under a name that no file has yet.
 #ifndef DIP_APP_PREVIEW_STATE_PATH_EDITOR_H
 #define DIP_APP_PREVIEW_STATE_PATH_EDITOR_H
 
@@ -14,22 +15,22 @@
 
 enum { DIP_PATH_EDITOR_MAX_KEYS = 10000, DIP_PATH_EDITOR_FILE_BYTES = 32 };
 
-// Others only read the members.
+// Only the functions of this file change the members.
 typedef struct DipPathEditor {
     DipCamKey *keys;
     size_t count;
     size_t capacity;
     size_t chosen;     // 0 if there are no keys.
-    int64_t period_ns; // From key to key.
+    int64_t period_ns; // Time from key to key.
     DipCamKey seen;    // The camera's pose.
-    bool has_seen;     // `seen` is known.
-    bool jumps;        // The camera goes to the chosen key in the next turn.
+    bool has_seen;     // The camera's pose is known.
+    bool jumps;        // The camera moves to the chosen key in the next turn of the loop.
     DipCamPath *fly;   // The path while it is flown; otherwise NULL.
-    DipCamPathEnd end;
-    int64_t at_ns; // Time since the path's beginning while it is flown.
-    bool unsaved;  // There are changes that have not been saved.
-    // The file that was saved last, or "".
-    char file[DIP_PATH_EDITOR_FILE_BYTES];
+    DipCamPathEnd end; // What the flown path does at its end.
+    int64_t at_ns;     // Time since the path's beginning, while the path is flown.
+    bool unsaved;      // There are changes that have not been saved.
+    char file[DIP_PATH_EDITOR_FILE_BYTES]; // The file that was saved last, or "".
+    char said[160];                        // What the last edit did, for a notice.
 } DipPathEditor;
 
 typedef enum DipPathEdit {
@@ -53,10 +54,10 @@ void dip_path_editor_destroy(DipPathEditor **editor);
 void dip_path_editor_see(DipPathEditor *editor, const DipPose *pose);
 
 // Carries out an edit. playing: the path that the preview plays; NULL if there is none. end: what
-// paths do at their end. Writes what happened, or why nothing did, into `text` for a notice.
-// Returns false if nothing happened.
+// paths do at their end. Returns false if nothing happened. editor->said tells what happened, or
+// why nothing did.
 bool dip_path_editor_edit(DipPathEditor *editor, DipPathEdit edit, const DipCamPath *playing,
-                          DipCamPathEnd end, char *text, size_t size_bytes);
+                          DipCamPathEnd end);
 
 // Chooses a key and moves the camera there. index: 0 to below the number of keys.
 void dip_path_editor_choose(DipPathEditor *editor, size_t index);
@@ -67,8 +68,5 @@ bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *po
 
 // Stops flying the path.
 void dip_path_editor_stop(DipPathEditor *editor);
-
-// Time on the path that the editor flies.
-int64_t dip_path_editor_time_ns(const DipPathEditor *editor);
 
 #endif

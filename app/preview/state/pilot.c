@@ -1,11 +1,8 @@
 // Turns what actions and drags ask for into movements of the free camera.
 #include "app/preview/state/pilot.h"
 
-#include "app/preview/state/speed.h"
-#include "app/preview/state/state_private.h"
-
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 enum { STEPS_TO_DOUBLE = 4, MOST_STEPS = 40 };
 
@@ -15,8 +12,47 @@ static const double orbit_deg = 180.0;
 static const double zoom_per_step = 0.9;
 static const double step_s = 0.25;
 
+static const double courtyard_speed_m_per_s = 3.0;
+static const double seconds_across_model = 4.0;
+static const double least_distance_m = 1.0; // From the camera to the point that it orbits.
+
 double dip_flight_speed(const DipFlight *flight) {
     return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
+}
+
+double dip_flying_speed(const DipSession *session) {
+    if (session->options->model_count == 0 || !session->scene) {
+        return courtyard_speed_m_per_s;
+    }
+    float low[3];
+    float high[3];
+    dip_scene_bounds(session->scene, low, high);
+    const double diagonal =
+        sqrt(pow((double)high[0] - low[0], 2) + pow((double)high[1] - low[1], 2) +
+             pow((double)high[2] - low[2], 2));
+    return diagonal / seconds_across_model;
+}
+
+bool dip_flight_should_orbit(const DipSession *session) {
+    return session->options && session->options->model_count > 0 && !session->shows_gallery;
+}
+
+void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]) {
+    double middle[3] = {0.0, 0.0, 0.0}; // Scenes of the gallery stand around the origin.
+    if (session->scene && !session->shows_gallery) {
+        float low[3], high[3];
+        dip_scene_bounds(session->scene, low, high);
+        for (int i = 0; i < 3; ++i) {
+            middle[i] = 0.5 * ((double)low[i] + high[i]);
+        }
+    }
+    if (dip_flight_should_orbit(session)) {
+        for (int i = 0; i < 3; ++i) {
+            centre_world[i] = middle[i];
+        }
+    } else {
+        dip_camera_point_ahead(pose, middle, least_distance_m, centre_world);
+    }
 }
 
 void dip_pilot_enter(DipFlight *flight, const DipSession *session) {
@@ -66,18 +102,17 @@ static void choose_end(DipPreviewState *state, int step, int64_t now_ns) {
 }
 
 static void edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) {
-    char text[DIP_NOTICE_SIZE];
     if (!state->editor) {
         return;
     }
     const bool done = dip_path_editor_edit(state->editor, edit, dip_preview_playing_path(state),
-                                           state->track->end, text, sizeof text);
+                                           state->track->end);
     const bool moves =
         edit == DIP_PATH_EDIT_NEXT || edit == DIP_PATH_EDIT_BEFORE || edit == DIP_PATH_EDIT_FLY;
     if (done && moves) {
         dip_pilot_make_free(state, now_ns);
     }
-    dip_preview_notice(state, now_ns, "%s", text);
+    dip_preview_notice(state, now_ns, "%s", state->editor->said);
 }
 
 void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns) {
@@ -137,7 +172,7 @@ static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose 
         dip_orbit_centre(session, pose, flight->centre_world);
         flight->knows_centre = true;
     }
-    // The scene follows the pointer: what lies before the centre moves with it.
+    // The scene seems to follow the pointer: what lies before the centre moves with it.
     dip_camera_orbit(pose, flight->centre_world, orbit_deg * flight->drag_right,
                      orbit_deg * flight->drag_up);
     dip_camera_zoom(pose, flight->centre_world, pow(zoom_per_step, flight->zoom_steps));
@@ -186,7 +221,7 @@ static bool move_by_editor(DipPreviewState *state, bool moved, int64_t elapsed_n
     return flown;
 }
 
-// Keeps the camera where a path can have a key.
+// Keeps the camera within the positions that a path file can have.
 static void keep_in_world(DipPose *pose) {
     for (int i = 0; i < 3; ++i) {
         pose->position_world[i] = fmax(-DIP_CAMPATH_MAX_POSITION,

@@ -20,15 +20,30 @@ void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_
 // Makes the camera free if it follows the path, and says so in a notice.
 void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns);
 
+// Returns the speed of the free camera in metres per second. Four steps of the wheel double it.
+double dip_flight_speed(const DipFlight *flight);
+
+// Returns the speed in metres per second that suits what the session shows. If the user gave
+// models, the camera crosses them in four seconds, whatever their unit of length is.
+double dip_flying_speed(const DipSession *session);
+
+// Returns whether dragging should orbit the scene: the user gave models to look at from all sides.
+bool dip_flight_should_orbit(const DipSession *session);
+
+// Writes the point that the camera orbits. It is the middle of the models that the user gave. In
+// other scenes it is the point of the line of sight that is nearest to the middle of the scene, so
+// that it lies in the middle of the picture.
+void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]);
+
 // Prepares the free camera for what a session shows.
 void dip_pilot_enter(DipFlight *flight, const DipSession *session);
 
-// What the loop knows in a turn.
+// What the loop gives to dip_pilot_turn.
 typedef struct DipPilotTurn {
     const DipSession *session;
     DipCameraKeys keys;                // What the held keys ask for.
     const DipControllers *controllers; // NULL: there are none.
-    double speed_m_per_s;              // Speed of the free camera before the wheel has changed it.
+    double speed_m_per_s;              // Speed of the free camera, not counting the wheel's steps.
     int64_t elapsed_ns;
 } DipPilotTurn;
 

@@ -1,4 +1,4 @@
-// Appends a pose to a path file.
+// Appends poses to a path file, and names saved files.
 #include "app/preview/state/poses.h"
 
 #include "app/files/whole_file.h"
@@ -90,4 +90,14 @@ void dip_saved_describe(const char *what, const char *file, char *text, size_t s
         }
     }
     snprintf(text, size_bytes, "%s %s in %s%s", what, file, shown == folder ? "" : "...", shown);
+}
+
+bool dip_saved_free_name(const char *name, const char *ending, char *file, size_t size_bytes) {
+    for (int i = 1; i <= 9999; ++i) {
+        snprintf(file, size_bytes, "%s-%04d.%s", name, i, ending);
+        if (access(file, F_OK) != 0) {
+            return true;
+        }
+    }
+    return false;
 }

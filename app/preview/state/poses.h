@@ -1,6 +1,9 @@
-// Files that the user saves: the notice that names one, and the file of poses, a camera path in the
-// text format (campaths/campath.h), with a period of a second from key to key. `--path poses.pth`
-// flies from pose to pose, and the seven numbers of a line can be given to --pose.
+// Helps to save files from the window: finds a free name, words the notice that names a saved file,
+// and appends poses to a file.
+//
+// The file of poses is a camera path in the text format (campaths/campath.h), with a second from
+// key to key. `--path poses.pth` flies from pose to pose, and the seven numbers of a line are what
+// --pose takes.
 #ifndef DIP_APP_PREVIEW_STATE_POSES_H
 #define DIP_APP_PREVIEW_STATE_POSES_H
 
@@ -20,5 +23,9 @@ bool dip_poses_append(const char *file, const DipPose *pose, size_t *count, DipE
 // Writes a notice that names a file in the working folder and the folder: "Saved diptych-0001.png
 // in /home/me". A long folder loses its beginning.
 void dip_saved_describe(const char *what, const char *file, char *text, size_t size_bytes);
+
+// Finds a name that no file in the working folder has: "NAME-0001.ENDING", or the next number.
+// Returns false if all numbers to 9999 are taken.
+bool dip_saved_free_name(const char *name, const char *ending, char *file, size_t size_bytes);
 
 #endif

@@ -4,45 +4,39 @@
 #include <stdio.h>
 #include <string.h>
 
-// Appends a character. Leaves the text whole if there is no more room.
-static bool add_letter(char text[DIP_SCENE_WORDS_BYTES], size_t *length, char letter) {
-    if (*length + 1 >= DIP_SCENE_WORDS_BYTES) {
-        return false;
-    }
-    text[(*length)++] = letter;
-    text[*length] = '\0';
-    return true;
-}
-
-// Appends a value as one word of a shell.
-static bool add_word(char text[DIP_SCENE_WORDS_BYTES], size_t *length, const char *value) {
+// Writes a value as one word of a shell. Returns false if it does not fit.
+static bool quote(const char *value, char word[DIP_SCENE_WORDS_BYTES]) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                 "_-./,=:+%@";
-    const bool quoted = value[0] == '\0' || value[strspn(value, plain)] != '\0';
-    bool fits = !quoted || add_letter(text, length, '\'');
-    for (const char *letter = value; *letter && fits; ++letter) {
-        if (*letter == '\'') { // Ends the quotes, adds an escaped quote and opens them again.
-            fits = add_letter(text, length, '\'') && add_letter(text, length, '\\') &&
-                   add_letter(text, length, '\'');
-        }
-        fits = fits && add_letter(text, length, *letter);
+    if (value[0] && !value[strspn(value, plain)]) {
+        return snprintf(word, DIP_SCENE_WORDS_BYTES, "%s", value) < DIP_SCENE_WORDS_BYTES;
     }
-    return fits && (!quoted || add_letter(text, length, '\''));
+    size_t length = 0;
+    word[length++] = '\'';
+    for (; *value; ++value) {
+        if (length + 6 > DIP_SCENE_WORDS_BYTES) { // Room for '\'', a quote and 0.
+            return false;
+        }
+        if (*value == '\'') { // Ends the quotes, adds an escaped quote and opens them again.
+            memcpy(word + length, "'\\'", 3);
+            length += 3;
+        }
+        word[length++] = *value;
+    }
+    word[length++] = '\'';
+    word[length] = '\0';
+    return true;
 }
 
 // Appends an option and its value, or " ..." if they do not fit.
 static void add_option(char text[DIP_SCENE_WORDS_BYTES], const char *option, const char *value) {
     static const char cut[] = " ...";
-    const size_t start = strlen(text);
-    size_t length = start;
-    bool fits = add_letter(text, &length, ' ');
-    for (const char *letter = option; *letter && fits; ++letter) {
-        fits = add_letter(text, &length, *letter);
-    }
-    fits = fits && add_letter(text, &length, ' ') && add_word(text, &length, value) &&
-           length + sizeof cut <= DIP_SCENE_WORDS_BYTES;
-    if (!fits) {
-        snprintf(text + start, DIP_SCENE_WORDS_BYTES - start, "%s", cut);
+    char word[DIP_SCENE_WORDS_BYTES];
+    const size_t start = strlen(text), room = DIP_SCENE_WORDS_BYTES - start;
+    const bool quoted = quote(value, word);
+    const int length = quoted ? snprintf(text + start, room, " %s %s", option, word) : 0;
+    if (!quoted || (size_t)length + sizeof cut > room) {
+        snprintf(text + start, room, "%s", cut);
     }
 }
 

@@ -1,4 +1,4 @@
-// The options of the command line that name a scene, for commands that the window tells its user.
+// Writes the options that name a scene, for the command lines that the window shows.
 #ifndef DIP_APP_PREVIEW_STATE_SCENE_WORDS_H
 #define DIP_APP_PREVIEW_STATE_SCENE_WORDS_H
 
@@ -8,9 +8,8 @@ enum { DIP_SCENE_WORDS_BYTES = 1024 };
 
 // Writes the options that name the scene, its variant and its size, with a blank before each, as in
 // " --model a.glb --size 640x480". Values that a shell would split or change stand in quotes.
-// `text` is empty if the command line named nothing or `options` is NULL. Options that do not fit
-// are replaced by "
-// ...".
+// `text` is empty if the command line named nothing or `options` is NULL. " ..." stands for options
+// that do not fit.
 void dip_scene_words(const DipSessionOptions *options, char text[DIP_SCENE_WORDS_BYTES]);
 
 #endif

@@ -1,12 +1,14 @@
-// Carries out the user's actions.
+// Carries out the user's actions, and lets time pass.
 #include "app/preview/state/state_private.h"
 
 #include "app/preview/state/pilot.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 static const int64_t default_step_ns = 33333333; // A thirtieth of a second.
+static const int64_t ns_per_ms = 1000000;
 
 DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                        DipCamTrack *track) {
@@ -35,6 +37,239 @@ void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *form
     state->notice_end_ns = now_ns + dip_state_notice_ns;
 }
 
+// --- the dock and the tools ----------------------------------------------------------------------
+
+// Opens the dock with a tab, or folds it if the tab shows already.
+static void open_tab(DipPreviewState *state, DipTab tab) {
+    DipToolState *tools = &state->tools;
+    tools->open = !(tools->open && tools->tab == tab);
+    tools->bare = false;
+    tools->tab = tab;
+}
+
+// Chooses the next value of a tool in a ring of `count`, and opens its tab.
+static int next_of(DipPreviewState *state, DipTab tab, int value, int count, bool reverse) {
+    state->tools.tab = tab;
+    state->tools.open = true;
+    state->tools.bare = false;
+    return (value + (reverse ? count - 1 : 1)) % count;
+}
+
+static void zoom(DipPreviewState *state, bool out) {
+    const int zoom = out ? state->tools.zoom / 2 : state->tools.zoom * 2;
+    if (zoom >= DIP_LOUPE_MIN_ZOOM && zoom <= DIP_LOUPE_MAX_ZOOM) {
+        state->tools.zoom = zoom;
+    }
+}
+
+// Doubles or halves the brightness of the map that shows or the gain of the difference, or moves
+// the wipe's divider by 5 %.
+static void adjust(DipPreviewState *state, bool down) {
+    enum { MAX_GAIN = 64 };
+    DipToolState *tools = &state->tools;
+    if (tools->map != DIP_MAP_NONE) {
+        const double brightness = tools->brightness * (down ? 0.5 : 2.0);
+        tools->brightness = brightness < 0.125 ? 0.125 : brightness > 64.0 ? 64.0 : brightness;
+    } else if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
+        const int gain = down ? tools->gain / 2 : tools->gain * 2;
+        tools->gain = gain < 1 ? 1 : gain > MAX_GAIN ? MAX_GAIN : gain;
+    } else {
+        const double divider = tools->divider + (down ? -0.05 : 0.05);
+        tools->divider = divider < 0.0 ? 0.0 : divider > 1.0 ? 1.0 : divider;
+    }
+}
+
+void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns) {
+    const double scale = state->tools.ui_scale + by;
+    state->tools.ui_scale = scale < 0.75 ? 0.75 : scale > 4.0 ? 4.0 : scale;
+    dip_preview_notice(state, now_ns, "Size of the panel: %.0f %%", 100.0 * state->tools.ui_scale);
+}
+
+bool dip_preview_needs_window(DipAction action) {
+    switch (action) {
+    case DIP_ACTION_TAB:
+    case DIP_ACTION_DOCK:
+    case DIP_ACTION_BARE:
+    case DIP_ACTION_LOUPE:
+    case DIP_ACTION_ZOOM:
+    case DIP_ACTION_COMPARISON:
+    case DIP_ACTION_MAP:
+    case DIP_ACTION_ADJUST:
+    case DIP_ACTION_BLINK:
+    case DIP_ACTION_PATH_EDIT:
+    case DIP_ACTION_FULL_SCREEN:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Carries out an action of the dock or of a tool. Returns false if the action is none of these.
+static bool act_on_tools(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                         int64_t now_ns) {
+    DipToolState *tools = &state->tools;
+    switch (action) {
+    case DIP_ACTION_TAB:
+        open_tab(state, (DipTab)argument);
+        return true;
+    case DIP_ACTION_DOCK:
+        tools->open = !tools->open;
+        tools->bare = false;
+        return true;
+    case DIP_ACTION_BARE:
+        tools->bare = !tools->bare;
+        dip_preview_notice(state, now_ns, tools->bare ? "Panes only" : "Panes with the panel");
+        return true;
+    case DIP_ACTION_LOUPE:
+        tools->loupe = !tools->loupe;
+        tools->open = tools->loupe || tools->open;
+        tools->tab = tools->loupe ? DIP_TAB_LOUPE : DIP_TAB_SETTINGS;
+        return true;
+    case DIP_ACTION_ZOOM:
+        zoom(state, reverse);
+        return true;
+    case DIP_ACTION_COMPARISON:
+        tools->comparison = (DipComparison)next_of(state, DIP_TAB_COMPARE, (int)tools->comparison,
+                                                   DIP_COMPARISON_COUNT, reverse);
+        return true;
+    case DIP_ACTION_MAP:
+        tools->map = (DipMap)next_of(state, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT, reverse);
+        if (tools->map != DIP_MAP_NONE) {
+            tools->comparison = DIP_COMPARE_SIDE_BY_SIDE; // Maps show side by side.
+        }
+        return true;
+    case DIP_ACTION_ADJUST:
+        adjust(state, reverse);
+        return true;
+    case DIP_ACTION_BLINK:
+        tools->blinked = !tools->blinked;
+        return true;
+    default:
+        return false;
+    }
+}
+
+void dip_preview_follow_dock(DipPreviewState *state) {
+    const DipToolState *tools = &state->tools;
+    state->panel = tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
+}
+
+// --- camera paths --------------------------------------------------------------------------------
+
+const char *dip_preview_category_name(int category) {
+    static const char *const names[] = {
+#define PATH_NAME(NAME, fallback, text) #NAME,
+        DIP_CONFIG_LIST(DIP_CONFIG_NONE, PATH_NAME, DIP_CONFIG_NONE)
+#undef PATH_NAME
+    };
+    return category >= 0 && category < DIP_CATEGORY_COUNT ? names[category] : "?";
+}
+
+const char *dip_preview_category_title(int category) {
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        if (category == dip_preview_category_of((DipSetting)s)) {
+            return dip_setting_info((DipSetting)s)->title;
+        }
+    }
+    return category == DIP_CATEGORY_DEFAULT ? "Default"
+           : category == DIP_CATEGORY_WATER ? "Water"
+                                            : dip_preview_category_name(category);
+}
+
+const char *dip_preview_path_name(const DipPreviewState *state, int category) {
+    const bool is_camera = category >= DIP_CATEGORY_COUNT && category < DIP_CAMTRACK_CATEGORIES;
+    const char *name = is_camera ? state->track->categories[category].name : NULL;
+    return name ? name : dip_preview_category_name(category);
+}
+
+const char *dip_preview_path_title(const DipPreviewState *state, int category) {
+    const bool known = category >= 0 && category < DIP_CAMTRACK_CATEGORIES;
+    const char *name = known ? state->track->categories[category].name : NULL;
+    return name ? name : dip_preview_category_title(category);
+}
+
+const DipCamPath *dip_preview_playing_path(const DipPreviewState *state) {
+    const DipCamPath *path = state->track->categories[state->track->active].path;
+    return path ? path : state->track->categories[0].path;
+}
+
+bool dip_preview_path_stands(const DipPreviewState *state) {
+    const DipCamPath *path = dip_preview_playing_path(state);
+    const size_t count = path ? dip_campath_info(path).key_count : 0;
+    bool stands = count > 0;
+    for (size_t i = 1; stands && i < count; ++i) {
+        const DipCamKey first = dip_campath_key(path, 0), key = dip_campath_key(path, i);
+        stands = memcmp(&first, &key, sizeof key) == 0;
+    }
+    return stands;
+}
+
+static bool has_path(const DipPreviewState *state, int category) {
+    return state->track->categories[category].path != NULL;
+}
+
+// Plays the path of a category, or says that it has none.
+static void choose_path(DipPreviewState *state, int category, int64_t now_ns) {
+    if (category < 0 || category >= DIP_CAMTRACK_CATEGORIES || !has_path(state, category)) {
+        dip_preview_notice(state, now_ns, "%s has no path: the ini names no CAMPATH_%s",
+                           dip_preview_category_title(category),
+                           dip_preview_category_name(category));
+        return;
+    }
+    dip_camtrack_switch(state->track, category, state->play_ns);
+    state->manual = false;
+    dip_preview_notice(state, now_ns, "Path: %s", dip_preview_path_title(state, category));
+    ++state->scene_changes;
+}
+
+// Chooses the next category, in the given direction, whose path is not the current one. Several
+// categories may share a path.
+static void choose_next_path(DipPreviewState *state, int direction, int64_t now_ns) {
+    if (state->shows_gallery) { // Each scene has one path, so the next scene shows.
+        state->scene_step = direction;
+        ++state->scene_changes;
+        return;
+    }
+    const int from = state->track->active;
+    const DipCamPath *playing = state->track->categories[from].path;
+    const int count = DIP_CAMTRACK_CATEGORIES; // The cameras of the models follow the categories.
+    for (int i = 1; i < count; ++i) {
+        const int category = (from + direction * i + count * i) % count;
+        if (has_path(state, category) && state->track->categories[category].path != playing) {
+            choose_path(state, category, now_ns);
+            return;
+        }
+    }
+    dip_preview_notice(state, now_ns, "There is only one path");
+}
+
+int64_t dip_preview_path_length_ns(const DipPreviewState *state) {
+    const DipCamPath *path = dip_preview_playing_path(state);
+    if (!path) {
+        return 0;
+    }
+    const bool loops = state->track->end == DIP_CAMPATH_END_loop;
+    return dip_campath_span_ns(path, loops ? DIP_CAMPATH_END_loop : DIP_CAMPATH_END_once);
+}
+
+int64_t dip_preview_path_ns(const DipPreviewState *state) {
+    return dip_camtrack_path_time(state->track, state->play_ns);
+}
+
+void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
+    const DipCamPath *path = dip_preview_playing_path(state);
+    const int64_t span_ns = path ? dip_campath_span_ns(path, state->track->end) : 0;
+    const int64_t at_ns = dip_camtrack_time(state->track, state->play_ns);
+    const bool once = state->track->end == DIP_CAMPATH_END_once;
+    // Stays in the present round of the path, on its way there.
+    const int64_t past_ns = once || span_ns == 0 ? at_ns : (at_ns % span_ns + span_ns) % span_ns;
+    const int64_t to_ns = state->play_ns + path_ns - past_ns;
+    state->play_ns = to_ns >= 0 ? to_ns : once ? 0 : to_ns + span_ns;
+    ++state->scene_changes;
+}
+
+// --- all actions ---------------------------------------------------------------------------------
+
 static void change_look(DipPreviewState *state, bool reverse, int64_t now_ns) {
     if (!state->shows_gallery) {
         dip_preview_notice(state, now_ns, "Only scenes of the gallery have variants");
@@ -50,7 +285,7 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         dip_preview_notice(state, now_ns, "This key acts in a window, not in a terminal");
         return;
     }
-    if (dip_state_act_on_tools(state, action, argument, reverse, now_ns)) {
+    if (act_on_tools(state, action, argument, reverse, now_ns)) {
         dip_preview_follow_dock(state);
         return;
     }
@@ -75,19 +310,21 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         dip_preview_notice(state, now_ns, state->paused ? "Paused" : "Playing");
         break;
     case DIP_ACTION_STEP:
-        dip_state_step_time(state, 1, now_ns);
-        break;
     case DIP_ACTION_STEP_BACK:
-        dip_state_step_time(state, -1, now_ns);
+        state->paused = true;
+        dip_preview_seek(state,
+                         state->play_ns + (action == DIP_ACTION_STEP ? 1 : -1) * state->step_ns);
+        dip_preview_notice(state, now_ns, "Paused");
+        break;
+    case DIP_ACTION_SEEK:
+        dip_preview_seek(state, state->play_ns + (reverse ? -argument : argument) * ns_per_ms);
         break;
     case DIP_ACTION_NEXT_PATH:
-        dip_state_next_path(state, reverse ? -1 : 1, now_ns);
-        break;
     case DIP_ACTION_PREVIOUS_PATH:
-        dip_state_next_path(state, -1, now_ns);
+        choose_next_path(state, reverse || action == DIP_ACTION_PREVIOUS_PATH ? -1 : 1, now_ns);
         break;
     case DIP_ACTION_PATH:
-        dip_state_choose_path(state, argument, now_ns);
+        choose_path(state, argument, now_ns);
         break;
     case DIP_ACTION_NEXT_SCENE:
         state->scene_step = reverse ? -1 : 1;
@@ -108,7 +345,7 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         state->help_words[0] = '\0';
         break;
     case DIP_ACTION_PANEL:
-        dip_state_open_tab(state, DIP_TAB_TIMES);
+        open_tab(state, DIP_TAB_TIMES);
         dip_preview_follow_dock(state);
         break;
     case DIP_ACTION_COSTS:

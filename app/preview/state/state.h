@@ -1,11 +1,10 @@
-// The state of the preview, and how the user's actions change it. This part of the preview knows
-// neither pixels nor displays.
+// Holds the state of the preview, and changes it by the user's actions. The state knows neither
+// pixels nor displays.
 #ifndef DIP_APP_PREVIEW_STATE_STATE_H
 #define DIP_APP_PREVIEW_STATE_STATE_H
 
 #include "app/preview/prices/choice.h"
 #include "app/preview/prices/costs.h"
-#include "app/preview/state/flight.h"
 #include "app/preview/state/path_editor.h"
 #include "app/preview/state/scene_words.h"
 #include "app/preview/state/tool_state.h"
@@ -34,7 +33,7 @@ typedef enum DipAction {
     DIP_ACTION_CAMERA_BACK, // Gives the free camera the pose of the path.
     DIP_ACTION_ORBIT,       // Dragging turns the free camera about a point, or about itself.
     DIP_ACTION_SPEED,       // Makes the free camera faster by `argument` steps.
-    DIP_ACTION_PATH_END,    // Chooses what paths do at their end; the argument is 1 for the next.
+    DIP_ACTION_PATH_END,    // Chooses the next of the things that paths can do at their end.
     DIP_ACTION_PATH_EDIT,   // Edits a path; the argument is a DipPathEdit.
     DIP_ACTION_HELP,
     DIP_ACTION_PANEL,
@@ -71,6 +70,31 @@ typedef enum DipPreset {
     DIP_PRESET_COUNT
 } DipPreset;
 
+// The free camera: how mouse, wheel and keys fly it. The window's controls and the keys write what
+// the user wishes into this struct; the loop carries it out once in each turn (pilot.h).
+typedef struct DipFlight {
+    bool orbits;               // Dragging turns the camera about a point; the wheel zooms.
+    bool reset;                // The user wants the pose of the camera path. Cleared when done.
+    int speed_steps;           // Steps of the wheel; see dip_flight_speed.
+    double base_speed_m_per_s; // Speed at 0 steps. Set by the loop.
+    // What the mouse has done since the last turn of the loop. Dragging counts in heights of a
+    // pane, to the right and upwards; the wheel counts in steps away from the user.
+    double drag_right;
+    double drag_up;
+    int zoom_steps;
+    // Steps that buttons have asked for since the last turn of the loop.
+    int right_steps;
+    int forward_steps;
+    bool pressed;  // A button that flies the camera was pressed over a pane and is held.
+    bool dragging; // The pointer has moved too far for a click.
+    int press_x;   // Where the button was pressed, in pixels of the window.
+    int press_y;
+    int drag_x; // Where the pointer was last.
+    int drag_y;
+    bool knows_centre; // `centre_world` is the point that the camera orbits now.
+    double centre_world[3];
+} DipFlight;
+
 typedef struct DipPreviewState {
     DipQuality quality[DIP_PANE_COUNT];
     DipQuality ini_quality;      // Settings that the requested pane began with.
@@ -86,8 +110,8 @@ typedef struct DipPreviewState {
     bool manual;             // The user flies the camera; time stands still.
     bool shows_gallery;      // The panes show a scene of the gallery.
     int scene_step;          // The scene that the user asked for: 1 the next, -1 the one before.
-    int look;                // The scene's variant; the scene wraps it around.
-    const char *scene_title; // Of the gallery's scene; NULL if the panes show models.
+    int look;                // The scene's variant; numbers past the last variant begin anew.
+    const char *scene_title; // Title of the gallery's scene; NULL if the panes show models.
     const char *scene_look;  // Name of its variant.
     bool help;               // The help shows.
     char help_words[DIP_HELP_WORDS]; // The help shows only keys with this text.
@@ -98,11 +122,11 @@ typedef struct DipPreviewState {
     // Time within which a frame has to be drawn: one refresh of the display, unless the user has
     // chosen another time.
     double budget_ms;
-    bool has_budget;    // The user has chosen it.
+    bool has_budget;    // The user has chosen budget_ms.
     double refresh_ms;  // Time of one refresh of the display.
     double advised_ms;  // The budget for which the user took advice last, or 0.
-    bool wants_errors;  // Another program has asked for the errors, shown or not.
-    bool wants_prices;  // Another program has asked for the prices, shown or not.
+    bool wants_errors;  // Another program has subscribed to the errors.
+    bool wants_prices;  // Another program has subscribed to the prices.
     bool wants_picture; // Another program waits for a picture, even of a hidden window.
     bool measures_here; // Prices are measured in this view although there is a report.
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
@@ -112,8 +136,8 @@ typedef struct DipPreviewState {
     bool in_terminal; // The preview shows characters, without the window's tools.
     bool full_screen;
     DipToolState tools;
-    DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT]; // Settings before each change, a ring.
-    int undo_first;
+    // Settings before each change, the oldest first; behind them, those that UNDO has taken back.
+    DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT];
     int undo_count;
     int redo_count;
     bool screenshot;       // The user asked for a screenshot. Cleared when it is saved.
@@ -140,7 +164,7 @@ bool dip_preview_needs_window(DipAction action);
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
 
-// Gives a setting of the panes whose settings the keys change one step. If the step does not fit
+// In the panes whose settings the keys change, gives a setting a step. If the step does not fit
 // the other settings, a notice says why and nothing changes.
 void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns);
 
@@ -151,9 +175,9 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
 // Enlarges controls by a difference of the factor, which stays within 0.75 and 4.
 void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 
-// Finds a preset's settings. Those that are measured (up to BEST) are places on the front of what
-// can be chosen within the budget. Returns false, and leaves *quality as it is, while nothing was
-// measured or nothing fits.
+// Finds a preset's settings. The presets up to BEST are chosen among the measured settings that
+// keep within the budget. Returns false, and leaves *quality as it is, if nothing was measured or
+// nothing keeps within the budget.
 bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality);
 
 // Says in four lines how to make a cost report of this scene; the second and the fourth one are
@@ -172,7 +196,7 @@ int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_B
 // Chooses another budget, from 1 to 1000 ms; 0: one refresh of the display.
 void dip_preview_set_budget(DipPreviewState *state, double budget_ms);
 
-// Goes through the usual frame rates, from 24 to 240 frames a second; each step takes the next one.
+// Moves the budget by steps through the usual frame rates, from 24 to 240 frames a second.
 void dip_preview_step_frame_rate(DipPreviewState *state, int steps);
 
 // Takes the time between two refreshes of the display as the budget, unless the user has chosen
@@ -198,8 +222,9 @@ bool dip_preview_rests(const DipPreviewState *state, bool flying);
 // camera. Removes a notice that has ended.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
 
-// Time on the active camera path, from 0 to its length, and its length; 0 without a path. A path
-// that does not loop ends at its last key. A path that goes back has the time of its way there.
+// Return the time on the active camera path, from 0 to the path's length, and this length; both are
+// 0 without a path. A path that does not loop ends at its last key. On the way back of a path that
+// goes there and back, the time is that of the same place on the way there.
 int64_t dip_preview_path_ns(const DipPreviewState *state);
 int64_t dip_preview_path_length_ns(const DipPreviewState *state);
 
@@ -213,8 +238,9 @@ void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *form
 // Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
 const char *dip_preview_category_name(int category);
 
-// Returns the name or the title of a path of the state's track. The name is that of its category,
-// or of the model's camera that it follows; the title prefers the camera.
+// Return the name and the title of a path of the state's track. The name is that of the path's
+// category or, beyond the categories, that of the model's camera that the path follows. The title
+// is the camera's name, if there is a camera, or else the title of the category.
 const char *dip_preview_path_name(const DipPreviewState *state, int category);
 const char *dip_preview_path_title(const DipPreviewState *state, int category);
 

@@ -1,13 +1,11 @@
-// What the files of the preview's state do for each other. state.c dispatches the actions; each of
-// the other files carries out some of them.
+// Declares the actions that change settings: state.c dispatches all actions, and state_settings.c
+// carries out these ones.
 #ifndef DIP_APP_PREVIEW_STATE_STATE_PRIVATE_H
 #define DIP_APP_PREVIEW_STATE_STATE_PRIVATE_H
 
 #include "app/preview/state/state.h"
 
 static const int64_t dip_state_notice_ns = 2500000000; // How long a notice shows.
-
-// --- state_settings.c ----------------------------------------------------------------------------
 
 // Takes the last change of settings back, or (reverse) does it again.
 void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns);
@@ -24,25 +22,5 @@ void dip_state_apply(DipPreviewState *state, int64_t now_ns);
 // Gives the requested pane the settings with the least error within a time budget. Each press of
 // the key uses the report's next budget.
 void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns);
-
-// --- state_paths.c -------------------------------------------------------------------------------
-
-// Plays the path of a category, or says that it has none.
-void dip_state_choose_path(DipPreviewState *state, int category, int64_t now_ns);
-// Chooses the next category, in the given direction, whose path is not the current one. Several
-// categories may share a path.
-void dip_state_next_path(DipPreviewState *state, int direction, int64_t now_ns);
-// Pauses, and moves the time by one frame.
-void dip_state_step_time(DipPreviewState *state, int direction, int64_t now_ns);
-// Moves the time.
-void dip_state_seek(DipPreviewState *state, int milliseconds);
-
-// --- state_tools.c -------------------------------------------------------------------------------
-
-// Opens the dock with a tab, or folds it if the tab shows already.
-void dip_state_open_tab(DipPreviewState *state, DipTab tab);
-// Carries out an action of the dock or of a tool. Returns false if the action is none of these.
-bool dip_state_act_on_tools(DipPreviewState *state, DipAction action, int argument, bool reverse,
-                            int64_t now_ns);
 
 #endif

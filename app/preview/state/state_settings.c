@@ -14,23 +14,18 @@ int dip_preview_category_of(DipSetting setting) {
         [DIP_SETTING_AAA] = DIP_CATEGORY_AAA, [DIP_SETTING_ASD] = DIP_CATEGORY_AAA,
         [DIP_SETTING_AF] = DIP_CATEGORY_AF,   [DIP_SETTING_AAF] = DIP_CATEGORY_AAF,
         [DIP_SETTING_OPT] = DIP_CATEGORY_CAI, [DIP_SETTING_MIPLOD] = DIP_CATEGORY_MIPLOD,
-        [DIP_SETTING_GI] = DIP_CATEGORY_GI,   [DIP_SETTING_MIPDEBUG] = -1, // On any path.
+        [DIP_SETTING_GI] = DIP_CATEGORY_GI,   [DIP_SETTING_MIPDEBUG] = -1, // Any path shows it.
     };
     return categories[setting];
 }
 
-static int undo_slot(const DipPreviewState *state, int index) {
-    return (state->undo_first + index) % DIP_UNDO_DEPTH;
-}
-
-// Remembers both panes' settings before a change. Forgets what has been undone.
+// Remembers both panes' settings before a change, and forgets what has been undone.
 static void remember(DipPreviewState *state) {
     if (state->undo_count == DIP_UNDO_DEPTH) {
-        state->undo_first = undo_slot(state, 1);
+        memmove(state->undo[0], state->undo[1], (DIP_UNDO_DEPTH - 1) * sizeof state->undo[0]);
         state->undo_count--;
     }
-    memcpy(state->undo[undo_slot(state, state->undo_count)], state->quality, sizeof state->quality);
-    state->undo_count++;
+    memcpy(state->undo[state->undo_count++], state->quality, sizeof state->quality);
     state->redo_count = 0;
 }
 
@@ -48,19 +43,19 @@ void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
         return;
     }
     if (reverse) {
-        swap_settings(state, undo_slot(state, state->undo_count));
+        swap_settings(state, state->undo_count);
         state->undo_count++;
         state->redo_count--;
     } else {
         state->undo_count--;
         state->redo_count++;
-        swap_settings(state, undo_slot(state, state->undo_count));
+        swap_settings(state, state->undo_count);
     }
     dip_preview_notice(state, now_ns, reverse ? "Made the change again" : "Took the change back");
 }
 
-// Says which step a setting has now. While the camera flies along its paths, chooses the one that
-// shows the setting best. While it rests, the picture that the user looks at stays.
+// Says which step a setting has now. While the camera flies along a path, chooses the path that
+// shows the setting best. While the camera rests, it stays where it is.
 static void follow_setting(DipPreviewState *state, DipSetting setting, const char *step,
                            int64_t now_ns) {
     const int category = dip_preview_category_of(setting);
@@ -85,25 +80,63 @@ static bool take_step(DipQuality *quality, DipSetting setting, int step, DipErro
     return dip_quality_check(quality, err);
 }
 
+// Sets a setting to its next step that is valid with the other settings. Returns false if no other
+// step is valid.
+static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    DipQuality candidate;
+    for (int i = 1; i < info->step_count; ++i) {
+        const int offset = reverse ? info->step_count - i : i;
+        const int step = (quality->step[setting] + offset) % info->step_count;
+        candidate = *quality;
+        if (take_step(&candidate, setting, step, NULL)) {
+            *quality = candidate;
+            return true;
+        }
+    }
+    return false;
+}
+
+// Gives the panes new settings if they differ from the old ones. `step` names the step that the
+// setting has then.
+static void take_settings(DipPreviewState *state, const DipQuality wanted[DIP_PANE_COUNT],
+                          DipSetting setting, const char *step, int64_t now_ns) {
+    if (memcmp(wanted, state->quality, sizeof state->quality) != 0) {
+        remember(state);
+        memcpy(state->quality, wanted, sizeof state->quality);
+        follow_setting(state, setting, step, now_ns);
+    }
+}
+
 void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns) {
     DipQuality wanted[DIP_PANE_COUNT];
     DipError err;
     memcpy(wanted, state->quality, sizeof wanted);
     for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
-        if (!state->edited[pane]) {
-            continue;
-        }
-        if (!take_step(&wanted[pane], setting, step, &err)) {
+        if (state->edited[pane] && !take_step(&wanted[pane], setting, step, &err)) {
             dip_preview_notice(state, now_ns, "%s", err.message);
             return;
         }
     }
-    if (memcmp(wanted, state->quality, sizeof wanted) == 0) {
+    take_settings(state, wanted, setting, dip_setting_info(setting)->steps[step], now_ns);
+}
+
+void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool reverse,
+                              int64_t now_ns) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    const char *step = NULL;
+    DipQuality wanted[DIP_PANE_COUNT];
+    memcpy(wanted, state->quality, sizeof wanted);
+    for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
+        if (state->edited[pane] && cycle(&wanted[pane], setting, reverse)) {
+            step = info->steps[wanted[pane].step[setting]];
+        }
+    }
+    if (!step) {
+        dip_preview_notice(state, now_ns, "%s: no other step fits the other settings", info->title);
         return;
     }
-    remember(state);
-    memcpy(state->quality, wanted, sizeof wanted);
-    follow_setting(state, setting, dip_setting_info(setting)->steps[step], now_ns);
+    take_settings(state, wanted, setting, step, now_ns);
 }
 
 void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
@@ -153,45 +186,6 @@ void dip_state_choose_preset(DipPreviewState *state, DipPreset preset, int64_t n
     }
     dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, now_ns);
     dip_preview_notice(state, now_ns, "Requested: %s", dip_preview_preset_name(preset));
-}
-
-// Sets a setting to its next step that is valid with the other settings. Returns false if no other
-// step is valid.
-static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
-    const DipSettingInfo *info = dip_setting_info(setting);
-    DipQuality candidate;
-    for (int i = 1; i < info->step_count; ++i) {
-        const int offset = reverse ? info->step_count - i : i;
-        const int step = (quality->step[setting] + offset) % info->step_count;
-        candidate = *quality;
-        if (take_step(&candidate, setting, step, NULL)) {
-            *quality = candidate;
-            return true;
-        }
-    }
-    return false;
-}
-
-void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool reverse,
-                              int64_t now_ns) {
-    const DipSettingInfo *info = dip_setting_info(setting);
-    bool changed = false;
-    const char *step = "";
-    DipQuality wanted[DIP_PANE_COUNT];
-    memcpy(wanted, state->quality, sizeof wanted);
-    for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
-        if (state->edited[pane] && cycle(&wanted[pane], setting, reverse)) {
-            changed = true;
-            step = info->steps[wanted[pane].step[setting]];
-        }
-    }
-    if (!changed) {
-        dip_preview_notice(state, now_ns, "%s: no other step fits the other settings", info->title);
-        return;
-    }
-    remember(state);
-    memcpy(state->quality, wanted, sizeof wanted);
-    follow_setting(state, setting, step, now_ns);
 }
 
 void dip_state_choose_pane(DipPreviewState *state, int64_t now_ns) {
@@ -254,7 +248,7 @@ void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms) {
     }
 }
 
-// Goes on to the next budget of the list: the first one, if the budget is not in the list.
+// Goes on to the next budget of the list, or to the first one if the present budget is not in it.
 static void next_budget(DipPreviewState *state, bool reverse) {
     double list[DIP_COST_MAX_BUDGETS];
     const int count = dip_preview_budgets(state, list);

@@ -1,5 +1,5 @@
-// What the user has chosen of the tools for looking closer: the tab, the loupe, the comparison and
-// the map.
+// Holds what the user has chosen for the tools that look closer at the pictures: the tab, the
+// loupe, the comparison and the map.
 #ifndef DIP_APP_PREVIEW_STATE_TOOL_STATE_H
 #define DIP_APP_PREVIEW_STATE_TOOL_STATE_H
 
@@ -20,10 +20,10 @@ typedef enum DipTab {
 // How the two pictures stand beside each other.
 typedef enum DipComparison {
     DIP_COMPARE_SIDE_BY_SIDE,
-    DIP_COMPARE_WIPE,  // One picture: current left of a divider, requested right of it.
-    DIP_COMPARE_BLINK, // One picture that changes between both while a key is held, or by time.
+    DIP_COMPARE_WIPE,       // One picture: current left of a divider, requested right of it.
+    DIP_COMPARE_BLINK,      // One picture: current, and requested while a key is held or by turns.
     DIP_COMPARE_DIFFERENCE, // Absolute difference of the two, times a gain.
-    DIP_COMPARE_ALONE,      // One pane alone fills the place of both.
+    DIP_COMPARE_ALONE,      // One pane alone, as large as both.
     DIP_COMPARE_TRUTH,      // The converged picture in the current pane's place.
     DIP_COMPARISON_COUNT
 } DipComparison;
@@ -47,7 +47,7 @@ typedef struct DipToolState {
     DipTab tab;
     bool open;        // The dock shows its tab.
     bool bare;        // The window shows nothing but the panes.
-    double ui_scale;  // 0.5..4; multiplies the display's scale.
+    double ui_scale;  // 0.75..4; multiplies the display's scale.
     bool fixed_scale; // The user gave a scale, so that the window's size does not change it.
     bool loupe;       // The loupe follows the pointer or shows the pinned pixel.
     int zoom;         // 2, 4, 8, 16 or 32.
@@ -61,8 +61,7 @@ typedef struct DipToolState {
     bool blinked;       // BLINK: shows the requested pane.
     bool blinks;        // BLINK: changes between the panes by itself, twice a second.
     DipMap map;
-    double brightness; // Maps: the value that the end of the colour scale stands for is divided by
-                       // this.
+    double brightness; // Maps: divides the value at which the colour scale ends.
 } DipToolState;
 
 #endif

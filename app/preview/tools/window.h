@@ -2,7 +2,7 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_WINDOW_H
 #define DIP_APP_PREVIEW_TOOLS_WINDOW_H
 
-#include "app/preview/live/panel.h"
+#include "app/preview/live/figures.h"
 #include "app/preview/prices/prices.h"
 #include "app/preview/state/state.h"
 #include "app/preview/tools/layout.h"

@@ -48,7 +48,7 @@ static const char *const bad[] = {
     "\"request\":\"size\",\"width\":1e9,\"height\":100}",
     "\"request\":\"size\",\"width\":10.5,\"height\":100}",
     "\"request\":\"subscribe\",\"to\":\"everything\"}",
-    "\"request\":\"subscribe\",\"to\":\"prices\"}",
+    "\"request\":\"subscribe\",\"to\":\"sizes\"}",
     "\"request\":\"get\",\"what\":{}}",
     "\"request\":\"path\",\"category\":\"\"}",
     "\"request\":\"quit\",\"now\":true}",

@@ -58,7 +58,7 @@ static DipControlDef make_def(const char *where) {
     return (DipControlDef){
         .where = where,
         .version = "1.2.3",
-        .target = {.carry_out = carry_out, .missing_topics = 1u << DIP_CONTROL_TOPIC_PRICES},
+        .carry_out = carry_out,
     };
 }
 
@@ -240,9 +240,6 @@ static void events_reach_their_subscribers(void **state) {
                         "{\"id\":null,\"ok\":true,\"to\":[\"picks\"]}");
     send_notice(2);
     assert_nothing(&client);
-    assert_non_null(strstr(ask("{\"request\":\"subscribe\",\"to\":[\"times\",\"prices\"]}"),
-                           "\"code\":\"UNSUPPORTED\",\"field\":\"to\",\"message\":\"prices are "
-                           "not available yet\""));
     assert_int_equal(dip_control_topics(control), 1u << DIP_CONTROL_TOPIC_PICKS);
     assert_int_equal(seen.count, 0);
 }

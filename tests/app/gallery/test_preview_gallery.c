@@ -39,6 +39,7 @@ static void open_scene(const char *scene) {
     const DipPreviewDef preview_def = {.session = &session,
                                        .display = display,
                                        .flying_speed_m_per_s = 1.0,
+                                       .hides_panel = true,
                                        .load_scene_def = no_scene_def};
     preview = dip_preview_create(&preview_def, NULL);
     assert_non_null(preview);
@@ -65,7 +66,7 @@ static void press(DipKeycode key, unsigned modifiers) {
     turn();
 }
 
-// Returns a hash of the rows that no label covers.
+// Returns a hash of the rows that no label covers. The panel is hidden, because it shows times.
 static uint64_t look_at(void) {
     const DipPixels shown = dip_fake_display_picture(fake);
     uint64_t hash = 14695981039346656037u;

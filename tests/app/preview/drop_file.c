@@ -56,9 +56,9 @@ static void answer(const XSelectionRequestEvent *request) {
     XFlush(x);
 }
 
-// Answers the window's questions until it sends a message. Gives up after five seconds.
+// Answers the window's questions until it sends a message. Gives up after a minute.
 static bool wait_for(const char *type) {
-    for (int i = 0; i < 500; i++) {
+    for (int i = 0; i < 6000; i++) {
         while (XPending(x)) {
             XEvent event;
             XNextEvent(x, &event);

@@ -249,7 +249,7 @@ static void wait_ms(int ms) {
 
 static DipErrorReading await(DipErrorThread *thread, DipErrorStatus status) {
     DipErrorReading reading;
-    for (int i = 0; i < 6000; i++) {
+    for (int i = 0; i < 30000; i++) {
         dip_error_thread_read(thread, &reading);
         if (reading.status == status) {
             return reading;

@@ -1,7 +1,6 @@
 // Tests of the free camera: drags and the wheel over the panes turn, orbit and speed up the camera,
 // and leave clicks and the loupe's wheel alone. Poses are checked with rotation matrices.
 #include "app/preview/state/pilot.h"
-#include "app/preview/state/speed.h"
 #include "app/preview/loop/view.h"
 #include "config/config.h"
 

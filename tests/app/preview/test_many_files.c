@@ -22,7 +22,7 @@
 #include <cmocka.h>
 
 // Size of the panes with their gap; the window also has the dock's bar.
-enum { WIDTH = 402, HEIGHT = 150, BAR_HEIGHT = 32, MAX_TURNS = 6000, MAX_FILE_BYTES = 1 << 22 };
+enum { WIDTH = 402, HEIGHT = 150, BAR_HEIGHT = 32, MAX_TURNS = 120000, MAX_FILE_BYTES = 1 << 22 };
 
 static const char *sources;
 static char home[1024]; // The working folder before the tests.

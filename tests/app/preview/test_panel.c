@@ -1,7 +1,7 @@
 // Tests of the panel's lines of times, errors and work, and of the costs and advice that come from
 // a cost report.
 #include "app/report/format/formats.h"
-#include "app/preview/live/panel.h"
+#include "app/preview/live/figures.h"
 #include "app/preview/state/state.h"
 #include "tests/app/cost/made_report.h"
 

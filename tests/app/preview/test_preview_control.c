@@ -363,7 +363,7 @@ static void errors_are_measured_for_subscribers(void **state) {
     assert_ok("{\"request\":\"subscribe\",\"to\":\"errors\"}");
     assert_true(await_event("\"event\":\"errors\""));
     const char *line = "";
-    for (int i = 0; i < 20000 && !strstr(line, "\"flip\":"); ++i) {
+    for (int i = 0; i < 120000 && !strstr(line, "\"flip\":"); ++i) {
         const struct timespec millisecond = {0, 1000000};
         nanosleep(&millisecond, NULL);
         turn();
@@ -396,7 +396,7 @@ static void prices_are_measured_for_subscribers(void **state) {
     assert_ok("{\"request\":\"subscribe\",\"to\":\"prices\"}");
     cJSON *event = NULL;
     bool known = false;
-    for (int i = 0; i < 20000 && !known; ++i) {
+    for (int i = 0; i < 120000 && !known; ++i) {
         const struct timespec millisecond = {0, 1000000};
         const char *line;
         nanosleep(&millisecond, NULL); // The truth is drawn by another thread.

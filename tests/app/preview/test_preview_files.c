@@ -21,7 +21,7 @@
 #include <cmocka.h>
 
 // Size of the panes with their gap; the window also has the dock's bar.
-enum { WIDTH = 402, HEIGHT = 150, BAR_HEIGHT = 32, MAX_TURNS = 6000 };
+enum { WIDTH = 402, HEIGHT = 150, BAR_HEIGHT = 32, MAX_TURNS = 120000 };
 
 static char home[1024]; // The working folder before the tests.
 static char folder[] = "/tmp/test_preview_files.XXXXXX";
@@ -400,6 +400,8 @@ static void bad_files_leave_what_is_shown(void **state) {
     for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
         write_file(files[i].name, files[i].bad);
         wait_for(files[i].part);
+        wait_for_result();
+        assert_notice(files[i].part);
         wait_seconds(4); // The notice goes away, and nothing is tried again.
         assert_string_equal(notice(), "");
         assert_reddish(true);
@@ -417,6 +419,8 @@ static void a_removed_file_leaves_what_is_shown(void **state) {
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
         assert_int_equal(remove(names[i]), 0);
         wait_for(names[i]);
+        wait_for_result();
+        assert_notice(names[i]);
         assert_null(strstr(notice(), "Reloaded"));
         assert_reddish(true);
         write_files();

@@ -390,7 +390,7 @@ static void errors_appear_while_the_camera_rests(void **state) {
     press('r');
     turn();
     const int presented = dip_fake_display_present_count(fake);
-    for (int i = 0; i < 20000 && dip_fake_display_present_count(fake) == presented; ++i) {
+    for (int i = 0; i < 120000 && dip_fake_display_present_count(fake) == presented; ++i) {
         const struct timespec millisecond = {0, 1000000};
         nanosleep(&millisecond, NULL);
         turn();

@@ -4,8 +4,6 @@
 #include "app/preview/live/figures.h"
 #include "app/preview/state/keys.h"
 #include "app/preview/state/state.h"
-#include "app/preview/live/taa_pace.h"
-#include "app/preview/live/timing.h"
 #include "config/config.h"
 
 #include <math.h>

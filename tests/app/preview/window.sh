@@ -17,14 +17,14 @@ fail() {
     exit 1
 }
 
-# await DESCRIPTION COMMAND...: repeats the command until it succeeds, for at most 20 seconds.
+# await DESCRIPTION COMMAND...: repeats the command until it succeeds, for at most two minutes.
 await() {
     what=$1
     shift
     tries=0
     until "$@"; do
         tries=$((tries + 1))
-        [ $tries -ge 100 ] && fail "never happened: $what"
+        [ $tries -ge 600 ] && fail "never happened: $what"
         kill -0 "$pid" 2>/dev/null || fail "the program ended while waiting: $what"
         sleep 0.2
     done

@@ -14,12 +14,12 @@ fail() {
     exit 1
 }
 
-# wait_for COMMAND...: up to 20 seconds.
+# wait_for COMMAND...: repeats the command until it succeeds, for at most two minutes.
 wait_for() {
     tries=0
     until "$@" >/dev/null 2>&1; do
         tries=$((tries + 1))
-        [ $tries -lt 200 ] || return 1
+        [ $tries -lt 1200 ] || return 1
         sleep 0.1
     done
 }
@@ -32,7 +32,7 @@ program=$!
 wait_for xdotool search --onlyvisible --name '^Diptych' || fail "no window appears"
 window=$(xdotool search --onlyvisible --name '^Diptych' | head -n 1)
 
-# shows TEXT: a screenshot of the window has the text.
+# shows TEXT: asks for a screenshot and looks for the text in the newest one that exists.
 shows() {
     xdotool key --window "$window" F12
     sleep 0.3
@@ -70,7 +70,7 @@ for file in empty.obj folder.obj pipe.obj pipe.ini noise.glb text.txt bad.ini cu
     "$drop_file" "$window" "$work/$file" || fail "the window does not take $file"
     wait_for grep -q "$file" log.txt || fail "$file is not reported"
     kill -0 "$program" || fail "$file has ended the preview"
-    shows '0 0 3 0 0 0 1' || fail "the path is gone after $file"
+    wait_for shows '0 0 3 0 0 0 1' || fail "the path is gone after $file"
     rm -f diptych-*.png
     dropped=$((dropped + 1))
 done

@@ -17,20 +17,25 @@ fail() {
     exit 1
 }
 
-# Waits up to 20 s until a command succeeds.
+# Waits for at most two minutes until a command succeeds.
 await() {
     tries=0
     until "$@" >/dev/null 2>&1; do
         tries=$((tries + 1))
-        [ "$tries" -lt 200 ] || fail "waited in vain for: $*"
+        [ "$tries" -lt 1200 ] || fail "waited in vain for: $*"
         sleep 0.1
     done
+}
+
+shows_something() {
+    import -window root shot.png
+    [ "$(convert shot.png -colorspace Gray -format '%[fx:int(1000*standard_deviation)]' info:)" -gt 50 ]
 }
 
 "$diptych" preview --config "$config" --size 320x220 >log 2>&1 &
 pid=$!
 await xdotool search --onlyvisible --pid "$pid"
-sleep 2
+await shows_something # The camera has a pose once a picture shows.
 xdotool mousemove 640 250 key c
 xdotool key ctrl+n
 xdotool mousedown 3 mousemove 660 255

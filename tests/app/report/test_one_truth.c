@@ -8,7 +8,7 @@
 #include "app/preview/prices/choice.h"
 #include "app/preview/prices/price_text.h"
 #include "app/preview/state/state.h"
-#include "app/preview/live/timing.h"
+#include "app/preview/live/figures.h"
 #include "app/report/report.h"
 #include "app/report/combinations.h"
 #include "app/report/format/formats.h"

@@ -1,5 +1,5 @@
 // Writes the preview's state, times, errors and prices as JSON.
-#include "app/preview/control/control_private.h"
+#include "app/preview/control/reply_private.h"
 
 #include "config/config.h"
 
@@ -20,7 +20,7 @@ static void append(cJSON *array, cJSON *item) {
 
 // --- state and settings --------------------------------------------------------------------------
 
-// Returns the time on the camera path, within the path's duration.
+// Returns the time on the camera path, from 0 to the path's duration.
 static double path_time_s(const DipPreviewState *state) {
     const DipCamTrack *track = state->track;
     const bool has_path = track->categories[track->active].path || track->categories[0].path;
@@ -44,7 +44,7 @@ static void add_size(cJSON *object, const DipPreviewMoment *moment) {
     cJSON_AddNumberToObject(object, "height", moment->panes[0].height);
 }
 
-void dip_reply_state(cJSON *object, const DipPreviewMoment *moment) {
+static void add_state(cJSON *object, const DipPreviewMoment *moment) {
     const DipPreviewState *state = moment->state;
     cJSON_AddBoolToObject(object, "paused", state->paused);
     add_time(object, "time_s", path_time_s(state));
@@ -54,7 +54,7 @@ void dip_reply_state(cJSON *object, const DipPreviewMoment *moment) {
     add_size(object, moment);
 }
 
-void dip_reply_settings(cJSON *object, const DipPreviewMoment *moment) {
+static void add_settings(cJSON *object, const DipPreviewMoment *moment) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         char text[256];
         dip_quality_format(&moment->state->quality[p], text, sizeof text);
@@ -81,7 +81,7 @@ static void add_pane_times(cJSON *object, const char *name, const DipPaneFigures
     }
 }
 
-void dip_reply_times(cJSON *object, const DipPreviewMoment *moment) {
+static void add_times(cJSON *object, const DipPreviewMoment *moment) {
     add_time(object, "time_s", path_time_s(moment->state));
     add_size(object, moment);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -99,7 +99,7 @@ static const char *status_name(const DipPaneFigures *figures) {
     return figures->no_errors ? "unavailable" : names[figures->errors.status];
 }
 
-void dip_reply_errors(cJSON *object, const DipPreviewMoment *moment) {
+static void add_errors(cJSON *object, const DipPreviewMoment *moment) {
     const DipPaneFigures *figures = &moment->figures[DIP_PANE_CURRENT];
     const DipErrorJobResult *result = &figures->errors.result;
     cJSON_AddStringToObject(object, "status", status_name(figures));
@@ -116,12 +116,12 @@ void dip_reply_errors(cJSON *object, const DipPreviewMoment *moment) {
 
 // --- lists ---------------------------------------------------------------------------------------
 
-void dip_reply_paths(cJSON *object, const DipPreviewMoment *moment) {
+static void add_paths(cJSON *object, const DipPreviewMoment *moment) {
     const DipPreviewState *state = moment->state;
     cJSON *paths = cJSON_AddArrayToObject(object, "paths");
     for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
         if (c >= DIP_CATEGORY_COUNT && !state->track->categories[c].path) {
-            break; // There are no more cameras of the models.
+            break; // All cameras of the models are listed.
         }
         cJSON *path = cJSON_CreateObject();
         cJSON_AddStringToObject(path, "category", dip_preview_path_name(state, c));
@@ -135,7 +135,7 @@ static void add_name(cJSON *array, const char *name) {
     append(array, cJSON_CreateStringReference(name));
 }
 
-void dip_reply_scenes(cJSON *object, const DipPreviewMoment *moment) {
+static void add_scenes(cJSON *object, const DipPreviewMoment *moment) {
     cJSON *scenes = cJSON_AddArrayToObject(object, "scenes");
     for (int s = 0; s < dip_gallery_scene_count(); ++s) {
         add_name(scenes, dip_gallery_info(s)->name);
@@ -163,7 +163,7 @@ static cJSON *describe_setting(DipSetting setting) {
     return object;
 }
 
-void dip_reply_steps(cJSON *object, const DipPreviewMoment *moment) {
+static void add_steps(cJSON *object, const DipPreviewMoment *moment) {
     (void)moment;
     cJSON *settings = cJSON_AddArrayToObject(object, "steps");
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
@@ -187,29 +187,23 @@ void dip_reply_pick(cJSON *object, const DipPreviewMoment *moment, int x, int y)
 
 // --- prices --------------------------------------------------------------------------------------
 
-static const char *state_name(DipPriceState state) {
-    static const char *const names[] = {
-        [DIP_PRICE_UNKNOWN] = "unknown",   [DIP_PRICE_BASE] = "base",
-        [DIP_PRICE_MEASURED] = "measured", [DIP_PRICE_PREDICTED] = "predicted",
-        [DIP_PRICE_ROUGH] = "rough",
-    };
-    return names[state];
-}
+static const char *const state_names[] = {
+    [DIP_PRICE_UNKNOWN] = "unknown",   [DIP_PRICE_BASE] = "base",
+    [DIP_PRICE_MEASURED] = "measured", [DIP_PRICE_PREDICTED] = "predicted",
+    [DIP_PRICE_ROUGH] = "rough",
+};
 
-static const char *trust_name(DipPriceTrust trust) {
-    static const char *const names[] = {
-        [DIP_PRICE_TRUST_UNKNOWN] = "unknown",
-        [DIP_PRICE_TRUST_DOUBTFUL] = "doubtful",
-        [DIP_PRICE_TRUST_ZERO] = "zero",
-        [DIP_PRICE_TRUST_KNOWN] = "known",
-    };
-    return names[trust];
-}
+static const char *const trust_names[] = {
+    [DIP_PRICE_TRUST_UNKNOWN] = "unknown",
+    [DIP_PRICE_TRUST_DOUBTFUL] = "doubtful",
+    [DIP_PRICE_TRUST_ZERO] = "zero",
+    [DIP_PRICE_TRUST_KNOWN] = "known",
+};
 
 static void add_price(cJSON *object, DipPriceState state, DipPriceTrust trust, double ms,
                       double low, double high) {
-    cJSON_AddStringToObject(object, "state", state_name(state));
-    cJSON_AddStringToObject(object, "trust", trust_name(trust));
+    cJSON_AddStringToObject(object, "state", state_names[state]);
+    cJSON_AddStringToObject(object, "trust", trust_names[trust]);
     if (state != DIP_PRICE_UNKNOWN) {
         cJSON_AddNumberToObject(object, "ms", ms);
         cJSON_AddNumberToObject(object, "ms_low", low);
@@ -244,7 +238,7 @@ static const char *source_name(const DipPrices *prices, const DipPriceSum *reque
                                                                           : "rough";
 }
 
-void dip_reply_prices(cJSON *object, const DipPreviewMoment *moment) {
+static void add_prices(cJSON *object, const DipPreviewMoment *moment) {
     const DipQuality *quality = moment->state->quality;
     const DipPriceSum requested = dip_prices_sum(moment->prices, &quality[DIP_PANE_REQUESTED]);
     const DipPriceSum current = dip_prices_sum(moment->prices, &quality[DIP_PANE_CURRENT]);
@@ -263,3 +257,16 @@ void dip_reply_prices(cJSON *object, const DipPreviewMoment *moment) {
         }
     }
 }
+
+// --- all parts -----------------------------------------------------------------------------------
+
+const DipReplyPart dip_reply_parts[DIP_CONTROL_PART_COUNT] = {
+    [DIP_CONTROL_PART_STATE] = {add_state, false},
+    [DIP_CONTROL_PART_SETTINGS] = {add_settings, false},
+    [DIP_CONTROL_PART_TIMES] = {add_times, false},
+    [DIP_CONTROL_PART_ERRORS] = {add_errors, false},
+    [DIP_CONTROL_PART_PRICES] = {add_prices, false},
+    [DIP_CONTROL_PART_PATHS] = {add_paths, true},
+    [DIP_CONTROL_PART_SCENES] = {add_scenes, true},
+    [DIP_CONTROL_PART_STEPS] = {add_steps, true},
+};
