@@ -1,7 +1,6 @@
 // The comparisons' pictures, and what lies over them.
-#include "app/preview/tools/compare.h"
+#include "app/preview/tools/tools.h"
 #include "app/ui/style.h"
-#include "app/preview/tools/window.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +50,7 @@ static void draw_one(DipUi *ui, const DipWindow *window, int pane) {
 static void draw_difference(DipUi *ui, const DipWindow *window) {
     DipPixels picture;
     uint64_t version;
-    if (dip_compare_make_difference(window->tools->compare, window, &picture, &version)) {
+    if (dip_compare_make_difference(&window->tools->compare, window, &picture, &version)) {
         dip_ui_picture(ui, dip_compare_shown(window, DIP_PANE_CURRENT), &picture, version);
     }
 }
@@ -103,11 +102,8 @@ static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) 
         (window->state->manual && off > 2 * dip_ui_px(ui, HANDLE))) {
         return;
     }
-    const double at = (input->x - shown.x + 0.5) / shown.width;
-    tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
-    if (input->modifiers & DIP_MODIFIER_SHIFT) {
-        tools->divider = 0.5;
-    }
+    const bool to_middle = input->modifiers & DIP_MODIFIER_SHIFT;
+    dip_compare_divide(tools, to_middle ? 0.5 : (input->x - shown.x + 0.5) / shown.width);
 }
 
 // The line is a control of its own, because in the middle it lies in the gap between the panes.

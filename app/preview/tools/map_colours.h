@@ -11,11 +11,6 @@ enum { DIP_MAP_COLOURS = 256 };
 // Values outside 0..1 are clamped. Thread-safe.
 void dip_cividis(float value, uint8_t rgb[3]);
 
-typedef void DipPalette(float value, uint8_t rgb[3]); // dip_magma (errors) or dip_cividis (work)
-
-// Writes a palette as a table. Entry i is the colour of the value i / 255.
-void dip_map_table(DipPalette *palette, uint8_t rgb[DIP_MAP_COLOURS][3]);
-
 // Returns the index of the colour of a value on a scale from 0 to `end`.
 static inline int dip_map_colour_index(float value, float end) {
     const float index = value / end * (DIP_MAP_COLOURS - 1) + 0.5f;
