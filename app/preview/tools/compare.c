@@ -1,4 +1,4 @@
-// Where the pictures of a comparison show, and the difference of both panes.
+// Says where the pictures of a comparison show, and computes the difference of both panes.
 #include "app/preview/tools/compare.h"
 
 #include "app/preview/tools/loupe.h"

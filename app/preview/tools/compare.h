@@ -15,7 +15,8 @@ bool dip_compare_is_one_picture(DipComparison comparison);
 // Returns whether a comparison has the converged picture in place of the current pane's.
 bool dip_compare_wants_truth(const DipToolState *tools);
 
-// Returns whether it shows there, because it is known.
+// Returns whether the converged picture shows in place of the current pane's: the comparison wants
+// it, and it is known.
 bool dip_compare_shows_truth(const DipWindow *window);
 
 // Returns the picture of a pane in a comparison, and its version.

@@ -1,4 +1,5 @@
-// The comparisons' pictures, and what lies over them.
+// Draws the comparisons' pictures, and what lies over them: the divider of a wipe, and the label of
+// a difference.
 #include "app/preview/tools/tools.h"
 #include "app/ui/style.h"
 
@@ -91,8 +92,8 @@ void dip_compare_pictures(DipUi *ui, DipWindow *window) {
 
 // --- over the panes ------------------------------------------------------------------------------
 
-// The pointer drags the divider from anywhere in the picture, since a press that moves can mean
-// nothing else there. While the user flies, only a press near the line drags it.
+// The pointer drags the divider from anywhere in the picture, because a press that moves has no
+// other meaning there. While the user flies, only a press near the line drags it.
 static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) {
     DipToolState *tools = &window->state->tools;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);
@@ -118,7 +119,7 @@ static DipUiInput declare_line(DipUi *ui, const DipWindow *window) {
     return dip_ui_control(ui, &control);
 }
 
-// A chevron that points left or right, from rectangles.
+// Draws a chevron that points left (direction -1) or right (1), as rows of pixels.
 static void draw_chevron(DipUi *ui, int x, int y, int size, int direction, DipColour colour) {
     const int thick = dip_max(2, size / 3);
     for (int i = 0; i <= size; ++i) {
@@ -149,7 +150,8 @@ static void draw_divider(DipUi *ui, const DipWindow *window) {
     draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_style_accent);
 }
 
-// Says of what two pictures the difference is. A text that is wider than the picture has two lines.
+// Says which two pictures the difference is of. A text that is wider than the picture has two
+// lines.
 static void label_difference(DipUi *ui, const DipWindow *window) {
     const DipPreviewState *state = window->state;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);

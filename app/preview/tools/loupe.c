@@ -1,4 +1,4 @@
-// The loupe's arithmetic, and the samples that it has read.
+// Finds the pixels that the loupe shows, and reads their samples.
 #include "app/preview/tools/loupe.h"
 
 #include <stdlib.h>

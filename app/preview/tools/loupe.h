@@ -1,5 +1,5 @@
-// The loupe's arithmetic and memory: which pixels it shows, where the panes mark them, and what the
-// samples of these pixels are.
+// The loupe shows pixels enlarged. This header says which pixels it shows, where the panes mark
+// them, and what the samples of these pixels are.
 //
 // The loupe looks at one pixel of both panes. Below each pane, the dock shows the pixels around it,
 // each as a square of `zoom` x `zoom` pixels of the window, and the samples of the pixel itself.

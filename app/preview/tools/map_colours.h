@@ -1,4 +1,4 @@
-// Colour scales of the maps, and how their values are written.
+// The palette of the maps of work, the ends of the maps' scales, and how values are written.
 #ifndef DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
 #define DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
 

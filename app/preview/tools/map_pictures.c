@@ -1,4 +1,4 @@
-// Draws the maps' pictures.
+// Draws the maps' pictures, and says what a map waits for.
 #include "app/measure/metrics/magma.h"
 #include "app/preview/tools/maps.h"
 
