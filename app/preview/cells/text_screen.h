@@ -19,11 +19,21 @@ typedef struct DipTextScreen {
     int rows;
 } DipTextScreen;
 
-// The colours of a text.
+// The colours of a text: of its letters, and of the cells behind them.
 typedef struct DipTextColours {
     DipColour ink;
     DipColour paper;
 } DipTextColours;
+
+static const DipTextColours dip_text_white = {{255, 255, 255, 255}, {10, 11, 14, 255}};
+static const DipTextColours dip_text_soft = {{196, 202, 210, 255}, {10, 11, 14, 255}};
+static const DipTextColours dip_text_dim = {{152, 162, 174, 255}, {10, 11, 14, 255}};
+static const DipTextColours dip_text_accent = {{255, 190, 92, 255}, {10, 11, 14, 255}};
+static const DipTextColours dip_text_gain = {{95, 214, 189, 255}, {10, 11, 14, 255}};
+static const DipTextColours dip_text_worse = {{255, 154, 139, 255}, {10, 11, 14, 255}};
+// The requested step, and the title of the setting that the arrow keys act on.
+static const DipTextColours dip_text_wanted = {{26, 18, 6, 255}, {255, 190, 92, 255}};
+static const DipTextColours dip_text_focused = {{255, 255, 255, 255}, {30, 70, 110, 255}};
 
 // Sets the size and clears all cells, so that they show the picture. Fails with MEMORY.
 bool dip_text_screen_begin(DipTextScreen *screen, int columns, int rows, DipError *err);

@@ -1,7 +1,5 @@
 // Draws the settings in characters: each setting's steps, and what a cost report says about them.
-#include "app/ui/style.h"
 #include "app/preview/cells/text_view.h"
-#include "renderer/base/assert.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -15,15 +13,6 @@ enum {
     MAX_BLOCK_COLUMNS = 3,
     MARGIN = 1
 };
-
-static const DipTextColours name = {{196, 202, 210, 255}, {10, 11, 14, 255}};
-static const DipTextColours name_focused = {{255, 255, 255, 255}, {30, 70, 110, 255}};
-static const DipTextColours title = {{255, 255, 255, 255}, {10, 11, 14, 255}};
-static const DipTextColours dim = {{152, 162, 174, 255}, {10, 11, 14, 255}};
-static const DipTextColours wanted = {{26, 18, 6, 255}, {255, 190, 92, 255}}; // Requested step.
-static const DipTextColours wanted_text = {{255, 190, 92, 255}, {10, 11, 14, 255}};
-static const DipTextColours gain = {{95, 214, 189, 255}, {10, 11, 14, 255}};   // Less error.
-static const DipTextColours worse = {{255, 154, 139, 255}, {10, 11, 14, 255}}; // More error.
 
 // Columns of blocks on a wide screen, from left to right; settings that belong together share one.
 static const int block_columns[MAX_BLOCK_COLUMNS][5] = {
@@ -43,40 +32,41 @@ static const char *step_name(DipSetting setting, int step) {
 
 // --- steps -------------------------------------------------------------------------------------
 
-static void add_target(DipTextView *view, DipTextArea area, DipSetting setting, int step) {
+// Draws one step: filled if it is the requested one, in brackets if it is the current one. A click
+// in its area chooses it.
+static void draw_step(DipTextView *view, DipSetting setting, int step, DipTextArea area) {
+    const DipQuality *quality = view->state->quality;
+    const bool current = quality[DIP_PANE_CURRENT].step[setting] == step;
+    const bool requested = quality[DIP_PANE_REQUESTED].step[setting] == step;
+    const char *text = step_name(setting, step);
+    const int room = area.columns - 2 - dip_text_length(text);
+    char framed[32];
+    snprintf(framed, sizeof framed, "%s%s%s", current ? "[" : " ", text, current ? "]" : " ");
+    dip_text_put(&view->screen, area.row, area.column + dip_max(0, room) / 2,
+                 area.column + area.columns,
+                 requested ? dip_text_wanted
+                 : current ? dip_text_white
+                           : dip_text_soft,
+                 framed);
     if (view->target_count < DIP_TEXT_MAX_TARGETS) {
         view->targets[view->target_count++] = (DipTextTarget){area, setting, step};
     }
 }
 
-// Draws one step: filled if it is the requested one, in brackets if it is the current one.
-static void draw_step(DipTextView *view, const DipPreviewState *state, DipSetting setting, int step,
-                      DipTextArea area) {
-    const bool current = state->quality[DIP_PANE_CURRENT].step[setting] == step;
-    const bool requested = state->quality[DIP_PANE_REQUESTED].step[setting] == step;
-    const char *text = step_name(setting, step);
-    const int room = area.columns - 2 - dip_text_length(text);
-    const int left = room > 0 ? room / 2 : 0;
-    char framed[32];
-    snprintf(framed, sizeof framed, "%s%s%s", current ? "[" : " ", text, current ? "]" : " ");
-    const DipTextColours colours = requested ? wanted : current ? title : name;
-    const int column = area.column + left;
-    dip_text_put(&view->screen, area.row, column, area.column + area.columns, colours, framed);
-    add_target(view, area, setting, step);
-}
-
 // Draws all steps side by side, each `width` cells wide.
-static void draw_steps(DipTextView *view, const DipPreviewState *state, DipSetting setting, int row,
-                       int column, int width) {
+static void draw_steps(DipTextView *view, DipSetting setting, int row, int column, int width) {
     const int count = dip_setting_info(setting)->step_count;
     for (int i = 0; i < count; ++i) {
-        draw_step(view, state, setting, dip_setting_step_at(setting, i),
+        draw_step(view, setting, dip_setting_step_at(setting, i),
                   (DipTextArea){column + i * width, row, width, 1});
     }
 }
 
-static bool is_focused(const DipTextView *view, DipSetting setting) {
-    return view->focused && view->focus == setting;
+// Writes a setting's title, which stands out if the arrow keys act on the setting.
+static void draw_title(DipTextView *view, DipSetting setting, int row, int column, int end) {
+    const bool focused = view->focused && view->focus == setting;
+    dip_text_put(&view->screen, row, column, end, focused ? dip_text_focused : dip_text_white,
+                 dip_setting_info(setting)->title);
 }
 
 // --- figures of a cost report ------------------------------------------------------------------
@@ -101,24 +91,19 @@ static const DipCostsStep *costs_step(const DipCostsRow *row, DipSetting setting
     return NULL;
 }
 
-static DipTextColours error_colours(const DipCostsStep *step) {
-    return step->flip_change < 0.0 ? gain : step->flip_change > 0.0 ? worse : dim;
-}
-
-// Draws two rows beneath the steps: the relative time of each step, and its error.
-static void draw_figures(DipTextView *view, const DipCostsRow *costs, DipSetting setting, int row,
-                         int column, int width) {
-    const int count = dip_setting_info(setting)->step_count;
-    dip_text_put(&view->screen, row, column - 5, column, dim, "time");
-    dip_text_put(&view->screen, row + 1, column - 5, column, dim, "FLIP");
-    for (int i = 0; i < count; ++i) {
-        const int first = column + i * width, end = first + width;
-        const DipCostsStep *step = costs_step(costs, setting, dip_setting_step_at(setting, i));
-        if (step) {
-            dip_text_put_right(&view->screen, row, first, end - 1, name, step->time);
-            dip_text_put_right(&view->screen, row + 1, first, end - 1, error_colours(step),
-                               step->flip);
-        }
+// Writes a step's relative time and its error in columns that end at the given ones. Writes nothing
+// if the report does not have the step.
+static void draw_figures(DipTextView *view, const DipCostsRow *costs, DipSetting setting, int step,
+                         DipTextArea time, DipTextArea flip) {
+    const DipCostsStep *found = costs_step(costs, setting, step);
+    if (found) {
+        dip_text_put_right(&view->screen, time.row, time.column, time.column + time.columns,
+                           dip_text_soft, found->time);
+        dip_text_put_right(&view->screen, flip.row, flip.column, flip.column + flip.columns,
+                           found->flip_change < 0.0   ? dip_text_gain
+                           : found->flip_change > 0.0 ? dip_text_worse
+                                                      : dip_text_dim,
+                           found->flip);
     }
 }
 
@@ -129,99 +114,89 @@ static int block_rows(DipSetting setting, bool has_costs) {
 }
 
 // Draws a setting's title, and at its right the values of both panes if they differ.
-static void draw_title(DipTextView *view, const DipPreviewState *state, DipSetting setting, int row,
-                       int column, int end) {
-    const int from = state->quality[DIP_PANE_CURRENT].step[setting];
-    const int to = state->quality[DIP_PANE_REQUESTED].step[setting];
+static void draw_head(DipTextView *view, DipSetting setting, int row, int column, int end) {
+    const int from = view->state->quality[DIP_PANE_CURRENT].step[setting];
+    const int to = view->state->quality[DIP_PANE_REQUESTED].step[setting];
     char text[48];
     snprintf(text, sizeof text, "%s → ", step_name(setting, from));
-    const int right =
-        dip_text_put_right(&view->screen, row, column, end, wanted_text, step_name(setting, to));
-    const int left =
-        from == to ? right : dip_text_put_right(&view->screen, row, column, right, dim, text);
-    dip_text_put(&view->screen, row, column, left - 1,
-                 is_focused(view, setting) ? name_focused : title,
-                 dip_setting_info(setting)->title);
+    int left = dip_text_put_right(&view->screen, row, column, end, dip_text_accent,
+                                  step_name(setting, to));
+    if (from != to) {
+        left = dip_text_put_right(&view->screen, row, column, left, dip_text_dim, text);
+    }
+    draw_title(view, setting, row, column, left - 1);
 }
 
-static void draw_block(DipTextView *view, const DipPreviewState *state, DipSetting setting, int row,
-                       int column) {
-    const int end = column + BLOCK_COLUMNS - 2;
-    const DipCostsRow costs = costs_row(state->costs, setting);
-    const DipSettingInfo *info = dip_setting_info(setting);
+static void draw_block(DipTextView *view, DipSetting setting, int row, int column) {
+    const int end = column + BLOCK_COLUMNS - 2, count = dip_setting_info(setting)->step_count;
+    const DipCostsRow costs = costs_row(view->state->costs, setting);
     if (is_switch(setting)) {
-        const DipCostsStep *step = costs_step(&costs, setting, 1);
-        dip_text_put(&view->screen, row, column, end - 22,
-                     is_focused(view, setting) ? name_focused : title, info->title);
-        if (step) {
-            dip_text_put_right(&view->screen, row, end - 22, end - 17, name, step->time);
-            dip_text_put_right(&view->screen, row, end - 17, end - 10, error_colours(step),
-                               step->flip);
-        }
-        draw_steps(view, state, setting, row, end - 10, 5);
+        draw_title(view, setting, row, column, end - 22);
+        draw_figures(view, &costs, setting, 1, (DipTextArea){end - 22, row, 5, 1},
+                     (DipTextArea){end - 17, row, 7, 1});
+        draw_steps(view, setting, row, end - 10, 5);
         return;
     }
-    const int width = dip_min(8, (end - column - 6) / info->step_count);
-    draw_title(view, state, setting, row, column, end);
-    draw_steps(view, state, setting, row + 1, column + 6, width);
-    if (state->costs) {
-        draw_figures(view, &costs, setting, row + 2, column + 6, width);
+    const int width = dip_min(8, (end - column - 6) / count);
+    draw_head(view, setting, row, column, end);
+    draw_steps(view, setting, row + 1, column + 6, width);
+    if (!view->state->costs) {
+        return;
+    }
+    dip_text_put(&view->screen, row + 2, column + 1, column + 6, dip_text_dim, "time");
+    dip_text_put(&view->screen, row + 3, column + 1, column + 6, dip_text_dim, "FLIP");
+    for (int i = 0; i < count; ++i) {
+        const int first = column + 6 + i * width;
+        draw_figures(view, &costs, setting, dip_setting_step_at(setting, i),
+                     (DipTextArea){first, row + 2, width - 1, 1},
+                     (DipTextArea){first, row + 3, width - 1, 1});
     }
 }
 
-static void draw_blocks(DipTextView *view, const DipPreviewState *state, DipTextArea body) {
+static void draw_blocks(DipTextView *view, DipTextArea body) {
     for (int c = 0; c < MAX_BLOCK_COLUMNS; ++c) {
         int row = body.row;
         for (int i = 0; i < 5 && block_columns[c][i] >= 0; ++i) {
             const DipSetting setting = (DipSetting)block_columns[c][i];
-            const int rows = block_rows(setting, state->costs != NULL);
+            const int rows = block_rows(setting, view->state->costs != NULL);
             if (row + rows <= body.row + body.rows + 1) { // The last row of a block is blank.
-                draw_block(view, state, setting, row, body.column + MARGIN + c * BLOCK_COLUMNS);
+                draw_block(view, setting, row, body.column + MARGIN + c * BLOCK_COLUMNS);
             }
             row += rows;
         }
     }
 }
 
-// Says what the panes cost, and which key copies the requested settings.
-static void draw_sum(DipTextView *view, const DipPreviewState *state, DipTextArea body) {
+// Says which key copies the requested settings, and what the colours and figures mean.
+static void draw_sum(DipTextView *view, DipTextArea body) {
+    const DipPreviewState *state = view->state;
     const int column = body.column + MARGIN + MAX_BLOCK_COLUMNS * BLOCK_COLUMNS;
     const int end = body.column + body.columns;
     const bool same = memcmp(&state->quality[0], &state->quality[1], sizeof(DipQuality)) == 0;
     for (int row = body.row; row < body.row + body.rows; ++row) {
-        dip_text_put(&view->screen, row, column - 2, column - 1, dim, "│");
+        dip_text_put(&view->screen, row, column - 2, column - 1, dip_text_dim, "│");
     }
-    dip_text_put(&view->screen, body.row, column, end, same ? dim : wanted,
+    dip_text_put(&view->screen, body.row, column, end, same ? dip_text_dim : dip_text_wanted,
                  same ? "Both panes are the same" : " Enter  Apply ");
-    if (state->costs) {
-        dip_text_put(&view->screen, body.row + 2, column, end, dim, "Figures: cost report");
-        dip_text_put(&view->screen, body.row + 3, column, end, dim, "K  best settings");
-    } else {
-        dip_text_put(&view->screen, body.row + 2, column, end, dim, "[ ] current");
-        dip_text_put(&view->screen, body.row + 3, column, end, wanted, " requested ");
-    }
+    dip_text_put(&view->screen, body.row + 2, column, end, dip_text_dim,
+                 state->costs ? "Figures: cost report" : "[ ] current");
+    dip_text_put(&view->screen, body.row + 3, column, end,
+                 state->costs ? dip_text_dim : dip_text_wanted,
+                 state->costs ? "K  best settings" : " requested ");
 }
 
 // --- rows on a narrow screen -------------------------------------------------------------------
 
-static void draw_row(DipTextView *view, const DipPreviewState *state, DipSetting setting, int row,
-                     int column, int columns) {
+static void draw_row(DipTextView *view, DipSetting setting, int row, int column, int columns) {
     const int end = column + columns - 1;
-    dip_text_put(&view->screen, row, column, column + NAME_COLUMNS - 1,
-                 is_focused(view, setting) ? name_focused : title,
-                 dip_setting_info(setting)->title);
-    const int count = dip_setting_info(setting)->step_count;
-    const int width = dip_min(8, (ROW_COLUMNS - NAME_COLUMNS) / count);
-    draw_steps(view, state, setting, row, column + NAME_COLUMNS, dip_max(width, 6));
-    if (columns < ROW_COLUMNS + FIGURE_COLUMNS) {
-        return;
-    }
-    const DipCostsRow costs = costs_row(state->costs, setting);
-    const DipCostsStep *step =
-        costs_step(&costs, setting, state->quality[DIP_PANE_REQUESTED].step[setting]);
-    if (step) {
-        dip_text_put_right(&view->screen, row, end - FIGURE_COLUMNS, end - 7, name, step->time);
-        dip_text_put_right(&view->screen, row, end - 7, end, error_colours(step), step->flip);
+    const int width = (ROW_COLUMNS - NAME_COLUMNS) / dip_setting_info(setting)->step_count;
+    draw_title(view, setting, row, column, column + NAME_COLUMNS - 1);
+    draw_steps(view, setting, row, column + NAME_COLUMNS, dip_max(dip_min(8, width), 6));
+    if (columns >= ROW_COLUMNS + FIGURE_COLUMNS) {
+        const DipCostsRow costs = costs_row(view->state->costs, setting);
+        draw_figures(view, &costs, setting, view->state->quality[DIP_PANE_REQUESTED].step[setting],
+                     (DipTextArea){end - FIGURE_COLUMNS, row, FIGURE_COLUMNS - 7, 1},
+                     (DipTextArea){end - 7, row, 7, 1});
     }
 }
 
@@ -249,10 +224,10 @@ int dip_text_settings_rows(int columns, bool has_costs) {
     return most;
 }
 
-void dip_text_draw_settings(DipTextView *view, const DipPreviewState *state, DipTextArea body) {
+void dip_text_draw_settings(DipTextView *view, DipTextArea body) {
     if (is_wide(body.columns)) {
-        draw_blocks(view, state, body);
-        draw_sum(view, state, body);
+        draw_blocks(view, body);
+        draw_sum(view, body);
         return;
     }
     const int column_count = columns_of_rows(body.columns);
@@ -264,8 +239,8 @@ void dip_text_draw_settings(DipTextView *view, const DipPreviewState *state, Dip
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         const int row = s % rows - first;
         if (row >= 0 && row < body.rows) {
-            draw_row(view, state, (DipSetting)s, body.row + row,
-                     body.column + MARGIN + s / rows * columns, columns);
+            draw_row(view, (DipSetting)s, body.row + row, body.column + MARGIN + s / rows * columns,
+                     columns);
         }
     }
 }

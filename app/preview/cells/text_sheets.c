@@ -1,7 +1,6 @@
 // Draws times, costs and the list of keys in characters.
-#include "app/preview/state/keys.h"
-#include "app/ui/style.h"
 #include "app/preview/cells/text_view.h"
+#include "app/preview/state/keys.h"
 #include "renderer/base/assert.h"
 
 #include <stdio.h>
@@ -13,10 +12,6 @@ enum {
     TITLE_COLUMNS = 24,
     STEP_COLUMNS = 21 // Width of a step with its figures: "16 1.56x -.0107".
 };
-
-static const DipTextColours white = {{255, 255, 255, 255}, {10, 11, 14, 255}};
-static const DipTextColours soft = {{196, 202, 210, 255}, {10, 11, 14, 255}};
-static const DipTextColours accent = {{255, 190, 92, 255}, {10, 11, 14, 255}};
 
 // --- times -------------------------------------------------------------------------------------
 
@@ -30,9 +25,10 @@ static void draw_pane_times(DipTextScreen *screen, DipTextArea area, const DipPa
         const int column = area.column + 1 + i / area.rows * width;
         const int end = column + width - 2;
         const DipPanelLine *line = &lines[i];
-        const int value =
-            dip_text_put_right(screen, row, column, end, line->head ? accent : white, line->value);
-        dip_text_put(screen, row, column, value - 1, line->head ? accent : soft, line->name);
+        const int value = dip_text_put_right(
+            screen, row, column, end, line->head ? dip_text_accent : dip_text_white, line->value);
+        dip_text_put(screen, row, column, value - 1, line->head ? dip_text_accent : dip_text_soft,
+                     line->name);
     }
 }
 
@@ -54,7 +50,7 @@ static void draw_how_to(DipTextScreen *screen, DipTextArea body, const DipPrevie
     dip_preview_how_to(state, lines);
     for (int i = 0; i < DIP_HOW_TO_LINES && i < body.rows; ++i) {
         dip_text_put(screen, body.row + i, body.column + 1, body.column + body.columns,
-                     i % 2 ? accent : white, lines[i]);
+                     i % 2 ? dip_text_accent : dip_text_white, lines[i]);
     }
 }
 
@@ -68,11 +64,11 @@ void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPrevi
     }
     dip_costs_make(&costs, state->costs);
     dip_costs_heading(state->costs, heading);
-    dip_text_put(screen, body.row, body.column + 1, end, white, heading);
+    dip_text_put(screen, body.row, body.column + 1, end, dip_text_white, heading);
     for (int r = 0; r < costs.row_count && r + 1 < body.rows; ++r) {
         const DipCostsRow *row = &costs.rows[r];
         int column = body.column + 1;
-        dip_text_put(screen, body.row + 1 + r, column, column + TITLE_COLUMNS - 1, white,
+        dip_text_put(screen, body.row + 1 + r, column, column + TITLE_COLUMNS - 1, dip_text_white,
                      row->title);
         column += TITLE_COLUMNS;
         for (int s = 0; s < row->step_count && column < end; ++s) {
@@ -80,7 +76,7 @@ void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPrevi
             char text[64];
             snprintf(text, sizeof text, "%s %s", row->steps[s].name, row->steps[s].figures);
             dip_text_put(screen, body.row + 1 + r, column, dip_min(end, column + STEP_COLUMNS - 1),
-                         at ? accent : soft, text);
+                         at ? dip_text_accent : dip_text_soft, text);
             column += STEP_COLUMNS;
         }
     }
@@ -94,8 +90,8 @@ static void draw_key(DipTextScreen *screen, DipTextArea area, int rows, int inde
     const int row = area.row + 2 + index % rows;
     const int column = area.column + 2 + index / rows * KEY_COLUMNS;
     const int end = dip_min(area.column + area.columns, column + KEY_COLUMNS - 1);
-    dip_text_put(screen, row, column, column + LABEL_COLUMNS - 1, accent, label);
-    dip_text_put(screen, row, column + LABEL_COLUMNS, end, white, text);
+    dip_text_put(screen, row, column, column + LABEL_COLUMNS - 1, dip_text_accent, label);
+    dip_text_put(screen, row, column + LABEL_COLUMNS, end, dip_text_white, text);
 }
 
 void dip_text_draw_help(DipTextScreen *screen, DipTextArea area) {
@@ -106,8 +102,8 @@ void dip_text_draw_help(DipTextScreen *screen, DipTextArea area) {
     };
     const int rows = dip_max(1, area.rows - 2);
     int index = 0;
-    dip_text_screen_fill(screen, area, white.paper);
-    dip_text_put(screen, area.row, area.column + 2, area.column + area.columns, white,
+    dip_text_screen_fill(screen, area, dip_text_white.paper);
+    dip_text_put(screen, area.row, area.column + 2, area.column + area.columns, dip_text_white,
                  "Keys   (a setting's key with Shift: the step before)");
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(own_keys); ++i) {
         draw_key(screen, area, rows, index++, own_keys[i][0], own_keys[i][1]);

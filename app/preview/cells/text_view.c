@@ -1,8 +1,6 @@
 // Lays out the screen of characters, draws labels, bar and keys, and handles events.
 #include "app/preview/cells/text_view.h"
 
-#include "app/ui/style.h"
-
 #include <stdio.h>
 #include <string.h>
 
@@ -12,9 +10,6 @@ enum {
     LEAST_ROWS = 6        // A screen with fewer rows shows the panes and their labels only.
 };
 
-static const DipTextColours title = {{255, 255, 255, 255}, {10, 11, 14, 255}};
-static const DipTextColours soft = {{196, 202, 210, 255}, {10, 11, 14, 255}};
-static const DipTextColours accent = {{255, 190, 92, 255}, {10, 11, 14, 255}};
 static const DipTextColours bar = {{196, 202, 210, 255}, {32, 36, 43, 255}};
 static const DipTextColours bar_title = {{255, 255, 255, 255}, {32, 36, 43, 255}};
 static const DipTextColours bar_accent = {{255, 190, 92, 255}, {32, 36, 43, 255}};
@@ -80,7 +75,7 @@ static void draw_label(DipTextView *view, const DipPreviewState *state, int pane
     const int end = area.column + area.columns;
     char text[256];
     int column = dip_text_put(&view->screen, 0, area.column + 1, end,
-                              state->edited[pane] ? accent : title, names[pane]);
+                              state->edited[pane] ? dip_text_accent : dip_text_white, names[pane]);
     if (figures->copied) {
         snprintf(text, sizeof text, "  copied");
     } else if (figures->fps > 0 && area.columns >= 60) {
@@ -89,14 +84,14 @@ static void draw_label(DipTextView *view, const DipPreviewState *state, int pane
         snprintf(text, sizeof text, "  %s%4.1f ms", figures->frames == 1 ? "one frame: " : "",
                  figures->ms);
     }
-    column = dip_text_put(&view->screen, 0, column, end, title, text);
+    column = dip_text_put(&view->screen, 0, column, end, dip_text_white, text);
     const int room = end - column - 2;
     dip_preview_describe(&state->quality[pane], false, text, sizeof text);
     if (dip_text_length(text) > room) {
         dip_preview_describe(&state->quality[pane], true, text, sizeof text);
     }
     if (room > 4) {
-        dip_text_put(&view->screen, 0, column + 2, end, soft, text);
+        dip_text_put(&view->screen, 0, column + 2, end, dip_text_soft, text);
     }
 }
 
@@ -105,7 +100,8 @@ static void draw_labels(DipTextView *view, const DipPreviewState *state,
     if (layout->panes[0].row == 0) {
         return;
     }
-    dip_text_screen_fill(&view->screen, (DipTextArea){0, 0, layout->columns, 1}, title.paper);
+    dip_text_screen_fill(&view->screen, (DipTextArea){0, 0, layout->columns, 1},
+                         dip_text_white.paper);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         draw_label(view, state, p, layout->panes[p], &figures[p]);
     }
@@ -117,9 +113,9 @@ static void draw_divider(DipTextView *view, const DipTextLayout *layout) {
     const DipTextArea right = layout->panes[DIP_PANE_REQUESTED];
     const int first = left.column + left.columns;
     const DipTextArea gap = {first, left.row, right.column - first, left.rows};
-    dip_text_screen_fill(&view->screen, gap, accent.paper);
+    dip_text_screen_fill(&view->screen, gap, dip_text_accent.paper);
     for (int row = gap.row; gap.columns > 0 && row < gap.row + gap.rows; ++row) {
-        dip_text_put(&view->screen, row, right.column - 1, right.column, accent, "│");
+        dip_text_put(&view->screen, row, right.column - 1, right.column, dip_text_accent, "│");
     }
 }
 
@@ -170,14 +166,14 @@ static void draw_keys(DipTextView *view, const DipPreviewState *state, int row) 
         "↑ ↓ setting   ← → step   Enter apply   Space pause   F1 keys   Esc quit",
         "   X AA   F AF   V adaptive   O textures   L mip detail   . step"};
     const int columns = view->screen.columns;
-    dip_text_screen_fill(&view->screen, (DipTextArea){0, row, columns, 1}, title.paper);
+    dip_text_screen_fill(&view->screen, (DipTextArea){0, row, columns, 1}, dip_text_white.paper);
     if (state->notice[0]) {
-        dip_text_put(&view->screen, row, 1, columns, accent, state->notice);
+        dip_text_put(&view->screen, row, 1, columns, dip_text_accent, state->notice);
         return;
     }
-    const int column = dip_text_put(&view->screen, row, 1, columns, soft, keys[0]);
+    const int column = dip_text_put(&view->screen, row, 1, columns, dip_text_soft, keys[0]);
     if (column + dip_text_length(keys[1]) <= columns) {
-        dip_text_put(&view->screen, row, column, columns, soft, keys[1]);
+        dip_text_put(&view->screen, row, column, columns, dip_text_soft, keys[1]);
     }
 }
 
@@ -188,6 +184,7 @@ bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int wid
         return false;
     }
     view->target_count = 0;
+    view->state = state;
     draw_labels(view, state, &layout, figures);
     draw_divider(view, &layout);
     if (layout.bar_row >= 0) {
@@ -195,13 +192,13 @@ bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int wid
         draw_keys(view, state, layout.keys_row);
     }
     if (layout.body.rows > 0) {
-        dip_text_screen_fill(&view->screen, layout.body, title.paper);
+        dip_text_screen_fill(&view->screen, layout.body, dip_text_white.paper);
         if (state->show_costs) {
             dip_text_draw_costs(&view->screen, layout.body, state);
         } else if (state->panel) {
             dip_text_draw_times(&view->screen, layout.body, &layout, figures);
         } else {
-            dip_text_draw_settings(view, state, layout.body);
+            dip_text_draw_settings(view, layout.body);
         }
     }
     if (state->help) {

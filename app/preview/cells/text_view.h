@@ -6,9 +6,9 @@
 #ifndef DIP_APP_PREVIEW_CELLS_TEXT_VIEW_H
 #define DIP_APP_PREVIEW_CELLS_TEXT_VIEW_H
 
+#include "app/preview/cells/text_screen.h"
 #include "app/preview/live/figures.h"
 #include "app/preview/state/state.h"
-#include "app/preview/cells/text_screen.h"
 
 enum { DIP_TEXT_MAX_TARGETS = 64 };
 
@@ -34,8 +34,9 @@ typedef struct DipTextView {
     DipTextScreen screen;
     DipTextTarget targets[DIP_TEXT_MAX_TARGETS]; // Of the last drawing.
     int target_count;
-    bool focused;     // The arrow keys act on the settings.
-    DipSetting focus; // The setting that they act on.
+    bool focused;                 // The arrow keys act on the settings.
+    DipSetting focus;             // The setting that they act on.
+    const DipPreviewState *state; // Borrowed while the texts are written.
 } DipTextView;
 
 void dip_text_view_free(DipTextView *view);
@@ -60,8 +61,8 @@ bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEve
 
 // --- for the parts of the view -----------------------------------------------------------------
 
-// Each fills the body.
-void dip_text_draw_settings(DipTextView *view, const DipPreviewState *state, DipTextArea body);
+// Each writes one of the things that the body shows: settings, times or costs.
+void dip_text_draw_settings(DipTextView *view, DipTextArea body);
 void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextLayout *layout,
                          const DipPaneFigures figures[DIP_PANE_COUNT]);
 void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPreviewState *state);

@@ -10,7 +10,7 @@ static const double price_budget_ms = 8.0;
 static const int least_truth_samples = 32; // A coarser truth is too noisy for prices.
 
 void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
-    dip_maps_set_errors(preview->tools->maps, reading,
+    dip_maps_set_errors(&preview->tools->maps, reading,
                         preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
 }
 

@@ -86,7 +86,7 @@ static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *lis
         .prices = input->prices,
         .tools = input->tools,
     };
-    window.truth = dip_maps_truth(input->tools->maps, &window.truth_version);
+    window.truth = dip_maps_truth(&input->tools->maps, &window.truth_version);
     const DipUiPass pass = {view->font, layout.scale, input->now_ns, list, event};
     dip_ui_begin(view->ui, &pass);
     dip_window_declare(view->ui, &window);

@@ -56,7 +56,7 @@ static void find_base(DipPreviewChoice *choice, const DipQuality *base) {
     }
 }
 
-// Nothing that is faster than what is advised can fit worse by its time, so presets fit, too.
+// All presets are at least as fast as the advised settings, so they fit the budget as well.
 static void make_presets(DipPreviewChoice *choice) {
     const DipCandidate *advised = dip_preview_advised(choice);
     const DipCandidate *fastest =

@@ -1,4 +1,4 @@
-// Turns a report's times and errors into text.
+// Reads a cost report, and turns its times and errors into texts.
 #include "app/preview/prices/costs.h"
 
 #include "app/report/format/formats.h"

@@ -1,4 +1,4 @@
-// Formats settings, steps and prices.
+// Writes prices, and the tips that explain the steps of settings.
 #include "app/preview/prices/price_text.h"
 
 #include "app/report/words.h"

@@ -1,4 +1,4 @@
-// Settings, steps and prices as the panel writes them.
+// How the panel writes prices, and the tips that explain the steps of settings.
 #ifndef DIP_APP_PREVIEW_PRICES_PRICE_TEXT_H
 #define DIP_APP_PREVIEW_PRICES_PRICE_TEXT_H
 
@@ -27,7 +27,8 @@ void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 // Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.
 void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes a price's error, or "" if it is unknown.
+// Writes a price's error. One that is unknown is dots, or a dash if the setting has no effect
+// without another setting.
 void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes the tip of a step: what it does, and its price. why: why it cannot be chosen, or "".

@@ -1,12 +1,14 @@
 // The tab of advice: the best settings for a time budget, what the next better ones cost, and a
-// plot of all that can be chosen. It reads one choice (choice.h), whether a report or live prices
-// made it.
+// plot of all that can be chosen. Everything comes from the preview's choice (choice.h), which is
+// made from a report or from live prices.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,39 +32,20 @@ static DipUiId id_of(int index) {
     return DIP_UI_ID(DIP_UI_ADVICE, index);
 }
 
-// Draws a line of text at *y and moves *y behind it.
-static void write_line(DipUi *ui, int size, DipColour colour, DipRect room, int *y,
-                       const char *text) {
-    const int height = dip_ui_line_height(ui, size);
-    if (*y + height <= room.y + room.height) {
-        dip_ui_text(ui, size, colour, DIP_ALIGN_LEFT, room.x, *y, room.width, text);
+// Writes a line at the top of *room and cuts it off with a gap. Leaves out a line that does not
+// fit.
+__attribute__((format(printf, 5, 6))) static void
+write_line(DipUi *ui, int size, DipColour colour, DipRect *room, const char *format, ...) {
+    char text[200];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    DipRect line = dip_cut_top(room, dip_ui_line_height(ui, size));
+    if (room->height >= 0) {
+        dip_ui_line(ui, size, colour, &line, "%s", text);
     }
-    *y += height + dip_ui_px(ui, 3);
-}
-
-// --- budgets -------------------------------------------------------------------------------------
-
-// Declares a button for each budget. Returns the height of the buttons.
-static int declare_budgets(DipUi *ui, DipWindow *window, DipRect room) {
-    DipPreviewState *state = window->state;
-    double list[DIP_COST_MAX_BUDGETS];
-    const int count = dip_preview_budgets(state, list);
-    const int gap = dip_ui_px(ui, 6), height = dip_ui_px(ui, BUTTON_HEIGHT);
-    const int width = (room.width - (BUDGET_COLUMNS - 1) * gap) / BUDGET_COLUMNS;
-    for (int i = 0; i < count; ++i) {
-        const DipRect button = {room.x + i % BUDGET_COLUMNS * (width + gap),
-                                room.y + i / BUDGET_COLUMNS * (height + gap), width, height};
-        char name[DIP_NUMBER_BYTES + 4];
-        dip_budget_ms_text(list[i], name);
-        strcat(name, " ms");
-        if (dip_ui_button(ui, id_of(ID_BUDGETS + i), button, name,
-                          fabs(list[i] - state->budget_ms) < 0.05 ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
-                          "Shows the settings with the least error within this time per frame. "
-                          "They change nothing until you try them.")) {
-            dip_preview_set_budget(state, list[i]);
-        }
-    }
-    return (count + BUDGET_COLUMNS - 1) / BUDGET_COLUMNS * (height + gap);
+    dip_cut_top(room, dip_ui_px(ui, 3));
 }
 
 static void try_settings(DipUi *ui, DipWindow *window, const DipQuality *quality) {
@@ -74,51 +57,70 @@ static void try_settings(DipUi *ui, DipWindow *window, const DipQuality *quality
 
 // --- the advice ----------------------------------------------------------------------------------
 
+// Declares a button for each budget at the top of *room, and cuts the buttons off.
+static void declare_budgets(DipUi *ui, DipWindow *window, DipRect *room) {
+    DipPreviewState *state = window->state;
+    double list[DIP_COST_MAX_BUDGETS];
+    const int count = dip_preview_budgets(state, list);
+    const int gap = dip_ui_px(ui, 6), height = dip_ui_px(ui, BUTTON_HEIGHT);
+    for (int i = 0; i < count; ++i) {
+        char name[DIP_NUMBER_BYTES + 4];
+        dip_budget_ms_text(list[i], name);
+        strcat(name, " ms");
+        if (dip_ui_button(ui, id_of(ID_BUDGETS + i),
+                          dip_rect_cell(*room, BUDGET_COLUMNS, height, gap, gap, i), name,
+                          fabs(list[i] - state->budget_ms) < 0.05 ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                          "Shows the settings with the least error within this time per frame. "
+                          "They change nothing until you try them.")) {
+            dip_preview_set_budget(state, list[i]);
+        }
+    }
+    dip_cut_top(room, (count + BUDGET_COLUMNS - 1) / BUDGET_COLUMNS * (height + gap));
+}
+
+// Writes the figures of the advised settings, the settings themselves, and a warning if the report
+// is of another size than the panes.
 static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate *advised,
-                          DipRect room, int *y) {
+                          DipRect *room) {
     const DipPreviewChoice *choice = window->state->choice;
     const DipCostReport *report = choice->live ? NULL : window->state->costs;
+    const DipPixels *frame = &window->frames[0];
     char text[200], number[DIP_NUMBER_BYTES], flip[DIP_STEP_NAME_BYTES];
-    snprintf(text, sizeof text, "%s%.1f ms", choice->live ? DIP_ROUGH_MARK : "",
-             advised->time.value);
-    write_line(ui, SUM_SIZE, dip_style_accent, room, y, text);
+    write_line(ui, SUM_SIZE, dip_style_accent, room, "%s%.1f ms",
+               choice->live ? DIP_ROUGH_MARK : "", advised->time.value);
     dip_fits_text(choice->advice.fits, number);
-    snprintf(text, sizeof text, "%s; fits with %s", dip_time_kind_names[choice->candidates.kind],
-             number);
-    write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
+    write_line(ui, NOTE_SIZE, dip_style_soft, room, "%s; fits with %s",
+               dip_time_kind_names[choice->candidates.kind], number);
     dip_flip_text(advised->flip, false, flip);
-    snprintf(text, sizeof text, "FLIP %s", flip);
     if (choice->base >= 0 && choice->candidates.list[choice->base].flip > 0.0) {
         const double base = choice->candidates.list[choice->base].flip;
         dip_number_text(100.0 * (advised->flip / base - 1.0), 0, true, "\u2212", number);
-        snprintf(text, sizeof text, "FLIP %s, %s %% of the baseline's", flip, number);
+        write_line(ui, NOTE_SIZE, dip_style_soft, room, "FLIP %s, %s %% of the baseline's", flip,
+                   number);
+    } else {
+        write_line(ui, NOTE_SIZE, dip_style_soft, room, "FLIP %s", flip);
     }
-    write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
     dip_quality_format_changes(&advised->quality, text, sizeof text);
-    write_line(ui, NOTE_SIZE, dip_style_white, room, y, text);
+    write_line(ui, NOTE_SIZE, dip_style_white, room, "%s", text);
     if (choice->advice.tie_count > 0) {
-        snprintf(text, sizeof text, "%d more within 1 %% of its FLIP", choice->advice.tie_count);
-        write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
+        write_line(ui, NOTE_SIZE, dip_style_soft, room, "%d more within 1 %% of its FLIP",
+                   choice->advice.tie_count);
     }
-    if (report &&
-        (report->width != window->frames[0].width || report->height != window->frames[0].height)) {
-        snprintf(text, sizeof text, "The report is of %dx%d, the panes are %dx%d.", report->width,
-                 report->height, window->frames[0].width, window->frames[0].height);
-        write_line(ui, NOTE_SIZE, dip_style_worse, room, y, text);
+    if (report && (report->width != frame->width || report->height != frame->height)) {
+        write_line(ui, NOTE_SIZE, dip_style_worse, room,
+                   "The report is of %dx%d, the panes are %dx%d.", report->width, report->height,
+                   frame->width, frame->height);
     }
 }
 
-static void write_why_not(DipUi *ui, const DipWindow *window, DipRect room, int *y) {
-    char text[200];
-    if (window->figures[DIP_PANE_REQUESTED].no_errors) {
-        snprintf(text, sizeof text, "A scene of the gallery has no errors to choose by.");
-    } else {
+static void write_why_not(DipUi *ui, const DipWindow *window, DipRect *room) {
+    char text[200] = "A scene of the gallery has no errors to choose by.";
+    if (!window->figures[DIP_PANE_REQUESTED].no_errors) {
         dip_preview_choice_why(window->state->choice, dip_prices_progress(window->prices), text,
                                sizeof text);
     }
-    dip_ui_text_block(ui, SIZE, dip_style_soft,
-                      (DipRect){room.x, *y, room.width, room.y + room.height - *y}, text);
-    *y += 3 * dip_ui_line_height(ui, SIZE);
+    dip_ui_text_block(ui, SIZE, dip_style_soft, *room, text);
+    dip_cut_top(room, 3 * dip_ui_line_height(ui, SIZE));
 }
 
 static void declare_try(DipUi *ui, DipWindow *window, const DipCandidate *advised, DipRect rect) {
@@ -145,21 +147,20 @@ static void declare_try(DipUi *ui, DipWindow *window, const DipCandidate *advise
 static void declare_advised(DipUi *ui, DipWindow *window, DipRect room) {
     const DipCandidate *advised = dip_preview_advised(window->state->choice);
     const int height = dip_ui_px(ui, BUTTON_HEIGHT), gap = dip_ui_px(ui, 8);
-    int y = room.y;
-    write_line(ui, SIZE, dip_style_white, room, &y,
+    DipRect rest = room;
+    write_line(ui, SIZE, dip_style_white, &rest,
                window->state->choice->live ? "Best picture within, roughly"
                                            : "Best picture within");
-    y += declare_budgets(ui, window, (DipRect){room.x, y, room.width, 0});
+    declare_budgets(ui, window, &rest);
     if (advised) {
-        write_advised(ui, window, advised, room, &y);
+        write_advised(ui, window, advised, &rest);
     } else {
-        write_why_not(ui, window, room, &y);
+        write_why_not(ui, window, &rest);
     }
-    const int width = (room.width - gap) / 2;
-    y = dip_min(y + gap / 2, room.y + room.height - height);
-    declare_try(ui, window, advised, (DipRect){room.x, y, width, height});
-    if (dip_ui_button(ui, id_of(ID_TABLE), (DipRect){room.x + width + gap, y, width, height},
-                      "All steps", DIP_UI_PLAIN,
+    rest.y = dip_min(rest.y + gap / 2, dip_rect_bottom(room) - height);
+    declare_try(ui, window, advised, dip_rect_cell(rest, 2, height, gap, gap, 0));
+    if (dip_ui_button(ui, id_of(ID_TABLE), dip_rect_cell(rest, 2, height, gap, gap, 1), "All steps",
+                      DIP_UI_PLAIN,
                       "Shows the time and error of every step of every setting (U).")) {
         dip_preview_act(window->state, DIP_ACTION_COSTS, 0, false, dip_ui_now_ns(ui));
     }
@@ -192,12 +193,13 @@ static const DipCandidate *next_faster(const DipPreviewChoice *choice,
     return found;
 }
 
-// Declares a step to other settings as a button; `to` may be NULL. Returns its height.
-static int declare_step(DipUi *ui, DipWindow *window, const DipCandidate *advised,
-                        const DipCandidate *to, bool up, DipRect room) {
-    const int pad = dip_ui_px(ui, 8), line = dip_ui_line_height(ui, SIZE);
-    const int note = dip_ui_line_height(ui, NOTE_SIZE);
-    const DipRect box = {room.x, room.y, room.width, line + note + pad};
+// Declares a step to other settings as a button at the top of *room, and cuts it off with a gap.
+// `to`: the settings, or NULL if there are none. up: they are better and slower.
+static void declare_step(DipUi *ui, DipWindow *window, const DipCandidate *advised,
+                         const DipCandidate *to, bool up, DipRect *room) {
+    const int pad = dip_ui_px(ui, 8), radius = dip_ui_px(ui, 4);
+    const int line = dip_ui_line_height(ui, SIZE), note = dip_ui_line_height(ui, NOTE_SIZE);
+    const DipRect box = dip_cut_top(room, line + note + pad);
     char text[160], number[DIP_NUMBER_BYTES], flip[DIP_STEP_NAME_BYTES];
     const DipUiInput input = dip_ui_control(
         ui, &(DipUiControl){.id = id_of(up ? ID_UP : ID_DOWN),
@@ -207,62 +209,54 @@ static int declare_step(DipUi *ui, DipWindow *window, const DipCandidate *advise
                                       : "The next faster combination of the front: what it saves "
                                         "and loses. A click tries it in the right pane.",
                             .disabled = !to});
-    dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), dip_style_raised);
-    dip_ui_text(ui, SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2, box.width,
-                up ? "next better" : "faster");
+    dip_cut_top(room, dip_ui_px(ui, 6));
+    dip_ui_fill_round(ui, box, radius, dip_style_raised);
     if (input.hovered && to) {
-        dip_ui_outline(ui, box, dip_ui_px(ui, 4), dip_ui_px(ui, 1), dip_style_soft);
+        dip_ui_outline(ui, box, radius, dip_ui_px(ui, 1), dip_style_soft);
     }
-    dip_ui_focus_ring(ui, box, dip_ui_px(ui, 4), &input);
-    const int right = box.x + box.width - pad;
+    dip_ui_focus_ring(ui, box, radius, &input);
+    DipRect inside = dip_rect_inset(box, pad, pad / 2);
+    DipRect row = dip_cut_top(&inside, line);
+    dip_ui_label(ui, SIZE, dip_style_white, DIP_ALIGN_LEFT, row, up ? "next better" : "faster");
     if (!to) {
-        dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, right, box.y + pad / 2,
-                    box.width - 12 * pad, up ? "nothing measured" : "nothing measured is faster");
-        return box.height;
+        row.height = note;
+        dip_ui_label(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, row,
+                     up ? "nothing measured" : "nothing measured is faster");
+        return;
     }
     dip_flip_text(to->flip - advised->flip, true, flip);
     dip_number_text(to->time.value - advised->time.value, 1, true, "\u2212", number);
     snprintf(text, sizeof text, "%s ms", number);
-    const int flip_width = dip_ui_text_width(ui, SIZE, flip) + pad;
-    dip_ui_text(ui, SIZE, up ? dip_style_gain : dip_style_worse, DIP_ALIGN_RIGHT, right,
-                box.y + pad / 2, flip_width, flip);
-    dip_ui_text(ui, SIZE, dip_style_soft, DIP_ALIGN_RIGHT, right - flip_width, box.y + pad / 2,
-                box.width / 2, text);
+    dip_ui_label(ui, SIZE, up ? dip_style_gain : dip_style_worse, DIP_ALIGN_RIGHT, row, flip);
+    dip_cut_right(&row, dip_ui_text_width(ui, SIZE, flip) + pad);
+    dip_ui_label(ui, SIZE, dip_style_soft, DIP_ALIGN_RIGHT, row, text);
     format_change(&advised->quality, &to->quality, text);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2 + line,
-                box.width - 2 * pad, text);
+    dip_ui_line(ui, NOTE_SIZE, dip_style_soft, &inside, "%s", text);
     if (input.pressed) {
         try_settings(ui, window, &to->quality);
     }
-    return box.height;
 }
 
 static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
     const DipPreviewChoice *choice = window->state->choice;
-    char heading[DIP_COSTS_HEADING] = "";
     const DipCandidate *advised = dip_preview_advised(choice);
-    const int gap = dip_ui_px(ui, 6);
-    char text[80], fits[DIP_NUMBER_BYTES];
-    int y = room.y;
-    write_line(ui, SIZE, dip_style_white, room, &y, "One step");
+    char heading[DIP_COSTS_HEADING] = "", fits[DIP_NUMBER_BYTES];
+    write_line(ui, SIZE, dip_style_white, &room, "One step");
     if (!advised) {
         return;
     }
     const int next = choice->advice.next;
-    y += gap + declare_step(ui, window, advised, next >= 0 ? &choice->candidates.list[next] : NULL,
-                            true, (DipRect){room.x, y, room.width, room.height});
+    declare_step(ui, window, advised, next >= 0 ? &choice->candidates.list[next] : NULL, true,
+                 &room);
     if (next >= 0) {
         dip_fits_text(choice->advice.next_fits, fits);
-        snprintf(text, sizeof text, "The next better fits with %s.", fits);
-        write_line(ui, NOTE_SIZE, dip_style_soft, room, &y, text);
+        write_line(ui, NOTE_SIZE, dip_style_soft, &room, "The next better fits with %s.", fits);
     }
-    y += gap + declare_step(ui, window, advised, next_faster(choice, advised), false,
-                            (DipRect){room.x, y, room.width, room.height});
+    declare_step(ui, window, advised, next_faster(choice, advised), false, &room);
     if (!choice->live && window->state->costs) {
         dip_costs_heading(window->state->costs, heading);
     }
-    dip_ui_text_block(ui, NOTE_SIZE, dip_style_dim,
-                      (DipRect){room.x, y, room.width, room.y + room.height - y}, heading);
+    dip_ui_text_block(ui, NOTE_SIZE, dip_style_dim, room, heading);
 }
 
 // Says how to get a report, which measures combinations along whole paths.
@@ -317,13 +311,13 @@ static Plot plot_of(const DipCandidates *candidates, double budget_ms, DipRect r
     return plot;
 }
 
+// Draws a disc at a candidate's time and error.
 static void draw_dot(DipUi *ui, const Plot *plot, const DipCandidate *point, int side,
                      DipColour colour) {
     const int size = dip_ui_px(ui, side);
-    dip_ui_fill_round(ui,
-                      (DipRect){plot_x(plot, point->time.value) - size / 2,
-                                plot_y(plot, point->flip) - size / 2, size, size},
-                      size / 2, colour);
+    const DipRect disc = {plot_x(plot, point->time.value) - size / 2,
+                          plot_y(plot, point->flip) - size / 2, size, size};
+    dip_ui_fill_round(ui, disc, size / 2, colour);
 }
 
 // Draws the front as stairs: at each time, the least error that was measured within it.
@@ -346,6 +340,8 @@ static void draw_front(DipUi *ui, const Plot *plot, const DipPreviewChoice *choi
 // Draws about four round numbers along each axis, with lines across the plot for the errors.
 static void draw_axes(DipUi *ui, const Plot *plot) {
     const int line = dip_ui_line_height(ui, NOTE_SIZE), gap = dip_ui_px(ui, 4);
+    const int room = dip_ui_px(ui, 60);
+    const DipRect *rect = &plot->rect;
     const double spans[2] = {plot->to_ms - plot->from_ms, plot->to_flip - plot->from_flip};
     for (int axis = 0; axis < 2; ++axis) {
         double step = pow(10.0, floor(log10(spans[axis] / 3.0)));
@@ -356,53 +352,52 @@ static void draw_axes(DipUi *ui, const Plot *plot) {
             if (axis) {
                 const int y = plot_y(plot, at);
                 dip_flip_text(at, false, text);
-                dip_ui_fill(ui, (DipRect){plot->rect.x, y, plot->rect.width, 1}, dip_style_raised);
-                dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, plot->rect.x - gap,
-                            y - line / 2, dip_ui_px(ui, 60), text);
+                dip_ui_fill(ui, (DipRect){rect->x, y, rect->width, 1}, dip_style_raised);
+                dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, rect->x - gap,
+                            y - line / 2, room, text);
             } else {
                 snprintf(text, sizeof text, "%g", round(at * 100.0) / 100.0);
                 dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_CENTRE, plot_x(plot, at),
-                            plot->rect.y + plot->rect.height + gap / 2, dip_ui_px(ui, 60), text);
+                            dip_rect_bottom(*rect) + gap / 2, room, text);
             }
         }
     }
 }
 
+// Shades the times beyond the budget.
 static void draw_budget(DipUi *ui, const Plot *plot, double budget_ms) {
-    const int x = plot_x(plot, budget_ms), gap = dip_ui_px(ui, 4);
+    const int gap = dip_ui_px(ui, 4);
     char text[DIP_NUMBER_BYTES + 4];
-    dip_ui_fill(ui,
-                (DipRect){x, plot->rect.y, plot->rect.x + plot->rect.width - x, plot->rect.height},
-                dip_style_over);
-    dip_ui_fill(ui, (DipRect){x, plot->rect.y, dip_ui_px(ui, 2), plot->rect.height},
-                dip_style_white);
+    DipRect over = plot->rect;
+    DipRect within = dip_cut_left(&over, plot_x(plot, budget_ms) - over.x);
+    dip_ui_fill(ui, over, dip_style_over);
+    over.width = dip_ui_px(ui, 2);
+    dip_ui_fill(ui, over, dip_style_white);
     dip_budget_ms_text(budget_ms, text);
     strcat(text, " ms");
-    dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_RIGHT, x - gap, plot->rect.y + gap,
-                x - plot->rect.x, text);
+    dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_RIGHT, over.x - gap, over.y + gap,
+                within.width, text);
 }
 
-// Marks the points of both panes' settings and of the advice.
+// Marks the points of the current pane's settings and of the advice.
 static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot) {
     const DipPreviewChoice *choice = window->state->choice;
+    const DipQuality *current = &window->state->quality[DIP_PANE_CURRENT];
     const int line = dip_ui_line_height(ui, NOTE_SIZE);
     for (int i = 0; i < choice->candidates.count; ++i) {
         const DipCandidate *point = &choice->candidates.list[i];
-        const bool current = memcmp(&point->quality, &window->state->quality[DIP_PANE_CURRENT],
-                                    sizeof point->quality) == 0;
-        if (current) {
+        const int x = plot_x(plot, point->time.value), y = plot_y(plot, point->flip);
+        if (memcmp(&point->quality, current, sizeof point->quality) == 0) {
             draw_dot(ui, plot, point, 13, dip_style_white);
             draw_dot(ui, plot, point, 9, dip_style_well);
             draw_dot(ui, plot, point, 7, dip_style_gain);
-            dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT,
-                        plot_x(plot, point->time.value) + line / 2,
-                        plot_y(plot, point->flip) + line / 3, plot->rect.width, "current");
+            dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, x + line / 2, y + line / 3,
+                        plot->rect.width, "current");
         }
         if (i == choice->advice.chosen) {
             draw_dot(ui, plot, point, 11, dip_style_accent);
-            dip_ui_text(
-                ui, NOTE_SIZE, dip_style_accent, DIP_ALIGN_CENTRE, plot_x(plot, point->time.value),
-                plot_y(plot, point->flip) - line - dip_ui_px(ui, 6), plot->rect.width, "advised");
+            dip_ui_text(ui, NOTE_SIZE, dip_style_accent, DIP_ALIGN_CENTRE, x,
+                        y - line - dip_ui_px(ui, 6), plot->rect.width, "advised");
         }
     }
 }
@@ -414,24 +409,18 @@ static void draw_plot(DipUi *ui, const DipWindow *window, DipRect room) {
     const DipPreviewChoice *choice = window->state->choice;
     const DipCandidates *candidates = &choice->candidates;
     const DipCostReport *report = choice->live ? NULL : window->state->costs;
-    const int line = dip_ui_line_height(ui, NOTE_SIZE), axis = dip_ui_px(ui, AXIS_WIDTH);
-    char text[160];
-    int y = room.y;
-    snprintf(text, sizeof text, "%d combinations   %s%s", candidates->count,
-             report ? "path " : "this view", report ? report->paths[0] : "");
-    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, room.x, y, room.width, text);
-    y += line + dip_ui_px(ui, 3);
-    if (candidates->count < 2) {
-        return;
-    }
-    const DipRect rect = {room.x + axis, y, room.width - axis,
-                          room.y + room.height - y - line - dip_ui_px(ui, 2)};
-    if (rect.height < 3 * line || rect.width < 6 * line) {
+    const int line = dip_ui_line_height(ui, NOTE_SIZE), thin = dip_ui_px(ui, 2);
+    dip_ui_line(ui, NOTE_SIZE, dip_style_soft, &room, "%d combinations   %s%s", candidates->count,
+                report ? "path " : "this view", report ? report->paths[0] : "");
+    dip_cut_top(&room, dip_ui_px(ui, 3));
+    dip_cut_left(&room, dip_ui_px(ui, AXIS_WIDTH));
+    dip_cut_bottom(&room, line + thin);
+    if (candidates->count < 2 || room.height < 3 * line || room.width < 6 * line) {
         return;
     }
     const double budget_ms = window->state->budget_ms;
-    const Plot plot = plot_of(candidates, budget_ms, rect);
-    dip_ui_fill(ui, rect, dip_style_well);
+    const Plot plot = plot_of(candidates, budget_ms, room);
+    dip_ui_fill(ui, room, dip_style_well);
     draw_axes(ui, &plot);
     draw_budget(ui, &plot, budget_ms);
     for (int i = 0; i < candidates->count; ++i) {
@@ -439,26 +428,26 @@ static void draw_plot(DipUi *ui, const DipWindow *window, DipRect room) {
     }
     draw_front(ui, &plot, choice);
     draw_marks(ui, window, &plot);
-    snprintf(text, sizeof text, "FLIP over ms %s; lower left is better",
-             dip_time_kind_names[candidates->kind]);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, rect.x + dip_ui_px(ui, 5),
-                rect.y + rect.height - line - dip_ui_px(ui, 2), rect.width, text);
+    DipRect foot = dip_cut_bottom(&room, line + thin);
+    foot.x += dip_ui_px(ui, 5);
+    dip_ui_line(ui, NOTE_SIZE, dip_style_soft, &foot, "FLIP over ms %s; lower left is better",
+                dip_time_kind_names[candidates->kind]);
 }
 
 // --- the tab -------------------------------------------------------------------------------------
 
 void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body) {
     const int margin = dip_ui_px(ui, MARGIN), gap = dip_ui_px(ui, GAP);
-    const DipRect room = {body.x + margin, body.y + margin / 2, body.width - 2 * margin,
-                          body.height - margin};
-    const int left = dip_min(dip_ui_px(ui, LEFT_WIDTH), room.width);
     const int right = dip_ui_px(ui, RIGHT_WIDTH);
     const DipPreviewChoice *choice = window->state->choice;
+    DipRect rest = {body.x + margin, body.y + margin / 2, body.width - 2 * margin,
+                    body.height - margin};
     if (!choice) {
         return;
     }
-    declare_advised(ui, window, (DipRect){room.x, room.y, left, room.height});
-    DipRect rest = {room.x + left + gap, room.y, room.width - left - gap, room.height};
+    const int left = dip_min(dip_ui_px(ui, LEFT_WIDTH), rest.width);
+    declare_advised(ui, window, dip_cut_left(&rest, left));
+    dip_cut_left(&rest, gap);
     if (choice->live) {
         if (rest.width >= dip_ui_px(ui, NOTE_WIDTH)) {
             write_how_to(ui, window, rest);
@@ -466,9 +455,8 @@ void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body) {
         return;
     }
     if (rest.width >= right + gap + dip_ui_px(ui, 200)) {
-        rest.width -= right + gap;
-        declare_steps(ui, window,
-                      (DipRect){room.x + room.width - right, room.y, right, room.height});
+        declare_steps(ui, window, dip_cut_right(&rest, right));
+        dip_cut_right(&rest, gap);
     } else if (rest.width < dip_ui_px(ui, 180)) {
         return;
     }

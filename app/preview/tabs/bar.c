@@ -1,14 +1,15 @@
 // The dock's bar: tabs on the left; playback, the time line, help and folding on the right.
 //
-// If the bar is narrow, it first leaves out words: tabs become symbols. Then it leaves out what
-// keys do as well: the steps by one frame, the time line, the name of the path, and playback.
+// A narrow bar first leaves out words: tabs become symbols. Then it leaves out what keys do as
+// well: the steps by one frame, the time line, the name of the path, and playback.
 #include "app/preview/tabs/tabs.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 
 #include <stdio.h>
 
-// Numbers of buttons at the bar's end: folding alone; with help; with the panes alone and the full
-// screen.
+// Numbers of buttons at the bar's end: the one that folds the panel; with help; with the panes
+// alone and the full screen.
 enum { TAIL_FOLD = 1, TAIL_HELP = 2, TAIL_ALL = 4 };
 enum { TAB_SIZE = 13, TAB_PAD = 11, BUTTON = 28, ICON_TAB = 32, LEAST_LINE = 60, MOST_LINE = 270 };
 
@@ -54,18 +55,34 @@ static DipUiId bar_id(int control) {
     return DIP_UI_ID(DIP_UI_BAR, control + 1);
 }
 
-// Declares a button of the bar and draws its ring. Returns what the user did.
-static DipUiInput declare_button(DipUi *ui, int control, DipRect rect, const char *tip) {
+static DipColour colour_of(const DipUiInput *input, bool chosen) {
+    return chosen || input->hovered ? dip_style_white : dip_style_soft;
+}
+
+static void draw_ring(DipUi *ui, DipRect rect, const DipUiInput *input) {
+    if (input->focused) {
+        dip_ui_outline(ui, rect, dip_ui_px(ui, 3), dip_ui_px(ui, 2), dip_style_focus);
+    }
+}
+
+// Declares a button of the bar that carries out an action. Returns what the user did.
+static DipUiInput declare_button(DipUi *ui, DipWindow *window, int control, DipRect rect,
+                                 DipAction action, int argument, const char *tip) {
     const DipUiInput input =
         dip_ui_control(ui, &(DipUiControl){.id = bar_id(control), .rect = rect, .tip = tip});
-    if (input.focused) {
-        dip_ui_outline(ui, rect, dip_ui_px(ui, 3), dip_ui_px(ui, 2), dip_style_focus);
+    draw_ring(ui, rect, &input);
+    if (input.pressed) {
+        dip_preview_act(window->state, action, argument, false, dip_ui_now_ns(ui));
     }
     return input;
 }
 
-static DipColour colour_of(const DipUiInput *input, bool chosen) {
-    return chosen || input->hovered ? dip_style_white : dip_style_soft;
+// Cuts a button with a symbol from the left side of *rest, and declares it.
+static void declare_symbol(DipUi *ui, DipWindow *window, const Bar *bar, DipRect *rest, int control,
+                           int icon, DipAction action, const char *tip) {
+    const DipRect rect = dip_cut_left(rest, bar->button);
+    const DipUiInput input = declare_button(ui, window, control, rect, action, 0, tip);
+    dip_icon_draw(ui, icon, rect, colour_of(&input, control == BAR_PLAY));
 }
 
 // --- what fits -----------------------------------------------------------------------------------
@@ -122,7 +139,7 @@ static int widest_place(const DipUi *ui, const DipPreviewState *state, bool brie
     return widest;
 }
 
-// Gives playback, the time line and the place what the tabs leave.
+// Gives playback, the time line and the camera's place the room that the tabs leave.
 static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, bool brief) {
     const int gap = dip_ui_px(ui, 10);
     int room = bar->rect.width - bar->tabs_width - bar->tail * bar->button - gap;
@@ -166,60 +183,43 @@ static Bar measure(const DipUi *ui, const DipWindow *window) {
     return bar;
 }
 
-// --- drawing -------------------------------------------------------------------------------------
+// --- controls ------------------------------------------------------------------------------------
 
 static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
-    DipPreviewState *state = window->state;
-    const int inset = dip_ui_px(ui, 8), thick = dip_ui_px(ui, 2);
-    int x = bar->rect.x;
+    const DipToolState *tools = &window->state->tools;
+    DipRect rest = bar->rect;
     for (int t = 0; t < DIP_TAB_COUNT; ++t) {
-        const DipRect rect = {x, bar->rect.y, bar->tab_width[t], bar->rect.height};
-        const bool chosen = state->tools.open && (int)state->tools.tab == t;
-        const DipUiInput input = declare_button(ui, BAR_TABS + t, rect, tab_tips[t]);
-        if (input.pressed) {
-            dip_preview_act(state, DIP_ACTION_TAB, t, false, dip_ui_now_ns(ui));
-        }
+        const DipRect rect = dip_cut_left(&rest, bar->tab_width[t]);
+        const DipUiInput input =
+            declare_button(ui, window, BAR_TABS + t, rect, DIP_ACTION_TAB, t, tab_tips[t]);
+        const bool chosen = tools->open && (int)tools->tab == t;
         if (chosen) {
+            DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
             dip_ui_fill(ui, rect, dip_style_dock);
-            dip_ui_fill(ui,
-                        (DipRect){rect.x + inset, rect.y + rect.height - thick,
-                                  rect.width - 2 * inset, thick},
-                        dip_style_white);
+            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_white);
         }
         if (bar->words) {
-            dip_ui_text(ui, TAB_SIZE, colour_of(&input, chosen), DIP_ALIGN_CENTRE,
-                        rect.x + rect.width / 2,
-                        rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width,
-                        tab_names[t]);
+            dip_ui_label(ui, TAB_SIZE, colour_of(&input, chosen), DIP_ALIGN_CENTRE, rect,
+                         tab_names[t]);
         } else {
-            dip_icon_tab(ui, (DipTab)t, rect, colour_of(&input, chosen));
+            dip_icon_draw(ui, t, rect, colour_of(&input, chosen));
         }
-        x += rect.width;
     }
 }
 
-// Declares the buttons of playback from x on.
-static void declare_playback(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
-    static const struct {
-        BarControl control;
-        DipAction action;
-        const char *tip;
-    } buttons[3] = {{BAR_BACK, DIP_ACTION_STEP_BACK, "One frame back (,)"},
-                    {BAR_PLAY, DIP_ACTION_PAUSE, "Pause or play (Space)"},
-                    {BAR_ON, DIP_ACTION_STEP, "One frame on (.)"}};
-    const int first = bar->play == 3 ? 0 : 1, end = bar->play == 3 ? 3 : 1 + bar->play;
-    for (int i = first; i < end; ++i) {
-        const DipRect rect = {x, bar->rect.y, bar->button, bar->rect.height};
-        const DipUiInput input = declare_button(ui, buttons[i].control, rect, buttons[i].tip);
-        if (input.pressed) {
-            dip_preview_act(window->state, buttons[i].action, 0, false, dip_ui_now_ns(ui));
-        }
-        if (i == 1) {
-            dip_icon_play(ui, rect, window->state->paused, colour_of(&input, true));
-        } else {
-            dip_icon_step(ui, rect, i == 0, colour_of(&input, false));
-        }
-        x += bar->button;
+static void declare_playback(DipUi *ui, DipWindow *window, const Bar *bar, DipRect rest) {
+    if (bar->play == 3) {
+        declare_symbol(ui, window, bar, &rest, BAR_BACK, DIP_ICON_BACK, DIP_ACTION_STEP_BACK,
+                       "One frame back (,)");
+    }
+    if (bar->play > 0) {
+        declare_symbol(ui, window, bar, &rest, BAR_PLAY,
+                       window->state->paused ? DIP_ICON_PLAY : DIP_ICON_PAUSE, DIP_ACTION_PAUSE,
+                       "Pause or play (Space)");
+    }
+    if (bar->play == 3) {
+        declare_symbol(ui, window, bar, &rest, BAR_ON, DIP_ICON_STEP, DIP_ACTION_STEP,
+                       "One frame on (.)");
     }
 }
 
@@ -234,13 +234,10 @@ static void seek(DipPreviewState *state, const DipUiInput *input, DipRect rect) 
 // Declares the line of the path's time, on which a click or a drag moves the time.
 static void declare_time_line(DipUi *ui, DipWindow *window, DipRect rect) {
     DipPreviewState *state = window->state;
-    const DipUiInput input = dip_ui_control(
-        ui, &(DipUiControl){.id = bar_id(BAR_TIME_LINE),
-                            .rect = rect,
-                            .tip = "Time on the camera path. Click or drag to move; arrow keys "
-                                   "move by 1 s.",
-                            .takes_arrows = true,
-                            .takes_wheel = true});
+    const DipUiInput input =
+        dip_ui_stepper(ui, bar_id(BAR_TIME_LINE), rect,
+                       "Time on the camera path. Click or drag to move; arrow keys move by 1 s.");
+    const int64_t length_ns = dip_preview_path_length_ns(state);
     if (input.began || (input.held && input.moved)) {
         seek(state, &input, rect);
     } else if (input.steps) {
@@ -248,22 +245,17 @@ static void declare_time_line(DipUi *ui, DipWindow *window, DipRect rect) {
                         1000 * (input.steps < 0 ? -input.steps : input.steps), input.steps < 0,
                         dip_ui_now_ns(ui));
     } else if (input.to_first || input.to_last) {
-        const int64_t length_ns = dip_preview_path_length_ns(state);
         dip_preview_seek_path(state, input.to_first ? 0 : length_ns - state->step_ns);
     }
-    const int64_t length_ns = dip_preview_path_length_ns(state);
     const double share =
         length_ns > 0 ? (double)dip_preview_path_ns(state) / (double)length_ns : 0.0;
-    const int thick = dip_ui_px(ui, 2), knob = dip_ui_px(ui, 4);
-    const int x = rect.x + (int)(share * (rect.width - knob));
-    const int y = rect.y + (rect.height - thick) / 2;
-    dip_ui_fill(ui, (DipRect){rect.x, y, rect.width, thick}, dip_style_line);
-    dip_ui_fill(ui, (DipRect){rect.x, y, x - rect.x, thick}, dip_style_soft);
-    dip_ui_fill(ui, (DipRect){x, y - dip_ui_px(ui, 5), knob, 2 * dip_ui_px(ui, 5) + thick},
-                dip_style_white);
-    if (input.focused) {
-        dip_ui_outline(ui, rect, dip_ui_px(ui, 3), thick, dip_style_focus);
-    }
+    const int thick = dip_ui_px(ui, 2), width = dip_ui_px(ui, 4), reach = dip_ui_px(ui, 5);
+    DipRect line = dip_rect_middle(rect, rect.width, thick);
+    DipRect knob = {rect.x + (int)(share * (rect.width - width)), line.y, width, thick};
+    dip_ui_fill(ui, line, dip_style_line);
+    dip_ui_fill(ui, dip_cut_left(&line, knob.x - rect.x), dip_style_soft);
+    dip_ui_fill(ui, dip_rect_inset(knob, 0, -reach), dip_style_white);
+    draw_ring(ui, rect, &input);
 }
 
 // Declares the camera's place as a button that plays the next path or shows the next scene.
@@ -282,76 +274,45 @@ static void declare_place(DipUi *ui, DipWindow *window, const Bar *bar, DipRect 
         dip_preview_act(state, scene ? DIP_ACTION_NEXT_SCENE : DIP_ACTION_NEXT_PATH, 0,
                         input.steps > 0, dip_ui_now_ns(ui));
     }
-    if (input.focused) {
-        dip_ui_outline(ui, rect, dip_ui_px(ui, 3), dip_ui_px(ui, 2), dip_style_focus);
-    }
-    dip_ui_text(ui, TAB_SIZE, colour_of(&input, false), DIP_ALIGN_RIGHT,
-                rect.x + rect.width - dip_ui_px(ui, 10),
-                rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width,
-                bar->place);
+    draw_ring(ui, rect, &input);
+    dip_cut_right(&rect, dip_ui_px(ui, 10));
+    dip_ui_label(ui, TAB_SIZE, colour_of(&input, false), DIP_ALIGN_RIGHT, rect, bar->place);
 }
 
-// Declares a button of the bar's end and draws its symbol. Moves *rect to the next button.
-static void declare_end(DipUi *ui, DipWindow *window, DipRect *rect, int control, DipAction action,
-                        const char *tip, void (*symbol)(DipUi *, DipRect, DipColour)) {
-    const DipUiInput input = declare_button(ui, control, *rect, tip);
-    if (input.pressed) {
-        dip_preview_act(window->state, action, 0, false, dip_ui_now_ns(ui));
-    }
-    symbol(ui, *rect, colour_of(&input, false));
-    rect->x += rect->width;
-}
-
-static void draw_question_mark(DipUi *ui, DipRect rect, DipColour colour) {
-    dip_ui_text(ui, TAB_SIZE, colour, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
-                rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width, "?");
-}
-
-static void draw_fold_up(DipUi *ui, DipRect rect, DipColour colour) {
-    dip_icon_fold(ui, rect, true, colour);
-}
-
-static void draw_fold_down(DipUi *ui, DipRect rect, DipColour colour) {
-    dip_icon_fold(ui, rect, false, colour);
-}
-
-static void declare_tail(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
+static void declare_tail(DipUi *ui, DipWindow *window, const Bar *bar, DipRect rest) {
     const DipPreviewState *state = window->state;
     const bool full = state->full_screen, open = state->tools.open;
-    DipRect rect = {x, bar->rect.y, bar->button, bar->rect.height};
     if (bar->tail >= TAIL_HELP) {
-        declare_end(ui, window, &rect, BAR_HELP, DIP_ACTION_HELP, "All keys (F1)",
-                    draw_question_mark);
+        declare_symbol(ui, window, bar, &rest, BAR_HELP, DIP_ICON_HELP, DIP_ACTION_HELP,
+                       "All keys (F1)");
     }
     if (bar->tail >= TAIL_ALL) {
-        declare_end(ui, window, &rect, BAR_PANES, DIP_ACTION_BARE,
-                    "Panes only: no panel and no text (/)", dip_icon_panes);
-        declare_end(ui, window, &rect, BAR_FULL_SCREEN, DIP_ACTION_FULL_SCREEN,
-                    full ? "Back to a window (F11)" : "Full screen (F11)", dip_icon_full_screen);
+        declare_symbol(ui, window, bar, &rest, BAR_PANES, DIP_ICON_PANES, DIP_ACTION_BARE,
+                       "Panes only: no panel and no text (/)");
+        declare_symbol(ui, window, bar, &rest, BAR_FULL_SCREEN, DIP_ICON_FULL_SCREEN,
+                       DIP_ACTION_FULL_SCREEN,
+                       full ? "Back to a window (F11)" : "Full screen (F11)");
     }
-    declare_end(ui, window, &rect, BAR_FOLD, DIP_ACTION_DOCK,
-                open ? "Fold the panel (Y)" : "Open the panel (Y)",
-                open ? draw_fold_down : draw_fold_up);
+    declare_symbol(ui, window, bar, &rest, BAR_FOLD, open ? DIP_ICON_FOLD : DIP_ICON_OPEN,
+                   DIP_ACTION_DOCK, open ? "Fold the panel (Y)" : "Open the panel (Y)");
 }
 
 void dip_bar_declare(DipUi *ui, DipWindow *window) {
     const Bar bar = measure(ui, window);
-    const int gap = dip_ui_px(ui, 10);
-    const int tail_x = bar.rect.x + bar.rect.width - bar.tail * bar.button;
-    const int line_x = tail_x - bar.place_width - bar.line;
+    DipRect rest = bar.rect, edge = bar.rect;
     dip_ui_fill(ui, bar.rect, dip_style_bar);
-    dip_ui_fill(ui, (DipRect){bar.rect.x, bar.rect.y, bar.rect.width, 1}, dip_style_line);
+    dip_ui_fill(ui, dip_cut_top(&edge, 1), dip_style_line);
+    const DipRect tail = dip_cut_right(&rest, bar.tail * bar.button);
+    const DipRect place = dip_cut_right(&rest, bar.place_width);
+    DipRect line = dip_cut_right(&rest, bar.line);
     declare_tabs(ui, window, &bar);
-    declare_playback(ui, window, &bar, line_x - bar.play * bar.button);
+    declare_playback(ui, window, &bar, dip_cut_right(&rest, bar.play * bar.button));
     if (bar.line && !window->state->manual) {
-        declare_time_line(
-            ui, window,
-            (DipRect){line_x + gap / 2, bar.rect.y, bar.line - gap / 2, bar.rect.height});
+        dip_cut_left(&line, dip_ui_px(ui, 10) / 2);
+        declare_time_line(ui, window, line);
     }
     if (bar.place_width) {
-        declare_place(
-            ui, window, &bar,
-            (DipRect){tail_x - bar.place_width, bar.rect.y, bar.place_width, bar.rect.height});
+        declare_place(ui, window, &bar, place);
     }
-    declare_tail(ui, window, &bar, tail_x);
+    declare_tail(ui, window, &bar, tail);
 }

@@ -1,8 +1,10 @@
-// The comparisons' tab.
+// The comparisons' tab: how the two pictures are compared, options of that comparison, and a strip
+// of thumbnails of the path.
+#include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
 #include "app/preview/tools/strip.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
-#include "app/preview/tabs/tabs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,25 +18,20 @@ enum {
 
 enum { ID_COMPARISON, ID_LEFT = 10, ID_OPTION = 16, ID_DIVIDER = 32, ID_THUMBNAIL = 40 };
 
-static bool flow_button(DipFlow *flow, unsigned id, const char *text, bool chosen,
-                        const char *tip) {
-    return dip_flow_button(flow, id, text, chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip);
-}
-
 // Declares the choice of what the requested pane is compared with.
-static void declare_left(DipFlow *flow, DipWindow *window) {
-    DipToolState *tools = &window->state->tools;
-    const DipErrorReading *errors = &window->figures[DIP_PANE_CURRENT].errors;
+static void declare_left(DipFlow *flow) {
+    DipToolState *tools = &flow->window->state->tools;
+    const DipErrorReading *errors = &flow->window->figures[DIP_PANE_CURRENT].errors;
     char text[80];
-    if (flow_button(flow, ID_LEFT, "Current", !tools->against_truth,
-                    "Compares the requested pane with the current pane.")) {
+    if (dip_flow_choice(flow, ID_LEFT, "Current", !tools->against_truth,
+                        "Compares the requested pane with the current pane.")) {
         tools->against_truth = false;
     }
-    if (flow_button(flow, ID_LEFT + 1, "Truth", tools->against_truth,
-                    "Compares the requested pane with the converged picture.")) {
+    if (dip_flow_choice(flow, ID_LEFT + 1, "Truth", tools->against_truth,
+                        "Compares the requested pane with the converged picture.")) {
         tools->against_truth = true;
     }
-    if (!tools->against_truth || window->truth) {
+    if (!tools->against_truth || flow->window->truth) {
         return;
     }
     snprintf(text, sizeof text, "The converged picture comes at rest.");
@@ -45,61 +42,58 @@ static void declare_left(DipFlow *flow, DipWindow *window) {
     dip_flow_text(flow, dip_style_soft, text);
 }
 
-static void declare_wipe(DipFlow *flow, DipWindow *window) {
-    DipToolState *tools = &window->state->tools;
-    DipUi *ui = flow->ui;
-    const DipRect rect = dip_flow_next(flow, dip_ui_px(ui, 180));
-    if (!dip_rect_is_empty(rect)) {
-        const DipUiControl control = {
-            .id = DIP_UI_ID(DIP_UI_COMPARE, ID_DIVIDER),
-            .rect = rect,
-            .tip = "Moves the line between both pictures. [ and ] move it as well.",
-            .takes_arrows = true,
-            .takes_wheel = true};
-        const DipUiInput input = dip_ui_control(ui, &control);
-        const int radius = dip_ui_px(ui, 7);
-        const int track = rect.width - 2 * radius;
-        if (input.began || (input.held && input.moved)) {
-            const double at = (double)(input.x - rect.x - radius) / dip_max(1, track);
-            tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
-        }
-        dip_compare_adjust(tools, input.steps);
-        const int y = rect.y + rect.height / 2;
-        const int x = rect.x + radius + (int)(tools->divider * track + 0.5);
-        dip_ui_fill_round(ui, (DipRect){rect.x, y - 2, rect.width, 4}, 2, dip_style_line);
-        dip_ui_fill_round(ui, (DipRect){x - radius, y - radius, 2 * radius, 2 * radius}, radius,
-                          dip_style_accent);
-        if (input.focused) {
-            dip_ui_outline(ui, rect, dip_ui_px(ui, 4), dip_ui_px(ui, 2), dip_style_soft);
-        }
+// Declares the line that moves the divider.
+static void declare_divider(DipUi *ui, DipToolState *tools, DipRect rect) {
+    const DipUiInput input =
+        dip_ui_stepper(ui, DIP_UI_ID(DIP_UI_COMPARE, ID_DIVIDER), rect,
+                       "Moves the line between both pictures. [ and ] move it as well.");
+    const int radius = dip_ui_px(ui, 7), track = rect.width - 2 * radius;
+    if (input.began || (input.held && input.moved)) {
+        dip_compare_divide(tools, (double)(input.x - rect.x - radius) / dip_max(1, track));
     }
-    if (flow_button(flow, ID_OPTION, "Middle", false, "Puts the line in the middle.")) {
+    dip_compare_adjust(tools, input.steps);
+    const int x = rect.x + (int)(tools->divider * track + 0.5), y = rect.y + rect.height / 2;
+    dip_ui_fill_round(ui, (DipRect){rect.x, y - 2, rect.width, 4}, 2, dip_style_line);
+    dip_ui_fill_round(ui, (DipRect){x, y - radius, 2 * radius, 2 * radius}, radius,
+                      dip_style_accent);
+    if (input.focused) {
+        dip_ui_outline(ui, rect, dip_ui_px(ui, 4), dip_ui_px(ui, 2), dip_style_soft);
+    }
+}
+
+static void declare_wipe(DipFlow *flow) {
+    DipToolState *tools = &flow->window->state->tools;
+    const DipRect rect = dip_flow_next(flow, dip_ui_px(flow->ui, 180));
+    if (!dip_rect_is_empty(rect)) {
+        declare_divider(flow->ui, tools, rect);
+    }
+    if (dip_flow_choice(flow, ID_OPTION, "Middle", false, "Puts the line in the middle.")) {
         tools->divider = 0.5;
     }
     dip_flow_text(flow, dip_style_dim,
-                  window->state->tools.against_truth
+                  tools->against_truth
                       ? "Left of the line: truth. Right of it: requested. Drag it."
                       : "Left of the line: current. Right of it: requested. Drag it.");
 }
 
-static void declare_blink(DipFlow *flow, DipWindow *window) {
-    DipToolState *tools = &window->state->tools;
-    if (flow_button(flow, ID_OPTION, "By itself", tools->blinks,
-                    "Changes between both pictures twice a second.")) {
+static void declare_blink(DipFlow *flow) {
+    DipToolState *tools = &flow->window->state->tools;
+    if (dip_flow_choice(flow, ID_OPTION, "By itself", tools->blinks,
+                        "Changes between both pictures twice a second.")) {
         tools->blinks = !tools->blinks;
     }
-    if (flow_button(flow, ID_OPTION + 1, "Change", false,
-                    "Shows the other picture. The key ; does so while you hold it.")) {
+    if (dip_flow_choice(flow, ID_OPTION + 1, "Change", false,
+                        "Shows the other picture. The key ; does so while you hold it.")) {
         tools->blinked = !tools->blinked;
     }
     dip_flow_text(flow, dip_style_dim, "Hold ; to see the other picture.");
 }
 
-static void say_difference(DipFlow *flow, const DipWindow *window) {
+static void say_difference(DipFlow *flow) {
     DipPixels picture;
     uint64_t version;
-    const DipDifference *found =
-        dip_compare_make_difference(window->tools->compare, window, &picture, &version);
+    const DipDifference *found = dip_compare_make_difference(&flow->window->tools->compare,
+                                                             flow->window, &picture, &version);
     char text[160];
     if (!found) {
         return;
@@ -116,61 +110,58 @@ static void say_difference(DipFlow *flow, const DipWindow *window) {
     dip_flow_text(flow, dip_style_dim, text);
 }
 
-static void declare_difference(DipFlow *flow, DipWindow *window) {
-    DipToolState *tools = &window->state->tools;
+static void declare_difference(DipFlow *flow) {
+    DipToolState *tools = &flow->window->state->tools;
     unsigned id = ID_OPTION;
     for (int gain = 1; gain <= DIP_COMPARE_MAX_GAIN; gain *= 2) {
         char text[8];
         snprintf(text, sizeof text, "x%d", gain);
-        if (flow_button(flow, id++, text, dip_max(1, tools->gain) == gain,
-                        "Multiplies the difference. [ and ] change it as well.")) {
+        if (dip_flow_choice(flow, id++, text, dip_max(1, tools->gain) == gain,
+                            "Multiplies the difference. [ and ] change it as well.")) {
             tools->gain = gain;
         }
     }
     if (dip_ui_is_drawing(flow->ui)) {
-        say_difference(flow, window);
+        say_difference(flow);
     }
 }
 
-static void declare_alone(DipFlow *flow, DipWindow *window) {
+static void declare_alone(DipFlow *flow) {
     static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
-    DipPreviewState *state = window->state;
+    DipPreviewState *state = flow->window->state;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        if (flow_button(flow, ID_OPTION + (unsigned)p, names[p],
-                        dip_compare_pane(state, window->now_ns) == p,
-                        "Shows this pane alone and lets the keys change its settings.")) {
+        if (dip_flow_choice(flow, ID_OPTION + (unsigned)p, names[p],
+                            dip_compare_pane(state, flow->window->now_ns) == p,
+                            "Shows this pane alone and lets the keys change its settings.")) {
             state->edited[p] = true;
             state->edited[1 - p] = false;
         }
     }
 }
 
-static void declare_truth(DipFlow *flow, const DipWindow *window) {
-    dip_flow_text(flow, window->truth ? dip_style_soft : dip_style_dim,
-                  window->truth
-                      ? "Left: the converged picture. Right: the requested pane."
-                      : "The converged picture is drawn while errors are measured at rest.");
-}
-
-static void declare_options(DipFlow *flow, DipWindow *window) {
-    switch (window->state->tools.comparison) {
+// Declares the options of the comparison, or says what it shows.
+static void declare_options(DipFlow *flow) {
+    const bool known = flow->window->truth != NULL;
+    switch (flow->window->state->tools.comparison) {
     case DIP_COMPARE_WIPE:
-        declare_left(flow, window);
-        declare_wipe(flow, window);
+        declare_left(flow);
+        declare_wipe(flow);
         break;
     case DIP_COMPARE_BLINK:
-        declare_left(flow, window);
-        declare_blink(flow, window);
+        declare_left(flow);
+        declare_blink(flow);
         break;
     case DIP_COMPARE_DIFFERENCE:
-        declare_left(flow, window);
-        declare_difference(flow, window);
+        declare_left(flow);
+        declare_difference(flow);
         break;
     case DIP_COMPARE_ALONE:
-        declare_alone(flow, window);
+        declare_alone(flow);
         break;
     case DIP_COMPARE_TRUTH:
-        declare_truth(flow, window);
+        dip_flow_text(flow, known ? dip_style_soft : dip_style_dim,
+                      known ? "Left: the converged picture. Right: the requested pane."
+                            : "The converged picture is drawn while errors are measured at rest.");
         break;
     default:
         dip_flow_text(flow, dip_style_dim, "Current on the left, requested on the right.");
@@ -180,33 +171,29 @@ static void declare_options(DipFlow *flow, DipWindow *window) {
 
 // --- the strip -----------------------------------------------------------------------------------
 
-// Declares one thumbnail. A click moves the time to it.
+// Declares one thumbnail with its time. A click moves the time there.
 static void declare_thumbnail(DipUi *ui, DipWindow *window, int index, DipRect rect) {
-    DipPreviewState *state = window->state;
-    const DipStrip *strip = window->tools->strip;
+    const DipStrip *strip = &window->tools->strip;
     const DipThumbnail thumbnail = dip_strip_thumbnail(strip, index);
-    const int64_t duration_ns = dip_strip_duration_ns(strip);
+    const DipUiInput input =
+        dip_ui_control(ui, &(DipUiControl){.id = DIP_UI_ID(DIP_UI_COMPARE, ID_THUMBNAIL + index),
+                                           .rect = rect,
+                                           .tip = "Click: go to this time on the path."});
     char text[32];
-    snprintf(text, sizeof text, "%.1f s", 1e-9 * (double)thumbnail.time_ns);
-    const DipUiControl control = {.id = DIP_UI_ID(DIP_UI_COMPARE, ID_THUMBNAIL + index),
-                                  .rect = rect,
-                                  .tip = "Click: go to this time on the path."};
-    const DipUiInput input = dip_ui_control(ui, &control);
-    if (input.pressed && duration_ns > 0) {
-        dip_preview_seek_path(state, thumbnail.time_ns);
-        state->manual = false;
+    if (input.pressed && dip_strip_duration_ns(strip) > 0) {
+        dip_preview_seek_path(window->state, thumbnail.time_ns);
+        window->state->manual = false;
     }
-    const int line = dip_ui_line_height(ui, TINY);
-    const DipRect picture = {rect.x, rect.y, rect.width, rect.height - line};
-    dip_ui_fill(ui, picture, dip_style_well);
+    const DipRect line = dip_cut_bottom(&rect, dip_ui_line_height(ui, TINY));
+    dip_ui_fill(ui, rect, dip_style_well);
     if (thumbnail.picture.width) {
-        dip_ui_picture(ui, picture, &thumbnail.picture, thumbnail.version);
+        dip_ui_picture(ui, rect, &thumbnail.picture, thumbnail.version);
     }
     if (input.hovered || input.focused) {
-        dip_ui_outline(ui, picture, 0, dip_ui_px(ui, 2), dip_style_soft);
+        dip_ui_outline(ui, rect, 0, dip_ui_px(ui, 2), dip_style_soft);
     }
-    dip_ui_text(ui, TINY, dip_style_dim, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
-                rect.y + rect.height - line, rect.width, text);
+    snprintf(text, sizeof text, "%.1f s", 1e-9 * (double)thumbnail.time_ns);
+    dip_ui_label(ui, TINY, dip_style_dim, DIP_ALIGN_CENTRE, line, text);
 }
 
 // Shows as many thumbnails as fit into one row: all of them, or every second, fifth or tenth.
@@ -231,12 +218,12 @@ static void declare_strip(DipUi *ui, DipWindow *window, DipRect rest) {
         return;
     }
     if (dip_ui_is_drawing(ui)) {
-        dip_strip_want(window->tools->strip, width, height);
+        dip_strip_want(&window->tools->strip, width, height);
     }
-    int x = rest.x;
+    rest.height = height + line;
     for (int i = 0; i < DIP_STRIP_COUNT; i += step) {
-        declare_thumbnail(ui, window, i, (DipRect){x, rest.y, width, height + line});
-        x += width + gap;
+        declare_thumbnail(ui, window, i, dip_cut_left(&rest, width));
+        dip_cut_left(&rest, gap);
     }
 }
 
@@ -249,17 +236,16 @@ void dip_tab_compare(DipUi *ui, DipWindow *window, DipRect body) {
         [DIP_COMPARE_ALONE] = "Shows one pane alone in the room of both.",
         [DIP_COMPARE_TRUTH] = "Shows the converged picture in place of the current pane.",
     };
-    DipFlow flow = dip_flow_make(ui, DIP_UI_COMPARE, body, SMALL);
+    DipFlow flow = dip_flow_make(ui, window, DIP_UI_COMPARE, body, SMALL);
     for (int c = 0; c < DIP_COMPARISON_COUNT; ++c) {
-        if (flow_button(&flow, ID_COMPARISON + (unsigned)c, dip_compare_name((DipComparison)c),
-                        window->state->tools.comparison == (DipComparison)c, tips[c])) {
+        if (dip_flow_choice(&flow, ID_COMPARISON + (unsigned)c, dip_compare_name((DipComparison)c),
+                            window->state->tools.comparison == (DipComparison)c, tips[c])) {
             window->state->tools.comparison = (DipComparison)c;
         }
     }
     dip_flow_next_row(&flow);
-    declare_options(&flow, window);
+    declare_options(&flow);
     dip_flow_next_row(&flow);
-    const DipRect rest = {flow.body.x, flow.y, flow.body.width,
-                          flow.body.y + flow.body.height - flow.y};
-    declare_strip(ui, window, rest);
+    dip_cut_top(&flow.body, flow.y - flow.body.y);
+    declare_strip(ui, window, flow.body);
 }

@@ -1,7 +1,9 @@
-// The labels over the panes, the time of a pane, and notices.
+// Draws the labels over the panes, and notices. Says what time a pane takes, for the labels and the
+// panel.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 
 #include <stdio.h>
@@ -104,6 +106,13 @@ static Label label_of(const DipUi *ui, const DipWindow *window, int pane, int ro
     return label;
 }
 
+// Returns the height of a text's lines below the first line of a label, or 0 if the label would
+// then take more than a third of the pane.
+static int height_below(const DipUi *ui, int room, const char *text, int above, int pane_height) {
+    const int height = dip_ui_text_block_height(ui, LABEL_SIZE, room, text);
+    return 3 * (above + height) > pane_height ? 0 : height;
+}
+
 // Draws a label of one line. What does not fit goes to lines of its own: first the settings, then
 // the time, since a warning that stands there must not be cut.
 static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
@@ -111,54 +120,45 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const bool edited = window->state->edited[pane];
     const int margin = dip_ui_px(ui, LABEL_MARGIN), pad = dip_ui_px(ui, LABEL_PAD);
     const int room = rect.width - 2 * margin - 2 * pad;
+    const int line = dip_ui_line_height(ui, LABEL_SIZE), row = dip_ui_px(ui, LABEL_HEIGHT);
     Label label = label_of(ui, window, pane, room);
-    const int line = dip_ui_line_height(ui, LABEL_SIZE);
     const int title_width = dip_ui_text_width(ui, LABEL_SIZE, label.title) + pad;
     const int usual = dip_ui_text_width(ui, LABEL_SIZE,
                                         window->figures[pane].fps > 0 ? "88.8 ms  60 fps"
                                                                       : DIP_ROUGH_MARK "88.8 ms");
-    const bool time_fits = title_width + dip_ui_text_width(ui, LABEL_SIZE, label.time) <= room;
-    // The settings stay where they are while the time has a digit more or less.
-    const int time_width = dip_max(dip_ui_text_width(ui, LABEL_SIZE, label.time), usual) + pad;
+    const int own = dip_ui_text_width(ui, LABEL_SIZE, label.time);
+    const int time_width = dip_max(own, usual) + pad; // The settings stand still as time changes.
     int width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
     if (width > room) {
         dip_preview_describe(&window->state->quality[pane], true, label.settings,
                              sizeof label.settings);
         width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
     }
-    const bool settings_fit = time_fits && width <= room;
-    int time_height = time_fits ? 0 : dip_ui_text_block_height(ui, LABEL_SIZE, room, label.time);
-    if (3 * (line + time_height) > rect.height) {
-        time_height = 0; // The picture matters more.
-    }
-    int settings_height =
-        settings_fit ? 0 : dip_ui_text_block_height(ui, LABEL_SIZE, room, label.settings);
-    if (3 * (line + time_height + settings_height) > rect.height) {
-        settings_height = 0;
-    }
+    const bool time_fits = title_width + own <= room, settings_fit = time_fits && width <= room;
+    const int time_height = time_fits ? 0 : height_below(ui, room, label.time, line, rect.height);
+    const int settings_height =
+        settings_fit ? 0 : height_below(ui, room, label.settings, line + time_height, rect.height);
     if (!settings_fit) {
         width = time_height + settings_height > 0 ? room : title_width + time_width - pad;
     }
     const DipRect strip = {rect.x + margin, rect.y + margin, dip_min(width, room) + 2 * pad,
-                           dip_ui_px(ui, LABEL_HEIGHT) + time_height + settings_height};
-    const int x = strip.x + pad;
-    int y = strip.y + (dip_ui_px(ui, LABEL_HEIGHT) - line) / 2;
+                           row + time_height + settings_height};
+    DipRect rest = {strip.x + pad, strip.y + (row - line) / 2, room, strip.height};
     dip_ui_fill_round(ui, strip, dip_ui_px(ui, 4), dip_style_glass);
-    dip_ui_text(ui, LABEL_SIZE, edited ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT, x, y,
-                room, label.title);
+    DipRect first = dip_cut_top(&rest, line);
+    dip_ui_label(ui, LABEL_SIZE, edited ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT, first,
+                 label.title);
+    dip_cut_left(&first, title_width);
     if (time_fits) {
-        dip_ui_text(ui, LABEL_SIZE, dip_style_white, DIP_ALIGN_LEFT, x + title_width, y,
-                    room - title_width, label.time);
+        dip_ui_label(ui, LABEL_SIZE, dip_style_white, DIP_ALIGN_LEFT, first, label.time);
     }
+    dip_cut_left(&first, time_width);
     if (settings_fit) {
-        dip_ui_text(ui, LABEL_SIZE, dip_style_soft, DIP_ALIGN_LEFT, x + title_width + time_width, y,
-                    room - title_width - time_width, label.settings);
+        dip_ui_label(ui, LABEL_SIZE, dip_style_soft, DIP_ALIGN_LEFT, first, label.settings);
     }
-    y += line;
-    dip_ui_text_block(ui, LABEL_SIZE, dip_style_white, (DipRect){x, y, room, time_height},
-                      label.time);
-    dip_ui_text_block(ui, LABEL_SIZE, dip_style_soft,
-                      (DipRect){x, y + time_height, room, settings_height}, label.settings);
+    dip_ui_text_block(ui, LABEL_SIZE, dip_style_white, dip_cut_top(&rest, time_height), label.time);
+    dip_ui_text_block(ui, LABEL_SIZE, dip_style_soft, dip_cut_top(&rest, settings_height),
+                      label.settings);
     if (edited && pane == DIP_PANE_REQUESTED &&
         !dip_compare_is_one_picture(window->state->tools.comparison)) {
         dip_ui_fill(ui, (DipRect){rect.x - DIP_PANE_GAP_PX, rect.y, DIP_PANE_GAP_PX, rect.height},
@@ -183,14 +183,12 @@ void dip_labels_draw_notice(DipUi *ui, DipWindow *window) {
     const int pad = dip_ui_px(ui, LABEL_PAD), margin = dip_ui_px(ui, LABEL_MARGIN);
     const int room = layout->width - 2 * margin - 2 * pad;
     const int width = dip_min(room, dip_ui_text_width(ui, LABEL_SIZE, notice) + 1);
-    const int text_height = dip_ui_text_block_height(ui, LABEL_SIZE, width, notice);
-    const int height =
-        text_height + dip_ui_px(ui, LABEL_HEIGHT) - dip_ui_line_height(ui, LABEL_SIZE);
+    const int lines = dip_ui_text_block_height(ui, LABEL_SIZE, width, notice);
+    const int height = lines + dip_ui_px(ui, LABEL_HEIGHT) - dip_ui_line_height(ui, LABEL_SIZE);
     const DipRect strip = {(layout->width - width) / 2 - pad,
-                           layout->panes[0].y + layout->panes[0].height - margin - height,
-                           width + 2 * pad, height};
+                           dip_rect_bottom(layout->panes[0]) - margin - height, width + 2 * pad,
+                           height};
     dip_ui_fill_round(ui, strip, dip_ui_px(ui, 4), dip_style_glass);
-    dip_ui_text_block(
-        ui, LABEL_SIZE, dip_style_accent,
-        (DipRect){strip.x + pad, strip.y + (height - text_height) / 2, width, text_height}, notice);
+    dip_ui_text_block(ui, LABEL_SIZE, dip_style_accent, dip_rect_middle(strip, width, lines),
+                      notice);
 }

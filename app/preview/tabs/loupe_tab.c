@@ -1,13 +1,25 @@
 // The loupe's tab: crops of both panes, and the figures of the pixel in their middle.
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/loupe.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { TEXT = 12, SMALL = 11, TINY = 10 }; // Sizes of letters.
+enum {
+    TEXT = 12, // Sizes of letters.
+    SMALL = 11,
+    TINY = 10,
+    BOX_SIDE = 120,
+    HEAD_HEIGHT = 28,    // Of the row with buttons.
+    DETAILS_WIDTH = 264, // Of a pixel's box and figures beside a crop.
+    FIGURES_WIDTH = 128, // Of the figures alone.
+    LEAST_CROP = 64,     // Width below which a crop has no text beside it.
+    SAMPLES_ZOOM = 16,   // Zooms from which the crop marks samples.
+};
+
+enum { ID_ZOOM, ID_PIN = 8, ID_CROP };
 
 // One pane's part of the tab.
 typedef struct Part {
@@ -18,14 +30,11 @@ typedef struct Part {
     const DipSamplePattern *pattern;
     const DipSampleValue *samples; // NULL if the pixel's samples are not known.
     DipColour pixel;
-    int x; // Where the next line of text begins.
-    int y;
-    int width;
+    DipColour own; // The pane's colour.
+    DipRect rest;  // The room below the lines of text so far.
 } Part;
 
 // --- figures -------------------------------------------------------------------------------------
-
-enum { BOX_SIDE = 120 };
 
 // Returns the colour of a pixel, which must lie inside the picture.
 static DipColour pixel_of(const DipPixels *picture, int x, int y) {
@@ -33,70 +42,55 @@ static DipColour pixel_of(const DipPixels *picture, int x, int y) {
     return (DipColour){rgba8[0], rgba8[1], rgba8[2], 255};
 }
 
-// Shows a line of text, and moves on to the next line.
-static void say(Part *part, int size, DipColour colour, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
-static void say(Part *part, int size, DipColour colour, const char *format, ...) {
-    char line[160];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    dip_ui_text(part->ui, size, colour, DIP_ALIGN_LEFT, part->x, part->y, part->width, line);
-    part->y += dip_ui_line_height(part->ui, size);
-}
-
-// Writes a number from 0 to 1 without its leading zero: ".761".
-static const char *without_zero(double value, char text[16]) {
-    snprintf(text, 16, "%.3f", value);
-    return text[0] == '0' ? text + 1 : text;
-}
-
-static void say_linear(Part *part, int size) {
-    char red[16], green[16], blue[16];
-    say(part, size, dip_style_white, "%s %s %s",
-        without_zero(dip_loupe_linear(part->loupe, part->pixel.red), red),
-        without_zero(dip_loupe_linear(part->loupe, part->pixel.green), green),
-        without_zero(dip_loupe_linear(part->loupe, part->pixel.blue), blue));
+// Writes the pixel's linear light, from 0 to 1: ".761 .102 .000".
+static void format_linear(const Part *part, char text[32]) {
+    const uint8_t codes[3] = {part->pixel.red, part->pixel.green, part->pixel.blue};
+    size_t length = 0;
+    for (int c = 0; c < 3; ++c) {
+        char number[16];
+        snprintf(number, sizeof number, "%.3f", dip_loupe_linear(part->loupe, codes[c]));
+        length += (size_t)snprintf(text + length, 32 - length, "%s%s", c ? " " : "",
+                                   number + (number[0] == '0'));
+    }
 }
 
 static void say_pixel(Part *part) {
     const DipColour *c = &part->pixel;
-    say(part, SMALL, dip_style_white, "#%02X%02X%02X", c->red, c->green, c->blue);
-    say(part, SMALL, dip_style_white, "%d %d %d", c->red, c->green, c->blue);
-    say(part, TINY, dip_style_dim, "linear");
-    say_linear(part, SMALL);
+    char linear[32];
+    format_linear(part, linear);
+    dip_ui_line(part->ui, SMALL, dip_style_white, &part->rest, "#%02X%02X%02X", c->red, c->green,
+                c->blue);
+    dip_ui_line(part->ui, SMALL, dip_style_white, &part->rest, "%d %d %d", c->red, c->green,
+                c->blue);
+    dip_ui_line(part->ui, TINY, dip_style_dim, &part->rest, "linear");
+    dip_ui_line(part->ui, SMALL, dip_style_white, &part->rest, "%s", linear);
 }
 
-// Lists the samples' colours in two columns, if there is room down to `bottom`.
-static void say_samples(Part *part, int bottom) {
+// Lists the samples' colours in two columns, if there is room.
+static void say_samples(Part *part) {
     const int count = part->samples ? part->pattern->count : 0;
-    const int line = dip_ui_line_height(part->ui, TINY);
+    const int line = dip_ui_line_height(part->ui, TINY), half = dip_ui_px(part->ui, 60);
     const int rows = (count + 1) / 2;
-    if (count < 2 || part->y + line * (rows + 1) > bottom) {
+    if (count < 2 || line * (rows + 1) > part->rest.height) {
         return;
     }
-    say(part, TINY, dip_style_dim, "samples");
-    const int top = part->y;
-    const int half = dip_ui_px(part->ui, 60);
+    dip_ui_line(part->ui, TINY, dip_style_dim, &part->rest, "samples");
+    const DipRect list = dip_cut_top(&part->rest, rows * line);
     for (int s = 0; s < count; ++s) {
         const DipColour colour = dip_loupe_colour(part->loupe, &part->samples[s]);
-        char text[32];
-        snprintf(text, sizeof text, "%d  %02X%02X%02X", s, colour.red, colour.green, colour.blue);
-        dip_ui_text(part->ui, TINY, dip_style_white, DIP_ALIGN_LEFT, part->x + s / rows * half,
-                    top + s % rows * line, half, text);
+        DipRect row = {list.x + s / rows * half, list.y + s % rows * line, half, 0};
+        dip_ui_line(part->ui, TINY, dip_style_white, &row, "%d  %02X%02X%02X", s, colour.red,
+                    colour.green, colour.blue);
     }
-    part->y = top + rows * line;
 }
 
 // Shows the first of several texts that fits, or the last one.
 static void say_fitting(Part *part, const char *const *texts, int count) {
     int i = 0;
-    while (i < count - 1 && dip_ui_text_width(part->ui, SMALL, texts[i]) > part->width) {
+    while (i < count - 1 && dip_ui_text_width(part->ui, SMALL, texts[i]) > part->rest.width) {
         ++i;
     }
-    say(part, SMALL, dip_style_soft, "%s", texts[i]);
+    dip_ui_line(part->ui, SMALL, dip_style_soft, &part->rest, "%s", texts[i]);
 }
 
 // Says how many samples the pixel has and what they show.
@@ -129,10 +123,8 @@ static void say_count(Part *part) {
 
 // Returns how far a colour is from another: the greatest difference of a channel.
 static int distance(DipColour a, DipColour b) {
-    const int red = abs(a.red - b.red);
-    const int green = abs(a.green - b.green);
-    const int blue = abs(a.blue - b.blue);
-    return dip_max(red, dip_max(green, blue));
+    const int green_blue = dip_max(abs(a.green - b.green), abs(a.blue - b.blue));
+    return dip_max(abs(a.red - b.red), green_blue);
 }
 
 // Compares the pixel with the converged picture, if that is known.
@@ -145,23 +137,16 @@ static void say_truth(Part *part) {
     }
     const DipColour true_pixel = pixel_of(truth, tools->x, tools->y);
     const DipColour other = pixel_of(&window->frames[1 - part->pane], tools->x, tools->y);
-    const int off = distance(part->pixel, true_pixel);
-    const int other_off = distance(other, true_pixel);
+    const int off = distance(part->pixel, true_pixel), other_off = distance(other, true_pixel);
+    const DipColour verdict = off < other_off   ? dip_style_gain
+                              : off > other_off ? dip_style_worse
+                                                : dip_style_soft;
+    DipRect line = dip_cut_top(&part->rest, dip_ui_line_height(part->ui, SMALL));
     char text[64];
     snprintf(text, sizeof text, "truth %d %d %d  ", true_pixel.red, true_pixel.green,
              true_pixel.blue);
-    const int width = dip_ui_text_width(part->ui, SMALL, text);
-    dip_ui_text(part->ui, SMALL, dip_style_white, DIP_ALIGN_LEFT, part->x, part->y, part->width,
-                text);
-    part->x += width;
-    part->width -= width;
-    say(part, SMALL,
-        off < other_off   ? dip_style_gain
-        : off > other_off ? dip_style_worse
-                          : dip_style_soft,
-        "off by %d", off);
-    part->x -= width;
-    part->width += width;
+    dip_ui_word(part->ui, SMALL, dip_style_white, &line, 0, text);
+    dip_ui_line(part->ui, SMALL, verdict, &line, "off by %d", off);
 }
 
 static void draw_box(Part *part, DipRect rect) {
@@ -189,40 +174,35 @@ static void draw_box(Part *part, DipRect rect) {
 static void show_details(Part *part, DipRect rect) {
     DipUi *ui = part->ui;
     const DipToolState *tools = &part->window->state->tools;
-    const int gap = dip_ui_px(ui, 8);
+    const DipColour *c = &part->pixel;
+    const int gap = dip_ui_px(ui, 8), side = dip_ui_px(ui, BOX_SIDE);
     const int small = dip_ui_line_height(ui, SMALL);
-    const int side = dip_ui_px(ui, BOX_SIDE);
-    const DipColour name = part->pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white;
-    const int bottom = rect.y + rect.height;
-    part->x = rect.x + gap;
-    part->y = rect.y;
-    part->width = rect.width - gap;
-    say(part, TEXT, name, "pixel %d, %d", tools->x, tools->y);
-    const int top = part->y + dip_ui_px(ui, 2);
+    dip_cut_left(&rect, gap);
+    dip_ui_line(ui, TEXT, part->own, &rect, "pixel %d, %d", tools->x, tools->y);
+    dip_cut_top(&rect, dip_ui_px(ui, 2));
+    part->rest = rect;
     const bool box =
-        rect.width >= side + 2 * gap + dip_ui_px(ui, 80) && top + side + 2 * small <= bottom;
+        rect.width >= side + gap + dip_ui_px(ui, 80) && side + 2 * small <= rect.height;
     if (box) {
-        draw_box(part, (DipRect){rect.x + gap, top, side, side});
-        part->x += side + gap;
-        part->width -= side + gap;
+        const DipRect left = dip_cut_left(&part->rest, side);
+        draw_box(part, (DipRect){left.x, left.y, side, side});
+        dip_cut_left(&part->rest, gap);
     }
-    part->y = top;
-    if (top + 4 * small <= bottom) {
+    if (4 * small <= rect.height) {
         say_pixel(part);
-        say_samples(part, bottom);
-    } else if (top + small <= bottom) {
-        const DipColour *c = &part->pixel;
-        say(part, SMALL, dip_style_white, "#%02X%02X%02X", c->red, c->green, c->blue);
+        say_samples(part);
+    } else if (small <= rect.height) {
+        dip_ui_line(ui, SMALL, dip_style_white, &part->rest, "#%02X%02X%02X", c->red, c->green,
+                    c->blue);
     }
     if (box) {
-        part->x = rect.x + gap;
-        part->y = top + side + dip_ui_px(ui, 3);
-        part->width = rect.width - gap;
+        part->rest = rect;
+        dip_cut_top(&part->rest, side + dip_ui_px(ui, 3));
     }
-    if (part->y + small <= bottom) {
+    if (small <= part->rest.height) {
         say_count(part);
     }
-    if (part->y + small <= bottom) {
+    if (small <= part->rest.height) {
         say_truth(part);
     }
 }
@@ -230,32 +210,27 @@ static void show_details(Part *part, DipRect rect) {
 // Shows the figures beneath a crop in a narrow tab: three lines, and the samples' colours if there
 // is room for them.
 static void show_brief(Part *part, DipRect rect) {
+    DipUi *ui = part->ui;
     const DipToolState *tools = &part->window->state->tools;
     const DipColour *c = &part->pixel;
-    const DipColour name = part->pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white;
-    const int gap = dip_ui_px(part->ui, 4);
-    char pixel[48], rgb[48];
-    part->x = rect.x + gap;
-    part->y = rect.y;
-    part->width = rect.width - gap;
+    const int gap = dip_ui_px(ui, 4);
+    char pixel[48], rgb[48], linear[32];
+    dip_cut_left(&rect, gap);
+    part->rest = rect;
     snprintf(pixel, sizeof pixel, "%d, %d", tools->x, tools->y);
     snprintf(rgb, sizeof rgb, "#%02X%02X%02X  %d %d %d", c->red, c->green, c->blue, c->red,
              c->green, c->blue);
-    if (dip_ui_text_width(part->ui, SMALL, pixel) + dip_ui_text_width(part->ui, SMALL, rgb) +
-            2 * gap >
-        part->width) {
+    if (dip_ui_text_width(ui, SMALL, pixel) + dip_ui_text_width(ui, SMALL, rgb) + 2 * gap >
+        rect.width) {
         rgb[7] = '\0'; // The hexadecimal code alone.
     }
-    dip_ui_text(part->ui, SMALL, dip_style_white, DIP_ALIGN_RIGHT, rect.x + rect.width - gap,
-                part->y, part->width, rgb);
-    say(part, SMALL, name, "%s", pixel);
-    char red[16], green[16], blue[16];
-    say(part, SMALL, dip_style_white, "linear %s %s %s",
-        without_zero(dip_loupe_linear(part->loupe, c->red), red),
-        without_zero(dip_loupe_linear(part->loupe, c->green), green),
-        without_zero(dip_loupe_linear(part->loupe, c->blue), blue));
+    dip_ui_text(ui, SMALL, dip_style_white, DIP_ALIGN_RIGHT, dip_rect_right(rect) - gap, rect.y,
+                rect.width, rgb);
+    dip_ui_line(ui, SMALL, part->own, &part->rest, "%s", pixel);
+    format_linear(part, linear);
+    dip_ui_line(ui, SMALL, dip_style_white, &part->rest, "linear %s", linear);
     say_count(part);
-    say_samples(part, rect.y + rect.height);
+    say_samples(part);
 }
 
 // Returns the height of the brief figures of a part with this rectangle: that of the three lines,
@@ -272,18 +247,6 @@ static int brief_height(const Part *part, DipRect rect) {
     return rect.height - lines - samples >= 2 * rect.width / 3 ? lines + samples : lines;
 }
 
-enum {
-    HEAD_HEIGHT = 28,    // Of the row with buttons.
-    DETAILS_WIDTH = 264, // Of a pixel's box and figures beside a crop.
-    FIGURES_WIDTH = 128, // Of the figures alone.
-    LEAST_CROP = 64,     // Width below which a crop has no text beside it.
-    SAMPLES_ZOOM = 16,   // Zooms from which the crop marks samples.
-};
-
-enum { ID_ZOOM, ID_PIN = 8, ID_CROP };
-
-static const int zooms[] = {2, 4, 8, 16, 32};
-
 // --- crops ---------------------------------------------------------------------------------------
 
 // The crop is a control: a click looks at the pixel under the pointer, the wheel zooms, and arrow
@@ -291,13 +254,9 @@ static const int zooms[] = {2, 4, 8, 16, 32};
 static void handle_crop(Part *part, const DipLoupeCrop *crop) {
     DipToolState *tools = &part->window->state->tools;
     const DipPixels *frame = &part->window->frames[part->pane];
-    const DipUiControl control = {
-        .id = DIP_UI_ID(DIP_UI_LOUPE, ID_CROP + part->pane),
-        .rect = crop->frame,
-        .tip = "Click: look at this pixel. Wheel: zoom. Arrow keys: move by one pixel.",
-        .takes_arrows = true,
-        .takes_wheel = true};
-    const DipUiInput input = dip_ui_control(part->ui, &control);
+    const DipUiInput input =
+        dip_ui_stepper(part->ui, DIP_UI_ID(DIP_UI_LOUPE, ID_CROP + part->pane), crop->frame,
+                       "Click: look at this pixel. Wheel: zoom. Arrow keys: move by one pixel.");
     if (dip_ui_is_drawing(part->ui)) {
         if (input.focused) {
             dip_ui_outline(part->ui, crop->frame, 0, dip_ui_px(part->ui, 2), dip_style_soft);
@@ -323,8 +282,8 @@ static void want_samples(const Part *part, const DipLoupeCrop *crop) {
     const DipRect *source = &crop->source;
     DipTargetRegion region = {tools->x, tools->y, tools->x + 1, tools->y + 1};
     if (crop->zoom >= SAMPLES_ZOOM && !dip_rect_is_empty(*source)) {
-        region = (DipTargetRegion){source->x, source->y, source->x + source->width,
-                                   source->y + source->height};
+        region = (DipTargetRegion){source->x, source->y, dip_rect_right(*source),
+                                   dip_rect_bottom(*source)};
     }
     dip_loupe_want(part->loupe, region);
 }
@@ -345,92 +304,81 @@ static void draw_crop(Part *part, DipRect area) {
         if (dip_loupe_crop_picture(part->loupe, part->pane, &content, &picture, &version)) {
             dip_ui_picture(part->ui, content.crop.frame, &picture, version);
         }
-        dip_ui_mark(part->ui, content.crop.pixel,
-                    part->pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white);
+        dip_ui_mark(part->ui, content.crop.pixel, part->own);
     }
     handle_crop(part, &content.crop);
 }
 
-// Divides a pane's part of the tab into the crop and the details, whichever fit.
+// Divides a pane's part of the tab into the crop and the figures, whichever fit.
 static void declare_part(DipUi *ui, DipWindow *window, int pane, DipRect rect) {
     const DipToolState *tools = &window->state->tools;
-    Part part = {.ui = ui, .window = window, .loupe = window->tools->loupe, .pane = pane};
+    Part part = {.ui = ui,
+                 .window = window,
+                 .loupe = &window->tools->loupe,
+                 .pane = pane,
+                 .pixel = pixel_of(&window->frames[pane], tools->x, tools->y),
+                 .own = dip_style_of_pane(pane)};
     part.pattern = dip_loupe_pattern(part.loupe, &window->state->quality[pane]);
-    const DipSamplePattern *pattern = part.pattern;
-    part.samples =
-        dip_loupe_samples(part.loupe, pane, window->versions[pane], tools->x, tools->y, &pattern);
-    part.pattern = part.samples ? pattern : part.pattern;
-    part.pixel = pixel_of(&window->frames[pane], tools->x, tools->y);
-    const int least = dip_ui_px(ui, LEAST_CROP);
-    const int details = rect.width - dip_ui_px(ui, DETAILS_WIDTH) >= least
-                            ? dip_ui_px(ui, DETAILS_WIDTH)
-                            : dip_ui_px(ui, FIGURES_WIDTH);
-    const int brief = brief_height(&part, rect);
-    DipRect crop = rect;
-    DipRect text = rect;
+    part.samples = dip_loupe_samples(part.loupe, pane, window->versions[pane], tools->x, tools->y,
+                                     &part.pattern);
+    const int least = dip_ui_px(ui, LEAST_CROP), brief = brief_height(&part, rect);
+    int details = dip_ui_px(ui, DETAILS_WIDTH);
+    details = rect.width - details >= least ? details : dip_ui_px(ui, FIGURES_WIDTH);
+    void (*show)(Part *, DipRect) = show_details;
+    DipRect crop = rect, text = {0};
     if (rect.width - details < 2 * least && rect.height >= least + brief) {
-        crop.height -= brief;
-        text.y += crop.height;
-        text.height = brief;
-        draw_crop(&part, crop);
-        show_brief(&part, text);
+        text = dip_cut_bottom(&crop, brief);
+        show = show_brief;
     } else if (rect.width - details >= least) {
-        crop.width -= details;
-        text.x += crop.width;
-        text.width = details;
-        draw_crop(&part, crop);
-        show_details(&part, text);
+        text = dip_cut_right(&crop, details);
     } else if (rect.height >= 2 * least) {
-        crop.height = rect.height / 2;
-        text.y += crop.height + dip_ui_px(ui, 4);
-        text.height -= crop.height + dip_ui_px(ui, 4);
-        draw_crop(&part, crop);
-        show_details(&part, text);
-    } else {
-        draw_crop(&part, crop);
+        text = dip_cut_bottom(&crop, rect.height - rect.height / 2);
+        dip_cut_top(&text, dip_ui_px(ui, 4));
+    }
+    draw_crop(&part, crop);
+    if (text.width > 0) {
+        show(&part, text);
     }
 }
 
 // --- the tab -------------------------------------------------------------------------------------
 
-// Declares a button at *x and moves *x behind it. Returns whether it was pressed, or false if it
-// does not fit.
-static bool row_button(DipUi *ui, unsigned id, int *x, DipRect row, const char *text,
-                       DipUiLook look, const char *tip) {
-    const int padding = dip_ui_px(ui, row.width < dip_ui_px(ui, 300) ? 4 : 8);
+// Declares a button at the left end of *row, and cuts it off. Leaves out a button that does not
+// fit. Returns whether it was pressed.
+static bool row_button(DipUi *ui, int id, DipRect *row, int padding, const char *text, bool chosen,
+                       const char *tip) {
     const int width = dip_ui_text_width(ui, TEXT, text) + 2 * padding;
-    const DipRect rect = {*x, row.y, width, row.height};
-    if (rect.x + rect.width > row.x + row.width) {
+    if (width > row->width) {
         return false;
     }
-    *x += width + dip_ui_px(ui, 4);
-    return dip_ui_button(ui, DIP_UI_ID(DIP_UI_LOUPE, id), rect, text, look, tip);
+    const DipRect rect = dip_cut_left(row, width);
+    dip_cut_left(row, dip_ui_px(ui, 4));
+    return dip_ui_button(ui, DIP_UI_ID(DIP_UI_LOUPE, id), rect, text,
+                         chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip);
 }
 
 static void declare_head(DipUi *ui, DipWindow *window, DipRect row) {
     DipToolState *tools = &window->state->tools;
-    int x = row.x;
-    for (int i = 0; i < (int)(sizeof zooms / sizeof *zooms); ++i) {
+    const int padding = dip_ui_px(ui, row.width < dip_ui_px(ui, 300) ? 4 : 8);
+    int id = ID_ZOOM;
+    for (int zoom = DIP_LOUPE_MIN_ZOOM; zoom <= DIP_LOUPE_MAX_ZOOM; zoom *= 2) {
         char text[8];
-        snprintf(text, sizeof text, "%dx", zooms[i]);
-        if (row_button(ui, (unsigned)(ID_ZOOM + i), &x, row, text,
-                       tools->zoom == zooms[i] ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+        snprintf(text, sizeof text, "%dx", zoom);
+        if (row_button(ui, id++, &row, padding, text, tools->zoom == zoom,
                        "Shows each pixel of the panes this many times as large.")) {
-            tools->zoom = zooms[i];
+            tools->zoom = zoom;
         }
     }
-    x += dip_ui_px(ui, 8);
-    if (row_button(ui, ID_PIN, &x, row, tools->pinned ? "Pinned" : "Follows the pointer",
-                   tools->pinned ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+    dip_cut_left(&row, dip_ui_px(ui, 8));
+    if (row_button(ui, ID_PIN, &row, padding, tools->pinned ? "Pinned" : "Follows the pointer",
+                   tools->pinned,
                    "A pinned loupe keeps its pixel. A right click on a pane pins a pixel.")) {
         tools->pinned = !tools->pinned;
     }
     const char *note = tools->pinned ? "arrow keys: one pixel" : "right click: pin a pixel";
-    const int room = row.x + row.width - x - dip_ui_px(ui, 8);
-    if (room >= dip_ui_text_width(ui, SMALL, note)) {
-        const int height = dip_ui_line_height(ui, SMALL);
-        dip_ui_text(ui, SMALL, dip_style_dim, DIP_ALIGN_RIGHT, row.x + row.width,
-                    row.y + (row.height - height) / 2, room, note);
+    dip_cut_left(&row, dip_ui_px(ui, 8));
+    if (row.width >= dip_ui_text_width(ui, SMALL, note)) {
+        dip_ui_label(ui, SMALL, dip_style_dim, DIP_ALIGN_RIGHT, row, note);
     }
 }
 
@@ -440,8 +388,8 @@ static DipRect half_of(const DipLayout *layout, DipRect body, int pane) {
     DipRect half = body;
     if (layout->side == DIP_DOCK_BELOW) {
         const DipRect *under = &layout->panes[pane];
-        half.x = under->x > body.x ? under->x : body.x;
-        half.width = dip_min(under->x + under->width, body.x + body.width) - half.x;
+        half.x = dip_max(under->x, body.x);
+        half.width = dip_min(dip_rect_right(*under), dip_rect_right(body)) - half.x;
     } else if (body.height >= body.width / 2) {
         half.height = body.height / 2 - 2;
         half.y += pane == DIP_PANE_REQUESTED ? body.height - half.height : 0;
@@ -461,10 +409,8 @@ void dip_tab_loupe(DipUi *ui, DipWindow *window, DipRect body) {
     dip_loupe_keep_inside(&window->state->tools, window->frames[DIP_PANE_CURRENT].width,
                           window->frames[DIP_PANE_CURRENT].height);
     if (body.height >= 3 * head) {
-        declare_head(ui, window,
-                     (DipRect){body.x + 2 * gap, body.y + gap, body.width - 4 * gap, head - gap});
-        body.y += head + gap;
-        body.height -= head + gap;
+        DipRect row = dip_rect_inset(dip_cut_top(&body, head + gap), 2 * gap, gap);
+        declare_head(ui, window, row);
     }
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         declare_part(ui, window, p, half_of(window->layout, body, p));

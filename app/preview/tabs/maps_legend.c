@@ -1,5 +1,5 @@
-// What the maps' tab says of the values: colour scales with their distribution, keys, and tables
-// of the whole frame and of the pixel under the mouse.
+// Explains the map in the maps' tab: a scale of its colours with the distribution of the values, or
+// a key of its colours; and tables of the whole frame and of the pixel under the mouse.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tabs/maps_tab_private.h"
 #include "app/preview/tools/map_colours.h"
@@ -8,7 +8,25 @@
 #include <stdio.h>
 #include <string.h>
 
-// Counts the values of a pane in CHART_BINS bins up to `end`. Values beyond it are in the last bin.
+// Writes a line of text `down` below the top of an area, at scale 1. Returns its width.
+static int put(const Tab *tab, int size, DipColour colour, DipRect area, int down,
+               const char *text) {
+    dip_ui_text(tab->ui, size, colour, DIP_ALIGN_LEFT, area.x, area.y + px(tab, down), area.width,
+                text);
+    return dip_ui_text_width(tab->ui, size, text);
+}
+
+// Returns the map's colour of a value, as a share of the scale.
+static DipColour colour_of(DipMap map, float share) {
+    uint8_t rgb[3];
+    (map == DIP_MAP_FLIP ? dip_magma : dip_cividis)(share, rgb);
+    return (DipColour){rgb[0], rgb[1], rgb[2], 255};
+}
+
+// --- the scale -----------------------------------------------------------------------------------
+
+// Counts the values of a pane in CHART_BINS bins up to `end`. Values beyond `end` are in the last
+// bin. Returns whether the values are known.
 static bool count_values(const Tab *tab, int pane, double end, double counts[CHART_BINS]) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
     const DipErrorPictures *errors = tab->maps->errors;
@@ -61,7 +79,7 @@ static void draw_chart(const Tab *tab, DipRect area, double end) {
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         known[p] = count_values(tab, p, end, counts[p]);
         for (int i = 0; i < CHART_BINS; i++) {
-            most = counts[p][i] > most ? counts[p][i] : most;
+            most = fmax(most, counts[p][i]);
         }
     }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -71,20 +89,8 @@ static void draw_chart(const Tab *tab, DipRect area, double end) {
     }
 }
 
-// Draws the colour scale as 64 steps.
-static void draw_scale(const Tab *tab, DipRect area) {
-    enum { STEPS = 64 };
-    for (int i = 0; i < STEPS; i++) {
-        uint8_t rgb[3];
-        const int left = area.x + area.width * i / STEPS;
-        const int right = area.x + area.width * (i + 1) / STEPS;
-        (tab->tools->map == DIP_MAP_FLIP ? dip_magma : dip_cividis)((float)i / (STEPS - 1), rgb);
-        dip_ui_fill(tab->ui, (DipRect){left, area.y, right - left, area.height},
-                    (DipColour){rgb[0], rgb[1], rgb[2], 255});
-    }
-}
-
-double dip_maps_value_at(const Tab *tab, int pane, int x, int y) {
+// Returns a pane's value at a pixel, or a number below 0 if it is not known.
+static double value_at(const Tab *tab, int pane, int x, int y) {
     const DipErrorPictures *errors = tab->maps->errors;
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
     if (tab->tools->map == DIP_MAP_FLIP) {
@@ -97,11 +103,18 @@ double dip_maps_value_at(const Tab *tab, int pane, int x, int y) {
                : -1.0;
 }
 
-// Marks the values of the pixel under the pointer on the scale.
-static void draw_scale_marks(const Tab *tab, DipRect area, double end) {
+// Draws the colour scale as 64 steps, with a mark for each pane's value at the described pixel.
+static void draw_scale(const Tab *tab, DipRect area, double end) {
+    enum { STEPS = 64 };
     int x, y;
-    for (int p = 0; pointed_pixel(tab, &x, &y) && p < DIP_PANE_COUNT; p++) {
-        const double value = dip_maps_value_at(tab, p, x, y);
+    for (int i = 0; i < STEPS; i++) {
+        const int left = area.x + area.width * i / STEPS;
+        const int right = area.x + area.width * (i + 1) / STEPS;
+        dip_ui_fill(tab->ui, (DipRect){left, area.y, right - left, area.height},
+                    colour_of(tab->tools->map, (float)i / (STEPS - 1)));
+    }
+    for (int p = 0; described_pixel(tab, &x, &y) && p < DIP_PANE_COUNT; p++) {
+        const double value = value_at(tab, p, x, y);
         const double share = value < end ? value / end : 1.0;
         if (value >= 0.0) {
             dip_ui_fill(tab->ui,
@@ -128,198 +141,184 @@ static void draw_ticks(const Tab *tab, DipRect area, double end) {
     }
 }
 
-static void brightness_buttons(const Tab *tab, int x, int y) {
-    static const int steps[BRIGHTNESS_COUNT] = {1, 2, 4, 8};
-    const int width = px(tab, 30), gap = px(tab, 4);
-    x += put(tab, NOTE, dip_style_soft, x, y + px(tab, 4), px(tab, 100), "Brightness") + px(tab, 8);
-    for (int i = 0; i < BRIGHTNESS_COUNT; i++, x += width + gap) {
+static void brightness_buttons(const Tab *tab, DipRect rest) {
+    const double brightness = fmax(1.0, tab->tools->brightness);
+    rest.width = px(tab, 100);
+    dip_cut_left(&rest, put(tab, NOTE, dip_style_soft, rest, 4, "Brightness") + px(tab, 8));
+    for (int i = 0; i < BRIGHTNESS_COUNT; i++) {
         char text[8];
-        snprintf(text, sizeof text, "%dx", steps[i]);
-        const double brightness = tab->tools->brightness >= 1.0 ? tab->tools->brightness : 1.0;
+        snprintf(text, sizeof text, "%dx", 1 << i);
         if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_BRIGHTNESS + i),
-                          (DipRect){x, y, width, px(tab, 20)}, text,
-                          brightness == steps[i] ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                          dip_cut_left(&rest, px(tab, 30)), text,
+                          brightness == 1 << i ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
                           "Ends the scale at this fraction of its full range.\nKeys: [ and ]")) {
-            tab->tools->brightness = steps[i];
+            tab->tools->brightness = 1 << i;
         }
+        dip_cut_left(&rest, px(tab, 4));
     }
 }
 
-static const char *legend_title(DipMap map) {
-    switch (map) {
-    case DIP_MAP_FLIP:
-        return "FLIP error per pixel";
-    case DIP_MAP_TIME:
-        return "ms per tile of 64x64";
-    case DIP_MAP_FRAGMENTS:
-        return "Fragments per pixel, per tile of 64x64";
-    case DIP_MAP_PROBES:
-        return "Probes per pixel, per tile of 64x64";
-    default:
-        return dip_map_name(map);
-    }
-}
-
-static void scale_legend(const Tab *tab, DipRect area) {
+static void scale_legend(const Tab *tab, DipRect rest) {
+    const char *title = tab->tools->map == DIP_MAP_FLIP        ? "FLIP error per pixel"
+                        : tab->tools->map == DIP_MAP_TIME      ? "ms per tile of 64x64"
+                        : tab->tools->map == DIP_MAP_FRAGMENTS ? "Fragments per pixel, per tile of "
+                                                                 "64x64"
+                                                               : "Probes per pixel, per tile of "
+                                                                 "64x64";
     const bool flip = tab->tools->map == DIP_MAP_FLIP;
     const double end = dip_maps_end(tab->maps, tab->tools);
-    const int width = dip_min(area.width, px(tab, 320));
-    int y = area.y;
-    put(tab, TEXT, dip_style_white, area.x, y, width, legend_title(tab->tools->map));
-    put_right(tab, NOTE, dip_style_soft, area.x + width, y + px(tab, 2),
-              flip ? "pixels, log scale" : "tiles");
-    y += px(tab, ROW);
-    draw_chart(tab, (DipRect){area.x, y, width, px(tab, CHART)}, end);
-    y += px(tab, CHART + 4);
-    const DipRect scale = {area.x, y, width, px(tab, BAR)};
-    draw_scale(tab, scale);
-    draw_scale_marks(tab, scale, end);
-    y += px(tab, BAR + 4);
-    draw_ticks(tab, (DipRect){area.x, y, width, px(tab, NOTE_ROW)}, end);
-    y += px(tab, 20);
-    const int named = put(tab, NOTE, dip_style_white, area.x, y, width, "— Current");
-    put(tab, NOTE, dip_style_accent, area.x + named + px(tab, 14), y, width, "- - Requested");
-    brightness_buttons(tab, area.x, y + px(tab, 20));
+    rest.width = dip_min(rest.width, px(tab, 320));
+    put(tab, TEXT, dip_style_white, rest, 0, title);
+    dip_ui_text(tab->ui, NOTE, dip_style_soft, DIP_ALIGN_RIGHT, dip_rect_right(rest),
+                rest.y + px(tab, 2), px(tab, LEGEND_WIDTH), flip ? "pixels, log scale" : "tiles");
+    dip_cut_top(&rest, px(tab, ROW));
+    DipRect part = dip_cut_top(&rest, px(tab, CHART + 4));
+    part.height = px(tab, CHART);
+    draw_chart(tab, part, end);
+    part = dip_cut_top(&rest, px(tab, BAR + 4));
+    part.height = px(tab, BAR);
+    draw_scale(tab, part, end);
+    draw_ticks(tab, dip_cut_top(&rest, px(tab, 20)), end);
+    part = dip_cut_top(&rest, px(tab, 20));
+    const int named = put(tab, NOTE, dip_style_white, part, 0, "— Current");
+    part.x += named + px(tab, 14);
+    put(tab, NOTE, dip_style_accent, part, 0, "- - Requested");
+    rest.height = px(tab, 20);
+    brightness_buttons(tab, rest);
 }
 
-// A square of a colour with words beside it.
-static void draw_key(const Tab *tab, int x, int y, int room, DipColour colour, const char *text) {
-    const int side = px(tab, 14);
-    const DipRect square = {x, y + px(tab, 2), side, side};
+// --- keys ----------------------------------------------------------------------------------------
+
+// Draws a square of a colour, `down` below the top of an area, with words beside it.
+static void draw_key(const Tab *tab, DipRect area, int down, DipColour colour, const char *text) {
+    const int side = px(tab, 14), thin = px(tab, 2);
+    area.y += px(tab, down) + thin;
+    const DipRect column = dip_cut_left(&area, side);
+    const DipRect square = {column.x, column.y, side, side};
     dip_ui_fill(tab->ui, square, colour);
     dip_ui_outline(tab->ui, square, 0, px(tab, 1), dip_style_line);
-    put(tab, NOTE, dip_style_soft, x + side + px(tab, 8), y + px(tab, 2), room - side - px(tab, 8),
-        text);
+    dip_cut_left(&area, px(tab, 8));
+    put(tab, NOTE, dip_style_soft, area, 0, text);
 }
 
 static void mip_legend(const Tab *tab, DipRect area) {
-    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "Mip level, by its size in texels");
+    put(tab, TEXT, dip_style_white, area, 0, "Mip level, by its size in texels");
     for (int i = 0; i < DIP_MIP_DEBUG_LEVELS; i++) {
         char text[32];
         snprintf(text, sizeof text, "%d%s", 1024 >> i,
                  i == 0                          ? " and more"
                  : i == DIP_MIP_DEBUG_LEVELS - 1 ? " and fewer"
                                                  : "");
-        draw_key(tab, area.x + i / 4 * area.width / 2, area.y + px(tab, ROW * (i % 4 + 1)),
-                 area.width / 2, dip_map_mip_colour(i), text);
+        const DipRect half = {area.x + i / 4 * area.width / 2, area.y, area.width / 2, 0};
+        draw_key(tab, half, ROW * (i % 4 + 1), dip_map_mip_colour(i), text);
     }
-    put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, 5 * ROW + 4), area.width,
+    put(tab, NOTE, dip_style_soft, area, 5 * ROW + 4,
         "Where levels are blended, their colours mix.");
-    put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, 5 * ROW + 4 + NOTE_ROW), area.width,
+    put(tab, NOTE, dip_style_soft, area, 5 * ROW + 4 + NOTE_ROW,
         "Blurred: the level is too small. Shimmering: too large.");
 }
 
 static void samples_legend(const Tab *tab, DipRect area) {
-    uint8_t first[3], last[3];
-    dip_cividis(0.0f, first);
-    dip_cividis(1.0f, last);
-    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "Samples of a pixel, per pixel");
-    draw_key(tab, area.x, area.y + px(tab, ROW), area.width,
-             (DipColour){last[0], last[1], last[2], 255}, "They show more than one surface.");
-    draw_key(tab, area.x, area.y + px(tab, 2 * ROW), area.width,
-             (DipColour){first[0], first[1], first[2], 255}, "They all show one.");
-    put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, 3 * ROW + 4), area.width,
+    put(tab, TEXT, dip_style_white, area, 0, "Samples of a pixel, per pixel");
+    draw_key(tab, area, ROW, colour_of(DIP_MAP_SAMPLES, 1.0f), "They show more than one surface.");
+    draw_key(tab, area, 2 * ROW, colour_of(DIP_MAP_SAMPLES, 0.0f), "They all show one.");
+    put(tab, NOTE, dip_style_soft, area, 3 * ROW + 4,
         "Without antialiasing a pixel has one sample, so none differ.");
 }
 
 void dip_maps_legend_block(const Tab *tab, DipRect area) {
     switch (tab->tools->map) {
     case DIP_MAP_NONE:
-        put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "Where does it go?");
-        put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, ROW), area.width,
+        put(tab, TEXT, dip_style_white, area, 0, "Where does it go?");
+        put(tab, NOTE, dip_style_soft, area, ROW,
             "A map shows over each pane where its error lies");
-        put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, ROW + NOTE_ROW), area.width,
-            "and where its work is done.");
-        return;
+        put(tab, NOTE, dip_style_soft, area, ROW + NOTE_ROW, "and where its work is done.");
+        break;
     case DIP_MAP_MIPS:
         mip_legend(tab, area);
-        return;
+        break;
     case DIP_MAP_SAMPLES:
         samples_legend(tab, area);
-        return;
+        break;
     default:
         scale_legend(tab, area);
+        break;
     }
 }
 
 // --- tables --------------------------------------------------------------------------------------
 
-// A row of a table: a name, both panes' values and a comparison, which may be NULL.
-typedef struct Row {
+typedef enum Comparison { NOT_COMPARED, BY_FACTOR, IN_PER_CENT } Comparison;
+
+// The rows that tables of work have: of a whole frame, and of a tile.
+static const struct {
+    DipMap map;
     const char *name;
-    char values[DIP_PANE_COUNT][24];
-    char compared[24];
-    DipColour colour; // Of the comparison.
-} Row;
+    const char *format;
+    const char *tile_name;
+    const char *tile_format;
+} work_rows[] = {{DIP_MAP_TIME, "tiles, 1 core", "%.1f ms", "time", "%.2f ms"},
+                 {DIP_MAP_FRAGMENTS, "fragments", "%.0f", "fragments/px", "%.2f"},
+                 {DIP_MAP_PROBES, "probes", "%.0f", "probes/px", "%.2f"},
+                 {DIP_MAP_SAMPLES, "mixed pixels", "%.0f", "mixed pixels", "%.0f"}};
+enum { WORK_ROWS = sizeof work_rows / sizeof *work_rows };
 
-static void put_row(const Tab *tab, DipRect area, int index, const Row *row) {
-    const int y = area.y + px(tab, ROW * (index + 1));
-    put(tab, TEXT, dip_style_soft, area.x, y, px(tab, 90), row->name);
-    put_right(tab, TEXT, dip_style_white, area.x + px(tab, 152), y, row->values[DIP_PANE_CURRENT]);
-    put_right(tab, TEXT, dip_style_accent, area.x + px(tab, 216), y,
-              row->values[DIP_PANE_REQUESTED]);
-    put(tab, TEXT, row->colour, area.x + px(tab, 226), y, area.width - px(tab, 226), row->compared);
-}
-
-// Compares two numbers as a factor.
-static Row factor_row(const char *name, const char *format, const double values[DIP_PANE_COUNT]) {
-    Row row = {.name = name, .colour = dip_style_soft};
+// Writes a row of a table: a name, both panes' values and how they compare. Values below 0 are not
+// known. IN_PER_CENT is for errors, of which less is better.
+static void put_row(const Tab *tab, DipRect area, int index, const char *name, const char *format,
+                    const double values[DIP_PANE_COUNT], Comparison comparison) {
+    const int ends[DIP_PANE_COUNT] = {px(tab, 152), px(tab, 216)};
+    char text[24];
+    area.y += px(tab, ROW * (index + 1));
+    dip_ui_text(tab->ui, TEXT, dip_style_soft, DIP_ALIGN_LEFT, area.x, area.y, px(tab, 90), name);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         if (values[p] >= 0.0) {
-            snprintf(row.values[p], sizeof row.values[p], format, values[p]);
+            snprintf(text, sizeof text, format, values[p]);
+            dip_ui_text(tab->ui, TEXT, dip_style_of_pane(p), DIP_ALIGN_RIGHT, area.x + ends[p],
+                        area.y, px(tab, LEGEND_WIDTH), text);
         }
     }
-    if (values[0] > 0.0 && values[1] >= 0.0) {
-        snprintf(row.compared, sizeof row.compared, "x %.1f", values[1] / values[0]);
+    if (comparison == NOT_COMPARED || values[0] <= 0.0 || values[1] < 0.0) {
+        return;
     }
-    return row;
-}
-
-// Compares two errors in per cent.
-static Row error_row(const char *name, const double values[DIP_PANE_COUNT]) {
-    Row row = {.name = name, .colour = dip_style_soft};
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        if (values[p] >= 0.0) {
-            snprintf(row.values[p], sizeof row.values[p], "%.4f", values[p]);
-        }
+    const double change = 100.0 * (values[1] / values[0] - 1.0);
+    DipColour colour = dip_style_soft;
+    if (comparison == BY_FACTOR) {
+        snprintf(text, sizeof text, "x %.1f", values[1] / values[0]);
+    } else if (fabs(change) <= 0.5) {
+        snprintf(text, sizeof text, "%.0f %%", fabs(change));
+    } else {
+        snprintf(text, sizeof text, "%s%.0f %%", change < 0.0 ? "\u2212" : "+", fabs(change));
+        colour = change < 0.0 ? dip_style_gain : dip_style_worse;
     }
-    if (values[0] > 0.0 && values[1] >= 0.0) {
-        const double change = 100.0 * (values[1] / values[0] - 1.0);
-        row.colour = change < -0.5  ? dip_style_gain
-                     : change > 0.5 ? dip_style_worse
-                                    : dip_style_soft;
-        snprintf(row.compared, sizeof row.compared, "%s%.0f %%",
-                 change < -0.5  ? "\u2212"
-                 : change > 0.5 ? "+"
-                                : "",
-                 fabs(change));
-    }
-    return row;
+    dip_cut_left(&area, px(tab, 226));
+    put(tab, TEXT, colour, area, 0, text);
 }
 
 static void flip_table(const Tab *tab, DipRect area) {
+    static const char *const names[] = {"FLIP, mean", "95 % below", "99 % below", "worst block",
+                                        "RMSE"};
+    enum { ROWS = sizeof names / sizeof *names };
     const DipErrorPictures *errors = tab->maps->errors;
-    double values[5][DIP_PANE_COUNT];
-    static const char *const names[5] = {"FLIP, mean", "95 % below", "99 % below", "worst block",
-                                         "RMSE"};
-    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "This frame, all pixels");
+    double values[ROWS][DIP_PANE_COUNT];
+    put(tab, TEXT, dip_style_white, area, 0, "This frame, all pixels");
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         const bool known = errors && errors->flip[p];
-        values[0][p] = known ? errors->result.panes[p].flip : -1.0;
-        values[1][p] = known ? errors->spread[p].tail.p95 : -1.0;
-        values[2][p] = known ? errors->spread[p].tail.p99 : -1.0;
-        values[3][p] = known ? errors->spread[p].tail.worst : -1.0;
-        values[4][p] = known ? errors->result.panes[p].rmse_lin : -1.0;
+        const DipPaneError error = known ? errors->result.panes[p] : (DipPaneError){0};
+        const DipFlipTail tail = known ? errors->spread[p].tail : (DipFlipTail){0};
+        const double found[ROWS] = {error.flip, tail.p95, tail.p99, tail.worst, error.rmse_lin};
+        for (int i = 0; i < ROWS; i++) {
+            values[i][p] = known ? found[i] : -1.0;
+        }
     }
-    for (int i = 0; i < 5; i++) {
-        const Row row = error_row(names[i], values[i]);
-        put_row(tab, area, i, &row);
+    for (int i = 0; i < ROWS; i++) {
+        put_row(tab, area, i, names[i], "%.4f", values[i], IN_PER_CENT);
     }
     if (errors) {
         char text[80];
         snprintf(text, sizeof text, "Truth: 2 x %d samples, noise %.4f", errors->result.samples / 2,
                  errors->result.floor_rmse);
-        put(tab, NOTE, dip_style_dim, area.x, area.y + px(tab, 6 * ROW + 4), area.width, text);
+        put(tab, NOTE, dip_style_dim, area, 6 * ROW + 4, text);
     }
 }
 
@@ -334,31 +333,26 @@ static double sum_of(const DipMapWork *work, DipMap map) {
 }
 
 static void work_table(const Tab *tab, DipRect area) {
-    static const DipMap maps[] = {DIP_MAP_TIME, DIP_MAP_FRAGMENTS, DIP_MAP_PROBES, DIP_MAP_SAMPLES};
-    static const char *const names[] = {"tiles, 1 core", "fragments", "probes", "mixed pixels"};
-    static const char *const formats[] = {"%.1f ms", "%.0f", "%.0f", "%.0f"};
-    double geometry_ms[DIP_PANE_COUNT], mirrored_ms = 0.0;
-    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, "Whole frame");
-    for (int i = 0; i < 4; i++) {
-        double values[DIP_PANE_COUNT];
+    double values[DIP_PANE_COUNT], geometry_ms[DIP_PANE_COUNT], mirrored_ms = 0.0;
+    put(tab, TEXT, dip_style_white, area, 0, "Whole frame");
+    for (int i = 0; i < WORK_ROWS; i++) {
         for (int p = 0; p < DIP_PANE_COUNT; p++) {
-            const DipMapWork *work = dip_maps_work(tab->maps, p);
-            values[p] = sum_of(work, maps[i]);
-            geometry_ms[p] = work->draws ? work->geometry_ms : -1.0;
-            mirrored_ms =
-                work->draws && work->mirrored_ms > mirrored_ms ? work->mirrored_ms : mirrored_ms;
+            values[p] = sum_of(dip_maps_work(tab->maps, p), work_rows[i].map);
         }
-        const Row row = factor_row(names[i], formats[i], values);
-        put_row(tab, area, i, &row);
+        put_row(tab, area, i, work_rows[i].name, work_rows[i].format, values, BY_FACTOR);
     }
-    const Row row = factor_row("before tiles", "%.2f ms", geometry_ms);
-    put_row(tab, area, 4, &row);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipMapWork *work = dip_maps_work(tab->maps, p);
+        geometry_ms[p] = work->draws ? work->geometry_ms : -1.0;
+        mirrored_ms = work->draws ? fmax(mirrored_ms, work->mirrored_ms) : mirrored_ms;
+    }
+    put_row(tab, area, WORK_ROWS, "before tiles", "%.2f ms", geometry_ms, BY_FACTOR);
     char text[96];
     snprintf(text, sizeof text,
              mirrored_ms > 0.0 ? "Not in tiles: geometry, %.1f ms of reflection"
                                : "Not in the tiles: geometry.",
              mirrored_ms);
-    put(tab, NOTE, dip_style_dim, area.x, area.y + px(tab, 6 * ROW + 4), area.width, text);
+    put(tab, NOTE, dip_style_dim, area, 6 * ROW + 4, text);
 }
 
 void dip_maps_frame_block(const Tab *tab, DipRect area) {
@@ -369,107 +363,94 @@ void dip_maps_frame_block(const Tab *tab, DipRect area) {
     }
 }
 
-// The map's colour of a value, or the mip map's colour of a level.
-static DipColour colour_of(const Tab *tab, double value) {
-    const double end = dip_maps_end(tab->maps, tab->tools);
-    uint8_t rgb[3];
-    (tab->tools->map == DIP_MAP_FLIP ? dip_magma : dip_cividis)((float)(value / end), rgb);
-    return (DipColour){rgb[0], rgb[1], rgb[2], 255};
-}
+// --- under the mouse -----------------------------------------------------------------------------
 
-static void put_swatch(const Tab *tab, int pane, int x, int y, DipColour colour,
+// Shows a pane's value at a pixel as a square of its colour in the pane's frame, and in words.
+static void put_swatch(const Tab *tab, int pane, DipRect area, DipColour colour,
                        const char *value) {
-    static const char *const names[DIP_PANE_COUNT] = {"current", "requested"};
-    const int side = px(tab, 22);
-    dip_ui_fill(tab->ui, (DipRect){x, y, side, side}, dip_style_of_pane(pane));
-    dip_ui_fill(tab->ui,
-                (DipRect){x + px(tab, 1), y + px(tab, 1), side - px(tab, 2), side - px(tab, 2)},
-                colour);
-    x += side + px(tab, 8);
-    x += put(tab, 15, dip_style_of_pane(pane), x, y + px(tab, 2), px(tab, 120), value) + px(tab, 8);
-    put(tab, NOTE, dip_style_soft, x, y + px(tab, 5), px(tab, 100), names[pane]);
+    const int side = px(tab, 22), gap = px(tab, 8);
+    const DipColour own = dip_style_of_pane(pane);
+    area.y += px(tab, ROW + 18 + 30 * pane);
+    area.height = side;
+    const DipRect square = dip_cut_left(&area, side);
+    dip_ui_fill(tab->ui, square, own);
+    const int edge = px(tab, 1), inner = side - px(tab, 2);
+    dip_ui_fill(tab->ui, (DipRect){square.x + edge, square.y + edge, inner, inner}, colour);
+    dip_cut_left(&area, gap);
+    area.width = px(tab, 120);
+    area.x += put(tab, 15, own, area, 2, value) + gap;
+    area.width = px(tab, 100);
+    put(tab, NOTE, dip_style_soft, area, 5, pane ? "requested" : "current");
 }
 
 static void pixel_values(const Tab *tab, DipRect area, int x, int y) {
+    const DipMap map = tab->tools->map;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const int top = area.y + px(tab, ROW + 18 + 30 * p);
         const int mip = dip_maps_mip_size(tab->maps, p, x, y);
         const DipMapWork *work = dip_maps_work(tab->maps, p);
+        const double flip = map == DIP_MAP_FLIP ? value_at(tab, p, x, y) : -1.0;
         char text[40] = "";
-        if (tab->tools->map == DIP_MAP_MIPS && mip) {
+        if (map == DIP_MAP_MIPS && mip) {
             int index = 0;
             while (1024 >> index > mip) {
                 index++;
             }
             snprintf(text, sizeof text, "about %d texels", mip);
-            put_swatch(tab, p, area.x, top, dip_map_mip_colour(index), text);
-        } else if (tab->tools->map == DIP_MAP_MIPS) {
-            put_swatch(tab, p, area.x, top, dip_style_well, "no mip colour");
-        } else if (tab->tools->map == DIP_MAP_SAMPLES && work->draws && x < work->width &&
-                   y < work->height) {
+            put_swatch(tab, p, area, dip_map_mip_colour(index), text);
+        } else if (map == DIP_MAP_MIPS) {
+            put_swatch(tab, p, area, dip_style_well, "no mip colour");
+        } else if (map == DIP_MAP_SAMPLES && work->draws && x < work->width && y < work->height) {
             const bool mixed = work->mixed[(size_t)y * (size_t)work->width + (size_t)x];
-            uint8_t rgb[3];
-            dip_cividis(mixed, rgb);
-            put_swatch(tab, p, area.x, top, (DipColour){rgb[0], rgb[1], rgb[2], 255},
-                       mixed ? "they differ" : "all the same");
-        } else if (tab->tools->map == DIP_MAP_FLIP && dip_maps_value_at(tab, p, x, y) >= 0.0) {
-            const double value = dip_maps_value_at(tab, p, x, y);
-            dip_map_format(value, text, sizeof text);
-            put_swatch(tab, p, area.x, top, colour_of(tab, value), text);
+            put_swatch(tab, p, area, colour_of(map, mixed), mixed ? "they differ" : "all the same");
+        } else if (flip >= 0.0) {
+            dip_map_format(flip, text, sizeof text);
+            put_swatch(tab, p, area,
+                       colour_of(map, (float)(flip / dip_maps_end(tab->maps, tab->tools))), text);
         }
     }
 }
 
 static void tile_values(const Tab *tab, DipRect area, int x, int y) {
-    static const DipMap maps[] = {DIP_MAP_TIME, DIP_MAP_FRAGMENTS, DIP_MAP_PROBES, DIP_MAP_SAMPLES};
-    static const char *const names[] = {"time", "fragments/px", "probes/px", "mixed pixels"};
-    static const char *const formats[] = {"%.2f ms", "%.2f", "%.2f", "%.0f"};
-    for (int i = 0; i < 5; i++) {
-        double values[DIP_PANE_COUNT];
+    double values[DIP_PANE_COUNT], shares[DIP_PANE_COUNT];
+    for (int i = 0; i < WORK_ROWS; i++) {
+        const DipMap map = work_rows[i].map;
         for (int p = 0; p < DIP_PANE_COUNT; p++) {
             const DipMapWork *work = dip_maps_work(tab->maps, p);
             const bool known = work->draws && x < work->width && y < work->height;
             const int tile = known ? dip_map_tile(work, x, y) : 0;
-            values[p] = known ? dip_map_value(work, maps[i ? i - 1 : 0], tile) : -1.0;
-            if (known && i == 1) {
-                values[p] *= 100.0 / sum_of(work, DIP_MAP_TIME);
-            } else if (known && i == 4) {
-                values[p] *= dip_map_tile_pixels(work, tile);
-            }
+            values[p] = known ? dip_map_value(work, map, tile) : -1.0;
+            shares[p] = known ? values[p] * (100.0 / sum_of(work, map)) : -1.0;
+            values[p] *= known && map == DIP_MAP_SAMPLES ? dip_map_tile_pixels(work, tile) : 1;
         }
-        Row row = i == 1 ? factor_row("of the frame", "%.1f %%", values)
-                         : factor_row(names[i ? i - 1 : 0], formats[i ? i - 1 : 0], values);
-        if (i == 1) {
-            row.compared[0] = '\0';
+        put_row(tab, area, i ? i + 1 : 0, work_rows[i].tile_name, work_rows[i].tile_format, values,
+                BY_FACTOR);
+        if (map == DIP_MAP_TIME) {
+            put_row(tab, area, 1, "of the frame", "%.1f %%", shares, NOT_COMPARED);
         }
-        put_row(tab, area, i, &row);
     }
 }
 
 void dip_maps_mouse_block(const Tab *tab, DipRect area) {
+    const char *title =
+        tab->maps->view.pointed || !tab->tools->pinned ? "Under the mouse" : "At the pinned pixel";
+    const bool tiles = is_work_map(tab->tools->map);
     int x, y;
     char text[64];
-    const bool tiles = is_work_map(tab->tools->map);
     if (tab->tools->map == DIP_MAP_NONE) {
         return;
     }
-    const char *title =
-        tab->maps->view.pointed || !tab->tools->pinned ? "Under the mouse" : "At the pinned pixel";
-    if (!pointed_pixel(tab, &x, &y)) {
-        put(tab, TEXT, dip_style_white, area.x, area.y, area.width, title);
-        put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, ROW), area.width,
-            "Point at a pane.");
-        return;
-    }
-    if (tiles) {
+    const bool known = described_pixel(tab, &x, &y);
+    if (known && tiles) {
         snprintf(text, sizeof text, "%s: tile %d, %d", title, x / DIP_TARGET_TILE,
                  y / DIP_TARGET_TILE);
-        put(tab, TEXT, dip_style_white, area.x, area.y, area.width, text);
+        put(tab, TEXT, dip_style_white, area, 0, text);
         tile_values(tab, area, x, y);
         return;
     }
-    put(tab, TEXT, dip_style_white, area.x, area.y, area.width, title);
-    snprintf(text, sizeof text, "pixel %d, %d", x, y);
-    put(tab, NOTE, dip_style_soft, area.x, area.y + px(tab, ROW), area.width, text);
-    pixel_values(tab, area, x, y);
+    snprintf(text, sizeof text, known ? "pixel %d, %d" : "Point at a pane.", x, y);
+    put(tab, TEXT, dip_style_white, area, 0, title);
+    put(tab, NOTE, dip_style_soft, area, ROW, text);
+    if (known) {
+        pixel_values(tab, area, x, y);
+    }
 }

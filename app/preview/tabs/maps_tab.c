@@ -1,4 +1,4 @@
-// The dock's tab of maps: its buttons, where its parts lie, and what the maps show over the panes.
+// The maps' tab: its buttons, and where its parts lie. Draws the maps over the panes.
 #include "app/preview/tabs/maps_tab_private.h"
 #include "app/preview/tools/loupe.h"
 
@@ -28,115 +28,98 @@ static const DipMap map_order[] = {DIP_MAP_TIME,    DIP_MAP_FRAGMENTS, DIP_MAP_P
                                    DIP_MAP_SAMPLES, DIP_MAP_MIPS,      DIP_MAP_FLIP};
 enum { MAP_BUTTONS = sizeof map_order / sizeof *map_order };
 
-const char *dip_map_name(DipMap map) {
-    return map_names[map];
-}
-
-static void map_button(const Tab *tab, int index, DipRect rect) {
-    const DipMap map = map_order[index];
-    const bool chosen = tab->tools->map == map;
-    if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_MAP + index), rect, map_names[map],
-                      chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, map_tips[map])) {
-        dip_maps_choose(tab->tools, chosen ? DIP_MAP_NONE : map);
-    }
-}
-
-// Declares the choice of panes at x, y.
-static void over_buttons(const Tab *tab, int x, int y, int right) {
-    static const char *const long_names[] = {"both", "current", "requested"};
-    static const char *const short_names[] = {"both", "left", "right"};
-    DipMapView *view = &tab->maps->view;
-    const bool narrow = right - x < px(tab, 220);
-    const char *const *names = narrow ? short_names : long_names;
-    x += put(tab, TEXT, dip_style_soft, x, y + px(tab, 4), right - x, "over") + px(tab, BUTTON_GAP);
-    for (int i = 0; i < 3; i++) {
-        const int width = dip_ui_text_width(tab->ui, TEXT, names[i]) + px(tab, 16);
-        if (x + width > right) {
-            return;
-        }
-        const DipRect rect = {x, y, width, px(tab, SMALL_BUTTON)};
-        if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_OVER + i), rect, names[i],
-                          (int)view->over == i ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
-                          "Which panes show the map.")) {
-            view->over = (DipMapOver)i;
-        }
-        x += width + px(tab, BUTTON_GAP);
-    }
-}
-
-static void buttons_block(const Tab *tab, DipRect area) {
-    const int pitch = px(tab, BUTTON + BUTTON_GAP), gap = px(tab, BUTTON_GAP);
-    // Two columns, or more if the dock is low.
+// Declares a button for each map in two columns, or more if the dock is low. Returns the room
+// below.
+static DipRect map_buttons(const Tab *tab, DipRect area) {
+    const int gap = px(tab, BUTTON_GAP), pitch = px(tab, BUTTON + BUTTON_GAP);
     int columns = 2;
     while (columns < MAP_BUTTONS && MAP_BUTTONS / columns * pitch > area.height + gap) {
         columns++;
     }
-    const int width = (area.width - (columns - 1) * gap) / columns;
-    int y = area.y;
     for (int i = 0; i < MAP_BUTTONS; i++) {
-        y = area.y + i / columns * pitch;
-        map_button(tab, i,
-                   (DipRect){area.x + i % columns * (width + gap), y, width, px(tab, BUTTON)});
+        const DipMap map = map_order[i];
+        const bool chosen = tab->tools->map == map;
+        DipRect cell = dip_rect_cell(area, columns, pitch, gap, 0, i);
+        cell.height = px(tab, BUTTON);
+        if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_MAP + i), cell, map_names[map],
+                          chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, map_tips[map])) {
+            dip_maps_choose(tab->tools, chosen ? DIP_MAP_NONE : map);
+        }
     }
-    y += pitch + px(tab, 4);
-    if (y + px(tab, SMALL_BUTTON) <= area.y + area.height) {
-        over_buttons(tab, area.x, y, area.x + area.width);
+    dip_cut_top(&area, (MAP_BUTTONS - 1) / columns * pitch + pitch + px(tab, 4));
+    return area;
+}
+
+// Declares the choice of panes in a row, as far as the row reaches.
+static void over_buttons(const Tab *tab, DipRect row) {
+    static const char *const names[2][3] = {{"both", "current", "requested"},
+                                            {"both", "left", "right"}};
+    DipMapView *view = &tab->maps->view;
+    const bool narrow = row.width < px(tab, 220);
+    const int gap = px(tab, BUTTON_GAP);
+    dip_ui_text(tab->ui, TEXT, dip_style_soft, DIP_ALIGN_LEFT, row.x, row.y + px(tab, 4), row.width,
+                "over");
+    dip_cut_left(&row, dip_ui_text_width(tab->ui, TEXT, "over") + gap);
+    for (int i = 0; i < 3; i++) {
+        const char *name = names[narrow][i];
+        const int width = dip_ui_text_width(tab->ui, TEXT, name) + px(tab, 16);
+        if (width > row.width) {
+            return;
+        }
+        if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_OVER + i), dip_cut_left(&row, width),
+                          name, (int)view->over == i ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                          "Which panes show the map.")) {
+            view->over = (DipMapOver)i;
+        }
+        dip_cut_left(&row, gap);
     }
-    y += px(tab, SMALL_BUTTON + BUTTON_GAP);
-    if (y + px(tab, 2 * NOTE_ROW) <= area.y + area.height) {
-        dip_ui_text_block(tab->ui, NOTE, dip_style_soft,
-                          (DipRect){area.x, y, area.width, area.y + area.height - y},
+}
+
+static void buttons_block(const Tab *tab, DipRect area) {
+    DipRect rest = map_buttons(tab, area);
+    if (px(tab, SMALL_BUTTON) <= rest.height) {
+        DipRect row = rest;
+        row.height = px(tab, SMALL_BUTTON);
+        over_buttons(tab, row);
+    }
+    dip_cut_top(&rest, px(tab, SMALL_BUTTON + BUTTON_GAP));
+    if (px(tab, 2 * NOTE_ROW) <= rest.height) {
+        dip_ui_text_block(tab->ui, NOTE, dip_style_soft, rest,
                           "Both panes have one scale, so that colours compare. N shows the next "
                           "map.");
     }
 }
 
-// Takes room for blocks from left to right and, where there is height, in several rows.
-typedef struct Flow {
-    DipRect left;   // Room that is left.
-    int row_height; // Height of the blocks of this row.
-    int x;          // Where the next block of the row begins.
-} Flow;
-
-// Returns whether a block fits, and where. Lengths are pixels.
-static bool take(const Tab *tab, Flow *flow, int width, int height, DipRect *area) {
-    if (flow->x + width > flow->left.x + flow->left.width && flow->row_height) {
-        const int used = flow->row_height + px(tab, MARGIN);
-        flow->left.y += used;
-        flow->left.height -= used;
-        flow->x = flow->left.x;
-        flow->row_height = 0;
-    }
-    if (flow->x + width > flow->left.x + flow->left.width || height > flow->left.height) {
-        return false;
-    }
-    *area = (DipRect){flow->x, flow->left.y, width, height};
-    flow->x += width + px(tab, GAP);
-    flow->row_height = height > flow->row_height ? height : flow->row_height;
-    return true;
-}
-
 void dip_tab_maps(DipUi *ui, DipWindow *window, DipRect body) {
-    const Tab tab = {ui, window, window->tools->maps, &window->state->tools};
+    static const struct {
+        int width, height;
+        void (*draw)(const Tab *tab, DipRect area);
+    } blocks[] = {{BUTTONS_WIDTH, 190, buttons_block},
+                  {LEGEND_WIDTH, 172, dip_maps_legend_block},
+                  {TABLE_WIDTH, 130, dip_maps_mouse_block},
+                  {TABLE_WIDTH, 152, dip_maps_frame_block}};
+    const Tab tab = {ui, window, &window->tools->maps, &window->state->tools};
     const int margin = px(&tab, MARGIN);
-    Flow flow = {
-        .left = {body.x + margin, body.y + margin, body.width - 2 * margin, body.height - margin}};
-    flow.x = flow.left.x;
-    DipRect area;
-    const int buttons = dip_min(px(&tab, BUTTONS_WIDTH), flow.left.width);
-    if (take(&tab, &flow, buttons, dip_min(px(&tab, 190), flow.left.height), &area)) {
-        buttons_block(&tab, area);
-    }
-    const int legend = dip_min(px(&tab, LEGEND_WIDTH), flow.left.width);
-    if (take(&tab, &flow, legend, px(&tab, 172), &area)) {
-        dip_maps_legend_block(&tab, area);
-    }
-    const int table = dip_min(px(&tab, TABLE_WIDTH), flow.left.width);
-    if (take(&tab, &flow, table, px(&tab, 130), &area)) {
-        dip_maps_mouse_block(&tab, area);
-    }
-    if (take(&tab, &flow, table, px(&tab, 152), &area)) {
-        dip_maps_frame_block(&tab, area);
+    DipRect rest = dip_rect_inset(body, margin, margin); // What no row of blocks has taken.
+    rest.height += margin;
+    DipRect row = rest;
+    int row_height = 0;
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
+        const int width = dip_min(px(&tab, blocks[i].width), rest.width);
+        int height = px(&tab, blocks[i].height);
+        height = i == 0 ? dip_min(height, rest.height) : height; // Buttons show in any height.
+        if (width > row.width && row_height > 0) {
+            dip_cut_top(&rest, row_height + margin);
+            row = rest;
+            row_height = 0;
+        }
+        if (width <= row.width && height <= rest.height) {
+            DipRect area = dip_cut_left(&row, width);
+            area.height = height;
+            dip_cut_left(&row, px(&tab, GAP));
+            row_height = dip_max(row_height, height);
+            blocks[i].draw(&tab, area);
+        }
     }
 }
 
@@ -153,8 +136,8 @@ static DipRect shown_rect(const Tab *tab, int pane, DipRect rect) {
     const DipPixels *frame = &tab->window->frames[pane];
     const int x0 = shown->x + rect.x * shown->width / frame->width;
     const int y0 = shown->y + rect.y * shown->height / frame->height;
-    const int x1 = shown->x + (rect.x + rect.width) * shown->width / frame->width;
-    const int y1 = shown->y + (rect.y + rect.height) * shown->height / frame->height;
+    const int x1 = shown->x + dip_rect_right(rect) * shown->width / frame->width;
+    const int y1 = shown->y + dip_rect_bottom(rect) * shown->height / frame->height;
     return (DipRect){x0, y0, x1 - x0, y1 - y0};
 }
 
@@ -169,7 +152,8 @@ static DipRect tile_rect(const Tab *tab, int pane, const DipMapWork *work, int t
 // Writes each tile's value into its lower right corner, if it fits.
 static void draw_numbers(const Tab *tab, int pane) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
-    const int height = dip_ui_line_height(tab->ui, NOTE), one = px(tab, 1);
+    const int height = dip_ui_line_height(tab->ui, NOTE);
+    const int shifts[] = {px(tab, 1), -px(tab, 1), 0}; // Two shadows, and the text above them.
     for (int t = 0; t < work->across * work->down; t++) {
         const DipRect rect = tile_rect(tab, pane, work, t);
         char text[16];
@@ -178,13 +162,11 @@ static void draw_numbers(const Tab *tab, int pane) {
             height + px(tab, 4) > rect.height) {
             continue;
         }
-        const int x = rect.x + rect.width - px(tab, 4);
-        const int y = rect.y + rect.height - height - px(tab, 3);
-        dip_ui_text(tab->ui, NOTE, dip_style_shadow, DIP_ALIGN_RIGHT, x + one, y + one, rect.width,
-                    text);
-        dip_ui_text(tab->ui, NOTE, dip_style_shadow, DIP_ALIGN_RIGHT, x - one, y - one, rect.width,
-                    text);
-        dip_ui_text(tab->ui, NOTE, dip_style_white, DIP_ALIGN_RIGHT, x, y, rect.width, text);
+        for (int i = 0; i < 3; i++) {
+            dip_ui_text(tab->ui, NOTE, i < 2 ? dip_style_shadow : dip_style_white, DIP_ALIGN_RIGHT,
+                        dip_rect_right(rect) - px(tab, 4) + shifts[i],
+                        dip_rect_bottom(rect) - height - px(tab, 3) + shifts[i], rect.width, text);
+        }
     }
 }
 
@@ -204,7 +186,7 @@ static void draw_cross(const Tab *tab, int pane, int x, int y) {
     }
 }
 
-// Frames the block of 32x32 pixels with the greatest mean error.
+// Frames the block with the greatest mean error, and writes that error beside it.
 static void draw_worst_block(const Tab *tab, int pane) {
     const DipErrorPictures *errors = tab->maps->errors;
     if (!errors || !errors->flip[pane] || errors->spread[pane].tail.worst <= 0.0) {
@@ -213,8 +195,8 @@ static void draw_worst_block(const Tab *tab, int pane) {
     const DipFlipTail *tail = &errors->spread[pane].tail;
     const DipRect rect = shown_rect(tab, pane,
                                     (DipRect){(int)tail->worst_x, (int)tail->worst_y,
-                                              dip_min(WORST_BLOCK, errors->width),
-                                              dip_min(WORST_BLOCK, errors->height)});
+                                              dip_min(DIP_FLIP_TAIL_BLOCK, errors->width),
+                                              dip_min(DIP_FLIP_TAIL_BLOCK, errors->height)});
     const int edge = px(tab, 1);
     char value[16], text[32];
     dip_map_format(tail->worst, value, sizeof value);
@@ -225,16 +207,18 @@ static void draw_worst_block(const Tab *tab, int pane) {
     const int width = dip_ui_text_width(tab->ui, NOTE, text) + px(tab, 8);
     const int height = dip_ui_line_height(tab->ui, NOTE) + px(tab, 2);
     const bool above = rect.y - height >= shown->y;
-    const DipRect strip = {dip_min(rect.x, shown->x + shown->width - width),
-                           above ? rect.y - height : rect.y + rect.height, width, height};
+    const DipRect strip = {dip_min(rect.x, dip_rect_right(*shown) - width),
+                           above ? rect.y - height : dip_rect_bottom(rect), width, height};
     dip_ui_fill(tab->ui, strip, dip_style_glass);
-    put(tab, NOTE, dip_style_white, strip.x + px(tab, 4), strip.y + edge, width, text);
+    dip_ui_text(tab->ui, NOTE, dip_style_white, DIP_ALIGN_LEFT, strip.x + px(tab, 4),
+                strip.y + edge, width, text);
 }
 
-static void draw_pointed(const Tab *tab, int pane) {
+// Marks the pixel that the tab describes, or its tile.
+static void draw_described(const Tab *tab, int pane) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
     int x, y;
-    if (!pointed_pixel(tab, &x, &y)) {
+    if (!described_pixel(tab, &x, &y)) {
         return;
     }
     if (!is_work_map(tab->tools->map)) {
@@ -243,10 +227,9 @@ static void draw_pointed(const Tab *tab, int pane) {
     }
     const DipRect rect = tile_rect(tab, pane, work, dip_map_tile(work, x, y));
     dip_ui_outline(tab->ui, rect, 0, px(tab, 5), dip_style_shadow);
-    dip_ui_outline(tab->ui,
-                   (DipRect){rect.x + px(tab, 1), rect.y + px(tab, 1), rect.width - px(tab, 2),
-                             rect.height - px(tab, 2)},
-                   0, px(tab, 3), dip_style_of_pane(pane));
+    const int edge = px(tab, 1), less = px(tab, 2);
+    const DipRect inner = {rect.x + edge, rect.y + edge, rect.width - less, rect.height - less};
+    dip_ui_outline(tab->ui, inner, 0, px(tab, 3), dip_style_of_pane(pane));
 }
 
 // Says at the foot of a pane which map shows, and what it waits for.
@@ -259,17 +242,15 @@ static void draw_words(const Tab *tab, int pane) {
     if (!status[0]) {
         return;
     }
-    snprintf(text, sizeof text, "%s: %s", dip_map_name(tab->tools->map), status);
-    const char *shown = text;
+    snprintf(text, sizeof text, "%s: %s", map_names[tab->tools->map], status);
     const int most = rect->width - px(tab, 34);
-    if (dip_ui_text_width(tab->ui, TEXT, text) > most) {
-        shown = status;
-    }
+    const char *shown = dip_ui_text_width(tab->ui, TEXT, text) > most ? status : text;
     const int width = dip_min(dip_ui_text_width(tab->ui, TEXT, shown), most);
     const DipRect strip = {rect->x + px(tab, 8), rect->y + rect->height - px(tab, 32),
                            width + px(tab, 18), px(tab, 24)};
     dip_ui_fill_round(tab->ui, strip, px(tab, 4), dip_style_glass);
-    put(tab, TEXT, dip_style_soft, strip.x + px(tab, 9), strip.y + px(tab, 4), most, shown);
+    dip_ui_text(tab->ui, TEXT, dip_style_soft, DIP_ALIGN_LEFT, strip.x + px(tab, 9),
+                strip.y + px(tab, 4), most, shown);
 }
 
 static void draw_pane(const Tab *tab, int pane) {
@@ -289,7 +270,7 @@ static void draw_pane(const Tab *tab, int pane) {
         if (tab->tools->map == DIP_MAP_FLIP) {
             draw_worst_block(tab, pane);
         }
-        draw_pointed(tab, pane);
+        draw_described(tab, pane);
     }
     draw_words(tab, pane);
 }
@@ -309,7 +290,7 @@ static void follow_pointer(const Tab *tab, const DipUiInput panes[DIP_PANE_COUNT
 }
 
 void dip_maps_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]) {
-    DipMaps *maps = window->tools->maps;
+    DipMaps *maps = &window->tools->maps;
     const Tab tab = {ui, window, maps, &window->state->tools};
     const bool shows = tab.tools->comparison == DIP_COMPARE_SIDE_BY_SIDE && !tab.tools->bare;
     if (!dip_ui_is_drawing(ui)) {

@@ -1,9 +1,10 @@
-// What the parts of the maps' tab share: maps_tab.c and maps_legend.c.
+// What maps_tab.c and maps_legend.c share.
 #ifndef DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
 #define DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
 
 #include "app/preview/tools/maps.h"
 #include "app/preview/tabs/tabs.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 
 // Lengths at scale 1.
@@ -25,9 +26,7 @@ enum {
 };
 
 enum { ID_MAP = 1, ID_OVER = 20, ID_BRIGHTNESS = 30 };
-
-// The side of a worst block is that of dip_flip_tail_add.
-enum { CHART_BINS = 25, BRIGHTNESS_COUNT = 4, WORST_BLOCK = 32 };
+enum { CHART_BINS = 25, BRIGHTNESS_COUNT = 4 };
 
 // What the blocks of the tab are drawn from.
 typedef struct Tab {
@@ -41,24 +40,12 @@ static inline int px(const Tab *tab, int length) {
     return dip_ui_px(tab->ui, length);
 }
 
-// Writes a line of text at scale-independent size, and returns its width.
-static inline int put(const Tab *tab, int size, DipColour colour, int x, int y, int room,
-                      const char *text) {
-    dip_ui_text(tab->ui, size, colour, DIP_ALIGN_LEFT, x, y, room, text);
-    return dip_ui_text_width(tab->ui, size, text);
-}
-
-static inline void put_right(const Tab *tab, int size, DipColour colour, int x, int y,
-                             const char *text) {
-    dip_ui_text(tab->ui, size, colour, DIP_ALIGN_RIGHT, x, y, px(tab, LEGEND_WIDTH), text);
-}
-
 static inline bool is_work_map(DipMap map) {
     return map == DIP_MAP_TIME || map == DIP_MAP_FRAGMENTS || map == DIP_MAP_PROBES;
 }
 
 // Returns the pixel that the tab describes: the one under the pointer, or else the pinned one.
-static inline bool pointed_pixel(const Tab *tab, int *x, int *y) {
+static inline bool described_pixel(const Tab *tab, int *x, int *y) {
     const DipMapView *view = &tab->maps->view;
     const DipPixels *frame = &tab->window->frames[DIP_PANE_CURRENT];
     *x = view->pointed ? view->x : tab->tools->x;
@@ -71,8 +58,5 @@ static inline bool pointed_pixel(const Tab *tab, int *x, int *y) {
 void dip_maps_legend_block(const Tab *tab, DipRect area);
 void dip_maps_frame_block(const Tab *tab, DipRect area);
 void dip_maps_mouse_block(const Tab *tab, DipRect area);
-
-// Returns a pane's value at a pixel, or a number below 0 if it is not known.
-double dip_maps_value_at(const Tab *tab, int pane, int x, int y);
 
 #endif

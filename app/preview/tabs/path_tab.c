@@ -1,42 +1,25 @@
 // The tab of the camera: the path that it follows, how it flies, and the path that the user makes
 // key by key.
 #include "app/preview/state/pilot.h"
-#include "app/ui/style.h"
 #include "app/preview/tabs/tabs.h"
+#include "app/ui/layout.h"
+#include "app/ui/style.h"
 
 #include <stdio.h>
 
 enum { KEY_WIDTH = 34, NARROW = 400 };
 enum { ID_EDIT, ID_CAMERA = 16, ID_END = 32, ID_KEYS = 64, MAX_SHOWN_KEYS = 64, ID_PATHS = 256 };
 
-// What the tab's rows are declared with. A narrow tab has low, full rows and no notes.
-typedef struct Flow {
-    DipFlow row;
-    DipUi *ui;
-    DipPreviewState *state;
-} Flow;
-
-static bool flow_button(Flow *flow, unsigned id, const char *text, DipUiLook look,
-                        const char *tip) {
-    return dip_flow_button(&flow->row, id, text, look, tip);
+static void act(DipFlow *flow, DipAction action, int argument, bool reverse) {
+    dip_preview_act(flow->window->state, action, argument, reverse, dip_ui_now_ns(flow->ui));
 }
 
-// Begins a new row for other matters, where there is room for that.
-static void next_group(Flow *flow) {
-    if (!flow->row.narrow) {
-        dip_flow_next_row(&flow->row);
+// Declares a button that carries out an action.
+static void action_button(DipFlow *flow, unsigned id, const char *text, DipUiLook look,
+                          const char *tip, DipAction action, int argument) {
+    if (dip_flow_button(flow, id, text, look, tip)) {
+        act(flow, action, argument, false);
     }
-}
-
-// Shows a note, which a narrow tab leaves out.
-static void flow_text(Flow *flow, DipColour colour, const char *text) {
-    if (!flow->row.narrow) {
-        dip_flow_text(&flow->row, colour, text);
-    }
-}
-
-static void act(Flow *flow, DipAction action, int argument, bool reverse) {
-    dip_preview_act(flow->state, action, argument, reverse, dip_ui_now_ns(flow->ui));
 }
 
 // --- the path that plays -------------------------------------------------------------------------
@@ -61,16 +44,17 @@ static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEG
     return count;
 }
 
-// Finds the first of the paths to show, so that the one that plays is among them in a row of the
-// given width.
-static int first_path(const Flow *flow, const int *paths, int playing, int width) {
+static int path_width(const DipFlow *flow, int path) {
+    return dip_flow_button_width(flow, dip_preview_path_title(flow->window->state, path));
+}
+
+// Returns the index of the first path to show, so that the one that plays is among the shown ones
+// in a row of the given width.
+static int first_path(const DipFlow *flow, const int *paths, int playing, int width) {
     int first = playing;
-    int used =
-        dip_flow_button_width(&flow->row, dip_preview_path_title(flow->state, paths[playing]));
+    int used = path_width(flow, paths[playing]);
     while (first > 0) {
-        used += flow->row.gap +
-                dip_flow_button_width(&flow->row,
-                                      dip_preview_path_title(flow->state, paths[first - 1]));
+        used += flow->gap + path_width(flow, paths[first - 1]);
         if (used > width) {
             break;
         }
@@ -80,65 +64,55 @@ static int first_path(const Flow *flow, const int *paths, int playing, int width
 }
 
 // Declares one row of paths, with arrows if the row has no room for all.
-static void declare_paths(Flow *flow) {
-    DipPreviewState *state = flow->state;
+static void declare_paths(DipFlow *flow) {
+    DipPreviewState *state = flow->window->state;
     int paths[DIP_CAMTRACK_CATEGORIES];
     const int count = list_paths(state, paths);
+    int playing = 0, width = 0, first = 0;
     if (count < 2 || state->shows_gallery) {
         return;
     }
-    int playing = 0;
-    int width = 0;
     for (int i = 0; i < count; ++i) {
         playing = paths[i] == state->track->active ? i : playing;
-        width += flow->row.gap +
-                 dip_flow_button_width(&flow->row, dip_preview_path_title(state, paths[i]));
+        width += flow->gap + path_width(flow, paths[i]);
     }
-    const int arrows = 2 * (dip_flow_button_width(&flow->row, "<") + flow->row.gap);
-    const bool all = width <= flow->row.body.width;
-    if (!all &&
-        flow_button(flow, ID_PATHS - 2, "<", DIP_UI_PLAIN, "The path before (Left arrow).")) {
-        act(flow, DIP_ACTION_NEXT_PATH, 0, true);
+    if (width > flow->body.width) {
+        const int arrows = 2 * (dip_flow_button_width(flow, "<") + flow->gap);
+        first = first_path(flow, paths, playing, flow->body.width - arrows);
+        if (dip_flow_button(flow, ID_PATHS - 2, "<", DIP_UI_PLAIN,
+                            "The path before (Left arrow).")) {
+            act(flow, DIP_ACTION_NEXT_PATH, 0, true);
+        }
+        action_button(flow, ID_PATHS - 1, ">", DIP_UI_PLAIN, "The next path (P, or Right arrow).",
+                      DIP_ACTION_NEXT_PATH, 0);
     }
-    if (!all &&
-        flow_button(flow, ID_PATHS - 1, ">", DIP_UI_PLAIN, "The next path (P, or Right arrow).")) {
-        act(flow, DIP_ACTION_NEXT_PATH, 0, false);
-    }
-    const int row = flow->row.y;
-    const int first = all ? 0 : first_path(flow, paths, playing, flow->row.body.width - arrows);
-    for (int i = first; i < count; ++i) {
-        const char *title = dip_preview_path_title(state, paths[i]);
+    const int row = flow->y;
+    for (int i = first; i < count && flow->y == row; ++i) {
         char tip[160];
-        if (flow->row.x + dip_flow_button_width(&flow->row, title) >
-                flow->row.body.x + flow->row.body.width &&
-            i > first) {
+        if (flow->x + path_width(flow, paths[i]) > dip_rect_right(flow->body) && i > first) {
             break;
         }
         snprintf(tip, sizeof tip, "The camera follows the path %s.",
                  dip_preview_path_name(state, paths[i]));
-        const DipUiLook look = i == playing && !state->manual ? DIP_UI_CHOSEN : DIP_UI_PLAIN;
-        if (flow->row.y == row &&
-            flow_button(flow, ID_PATHS + (unsigned)paths[i], title, look, tip)) {
-            act(flow, DIP_ACTION_PATH, paths[i], false);
-        }
+        action_button(flow, ID_PATHS + (unsigned)paths[i], dip_preview_path_title(state, paths[i]),
+                      i == playing && !state->manual ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip,
+                      DIP_ACTION_PATH, paths[i]);
     }
 }
 
 // --- the path that the user makes ----------------------------------------------------------------
 
 // Declares a button that edits the path. Without keys, only some edits are possible.
-static void edit_button(Flow *flow, DipPathEdit edit, const char *text, DipUiLook look,
+static void edit_button(DipFlow *flow, DipPathEdit edit, const char *text, DipUiLook look,
                         const char *tip) {
-    const bool possible =
-        edit == DIP_PATH_EDIT_ADD || edit == DIP_PATH_EDIT_TAKE || flow->state->editor->count > 0;
-    if (flow_button(flow, ID_EDIT + (unsigned)edit, text, possible ? look : DIP_UI_OFF,
-                    possible ? tip : "The path has no key yet.")) {
-        act(flow, DIP_ACTION_PATH_EDIT, (int)edit, false);
-    }
+    const bool possible = edit == DIP_PATH_EDIT_ADD || edit == DIP_PATH_EDIT_TAKE ||
+                          flow->window->state->editor->count > 0;
+    action_button(flow, ID_EDIT + (unsigned)edit, text, possible ? look : DIP_UI_OFF,
+                  possible ? tip : "The path has no key yet.", DIP_ACTION_PATH_EDIT, (int)edit);
 }
 
-static void declare_edits(Flow *flow) {
-    const DipPathEditor *editor = flow->state->editor;
+static void declare_edits(DipFlow *flow) {
+    const DipPathEditor *editor = flow->window->state->editor;
     const bool flies = (editor->fly != NULL);
     edit_button(flow, DIP_PATH_EDIT_ADD, "Add key", editor->count ? DIP_UI_PLAIN : DIP_UI_PRIMARY,
                 "Adds the camera's pose behind the chosen key (Ctrl+N).");
@@ -156,70 +130,65 @@ static void declare_edits(Flow *flow) {
                 "Takes the keys of the path that plays, in place of these keys (Ctrl+O).");
 }
 
-static void declare_key(Flow *flow, size_t index) {
-    DipPathEditor *editor = flow->state->editor;
-    const DipCamKey key = editor->keys[index];
+static void declare_key(DipFlow *flow, size_t index) {
+    const DipPathEditor *editor = flow->window->state->editor;
+    const double *position = editor->keys[index].position_world;
     char text[16], tip[160];
     snprintf(text, sizeof text, "%zu", index + 1);
     snprintf(tip, sizeof tip, "Key %zu at %.2f, %.2f, %.2f m. Click: the camera goes there.",
-             index + 1, key.position_world[0], key.position_world[1], key.position_world[2]);
-    const DipRect rect = dip_flow_next(&flow->row, dip_ui_px(flow->ui, KEY_WIDTH));
+             index + 1, position[0], position[1], position[2]);
+    const DipRect rect = dip_flow_next(flow, dip_ui_px(flow->ui, KEY_WIDTH));
     if (!dip_rect_is_empty(rect) &&
         dip_ui_button(flow->ui, DIP_UI_ID(DIP_UI_PATH, ID_KEYS + index % MAX_SHOWN_KEYS), rect,
                       text, index == editor->chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip)) {
-        dip_pilot_choose_key(flow->state, index, dip_ui_now_ns(flow->ui));
+        dip_pilot_choose_key(flow->window->state, index, dip_ui_now_ns(flow->ui));
     }
 }
 
 // Declares one row of keys around the chosen one.
-static void declare_keys(Flow *flow) {
-    const DipPathEditor *editor = flow->state->editor;
+static void declare_keys(DipFlow *flow) {
+    const DipPathEditor *editor = flow->window->state->editor;
     const int count = (int)editor->count;
-    const int step = dip_ui_px(flow->ui, KEY_WIDTH) + flow->row.gap;
-    const int room = flow->row.body.width / dip_max(1, step) - 2; // Two arrows take room, too.
+    const int step = dip_ui_px(flow->ui, KEY_WIDTH) + flow->gap;
+    const int room = flow->body.width / dip_max(1, step) - 2; // Two arrows take room, too.
     const int shown = dip_max(1, dip_min(room, MAX_SHOWN_KEYS));
     const int middle = (int)editor->chosen - shown / 2;
     const int first = dip_max(0, dip_min(middle, count - shown));
     edit_button(flow, DIP_PATH_EDIT_BEFORE, "<", DIP_UI_PLAIN, "The key before (Ctrl+Left).");
     edit_button(flow, DIP_PATH_EDIT_NEXT, ">", DIP_UI_PLAIN, "The next key (Ctrl+Right).");
     if (count == 0) {
-        flow_text(flow, dip_style_dim, "Fly to a viewpoint, add it as a key, and so on.");
+        dip_flow_text(flow, dip_style_dim, "Fly to a viewpoint, add it as a key, and so on.");
     }
     for (int i = first; i < count && i < first + shown; ++i) {
         declare_key(flow, (size_t)i);
     }
 }
 
-static void declare_period(Flow *flow) {
-    const DipPathEditor *editor = flow->state->editor;
-    const double period_s = 1e-9 * (double)editor->period_ns;
+static void declare_period(DipFlow *flow) {
+    const DipPathEditor *editor = flow->window->state->editor;
     char text[120];
     edit_button(flow, DIP_PATH_EDIT_FASTER, "-", DIP_UI_PLAIN,
                 "Less time from key to key (Ctrl+Down).");
     edit_button(flow, DIP_PATH_EDIT_SLOWER, "+", DIP_UI_PLAIN,
                 "More time from key to key (Ctrl+Up).");
-    snprintf(text, sizeof text, "%.3g s from key to key", period_s);
-    flow_text(flow, dip_style_soft, text);
+    snprintf(text, sizeof text, "%.3g s from key to key", 1e-9 * (double)editor->period_ns);
+    dip_flow_text(flow, dip_style_soft, text);
     if (editor->file[0]) {
         snprintf(text, sizeof text, "Saved: %s%s", editor->file,
                  editor->unsaved ? ", changed since" : "");
-        flow_text(flow, dip_style_dim, text);
+        dip_flow_text(flow, dip_style_dim, text);
     }
 }
 
-static void declare_ends(Flow *flow) {
-    static const struct {
-        const char *text;
-        const char *tip;
-    } ends[DIP_CAMPATH_END_COUNT] = {
+static void declare_ends(DipFlow *flow) {
+    static const char *const ends[DIP_CAMPATH_END_COUNT][2] = {
         [DIP_CAMPATH_END_loop] = {"Loop", "Paths fly from the last key to the first one."},
         [DIP_CAMPATH_END_once] = {"Once", "Paths stop at the last key."},
         [DIP_CAMPATH_END_back] = {"There and back", "Paths fly back to the first key."}};
-    const int now = (int)flow->state->track->end;
-    flow_text(flow, dip_style_dim, "At the end (Ctrl+E):");
+    const int now = (int)flow->window->state->track->end;
+    dip_flow_text(flow, dip_style_dim, "At the end (Ctrl+E):");
     for (int i = 0; i < DIP_CAMPATH_END_COUNT; ++i) {
-        if (flow_button(flow, ID_END + (unsigned)i, ends[i].text,
-                        i == now ? DIP_UI_CHOSEN : DIP_UI_PLAIN, ends[i].tip) &&
+        if (dip_flow_choice(flow, ID_END + (unsigned)i, ends[i][0], i == now, ends[i][1]) &&
             i != now) {
             act(flow, DIP_ACTION_PATH_END, i - now, false);
         }
@@ -228,37 +197,30 @@ static void declare_ends(Flow *flow) {
 
 // --- the camera ----------------------------------------------------------------------------------
 
-static void declare_camera(Flow *flow) {
-    const DipPreviewState *state = flow->state;
-    const DipFlight *flight = &state->flight;
+static void declare_camera(DipFlow *flow) {
+    const DipPreviewState *state = flow->window->state;
     char text[48];
-    if (flow_button(flow, ID_CAMERA, "Free camera", state->manual ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
-                    "Takes the camera off its path, or back (C). Keys W A S D Q E and dragging "
-                    "in a pane move it.")) {
-        act(flow, DIP_ACTION_CAMERA, 0, false);
-    }
-    if (flow_button(flow, ID_CAMERA + 1, flight->orbits ? "Orbits" : "Turns", DIP_UI_PLAIN,
-                    "Whether dragging orbits the scene or turns the camera on the spot (\\).")) {
-        act(flow, DIP_ACTION_ORBIT, 0, false);
-    }
-    if (flow_button(flow, ID_CAMERA + 2, flow->row.narrow ? "Pose" : "Pose of the path",
-                    state->manual ? DIP_UI_PLAIN : DIP_UI_OFF,
-                    "Gives the free camera the pose of the path (Home).")) {
-        act(flow, DIP_ACTION_CAMERA_BACK, 0, false);
-    }
-    if (flow_button(flow, ID_CAMERA + 3, "Slower", DIP_UI_PLAIN,
-                    "Slows the free camera down, as the wheel over a pane does.")) {
+    action_button(flow, ID_CAMERA, "Free camera", state->manual ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                  "Takes the camera off its path, or back (C). Keys W A S D Q E and dragging "
+                  "in a pane move it.",
+                  DIP_ACTION_CAMERA, 0);
+    action_button(flow, ID_CAMERA + 1, state->flight.orbits ? "Orbits" : "Turns", DIP_UI_PLAIN,
+                  "Whether dragging orbits the scene or turns the camera on the spot (\\).",
+                  DIP_ACTION_ORBIT, 0);
+    action_button(flow, ID_CAMERA + 2, flow->narrow ? "Pose" : "Pose of the path",
+                  state->manual ? DIP_UI_PLAIN : DIP_UI_OFF,
+                  "Gives the free camera the pose of the path (Home).", DIP_ACTION_CAMERA_BACK, 0);
+    if (dip_flow_button(flow, ID_CAMERA + 3, "Slower", DIP_UI_PLAIN,
+                        "Slows the free camera down, as the wheel over a pane does.")) {
         act(flow, DIP_ACTION_SPEED, 1, true);
     }
-    if (flow_button(flow, ID_CAMERA + 4, "Faster", DIP_UI_PLAIN,
-                    "Speeds the free camera up, as the wheel over a pane does.")) {
-        act(flow, DIP_ACTION_SPEED, 1, false);
-    }
-    snprintf(text, sizeof text, "%.3g m/s", dip_flight_speed(flight));
-    flow_text(flow, dip_style_soft, text);
+    action_button(flow, ID_CAMERA + 4, "Faster", DIP_UI_PLAIN,
+                  "Speeds the free camera up, as the wheel over a pane does.", DIP_ACTION_SPEED, 1);
+    snprintf(text, sizeof text, "%.3g m/s", dip_flight_speed(&state->flight));
+    dip_flow_text(flow, dip_style_soft, text);
 }
 
-static void declare_steps(Flow *flow) {
+static void declare_steps(DipFlow *flow) {
     static const struct {
         const char *text;
         int right, forward;
@@ -268,29 +230,30 @@ static void declare_steps(Flow *flow) {
                  {"Left", -1, 0, "Moves the free camera to the left (A while held)."},
                  {"Right", 1, 0, "Moves the free camera to the right (D while held)."}};
     for (unsigned i = 0; i < sizeof steps / sizeof *steps; ++i) {
-        if (flow_button(flow, ID_CAMERA + 5 + i, steps[i].text, DIP_UI_PLAIN, steps[i].tip)) {
-            dip_pilot_step(flow->state, steps[i].right, steps[i].forward, dip_ui_now_ns(flow->ui));
+        if (dip_flow_button(flow, ID_CAMERA + 5 + i, steps[i].text, DIP_UI_PLAIN, steps[i].tip)) {
+            dip_pilot_step(flow->window->state, steps[i].right, steps[i].forward,
+                           dip_ui_now_ns(flow->ui));
         }
     }
 }
 
 void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
-    Flow flow = {dip_flow_make(ui, DIP_UI_PATH, body, 12), ui, window->state};
+    DipFlow flow = dip_flow_make(ui, window, DIP_UI_PATH, body, 12);
     if (body.width < dip_ui_px(ui, NARROW)) {
-        dip_flow_make_narrow(&flow.row);
+        dip_flow_make_narrow(&flow);
     }
     declare_paths(&flow);
-    dip_flow_next_row(&flow.row);
+    dip_flow_next_row(&flow);
     if (window->state->editor) {
         declare_edits(&flow);
-        next_group(&flow);
+        dip_flow_next_group(&flow);
         declare_keys(&flow);
-        next_group(&flow);
+        dip_flow_next_group(&flow);
         declare_period(&flow);
-        next_group(&flow);
+        dip_flow_next_group(&flow);
     }
     declare_ends(&flow);
-    next_group(&flow);
+    dip_flow_next_group(&flow);
     declare_camera(&flow);
     declare_steps(&flow);
 }

@@ -1,8 +1,10 @@
-// The price of the requested settings, and the buttons that act on all settings.
+// Shows the price of the requested settings: the sum, its parts against the budget, and where the
+// prices come from. Declares the buttons that act on all settings, and the fields of the target.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
-#include "app/ui/style.h"
 #include "app/report/words.h"
+#include "app/ui/layout.h"
+#include "app/ui/style.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,6 +21,10 @@ enum {
     HATCH_STEP = 6
 };
 
+static DipUiId id_of(int control) {
+    return DIP_UI_ID(DIP_UI_SETTINGS, control);
+}
+
 // --- presets and buttons -------------------------------------------------------------------------
 
 // Returns whether presets cannot be chosen yet, because nothing is known of what settings cost and
@@ -30,59 +36,54 @@ static bool presets_wait(const DipWindow *window) {
     return sum.state == DIP_PRICE_UNKNOWN || (has_errors && !sum.has_flip);
 }
 
-int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns) {
+// Writes a preset's tip. Returns how its button looks.
+static DipUiLook describe_preset(const DipWindow *window, DipPreset preset, char tip[320]) {
+    const char *name = dip_preview_preset_name(preset);
+    const char *progress = dip_prices_progress(window->prices);
+    DipQuality quality;
+    char text[200], price[40] = "";
+    if (!dip_preview_preset(window->state, preset, &quality)) {
+        dip_preview_choice_why(window->state->choice, progress, text, sizeof text);
+        snprintf(tip, 320, "%s waits. %s", name, text);
+        return DIP_UI_OFF;
+    }
+    if ((int)preset < DIP_MEASURED_PRESETS && presets_wait(window)) {
+        snprintf(tip, 320, "%s waits until times and errors are known.\n%s", name,
+                 progress[0] ? progress : "They are measured while the picture rests (Space).");
+        return DIP_UI_OFF;
+    }
+    const DipPriceSum sum = dip_prices_sum(window->prices, &quality);
+    if (sum.state != DIP_PRICE_UNKNOWN) {
+        snprintf(price, sizeof price, "\n%s%.1f ms",
+                 sum.state == DIP_PRICE_MEASURED ? "" : DIP_ROUGH_MARK, sum.ms);
+    }
+    dip_quality_format_changes(&quality, text, sizeof text);
+    snprintf(tip, 320, "%s: %s%s", name, text, price);
+    return memcmp(&quality, &window->state->quality[DIP_PANE_REQUESTED], sizeof quality) == 0
+               ? DIP_UI_CHOSEN
+               : DIP_UI_PLAIN;
+}
+
+void dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns) {
     const int gap = dip_ui_px(ui, 8), row_gap = dip_ui_px(ui, 5);
     const int rows = (DIP_PRESET_COUNT + columns - 1) / columns;
-    const bool inert = presets_wait(window);
-    const int width = (rect.width - (columns - 1) * gap) / columns;
-    const int height =
-        dip_max(1, dip_min(dip_ui_px(ui, 28), (rect.height - (rows - 1) * row_gap) / rows));
+    const int fitting = (rect.height - (rows - 1) * row_gap) / rows;
+    const int height = dip_max(1, dip_min(dip_ui_px(ui, 28), fitting));
     for (int p = 0; p < DIP_PRESET_COUNT; ++p) {
-        const DipRect button = {rect.x + p % columns * (width + gap),
-                                rect.y + p / columns * (height + row_gap), width, height};
-        DipQuality quality;
-        char settings[200], tip[320];
-        if (!dip_preview_preset(window->state, (DipPreset)p, &quality)) {
-            dip_preview_choice_why(window->state->choice, dip_prices_progress(window->prices),
-                                   settings, sizeof settings);
-            snprintf(tip, sizeof tip, "%s waits. %s", dip_preview_preset_name((DipPreset)p),
-                     settings);
-            dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PRESETS + p), button,
-                          dip_preview_preset_name((DipPreset)p), DIP_UI_OFF, tip);
-            continue;
-        }
-        const DipPriceSum sum = dip_prices_sum(window->prices, &quality);
-        dip_quality_format_changes(&quality, settings, sizeof settings);
-        snprintf(tip, sizeof tip, "%s: %s", dip_preview_preset_name((DipPreset)p), settings);
-        if (sum.state != DIP_PRICE_UNKNOWN) {
-            snprintf(tip + strlen(tip), sizeof tip - strlen(tip), "\n%s%.1f ms",
-                     sum.state == DIP_PRICE_MEASURED ? "" : "\u2248 ", sum.ms);
-        }
-        const bool chosen =
-            memcmp(&quality, &window->state->quality[DIP_PANE_REQUESTED], sizeof quality) == 0;
-        const bool waits = inert && p != DIP_PRESET_INI && p != DIP_PRESET_CURRENT;
-        if (waits) {
-            const char *progress = dip_prices_progress(window->prices);
-            snprintf(tip, sizeof tip, "%s waits until times and errors are known.\n%s",
-                     dip_preview_preset_name((DipPreset)p),
-                     progress[0] ? progress : "They are measured while the picture rests (Space).");
-        }
-        if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PRESETS + p), button,
-                          dip_preview_preset_name((DipPreset)p),
-                          waits    ? DIP_UI_OFF
-                          : chosen ? DIP_UI_CHOSEN
-                                   : DIP_UI_PLAIN,
-                          tip)) {
+        char tip[320];
+        const DipUiLook look = describe_preset(window, (DipPreset)p, tip);
+        if (dip_ui_button(ui, id_of(DIP_ID_PRESETS + p),
+                          dip_rect_cell(rect, columns, height, gap, row_gap, p),
+                          dip_preview_preset_name((DipPreset)p), look, tip)) {
             dip_preview_act(window->state, DIP_ACTION_PRESET, p, false, dip_ui_now_ns(ui));
         }
     }
-    return rows * height + (rows - 1) * row_gap;
 }
 
 void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     DipPreviewState *state = window->state;
     const bool same = memcmp(&state->quality[0], &state->quality[1], sizeof state->quality[0]) == 0;
-    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_APPLY), rect, same ? "Same" : "Apply",
+    if (dip_ui_button(ui, id_of(DIP_ID_APPLY), rect, same ? "Same" : "Apply",
                       same ? DIP_UI_OFF : DIP_UI_PRIMARY,
                       same ? "Both panes have the same settings, so there is nothing to apply."
                            : "Gives the current pane the requested settings (Ctrl+Enter).")) {
@@ -90,54 +91,42 @@ void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     }
 }
 
-static void declare_undo(DipUi *ui, DipWindow *window, DipRect rect) {
+void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     DipPreviewState *state = window->state;
-    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_UNDO), rect, "Undo",
+    const int gap = dip_ui_px(ui, 6), width = (rect.width - 2 * gap) / 3;
+    const DipRect copy = dip_cut_right(&rect, width);
+    dip_cut_right(&rect, gap);
+    const DipRect undo = dip_cut_right(&rect, width);
+    dip_cut_right(&rect, gap);
+    dip_apply_declare(ui, window, rect);
+    if (dip_ui_button(ui, id_of(DIP_ID_UNDO), undo, "Undo",
                       state->undo_count ? DIP_UI_PLAIN : DIP_UI_OFF,
                       state->undo_count ? "Takes the last change of settings back (Ctrl+Z)."
                                         : "There is no change of settings to take back.")) {
         dip_preview_act(state, DIP_ACTION_UNDO, 0, false, dip_ui_now_ns(ui));
     }
-}
-
-static void declare_copy(DipUi *ui, DipWindow *window, DipRect rect) {
-    const bool narrow = dip_ui_text_width(ui, 13, "Copy text") + dip_ui_px(ui, 8) > rect.width;
-    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_COPY), rect,
-                      narrow ? "Copy" : "Copy text", DIP_UI_PLAIN,
+    const bool narrow = dip_ui_text_width(ui, 13, "Copy text") + dip_ui_px(ui, 8) > width;
+    if (dip_ui_button(ui, id_of(DIP_ID_COPY), copy, narrow ? "Copy" : "Copy text", DIP_UI_PLAIN,
                       "Copies the requested settings as text for --requested and the ini "
                       "(Ctrl+C). Ctrl+V pastes settings.")) {
-        window->state->copy_settings = true;
+        state->copy_settings = true;
     }
-}
-
-void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect) {
-    const int gap = dip_ui_px(ui, 6);
-    const int width = (rect.width - 2 * gap) / 3;
-    const DipRect apply = {rect.x, rect.y, rect.width - 2 * (width + gap), rect.height};
-    const DipRect undo = {apply.x + apply.width + gap, rect.y, width, rect.height};
-    const DipRect copy = {undo.x + width + gap, rect.y, width, rect.height};
-    dip_apply_declare(ui, window, apply);
-    declare_undo(ui, window, undo);
-    declare_copy(ui, window, copy);
 }
 
 // --- the target ----------------------------------------------------------------------------------
 
-// Declares a field and the word behind it at *x. Returns what the user did.
-static DipUiInput declare_field(DipUi *ui, int id, int *x, DipRect room, int width,
-                                const char *text, const char *word, double *typed) {
+// Cuts a field and the word behind it from the left side of *rest, and declares them. Returns what
+// the user did with the field.
+static DipUiInput declare_field(DipUi *ui, int id, DipRect *rest, int width, const char *text,
+                                const char *word, double *typed) {
     static const char tip[] =
         "The target: settings are advised that draw this many frames a second, each of them within "
         "this time. Type a number and press Enter, or step by the wheel or the arrow keys. A right "
         "click takes the display's refresh.";
-    const DipRect rect = {*x, room.y, dip_ui_px(ui, width), room.height};
-    const DipUiInput input =
-        dip_ui_number_field(ui, DIP_UI_ID(DIP_UI_SETTINGS, id), rect, text, tip, typed);
-    *x += rect.width + dip_ui_px(ui, 5);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, *x,
-                room.y + (room.height - dip_ui_line_height(ui, NOTE_SIZE)) / 2,
-                room.x + room.width - *x, word);
-    *x += dip_ui_text_width(ui, NOTE_SIZE, word) + dip_ui_px(ui, 5);
+    const DipRect field = dip_cut_left(rest, dip_ui_px(ui, width));
+    const DipUiInput input = dip_ui_number_field(ui, id_of(id), field, text, tip, typed);
+    dip_cut_left(rest, dip_ui_px(ui, 5));
+    dip_ui_word(ui, NOTE_SIZE, dip_style_soft, rest, dip_ui_px(ui, 5), word);
     return input;
 }
 
@@ -145,13 +134,12 @@ void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     DipPreviewState *state = window->state;
     char fps[DIP_NUMBER_BYTES], ms[DIP_NUMBER_BYTES];
     const double rate = 1000.0 / state->budget_ms;
-    int x = rect.x;
     double typed_fps, typed_ms;
     snprintf(fps, sizeof fps, fabs(rate - round(rate)) < 0.05 ? "%.0f" : "%.1f", rate);
     dip_budget_ms_text(state->budget_ms, ms);
     const DipUiInput by_rate =
-        declare_field(ui, DIP_ID_FRAME_RATE, &x, rect, 44, fps, "fps  =", &typed_fps);
-    const DipUiInput by_time = declare_field(ui, DIP_ID_BUDGET, &x, rect, 52, ms, "ms", &typed_ms);
+        declare_field(ui, DIP_ID_FRAME_RATE, &rect, 44, fps, "fps  =", &typed_fps);
+    const DipUiInput by_time = declare_field(ui, DIP_ID_BUDGET, &rect, 52, ms, "ms", &typed_ms);
     dip_preview_step_frame_rate(state, by_rate.steps - by_time.steps);
     if (by_rate.right || by_time.right) {
         dip_preview_set_budget(state, 0.0);
@@ -163,43 +151,25 @@ void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     }
 }
 
-// --- the sum -------------------------------------------------------------------------------------
-
-// One part of the sum: its name in the legend, its time and its colour.
-typedef struct Part {
-    const char *name;
-    double ms;
-    DipColour colour;
-} Part;
+// --- the parts of the sum ------------------------------------------------------------------------
 
 enum { PART_BASE, PART_AA, PART_ADAPTIVE, PART_AF, PART_OTHER, PART_COUNT };
 
-// Returns whether the sum has a setting whose own price is doubtful.
-static bool has_doubt(const DipPriceSum *sum) {
-    bool found = false;
-    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
-        found |= sum->parts_trust[s] == DIP_PRICE_TRUST_DOUBTFUL;
-    }
-    return found;
-}
+static const char *const part_names[PART_COUNT] = {"base", "AA", "adaptive", "AF", "other"};
+static const DipColour part_colours[PART_COUNT] = {{139, 149, 162, 255},
+                                                   {255, 190, 92, 255},
+                                                   {240, 140, 58, 255},
+                                                   {255, 226, 143, 255},
+                                                   {196, 202, 210, 255}};
 
-// Returns what the sum has beyond the base and the prices that are known, which is what the
-// settings cost together.
-static double rest_of(const DipPriceSum *sum) {
-    double rest_ms = sum->together_ms;
-    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
-        rest_ms += sum->parts_trust[s] == DIP_PRICE_TRUST_DOUBTFUL ? sum->parts_ms[s] : 0.0;
-    }
-    return rest_ms;
-}
+// What the bar and its legend show of a sum.
+typedef struct Parts {
+    double ms[PART_COUNT]; // Without prices that are doubtful.
+    double rest_ms;        // What the sum has beyond these parts: the settings cost it together.
+    bool doubt;            // The rest has a setting whose own price is doubtful.
+} Parts;
 
-// Prices that are doubtful are no parts of their own.
-static void find_parts(const DipPriceSum *sum, Part parts[PART_COUNT]) {
-    static const Part names[PART_COUNT] = {{"base", 0.0, {139, 149, 162, 255}},
-                                           {"AA", 0.0, {255, 190, 92, 255}},
-                                           {"adaptive", 0.0, {240, 140, 58, 255}},
-                                           {"AF", 0.0, {255, 226, 143, 255}},
-                                           {"other", 0.0, {196, 202, 210, 255}}};
+static Parts parts_of(const DipPriceSum *sum) {
     static const int part_of[DIP_SETTING_COUNT] = {
         [DIP_SETTING_AA] = PART_AA,        [DIP_SETTING_TAA] = PART_AA,
         [DIP_SETTING_AAA] = PART_ADAPTIVE, [DIP_SETTING_ASD] = PART_ADAPTIVE,
@@ -207,12 +177,17 @@ static void find_parts(const DipPriceSum *sum, Part parts[PART_COUNT]) {
         [DIP_SETTING_OPT] = PART_OTHER,    [DIP_SETTING_MIPLOD] = PART_OTHER,
         [DIP_SETTING_GI] = PART_OTHER,     [DIP_SETTING_MIPDEBUG] = PART_OTHER,
     };
-    memcpy(parts, names, sizeof names);
-    parts[PART_BASE].ms = sum->base_ms;
+    Parts parts = {.ms = {[PART_BASE] = sum->base_ms}, .rest_ms = sum->together_ms};
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
-        const bool known = sum->parts_trust[s] != DIP_PRICE_TRUST_DOUBTFUL;
-        parts[part_of[s]].ms += known ? sum->parts_ms[s] : 0.0;
+        const bool doubtful = sum->parts_trust[s] == DIP_PRICE_TRUST_DOUBTFUL;
+        if (doubtful) {
+            parts.rest_ms += sum->parts_ms[s];
+            parts.doubt = true;
+        } else {
+            parts.ms[part_of[s]] += sum->parts_ms[s];
+        }
     }
+    return parts;
 }
 
 // Fills a rectangle with slanting stripes, for what the prices of single settings miss.
@@ -238,85 +213,79 @@ static double end_of_scale(double ms, double budget_ms) {
 }
 
 // Draws the parts of the sum on one scale with the budget.
-static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_COUNT],
-                        double budget_ms, DipRect rect) {
-    const double rest_ms = rest_of(sum);
-    const double end_ms = end_of_scale(sum->ms - fmin(rest_ms, 0.0), budget_ms);
-    const double per_ms = rect.width / end_ms;
-    const int budget_x = rect.x + (int)(budget_ms * per_ms);
+static void draw_budget(DipUi *ui, const Parts *parts, double sum_ms, double budget_ms,
+                        DipRect rect) {
+    const double rest_ms = parts->rest_ms;
+    const double per_ms = rect.width / end_of_scale(sum_ms - fmin(rest_ms, 0.0), budget_ms);
+    const int over_budget = (int)(budget_ms * per_ms), end = (int)(sum_ms * per_ms);
+    const int overhang = dip_ui_px(ui, 4);
+    DipRect over = rect, bar = rect;
     double at_ms = 0.0;
     dip_ui_fill(ui, rect, dip_style_well);
-    dip_ui_fill(ui, (DipRect){budget_x, rect.y, rect.x + rect.width - budget_x, rect.height},
-                dip_style_over);
+    dip_cut_left(&over, over_budget);
+    dip_ui_fill(ui, over, dip_style_over);
     for (int i = 0; i < PART_COUNT; ++i) {
-        const int from = rect.x + (int)(at_ms * per_ms);
-        at_ms += fmax(parts[i].ms, 0.0);
-        const int width = rect.x + (int)(at_ms * per_ms) - from - 1;
-        if (width > 0) {
-            dip_ui_fill(ui, (DipRect){from, rect.y, width, rect.height}, parts[i].colour);
-        }
+        bar.x = rect.x + (int)(at_ms * per_ms);
+        at_ms += fmax(parts->ms[i], 0.0);
+        bar.width = rect.x + (int)(at_ms * per_ms) - bar.x - 1;
+        dip_ui_fill(ui, bar, part_colours[i]);
     }
+    const int parts_end = (int)(at_ms * per_ms);
     if (rest_ms > 0.0) {
-        const int from = rect.x + (int)(at_ms * per_ms);
         const int width = dip_max(1, (int)(rest_ms * per_ms));
-        fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_accent);
+        fill_hatched(ui, (DipRect){rect.x + parts_end, rect.y, width, rect.height},
+                     dip_style_accent);
     }
     if (rest_ms < 0.0) { // The parts take less time together: what they save is struck out.
-        const int from = rect.x + (int)(sum->ms * per_ms);
-        const int width = rect.x + (int)(at_ms * per_ms) - from - 1;
-        fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_well);
+        fill_hatched(ui, (DipRect){rect.x + end, rect.y, parts_end - end - 1, rect.height},
+                     dip_style_well);
     }
-    if (sum->ms > budget_ms) {
-        fill_hatched(
-            ui,
-            (DipRect){budget_x, rect.y, rect.x + (int)(sum->ms * per_ms) - budget_x, rect.height},
-            dip_style_worse);
+    if (sum_ms > budget_ms) {
+        over.width = end - over_budget;
+        fill_hatched(ui, over, dip_style_worse);
     }
-    dip_ui_fill(ui,
-                (DipRect){budget_x, rect.y - dip_ui_px(ui, 4), dip_ui_px(ui, 2),
-                          rect.height + 2 * dip_ui_px(ui, 4)},
-                dip_style_white);
+    over.width = dip_ui_px(ui, 2);
+    dip_ui_fill(ui, dip_rect_inset(over, 0, -overhang), dip_style_white);
 }
 
-// Draws an entry of the legend at *x, *y, or at the start of the next line if it does not fit.
-static void draw_entry(DipUi *ui, DipRect room, int *x, int *y, const char *text, DipColour colour,
-                       bool hatched) {
+// Draws an entry of the legend at the left side of *rest, or in the row below if it does not fit.
+// room: the legend's first row.
+static void draw_entry(DipUi *ui, DipRect room, DipRect *rest, const char *name, double ms,
+                       DipColour colour, bool rest_of_sum) {
     const int swatch = dip_ui_px(ui, SWATCH), gap = dip_ui_px(ui, 4);
-    const int width = swatch + gap + dip_ui_text_width(ui, NOTE_SIZE, text) + dip_ui_px(ui, 9);
-    if (*x + width - dip_ui_px(ui, 9) > room.x + room.width && *x > room.x) {
-        *x = room.x;
-        *y += dip_ui_px(ui, LEGEND_HEIGHT);
+    char text[48];
+    if (fabs(ms) < 0.05) {
+        return;
     }
-    const DipRect box = {*x, *y + (dip_ui_line_height(ui, NOTE_SIZE) - swatch) / 2, swatch, swatch};
-    if (hatched) {
-        fill_hatched(ui, box, colour);
-    } else {
-        dip_ui_fill(ui, box, colour);
+    snprintf(text, sizeof text, "%s %s%.1f", name,
+             ms < 0.0      ? "\u2212"
+             : rest_of_sum ? "+"
+                           : "",
+             fabs(ms));
+    const int width = swatch + gap + dip_ui_text_width(ui, NOTE_SIZE, text);
+    if (width > rest->width && rest->x > room.x) {
+        const int y = rest->y + dip_ui_px(ui, LEGEND_HEIGHT);
+        *rest = room;
+        rest->y = y;
     }
-    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, *x + swatch + gap, *y, width, text);
-    *x += width;
+    const DipRect box = dip_rect_middle(dip_cut_left(rest, swatch), swatch, swatch);
+    (rest_of_sum ? fill_hatched : dip_ui_fill)(ui, box, colour);
+    dip_cut_left(rest, gap);
+    dip_ui_word(ui, NOTE_SIZE, dip_style_soft, rest, dip_ui_px(ui, 9), text);
 }
 
-static int draw_legend(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_COUNT],
-                       DipRect room) {
-    int x = room.x, y = room.y;
-    char text[48];
+static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, DipRect row) {
+    DipRect rest = row;
     for (int i = 0; i < PART_COUNT; ++i) {
-        if (fabs(parts[i].ms) >= 0.05) {
-            const bool frame = i == PART_BASE && sum->state == DIP_PRICE_UNKNOWN;
-            snprintf(text, sizeof text, "%s %s%.1f", frame ? "a frame" : parts[i].name,
-                     parts[i].ms < 0.0 ? "\u2212" : "", fabs(parts[i].ms));
-            draw_entry(ui, room, &x, &y, text, parts[i].colour, false);
-        }
+        const bool frame = i == PART_BASE && sum->state == DIP_PRICE_UNKNOWN;
+        draw_entry(ui, row, &rest, frame ? "a frame" : part_names[i], parts->ms[i], part_colours[i],
+                   false);
     }
-    const double rest_ms = rest_of(sum);
-    if (fabs(rest_ms) >= 0.05) {
-        snprintf(text, sizeof text, "%s %s%.1f", has_doubt(sum) ? "not told apart" : "together",
-                 rest_ms < 0.0 ? "\u2212" : "+", fabs(rest_ms));
-        draw_entry(ui, room, &x, &y, text, dip_style_accent, true);
-    }
-    return y + dip_ui_px(ui, LEGEND_HEIGHT) - room.y;
+    draw_entry(ui, row, &rest, parts->doubt ? "not told apart" : "together", parts->rest_ms,
+               dip_style_accent, true);
 }
+
+// --- the sum -------------------------------------------------------------------------------------
 
 // Writes what the panel says beside the sum: its interval or how far it is over the budget, why it
 // is doubtful, and of what path it is.
@@ -355,169 +324,142 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     char text[DIP_PANE_TIME_BYTES], note[96];
     format_sum(window, DIP_PANE_REQUESTED, sum, text);
     format_note(window, sum, note);
-    dip_ui_text(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, DIP_ALIGN_LEFT, rect.x,
-                rect.y, rect.width, text);
-    const int x = rect.x + dip_ui_text_width(ui, SUM_SIZE, text) + dip_ui_px(ui, 9);
-    if (x + dip_ui_text_width(ui, NOTE_SIZE, note) > rect.x + rect.width) {
-        return; // The bar below shows it.
+    rect.height = dip_ui_line_height(ui, SUM_SIZE);
+    dip_ui_word(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, &rect, dip_ui_px(ui, 9),
+                text);
+    dip_cut_bottom(&rect, dip_ui_px(ui, 4));
+    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // Otherwise the bar below shows it.
+        dip_ui_line(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft,
+                    &(DipRect){rect.x, dip_rect_bottom(rect) - dip_ui_line_height(ui, NOTE_SIZE),
+                               rect.width, 0},
+                    "%s", note);
     }
-    dip_ui_text(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft, DIP_ALIGN_LEFT, x,
-                rect.y + dip_ui_line_height(ui, SUM_SIZE) - dip_ui_line_height(ui, NOTE_SIZE) -
-                    dip_ui_px(ui, 4),
-                rect.x + rect.width - x, note);
 }
 
-// Declares a button at the right end of a line that measures prices here, where the report is of
-// another size, machine or number of threads, or goes back to the report. Returns the room that is
-// left beside it.
-static int declare_measure_here(DipUi *ui, DipWindow *window, DipRect line) {
-    DipPreviewState *state = window->state;
-    const char *text = state->measures_here ? "Use the report" : "Measure here";
-    char source[400];
+// Declares a button at the right end of *line, and cuts it from the line. Leaves it out if it would
+// take more than half of the line. Returns whether it was pressed.
+static bool end_button(DipUi *ui, int id, DipRect *line, const char *text, const char *tip) {
     const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
-    const DipRect button = {line.x + line.width - width, line.y, width, dip_ui_px(ui, SUM_HEIGHT)};
-    const bool stale = dip_prices_source(window->prices, window->frames[0].width,
-                                         window->frames[0].height, source, sizeof source);
-    if (!dip_prices_has_report(window->prices) || !(stale || state->measures_here) ||
-        dip_prices_are_of_other_scene(window->prices) || 2 * width > line.width) {
-        return line.width;
+    return 2 * width <= line->width &&
+           dip_ui_button(ui, id_of(id), dip_cut_right(line, width), text, DIP_UI_PLAIN, tip);
+}
+
+// Declares the button that gets prices for this view, where there are none: it pauses if prices are
+// measured only at rest. Where the report's prices do not hold, it measures others or goes back to
+// the report.
+static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect *line) {
+    DipPreviewState *state = window->state;
+    const DipPrices *prices = window->prices;
+    char source[400];
+    if (sum->state == DIP_PRICE_UNKNOWN && dip_prices_are_rough(prices) && !state->paused &&
+        !state->manual) {
+        const int room = line->width;
+        if (end_button(ui, DIP_ID_PAUSE, line, "Pause to measure",
+                       "The tags show what each step costs and gains once the picture rests. The "
+                       "space key pauses, too.")) {
+            dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, dip_ui_now_ns(ui));
+        }
+        if (line->width < room) {
+            return;
+        }
     }
-    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_MEASURE_HERE), button, text,
-                      DIP_UI_PLAIN,
-                      state->measures_here
-                          ? "Shows the prices of the report again."
-                          : "The report's prices do not hold for these panes. Measures prices of "
-                            "this view instead, while the picture rests.")) {
+    const bool stale = dip_prices_source(prices, window->frames[0].width, window->frames[0].height,
+                                         source, sizeof source);
+    if (dip_prices_has_report(prices) && (stale || state->measures_here) &&
+        !dip_prices_are_of_other_scene(prices) &&
+        end_button(ui, DIP_ID_MEASURE_HERE, line,
+                   state->measures_here ? "Use the report" : "Measure here",
+                   state->measures_here
+                       ? "Shows the prices of the report again."
+                       : "The report's prices do not hold for these panes. Measures prices of "
+                         "this view instead, while the picture rests.")) {
         state->measures_here = !state->measures_here;
         ++state->scene_changes;
     }
-    return line.width - width;
 }
 
-// Declares a button that pauses at the right end of a line, where prices are measured only at rest
-// and are not known yet. Returns the room that is left beside it.
-static int declare_pause(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect line) {
-    static const char text[] = "Pause to measure";
-    DipPreviewState *state = window->state;
-    const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
-    const DipRect button = {line.x + line.width - width, line.y, width, dip_ui_px(ui, SUM_HEIGHT)};
-    if (sum->state != DIP_PRICE_UNKNOWN || !dip_prices_are_rough(window->prices) || state->paused ||
-        state->manual || 2 * width > line.width) {
-        return line.width;
-    }
-    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PAUSE), button, text, DIP_UI_PLAIN,
-                      "The tags show what each step costs and gains once the picture rests. The "
-                      "space key pauses, too.")) {
-        dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, dip_ui_now_ns(ui));
-    }
-    return line.width - width;
-}
-
-static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSum *now,
-                            const DipPriceSum *sum, DipRect rect) {
+// Draws the current pane's time, and the errors of both panes.
+static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
+                            DipRect line) {
+    const DipPriceSum now = dip_pane_sum(window, DIP_PANE_CURRENT);
     char text[80], from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES], time[DIP_PANE_TIME_BYTES];
-    format_sum(window, DIP_PANE_CURRENT, now, time);
+    format_sum(window, DIP_PANE_CURRENT, &now, time);
     snprintf(text, sizeof text, "current %s", time);
-    int x = rect.x;
-    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, x, rect.y, rect.width, text);
-    x += dip_ui_text_width(ui, NOTE_SIZE, text) + dip_ui_px(ui, 14);
-    if (!sum->has_flip || !now->has_flip || now->flip <= 0.0) {
+    dip_ui_word(ui, NOTE_SIZE, dip_style_soft, &line, dip_ui_px(ui, 14), text);
+    if (!sum->has_flip || !now.has_flip || now.flip <= 0.0) {
         return;
     }
-    dip_flip_text(now->flip, false, from);
+    dip_flip_text(now.flip, false, from);
     dip_flip_text(sum->flip, false, to);
     snprintf(text, sizeof text, "FLIP %s \u2192 %s", from, to);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, x, rect.y, rect.x + rect.width - x,
-                text);
-    x += dip_ui_text_width(ui, NOTE_SIZE, text) + dip_ui_px(ui, 9);
-    const double change = 100.0 * (sum->flip / now->flip - 1.0);
+    dip_ui_word(ui, NOTE_SIZE, dip_style_white, &line, dip_ui_px(ui, 9), text);
+    const double change = 100.0 * (sum->flip / now.flip - 1.0);
     if (fabs(change) >= 0.5) {
         snprintf(text, sizeof text, "%s%.0f %%", change < 0.0 ? "\u2212" : "+", fabs(change));
-        dip_ui_text(ui, NOTE_SIZE, change < 0.0 ? dip_style_gain : dip_style_worse, DIP_ALIGN_LEFT,
-                    x, rect.y, rect.x + rect.width - x, text);
+        dip_ui_word(ui, NOTE_SIZE, change < 0.0 ? dip_style_gain : dip_style_worse, &line, 0, text);
     }
 }
 
-// Draws what is being measured, the settings as text and where the prices come from, in the room
-// below the buttons. A warning that the prices do not hold comes first, and is never cut: what does
-// not fit beside it is left out.
+// Draws what is being measured, the settings as text, and where the prices come from. A warning
+// that the prices do not hold comes before the settings and is never cut: what does not fit beside
+// it is left out.
 static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
     char source[400], settings[200];
-    const int line = dip_ui_line_height(ui, NOTE_SIZE);
-    const char *progress = dip_prices_progress(window->prices);
-    const int bottom = room.y + room.height;
     const bool stale = dip_prices_source(window->prices, window->frames[0].width,
                                          window->frames[0].height, source, sizeof source);
     const bool warns = stale || dip_prices_are_doubtful(window->prices);
+    const char *progress = dip_prices_progress(window->prices);
     if (progress[0]) {
-        room.y +=
-            dip_ui_text_block(ui, NOTE_SIZE, dip_style_soft,
-                              (DipRect){room.x, room.y, room.width, bottom - room.y}, progress);
+        dip_cut_top(&room, dip_ui_text_block(ui, NOTE_SIZE, dip_style_soft, room, progress));
     }
     if (warns) {
-        room.y += dip_ui_text_block(ui, SMALL_SIZE, dip_style_worse,
-                                    (DipRect){room.x, room.y, room.width, bottom - room.y}, source);
+        dip_cut_top(&room, dip_ui_text_block(ui, SMALL_SIZE, dip_style_worse, room, source));
     }
-    if (room.y + line <= bottom) {
+    if (dip_ui_line_height(ui, NOTE_SIZE) <= room.height) {
         dip_quality_format_changes(&window->state->quality[DIP_PANE_REQUESTED], settings,
                                    sizeof settings);
-        dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, room.x, room.y, room.width,
-                    settings);
-        room.y += line;
+        dip_ui_line(ui, NOTE_SIZE, dip_style_white, &room, "%s", settings);
     }
     if (!warns) {
-        dip_ui_text_block(ui, SMALL_SIZE, dip_style_dim,
-                          (DipRect){room.x, room.y, room.width, bottom - room.y}, source);
+        dip_ui_text_block(ui, SMALL_SIZE, dip_style_dim, room, source);
     }
 }
 
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPriceSum sum = dip_pane_sum(window, DIP_PANE_REQUESTED);
-    const DipPriceSum now = dip_pane_sum(window, DIP_PANE_CURRENT);
-    const double budget_ms = window->state->budget_ms;
-    Part parts[PART_COUNT];
-    const int bottom = rect.y + rect.height;
-    int y = rect.y;
-    const DipRect line = {rect.x, y, rect.width, 0};
-    int room = declare_pause(ui, window, &sum, line);
-    if (room == line.width) {
-        room = declare_measure_here(ui, window, line);
-    }
-    if (dip_ui_is_drawing(ui)) {
-        draw_sum(ui, window, &sum, (DipRect){rect.x, y, room, 0});
-    }
-    y += dip_ui_px(ui, SUM_HEIGHT);
+    const bool doubtful = dip_price_sum_trust(&sum) == DIP_PRICE_TRUST_DOUBTFUL;
+    const DipPriceSum shown = doubtful ? (DipPriceSum){.ms = 0.0} : sum;
+    const Parts parts = parts_of(&shown);
+    const int note = dip_ui_line_height(ui, NOTE_SIZE), thin = dip_ui_px(ui, 3);
+    DipRect rest = rect;
+    DipRect line = dip_cut_top(&rest, dip_ui_px(ui, SUM_HEIGHT));
+    declare_measure(ui, window, &sum, &line);
+    draw_sum(ui, window, &sum, line);
+    line = dip_cut_top(&rest, note);
     dip_ui_control(
         ui,
-        &(DipUiControl){.id = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FLIP),
-                        .rect = {rect.x, y, rect.width, dip_ui_line_height(ui, NOTE_SIZE)},
+        &(DipUiControl){.id = id_of(DIP_ID_FLIP),
+                        .rect = line,
                         .tip = "Times of the current and errors of both panes. FLIP is the error "
                                "that people see when they change between a picture and the "
                                "converged one: 0 is no difference, 1 the greatest. Less is "
                                "better.",
                         .skips_focus = true});
-    if (dip_ui_is_drawing(ui)) {
-        draw_comparison(ui, window, &now, &sum, (DipRect){rect.x, y, rect.width, 0});
-    }
-    const int target_y = y + dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 2);
-    y += 2 * dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 9);
-    dip_target_declare(ui, window,
-                       (DipRect){rect.x, target_y, rect.width, y - target_y - dip_ui_px(ui, 3)});
-    const int legend_y = y + dip_ui_px(ui, BUDGET_HEIGHT + 6);
-    if (dip_ui_is_drawing(ui)) {
-        const bool doubtful = dip_price_sum_trust(&sum) == DIP_PRICE_TRUST_DOUBTFUL;
-        const DipPriceSum shown = doubtful ? (DipPriceSum){.ms = 0.0} : sum;
-        find_parts(&shown, parts);
-        draw_budget(ui, &shown, parts, budget_ms,
-                    (DipRect){rect.x, y, rect.width, dip_ui_px(ui, BUDGET_HEIGHT)});
-        draw_legend(ui, &shown, parts, (DipRect){rect.x, legend_y, rect.width, 0});
-    }
-    y = legend_y + dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3);
-    const int height = dip_ui_px(ui, 28);
-    y = dip_min(y, bottom - height);
-    dip_setting_buttons_declare(ui, window, (DipRect){rect.x, y, rect.width, height});
-    y += height + dip_ui_px(ui, 4);
-    if (dip_ui_is_drawing(ui)) {
-        draw_source(ui, window, (DipRect){rect.x, y, rect.width, bottom - y});
-    }
+    draw_comparison(ui, window, &sum, line);
+    line = dip_cut_top(&rest, note + dip_ui_px(ui, 9));
+    dip_cut_top(&line, dip_ui_px(ui, 2));
+    dip_cut_bottom(&line, thin);
+    dip_target_declare(ui, window, line);
+    line = dip_cut_top(&rest, dip_ui_px(ui, BUDGET_HEIGHT + 6));
+    line.height = dip_ui_px(ui, BUDGET_HEIGHT);
+    draw_budget(ui, &parts, shown.ms, window->state->budget_ms, line);
+    line = dip_cut_top(&rest, dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3));
+    line.height = note;
+    draw_legend(ui, &shown, &parts, line);
+    line = dip_cut_top(&rest, dip_ui_px(ui, 28)); // The buttons, which cover the legend at need.
+    line.y = dip_min(line.y, dip_rect_bottom(rect) - line.height);
+    dip_setting_buttons_declare(ui, window, line);
+    rest.y = dip_rect_bottom(line) + dip_ui_px(ui, 4);
+    rest.height = dip_rect_bottom(rect) - rest.y;
+    draw_source(ui, window, rest);
 }

@@ -1,26 +1,70 @@
 // Draws the sheets over the window: the table of costs, and the list of keys.
 #include "app/preview/state/keys.h"
 #include "app/preview/tabs/tabs.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { LARGEST_LETTERS = 15, TOP_EDGE_PX = 2 };
+enum {
+    LARGEST_LETTERS = 15,      // Of costs.
+    LARGEST_HELP_LETTERS = 17, // Of the list of keys.
+    TOP_EDGE_PX = 2,
+    EDGE_PX = 8, // What a list of keys leaves free of the window's width and height.
+    MAX_HELP_ROWS = 56,
+    MAX_HELP_GROUPS = 3, // The keys stand in up to three groups beside each other.
+    MAX_COLUMNS = 1 + 2 * DIP_COST_MAX_SWEEP_ROWS
+};
 
 static const char costs_note[] =
     "1x: the baseline and its FLIP. Other steps: relative time and change of FLIP";
+static const char help_note[] =
+    "While time runs, a change of a setting also chooses the path that shows it best";
 
-typedef struct CostsLayout {
-    int size;
-    int line;
-    int title_width;
-    int name_width[DIP_COST_MAX_SWEEP_ROWS]; // Width of the longest name in each column of steps.
-    int column_width[DIP_COST_MAX_SWEEP_ROWS];
-    int width;
-    int height;
-} CostsLayout;
+// --- a table on a sheet --------------------------------------------------------------------------
+
+typedef struct Cell {
+    const char *text; // NULL: the row ends before this column.
+    DipColour colour;
+} Cell;
+
+// Rows of texts between a title and a note. Each column is as wide as its widest text.
+typedef struct Table {
+    Cell cells[MAX_HELP_ROWS][MAX_COLUMNS];
+    int rows;
+    int columns;
+    const char *note;
+    int half_gaps[MAX_COLUMNS]; // Gap behind each column, in halves of `gap`.
+    int gap;
+    int size; // Of the letters.
+    int line; // Height of a row.
+    int widths[MAX_COLUMNS];
+    DipRect sheet; // Without a position until it is drawn.
+} Table;
+
+static int gap_behind(const Table *table, int column) {
+    return table->gap * table->half_gaps[column] / 2;
+}
+
+// Finds the columns' widths and the sheet's size. table->size, gap and the cells are given.
+static void measure(Table *table, DipFont *font, int spacing) {
+    int width = 0;
+    table->line = dip_font_line_height(font, table->size) + spacing;
+    for (int c = 0; c < table->columns; ++c) {
+        int widest = 0;
+        for (int r = 0; r < table->rows; ++r) {
+            const char *text = table->cells[r][c].text;
+            widest = dip_max(widest, text ? dip_font_width(font, table->size, text) : 0);
+        }
+        table->widths[c] = widest;
+        width += widest + gap_behind(table, c);
+    }
+    width = dip_max(width, dip_font_width(font, table->size, table->note));
+    table->sheet.width = width + 2 * table->size;
+    table->sheet.height = (table->rows + 3) * table->line + 2 * table->size;
+}
 
 // Darkens the window and draws an empty sheet of the given size in the middle of the window.
 // Returns the sheet's rectangle.
@@ -34,61 +78,26 @@ static DipRect draw_sheet(DipDrawList *list, int width, int height) {
     return sheet;
 }
 
-static void measure_titles(CostsLayout *l, DipFont *font, const DipCosts *costs, int gap) {
-    for (int r = 0; r < costs->row_count; ++r) {
-        const DipCostsRow *row = &costs->rows[r];
-        l->title_width = dip_max(l->title_width, dip_font_width(font, l->size, row->title) + gap);
-        for (int s = 0; s < row->step_count; ++s) {
-            l->name_width[s] = dip_max(l->name_width[s],
-                                       dip_font_width(font, l->size, row->steps[s].name) + gap / 2);
+// Draws the table's sheet with the rows and the note. Returns the room of the title.
+static DipRect draw_table(DipDrawList *list, const Table *table) {
+    const DipRect sheet = draw_sheet(list, table->sheet.width, table->sheet.height);
+    DipRect room = dip_rect_inset(sheet, table->size, table->size);
+    const DipRect title = dip_cut_top(&room, table->line);
+    int y = room.y + table->line / 2;
+    for (int r = 0; r < table->rows; ++r, y += table->line) {
+        int x = room.x;
+        for (int c = 0; c < table->columns && table->cells[r][c].text; ++c) {
+            dip_draw_list_text(list, table->size, table->cells[r][c].colour, DIP_ALIGN_LEFT, x, y,
+                               table->widths[c], table->cells[r][c].text);
+            x += table->widths[c] + gap_behind(table, c);
         }
     }
+    dip_draw_list_text(list, table->size, dip_style_soft, DIP_ALIGN_LEFT, room.x,
+                       dip_rect_bottom(room) - table->line, room.width, table->note);
+    return title;
 }
 
-// Returns the width of a column of steps. The column shows the steps' names one below the other,
-// and their figures to the right of the names.
-static int measure_column(const CostsLayout *l, DipFont *font, const DipCosts *costs, int step,
-                          int gap) {
-    int width = 0;
-    for (int r = 0; r < costs->row_count; ++r) {
-        const DipCostsRow *row = &costs->rows[r];
-        if (step < row->step_count) {
-            const int figures = dip_font_width(font, l->size, row->steps[step].figures);
-            width = dip_max(width, l->name_width[step] + figures + gap);
-        }
-    }
-    return width;
-}
-
-static CostsLayout measure_costs(DipFont *font, const DipCosts *costs, int size) {
-    CostsLayout l = {.size = size, .line = dip_font_line_height(font, size) + 1};
-    const int gap = dip_max(4, size * 2 / 3);
-    measure_titles(&l, font, costs, gap);
-    l.width = l.title_width;
-    for (int s = 0; s < DIP_COST_MAX_SWEEP_ROWS; ++s) {
-        l.column_width[s] = measure_column(&l, font, costs, s, gap);
-        l.width += l.column_width[s];
-    }
-    l.width = dip_max(l.width, dip_font_width(font, size, costs_note)) + 2 * size;
-    l.height = (costs->row_count + 3) * l.line + 2 * size;
-    return l;
-}
-
-static void draw_row(DipDrawList *list, const CostsLayout *l, const DipCostsRow *row,
-                     const DipQuality *quality, int x, int y) {
-    dip_draw_list_text(list, l->size, dip_style_white, DIP_ALIGN_LEFT, x, y, l->title_width,
-                       row->title);
-    x += l->title_width;
-    for (int s = 0; s < row->step_count; ++s) {
-        const bool at = dip_costs_is_at(row, s, quality);
-        dip_draw_list_text(list, l->size, at ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
-                           x, y, l->name_width[s], row->steps[s].name);
-        dip_draw_list_text(list, l->size, at ? dip_style_accent : dip_style_soft, DIP_ALIGN_LEFT,
-                           x + l->name_width[s], y, l->column_width[s] - l->name_width[s],
-                           row->steps[s].figures);
-        x += l->column_width[s];
-    }
-}
+// --- costs ---------------------------------------------------------------------------------------
 
 // Says how to make a report of this scene. Lines with a command are marked.
 static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double scale) {
@@ -110,64 +119,50 @@ static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double 
     }
 }
 
-static void draw_table(DipDrawList *list, const DipCostReport *report, const DipQuality *quality,
-                       double scale) {
-    DipCosts table;
-    const DipCosts *costs = &table;
-    char heading[DIP_COSTS_HEADING];
-    dip_costs_make(&table, report);
-    dip_costs_heading(report, heading);
-    CostsLayout l;
-    int size = dip_style_scaled(LARGEST_LETTERS, scale);
-    do {
-        l = measure_costs(dip_draw_list_font(list), costs, size);
-    } while ((l.width > dip_draw_list_width(list) || l.height > dip_draw_list_height(list)) &&
-             size-- > DIP_FONT_MIN_SIZE);
-    const DipRect sheet = draw_sheet(list, l.width, l.height);
-    const int x = sheet.x + l.size, y = sheet.y + l.size, room = sheet.width - 2 * l.size;
-    dip_draw_list_text(list, l.size, dip_style_white, DIP_ALIGN_LEFT, x, y, room, heading);
+// Fills in a row for each setting: its title, and each step's name and figures.
+static Table make_costs(const DipCosts *costs, const DipQuality *quality) {
+    Table table = {.rows = costs->row_count, .columns = 1, .note = costs_note, .half_gaps = {2}};
     for (int r = 0; r < costs->row_count; ++r) {
-        draw_row(list, &l, &costs->rows[r], quality, x, y + (r + 1) * l.line + l.line / 2);
+        const DipCostsRow *row = &costs->rows[r];
+        table.cells[r][0] = (Cell){row->title, dip_style_white};
+        for (int s = 0; s < row->step_count; ++s) {
+            const bool at = dip_costs_is_at(row, s, quality);
+            table.cells[r][1 + 2 * s] =
+                (Cell){row->steps[s].name, at ? dip_style_accent : dip_style_white};
+            table.cells[r][2 + 2 * s] =
+                (Cell){row->steps[s].figures, at ? dip_style_accent : dip_style_soft};
+            table.half_gaps[1 + 2 * s] = 1;
+            table.half_gaps[2 + 2 * s] = 2;
+            table.columns = dip_max(table.columns, 3 + 2 * s);
+        }
     }
-    dip_draw_list_text(list, l.size, dip_style_soft, DIP_ALIGN_LEFT, x,
-                       y + (costs->row_count + 2) * l.line, room, costs_note);
+    return table;
 }
 
 void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, double scale) {
-    if (state->costs) {
-        draw_table(list, state->costs, &state->quality[DIP_PANE_REQUESTED], scale);
-    } else {
+    DipCosts costs;
+    char heading[DIP_COSTS_HEADING];
+    if (!state->costs) {
         draw_how_to(list, state, scale);
+        return;
     }
+    dip_costs_make(&costs, state->costs);
+    dip_costs_heading(state->costs, heading);
+    Table table = make_costs(&costs, &state->quality[DIP_PANE_REQUESTED]);
+    table.size = dip_style_scaled(LARGEST_LETTERS, scale) + 1;
+    do {
+        --table.size;
+        table.gap = dip_max(4, table.size * 2 / 3);
+        measure(&table, dip_draw_list_font(list), 1);
+    } while ((table.sheet.width > dip_draw_list_width(list) ||
+              table.sheet.height > dip_draw_list_height(list)) &&
+             table.size > DIP_FONT_MIN_SIZE);
+    const DipRect title = draw_table(list, &table);
+    dip_draw_list_text(list, table.size, dip_style_white, DIP_ALIGN_LEFT, title.x, title.y,
+                       title.width, heading);
 }
-
-static const char help_title[] = "Keys";
-static const char help_shift[] = "With Shift: backwards";
-static const char help_note[] =
-    "While time runs, a change of a setting also chooses the path that shows it best";
 
 // --- help ----------------------------------------------------------------------------------------
-
-enum { MAX_HELP_ROWS = 56, MAX_HELP_COLUMNS = 3, LARGEST_HELP_LETTERS = 17, EDGE_PX = 8 };
-
-typedef struct HelpRow {
-    const char *label;
-    const char *text;
-} HelpRow;
-
-static int help_rows(HelpRow rows[MAX_HELP_ROWS]) {
-    int count = 0;
-    for (int i = 0; i < dip_key_row_count && count < MAX_HELP_ROWS; ++i) {
-        const DipKeyRow *key = &dip_key_rows[i];
-        if (key->label) {
-            const bool setting = key->action == DIP_ACTION_SETTING;
-            rows[count++] =
-                (HelpRow){key->label,
-                          setting ? dip_setting_info((DipSetting)key->argument)->title : key->text};
-        }
-    }
-    return count;
-}
 
 // Returns whether a text holds words in any case.
 static bool holds(const char *text, const char *words) {
@@ -185,126 +180,82 @@ static bool holds(const char *text, const char *words) {
     return false;
 }
 
-// Keeps the rows that hold the words. Returns their number.
-static int search(HelpRow rows[MAX_HELP_ROWS], int count, const char *words) {
-    int kept = 0;
-    for (int i = 0; i < count; ++i) {
-        if (holds(rows[i].label, words) || holds(rows[i].text, words)) {
-            rows[kept++] = rows[i];
+// Lists the keys whose label or text holds the words, in groups of `table->rows` rows. Returns
+// their number.
+static int list_keys(Table *table, const char *words) {
+    int count = 0;
+    memset(table->cells, 0, sizeof table->cells);
+    for (int i = 0; i < dip_key_row_count; ++i) {
+        const DipKeyRow *key = &dip_key_rows[i];
+        const char *text = key->action == DIP_ACTION_SETTING
+                               ? dip_setting_info((DipSetting)key->argument)->title
+                               : key->text;
+        if (key->label && (holds(key->label, words) || holds(text, words)) &&
+            count < MAX_HELP_ROWS) {
+            Cell *cells = &table->cells[count % table->rows][count / table->rows * 2];
+            cells[0] = (Cell){key->label, dip_style_accent};
+            cells[1] = (Cell){text, dip_style_white};
+            ++count;
         }
     }
-    return kept;
+    return count;
 }
 
-typedef struct HelpLayout {
-    int size;
-    int columns;
-    int rows_per_column;
-    int line;
-    int gap;
-    int label_width[MAX_HELP_COLUMNS];
-    int text_width[MAX_HELP_COLUMNS];
-    int width;
-    int height;
-} HelpLayout;
-
-static void measure_columns(HelpLayout *l, DipFont *font, const HelpRow *rows, int count) {
-    for (int c = 0; c < MAX_HELP_COLUMNS; ++c) {
-        const int first = c * l->rows_per_column;
-        for (int i = first; i < first + l->rows_per_column && i < count; ++i) {
-            l->label_width[c] =
-                dip_max(l->label_width[c], dip_font_width(font, l->size, rows[i].label));
-            l->text_width[c] =
-                dip_max(l->text_width[c], dip_font_width(font, l->size, rows[i].text));
-        }
+// Lists all keys in letters of a size, in so many groups beside each other.
+static Table make_help(DipFont *font, int size, int groups) {
+    Table table = {.rows = MAX_HELP_ROWS, .note = help_note, .gap = size, .size = size};
+    const int count = list_keys(&table, "");
+    table.rows = (count + groups - 1) / groups;
+    table.columns = 2 * groups;
+    list_keys(&table, "");
+    for (int g = 0; g < groups; ++g) {
+        table.half_gaps[2 * g] = 2;
+        table.half_gaps[2 * g + 1] = g < groups - 1 ? 4 : 0;
     }
+    measure(&table, font, dip_max(1, size / 6));
+    return table;
 }
 
-static HelpLayout measure_help(DipFont *font, const HelpRow *rows, int count, int size,
-                               int columns) {
-    HelpLayout l = {.size = size, .columns = columns, .gap = size};
-    l.line = dip_font_line_height(font, size) + dip_max(1, size / 6);
-    l.rows_per_column = (count + columns - 1) / columns;
-    measure_columns(&l, font, rows, count);
-    int rows_width = (columns - 1) * 2 * l.gap;
-    for (int c = 0; c < columns && c < MAX_HELP_COLUMNS; ++c) {
-        rows_width += l.label_width[c] + l.gap + l.text_width[c];
-    }
-    l.width = dip_max(rows_width, dip_font_width(font, size, help_note)) + 2 * size;
-    l.height = (l.rows_per_column + 3) * l.line + 2 * size;
-    return l;
-}
-
-// Narrows the texts until the sheet fits into the window. Texts that are too long then end in an
-// ellipsis.
-static HelpLayout squeeze(HelpLayout l, int room) {
-    const int excess = l.width - room;
-    for (int c = 0; excess > 0 && c < l.columns; ++c) {
-        l.text_width[c] -= (excess + l.columns - 1) / l.columns;
-    }
-    l.width = dip_min(l.width, room);
-    return l;
-}
-
-// Finds the largest letters at which the whole help fits, and the fewest columns for these letters.
-// If the window is too small even for the smallest letters, squeezes the texts.
-static HelpLayout choose_layout(const DipDrawList *list, const HelpRow *rows, int count,
-                                double scale) {
+// Finds the largest letters at which the whole help fits, and the fewest groups for these letters.
+// If the window is too small even for the smallest letters, the texts become narrower, and those
+// that are too long end in an ellipsis.
+static Table fit_help(const DipDrawList *list, double scale) {
     DipFont *font = dip_draw_list_font(list);
     const int room = dip_draw_list_width(list) - EDGE_PX;
     const int height = dip_draw_list_height(list) - EDGE_PX;
-    HelpLayout l = {0};
+    Table table;
     for (int size = dip_style_scaled(LARGEST_HELP_LETTERS, scale); size >= DIP_FONT_MIN_SIZE;
          --size) {
-        for (int columns = 1; columns <= MAX_HELP_COLUMNS; ++columns) {
-            l = measure_help(font, rows, count, size, columns);
-            if (l.width <= room && l.height <= height) {
-                return l;
+        for (int groups = 1; groups <= MAX_HELP_GROUPS; ++groups) {
+            table = make_help(font, size, groups);
+            if (table.sheet.width <= room && table.sheet.height <= height) {
+                return table;
             }
         }
     }
-    for (int columns = 1; columns <= MAX_HELP_COLUMNS; ++columns) {
-        l = measure_help(font, rows, count, DIP_FONT_MIN_SIZE, columns);
-        if (l.height <= height) {
-            break;
-        }
+    int groups = 1;
+    do {
+        table = make_help(font, DIP_FONT_MIN_SIZE, groups);
+    } while (table.sheet.height > height && ++groups <= MAX_HELP_GROUPS);
+    const int excess = dip_max(0, table.sheet.width - room);
+    const int used = table.columns / 2;
+    for (int g = 0; g < used; ++g) {
+        table.widths[2 * g + 1] -= (excess + used - 1) / used;
     }
-    return squeeze(l, room);
-}
-
-static void draw_rows(DipDrawList *list, const HelpLayout *l, const HelpRow *rows, int count, int x,
-                      int y) {
-    for (int i = 0; i < count; ++i) {
-        const int column = i / l->rows_per_column;
-        const int row_y = y + i % l->rows_per_column * l->line;
-        dip_draw_list_text(list, l->size, dip_style_accent, DIP_ALIGN_LEFT, x, row_y,
-                           l->label_width[column], rows[i].label);
-        dip_draw_list_text(list, l->size, dip_style_white, DIP_ALIGN_LEFT,
-                           x + l->label_width[column] + l->gap, row_y, l->text_width[column],
-                           rows[i].text);
-        if ((i + 1) % l->rows_per_column == 0) {
-            x += l->label_width[column] + l->text_width[column] + 3 * l->gap;
-        }
-    }
+    table.sheet.width -= excess;
+    return table;
 }
 
 void dip_sheet_draw_help(DipDrawList *list, double scale, const char *words) {
-    HelpRow rows[MAX_HELP_ROWS];
-    int count = help_rows(rows);
-    const HelpLayout l =
-        choose_layout(list, rows, count, scale); // It stands still while one types.
-    const DipRect sheet = draw_sheet(list, l.width, l.height);
-    const int x = sheet.x + l.size, y = sheet.y + l.size;
-    const int room = sheet.width - 2 * l.size;
+    Table table = fit_help(list, scale); // The words change nothing of where the keys stand.
+    const int count = list_keys(&table, words);
+    const DipRect room = draw_table(list, &table);
     char title[64];
-    count = search(rows, count, words);
-    snprintf(title, sizeof title, "%s: %s", help_title, words[0] ? words : "type to search");
-    const int title_width = dip_font_width(dip_draw_list_font(list), l.size, title);
-    dip_draw_list_text(list, l.size, words[0] ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
-                       x, y, room, title);
-    dip_draw_list_text(list, l.size, dip_style_soft, DIP_ALIGN_RIGHT, x + room, y,
-                       room - title_width - l.gap, count ? help_shift : "No key has these words");
-    draw_rows(list, &l, rows, count, x, y + l.line + l.line / 2);
-    dip_draw_list_text(list, l.size, dip_style_soft, DIP_ALIGN_LEFT, x,
-                       sheet.y + sheet.height - l.size - l.line, room, help_note);
+    snprintf(title, sizeof title, "Keys: %s", words[0] ? words : "type to search");
+    const int title_width = dip_font_width(dip_draw_list_font(list), table.size, title);
+    dip_draw_list_text(list, table.size, words[0] ? dip_style_accent : dip_style_white,
+                       DIP_ALIGN_LEFT, room.x, room.y, room.width, title);
+    dip_draw_list_text(list, table.size, dip_style_soft, DIP_ALIGN_RIGHT, dip_rect_right(room),
+                       room.y, room.width - title_width - table.gap,
+                       count ? "With Shift: backwards" : "No key has these words");
 }

@@ -6,6 +6,7 @@
 #ifndef DIP_APP_PREVIEW_TABS_TABS_H
 #define DIP_APP_PREVIEW_TABS_TABS_H
 
+#include "app/preview/tools/tools.h"
 #include "app/preview/tools/window.h"
 
 // Declares and draws the whole window: the panes' pictures, labels, marks, the dock and sheets.
@@ -29,6 +30,7 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect);
 // Where the next control of a tab lies: rows are filled from the left, and begin anew below.
 typedef struct DipFlow {
     DipUi *ui;
+    DipWindow *window;
     DipUiGroup group; // Of the buttons' ids.
     int note_size;
     DipRect body;
@@ -40,14 +42,20 @@ typedef struct DipFlow {
     bool narrow;
 } DipFlow;
 
-DipFlow dip_flow_make(DipUi *ui, DipUiGroup group, DipRect body, int note_size);
-// Makes rows and buttons small.
+// Begins at the top of a tab. note_size: of the letters of notes.
+DipFlow dip_flow_make(DipUi *ui, DipWindow *window, DipUiGroup group, DipRect body, int note_size);
+// Makes rows and buttons small, and leaves out notes and the beginnings of groups.
 void dip_flow_make_narrow(DipFlow *flow);
 void dip_flow_next_row(DipFlow *flow);
+// Begins a new row for other matters.
+void dip_flow_next_group(DipFlow *flow);
 // Returns a rectangle of the given width in this row or the next one; empty if the tab is full.
 DipRect dip_flow_next(DipFlow *flow, int width);
 int dip_flow_button_width(const DipFlow *flow, const char *text);
+// Declares a button. Returns whether it was pressed.
 bool dip_flow_button(DipFlow *flow, unsigned id, const char *text, DipUiLook look, const char *tip);
+// Declares a button for one of several alternatives.
+bool dip_flow_choice(DipFlow *flow, unsigned id, const char *text, bool chosen, const char *tip);
 // Writes a note. One that is wider than the tab gets lines of its own.
 void dip_flow_text(DipFlow *flow, DipColour colour, const char *text);
 
@@ -111,8 +119,8 @@ int dip_setting_row_declare(DipUi *ui, DipWindow *window, DipSetting setting, Di
 // Declares a setting as one line of a narrow list: its name, its step and its price.
 void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect);
 
-// Declares all presets as buttons in a grid. Returns the grid's height.
-int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns);
+// Declares all presets as buttons in a grid.
+void dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns);
 
 // Declares Apply, Undo and Copy in a row.
 void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect);
@@ -138,21 +146,20 @@ void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, doubl
 
 // --- symbols of the bar ---------------------------------------------------------------------
 
-// Each draws its symbol in the middle of a rectangle.
-void dip_icon_tab(DipUi *ui, DipTab tab, DipRect rect, DipColour colour);
-void dip_icon_play(DipUi *ui, DipRect rect, bool paused, DipColour colour);
-// Draws a bar and a triangle that points away from it: one frame on, or back.
-void dip_icon_step(DipUi *ui, DipRect rect, bool back, DipColour colour);
-// Draws the corners of a screen.
-void dip_icon_full_screen(DipUi *ui, DipRect rect, DipColour colour);
-// Draws two pictures beside each other.
-void dip_icon_panes(DipUi *ui, DipRect rect, DipColour colour);
-// Draws a chevron that points up or down.
-void dip_icon_fold(DipUi *ui, DipRect rect, bool up, DipColour colour);
+// Symbols beyond those of the tabs, whose numbers are those of DipTab.
+enum {
+    DIP_ICON_FULL_SCREEN = DIP_TAB_COUNT,
+    DIP_ICON_PANES, // Two pictures beside each other.
+    DIP_ICON_FOLD,  // A chevron that points down.
+    DIP_ICON_OPEN,  // A chevron that points up.
+    DIP_ICON_PLAY,
+    DIP_ICON_PAUSE,
+    DIP_ICON_STEP, // A bar and a triangle that points away from it: one frame on.
+    DIP_ICON_BACK, // One frame back.
+    DIP_ICON_HELP  // A question mark.
+};
 
-// --- the maps' tab --------------------------------------------------------------------------
-
-// Returns a map's name: "Time per tile".
-const char *dip_map_name(DipMap map);
+// Draws a symbol in the middle of a rectangle.
+void dip_icon_draw(DipUi *ui, int icon, DipRect rect, DipColour colour);
 
 #endif

@@ -1,5 +1,7 @@
-// The tab of times: frame times of the last seconds, stages, errors and work of each pane.
+// The tab of times: a graph of the frame times of the last seconds; stages, errors and work of each
+// pane in lines.
 #include "app/preview/tabs/tabs.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 
 #include <math.h>
@@ -15,9 +17,14 @@ enum {
 };
 
 static const int64_t graph_ns = 5000000000;
-static const DipColour pane_colours[DIP_PANE_COUNT] = {{196, 202, 210, 255}, {255, 190, 92, 255}};
+static const char *const pane_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
 
 // --- the graph -----------------------------------------------------------------------------------
+
+// The graph's colour of a pane.
+static DipColour colour_of(int pane) {
+    return pane == DIP_PANE_CURRENT ? dip_style_soft : dip_style_accent;
+}
 
 // Times of one pane in the last seconds.
 typedef struct History {
@@ -55,38 +62,36 @@ static void draw_history(DipUi *ui, const History *history, DipRect plot, double
     for (int i = 0; i < GRAPH_STEPS; ++i) {
         if (most[i] > 0.0) {
             const int y = (int)(fmin(most[i] / top_ms, 1.0) * (plot.height - size));
-            const int x = plot.width - (int)((int64_t)(i + 1) * plot.width / GRAPH_STEPS);
-            dip_ui_fill(ui, (DipRect){plot.x + x, plot.y + plot.height - size - y, width, size},
-                        colour);
+            const int x = (int)((int64_t)(i + 1) * plot.width / GRAPH_STEPS);
+            dip_ui_fill(
+                ui,
+                (DipRect){dip_rect_right(plot) - x, dip_rect_bottom(plot) - size - y, width, size},
+                colour);
         }
     }
 }
 
 static void draw_legend(DipUi *ui, const DipWindow *window, History *history, int pane,
                         DipRect line) {
-    static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
     char text[120];
     const int swatch = dip_ui_px(ui, 8);
     if (window->figures[pane].copied) {
-        snprintf(text, sizeof text, "%s: same settings, drawn once", names[pane]);
+        snprintf(text, sizeof text, "%s: same settings, drawn once", pane_titles[pane]);
     } else if (history->count == 0) {
-        snprintf(text, sizeof text, "%s: no frame, since time stands still", names[pane]);
+        snprintf(text, sizeof text, "%s: no frame, since time stands still", pane_titles[pane]);
     } else {
-        const double median = dip_percentile(history->ms, history->count, 0.5);
-        const double p95 = dip_percentile(history->ms, history->count, 0.95);
-        snprintf(text, sizeof text, "%s: median %.1f, p95 %.1f ms", names[pane], median, p95);
+        snprintf(text, sizeof text, "%s: median %.1f, p95 %.1f ms", pane_titles[pane],
+                 dip_percentile(history->ms, history->count, 0.5),
+                 dip_percentile(history->ms, history->count, 0.95));
     }
-    dip_ui_fill(ui,
-                (DipRect){line.x, line.y + (dip_ui_line_height(ui, NOTE_SIZE) - swatch) / 2, swatch,
-                          swatch},
-                pane_colours[pane]);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, line.x + 2 * swatch, line.y,
-                line.width - 2 * swatch, text);
+    dip_ui_fill(ui, dip_rect_middle(dip_cut_left(&line, swatch), swatch, swatch), colour_of(pane));
+    dip_cut_left(&line, swatch);
+    dip_ui_label(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, line, text);
 }
 
 static void draw_budget_line(DipUi *ui, DipRect plot, const DipPreviewState *state, double top_ms) {
     const double budget_ms = state->budget_ms;
-    const int y = plot.y + plot.height - (int)(budget_ms / top_ms * plot.height);
+    const int y = dip_rect_bottom(plot) - (int)(budget_ms / top_ms * plot.height);
     char text[80];
     snprintf(text, sizeof text, "%.1f ms: %s", budget_ms,
              state->has_budget ? "the budget" : "one refresh of the display");
@@ -100,35 +105,30 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect) {
         return;
     }
     const int line = dip_ui_line_height(ui, NOTE_SIZE);
-    const DipRect plot = {rect.x, rect.y + line, rect.width, rect.height - 4 * line};
     History histories[DIP_PANE_COUNT];
-    const double budget_ms = window->state->budget_ms;
-    double top_ms = budget_ms * 1.25;
+    double top_ms = window->state->budget_ms * 1.25;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         histories[p] = history_of(&window->figures[p], graph_now_ns(ui));
         for (int i = 0; i < histories[p].count; ++i) {
             top_ms = fmax(top_ms, histories[p].ms[i]);
         }
     }
-    dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_LEFT, rect.x, rect.y, rect.width,
-                "Frame times, last 5 s");
-    if (plot.height < line) {
+    dip_ui_line(ui, NOTE_SIZE, dip_style_dim, &rect, "Frame times, last 5 s");
+    DipRect legend = dip_cut_bottom(&rect, 3 * line);
+    if (rect.height < line) {
         return;
     }
-    dip_ui_fill(ui, plot, dip_style_well);
-    draw_budget_line(ui, plot, window->state, top_ms);
+    dip_ui_fill(ui, rect, dip_style_well);
+    draw_budget_line(ui, rect, window->state, top_ms);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         if (!window->figures[p].copied) {
-            draw_history(ui, &histories[p], plot, top_ms, pane_colours[p]);
+            draw_history(ui, &histories[p], rect, top_ms, colour_of(p));
         }
-        draw_legend(ui, window, &histories[p], p,
-                    (DipRect){rect.x, plot.y + plot.height + p * line, rect.width, line});
+        draw_legend(ui, window, &histories[p], p, dip_cut_top(&legend, line));
     }
-    char text[80];
-    snprintf(text, sizeof text, "%d of the display's refreshes had no new picture",
-             window->figures[0].dropped);
-    dip_ui_text(ui, NOTE_SIZE, window->figures[0].dropped ? dip_style_worse : dip_style_dim,
-                DIP_ALIGN_LEFT, rect.x, plot.y + plot.height + 2 * line, rect.width, text);
+    const int dropped = window->figures[0].dropped;
+    dip_ui_line(ui, NOTE_SIZE, dropped ? dip_style_worse : dip_style_dim, &legend,
+                "%d of the display's refreshes had no new picture", dropped);
 }
 
 // --- the lines -----------------------------------------------------------------------------------
@@ -136,39 +136,28 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect) {
 // Draws the lines of one pane in as many columns as fit, from the most important line on.
 static void draw_lines(DipUi *ui, const DipPanelLine *lines, int count, DipRect room) {
     const int line = dip_ui_line_height(ui, SIZE) + dip_ui_px(ui, 1);
-    const int pad = dip_ui_px(ui, MARGIN);
     const int rows = dip_max(1, room.height / line);
     const int fitting = dip_max(1, room.width / dip_ui_px(ui, COLUMN_WIDTH));
-    const int needed = (count + rows - 1) / rows;
-    const int columns = dip_min(fitting, needed);
-    const int width = room.width / dip_max(1, columns);
+    const int columns = dip_max(1, dip_min(fitting, (count + rows - 1) / rows));
+    const int width = room.width / columns;
     for (int i = 0; i < count && i < rows * columns; ++i) {
         const DipPanelLine *shown = &lines[i];
-        const int x = room.x + i / rows * width;
-        const int y = room.y + i % rows * line;
-        const int value_x = x + width - pad;
-        dip_ui_text(ui, SIZE, shown->head ? dip_style_white : dip_style_soft, DIP_ALIGN_LEFT, x, y,
-                    width - pad, shown->name);
-        dip_ui_text(ui, SIZE, shown->head ? dip_style_accent : dip_style_white, DIP_ALIGN_RIGHT,
-                    value_x, y, width - pad - dip_ui_text_width(ui, SIZE, shown->name),
-                    shown->value);
+        DipRect row = {room.x + i / rows * width, room.y + i % rows * line,
+                       width - dip_ui_px(ui, MARGIN), dip_ui_line_height(ui, SIZE)};
+        dip_ui_word(ui, SIZE, shown->head ? dip_style_white : dip_style_soft, &row, 0, shown->name);
+        dip_ui_label(ui, SIZE, shown->head ? dip_style_accent : dip_style_white, DIP_ALIGN_RIGHT,
+                     row, shown->value);
     }
 }
 
 // Writes what the panes show and at which size.
 static void draw_heading(DipUi *ui, const DipWindow *window, int pane, DipRect line) {
-    static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
     const DipPreviewState *state = window->state;
-    char text[160];
-    snprintf(text, sizeof text, "%dx%d   %s", window->frames[pane].width,
-             window->frames[pane].height,
-             state->scene_title ? state->scene_title
-                                : dip_preview_path_title(state, state->track->active));
-    const int width = dip_ui_text_width(ui, SIZE, names[pane]) + dip_ui_px(ui, 10);
-    dip_ui_text(ui, SIZE, pane == DIP_PANE_CURRENT ? dip_style_white : dip_style_accent,
-                DIP_ALIGN_LEFT, line.x, line.y, line.width, names[pane]);
-    dip_ui_text(ui, SIZE, dip_style_dim, DIP_ALIGN_LEFT, line.x + width, line.y, line.width - width,
-                text);
+    const DipPixels *frame = &window->frames[pane];
+    dip_ui_word(ui, SIZE, dip_style_of_pane(pane), &line, dip_ui_px(ui, 10), pane_titles[pane]);
+    dip_ui_line(ui, SIZE, dip_style_dim, &line, "%dx%d   %s", frame->width, frame->height,
+                state->scene_title ? state->scene_title
+                                   : dip_preview_path_title(state, state->track->active));
 }
 
 void dip_tab_times(DipUi *ui, DipWindow *window, DipRect body) {
@@ -179,22 +168,21 @@ void dip_tab_times(DipUi *ui, DipWindow *window, DipRect body) {
     if (!dip_ui_is_drawing(ui)) {
         return;
     }
-    DipRect room = {body.x + margin, body.y + margin / 2, body.width - margin,
+    DipRect rest = {body.x + margin, body.y + margin / 2, body.width - margin,
                     body.height - margin};
     if (has_graph) {
-        room.width -= graph_width + margin;
-        dip_times_graph_draw(
-            ui, window, (DipRect){room.x + room.width, room.y, graph_width, body.height - margin});
+        dip_cut_right(&rest, margin);
+        dip_times_graph_draw(ui, window, dip_cut_right(&rest, graph_width));
     }
-    const int width = room.width / panes;
+    const int width = rest.width / panes;
     for (int p = 0; p < panes; ++p) {
         const int pane = panes == 1 ? DIP_PANE_REQUESTED : p;
         DipPanelLine lines[DIP_PANEL_MAX_LINES];
         const int count = dip_panel_lines(&window->figures[pane], pane, lines);
-        const DipRect column = {room.x + p * width, room.y, width - margin, room.height};
-        draw_heading(ui, window, pane, column);
-        draw_lines(ui, lines, count,
-                   (DipRect){column.x, column.y + line + dip_ui_px(ui, 3), column.width,
-                             column.height - line - dip_ui_px(ui, 3)});
+        DipRect column = dip_cut_left(&rest, width);
+        dip_cut_right(&column, margin);
+        draw_heading(ui, window, pane, dip_cut_top(&column, line));
+        dip_cut_top(&column, dip_ui_px(ui, 3));
+        draw_lines(ui, lines, count, column);
     }
 }

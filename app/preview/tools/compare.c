@@ -1,24 +1,13 @@
-// Where the pictures of a comparison show, and the difference of both panes.
+// Says where the pictures of a comparison show, and computes the difference of both panes.
 #include "app/preview/tools/compare.h"
 
-#include "app/ui/canvas.h"
 #include "app/preview/tools/loupe.h"
-#include "app/ui/style.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 static const int64_t blink_ns = 500000000; // How long BLINK shows a pane by itself.
 enum { DIVIDER_STEPS = 64 };               // Steps of the divider across the picture.
-
-struct DipComparer {
-    DipCanvas difference;
-    DipDifference found;
-    bool known; // The three members below say what `difference` shows.
-    uint64_t of[DIP_PANE_COUNT];
-    int gain;
-    uint64_t version;
-};
 
 const char *dip_compare_name(DipComparison comparison) {
     static const char *const names[DIP_COMPARISON_COUNT] = {
@@ -145,8 +134,7 @@ DipRect dip_compare_visible(const DipWindow *window, int pane) {
             shown.width = 0;
         }
         return shown;
-    case DIP_COMPARE_DIFFERENCE: // Belongs to both panes; the label says so.
-    default:
+    default: // A difference belongs to both panes; its label says so.
         return shown;
     }
 }
@@ -214,10 +202,13 @@ DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int
 
 // --- actions -----------------------------------------------------------------------------------
 
+void dip_compare_divide(DipToolState *tools, double at) {
+    tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
+}
+
 bool dip_compare_adjust(DipToolState *tools, int steps) {
     if (tools->comparison == DIP_COMPARE_WIPE) {
-        const double moved = tools->divider + (double)steps / DIVIDER_STEPS;
-        tools->divider = moved > 0.0 ? (moved < 1.0 ? moved : 1.0) : 0.0;
+        dip_compare_divide(tools, tools->divider + (double)steps / DIVIDER_STEPS);
         return true;
     }
     if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
@@ -235,37 +226,13 @@ bool dip_compare_adjust(DipToolState *tools, int steps) {
 
 // --- memory ------------------------------------------------------------------------------------
 
-DipComparer *dip_compare_create(DipError *err) {
-    DipComparer *compare = calloc(1, sizeof *compare);
-    if (!compare) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
-        return NULL;
-    }
-    compare->version = DIP_DIFFERENCE_VERSION;
-    return compare;
-}
-
-void dip_compare_destroy(DipComparer **compare_pointer) {
-    DipComparer *compare = *compare_pointer;
-    if (compare) {
-        dip_canvas_free(&compare->difference);
-        free(compare);
-        *compare_pointer = NULL;
-    }
-}
-
-static bool shows(const DipComparer *compare, const uint64_t of[DIP_PANE_COUNT], int gain) {
-    return compare->known && compare->of[0] == of[0] && compare->of[1] == of[1] &&
-           compare->gain == gain;
-}
-
 const DipDifference *dip_compare_make_difference(DipComparer *compare, const DipWindow *window,
                                                  DipPixels *picture, uint64_t *version) {
     uint64_t of[DIP_PANE_COUNT];
     const DipPixels *a = dip_compare_picture(window, DIP_PANE_CURRENT, &of[DIP_PANE_CURRENT]);
     const DipPixels *b = dip_compare_picture(window, DIP_PANE_REQUESTED, &of[DIP_PANE_REQUESTED]);
     const int gain = dip_max(1, window->state->tools.gain);
-    if (!shows(compare, of, gain)) {
+    if (!compare->known || memcmp(compare->of, of, sizeof of) != 0 || compare->gain != gain) {
         compare->known = a->width == b->width && a->height == b->height &&
                          dip_canvas_resize(&compare->difference, a->width, a->height, NULL);
         if (!compare->known) {

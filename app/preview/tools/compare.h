@@ -1,10 +1,9 @@
-// The comparisons' arithmetic and memory: where each picture shows, and the difference of both.
+// Comparisons of both panes' pictures: where each picture shows, and the difference of both.
 #ifndef DIP_APP_PREVIEW_TOOLS_COMPARE_H
 #define DIP_APP_PREVIEW_TOOLS_COMPARE_H
 
-#include "app/preview/tools/layout.h"
 #include "app/preview/tools/window.h"
-#include "app/preview/tools/tools.h"
+#include "app/ui/canvas.h"
 
 enum { DIP_COMPARE_MAX_GAIN = 64 };
 
@@ -16,7 +15,8 @@ bool dip_compare_is_one_picture(DipComparison comparison);
 // Returns whether a comparison has the converged picture in place of the current pane's.
 bool dip_compare_wants_truth(const DipToolState *tools);
 
-// Returns whether it shows there, because it is known.
+// Returns whether the converged picture shows in place of the current pane's: the comparison wants
+// it, and it is known.
 bool dip_compare_shows_truth(const DipWindow *window);
 
 // Returns the picture of a pane in a comparison, and its version.
@@ -66,6 +66,9 @@ DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int
 
 // --- actions -----------------------------------------------------------------------------------
 
+// Puts the divider at a share of the picture's width; below 0 counts as 0, above 1 as 1.
+void dip_compare_divide(DipToolState *tools, double at);
+
 // Moves what `[` and `]` move: the divider by 1/64 of the picture, or the gain by a factor of 2.
 // Returns false if the comparison has neither.
 bool dip_compare_adjust(DipToolState *tools, int steps);
@@ -80,8 +83,15 @@ const char *dip_compare_name(DipComparison comparison); // "Side by side"
 
 // --- memory ------------------------------------------------------------------------------------
 
-DipComparer *dip_compare_create(DipError *err);
-void dip_compare_destroy(DipComparer **compare);
+// The difference that was computed last.
+typedef struct DipComparer {
+    DipCanvas difference;
+    DipDifference found;
+    bool known; // The members below say what `difference` shows.
+    uint64_t of[DIP_PANE_COUNT];
+    int gain;
+    uint64_t version;
+} DipComparer;
 
 // Returns the difference of the panes' pictures, and computes it if a picture or the gain has
 // changed. Returns NULL if memory runs out or the sizes differ. The picture and its version are

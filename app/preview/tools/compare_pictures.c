@@ -1,7 +1,7 @@
-// The comparisons' pictures, and what lies over them.
-#include "app/preview/tools/compare.h"
+// Draws the comparisons' pictures, and what lies over them: the divider of a wipe, and the label of
+// a difference.
+#include "app/preview/tools/tools.h"
 #include "app/ui/style.h"
-#include "app/preview/tools/window.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +51,7 @@ static void draw_one(DipUi *ui, const DipWindow *window, int pane) {
 static void draw_difference(DipUi *ui, const DipWindow *window) {
     DipPixels picture;
     uint64_t version;
-    if (dip_compare_make_difference(window->tools->compare, window, &picture, &version)) {
+    if (dip_compare_make_difference(&window->tools->compare, window, &picture, &version)) {
         dip_ui_picture(ui, dip_compare_shown(window, DIP_PANE_CURRENT), &picture, version);
     }
 }
@@ -92,8 +92,8 @@ void dip_compare_pictures(DipUi *ui, DipWindow *window) {
 
 // --- over the panes ------------------------------------------------------------------------------
 
-// The pointer drags the divider from anywhere in the picture, since a press that moves can mean
-// nothing else there. While the user flies, only a press near the line drags it.
+// The pointer drags the divider from anywhere in the picture, because a press that moves has no
+// other meaning there. While the user flies, only a press near the line drags it.
 static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) {
     DipToolState *tools = &window->state->tools;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);
@@ -103,11 +103,8 @@ static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) 
         (window->state->manual && off > 2 * dip_ui_px(ui, HANDLE))) {
         return;
     }
-    const double at = (input->x - shown.x + 0.5) / shown.width;
-    tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
-    if (input->modifiers & DIP_MODIFIER_SHIFT) {
-        tools->divider = 0.5;
-    }
+    const bool to_middle = input->modifiers & DIP_MODIFIER_SHIFT;
+    dip_compare_divide(tools, to_middle ? 0.5 : (input->x - shown.x + 0.5) / shown.width);
 }
 
 // The line is a control of its own, because in the middle it lies in the gap between the panes.
@@ -122,7 +119,7 @@ static DipUiInput declare_line(DipUi *ui, const DipWindow *window) {
     return dip_ui_control(ui, &control);
 }
 
-// A chevron that points left or right, from rectangles.
+// Draws a chevron that points left (direction -1) or right (1), as rows of pixels.
 static void draw_chevron(DipUi *ui, int x, int y, int size, int direction, DipColour colour) {
     const int thick = dip_max(2, size / 3);
     for (int i = 0; i <= size; ++i) {
@@ -153,7 +150,8 @@ static void draw_divider(DipUi *ui, const DipWindow *window) {
     draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_style_accent);
 }
 
-// Says of what two pictures the difference is. A text that is wider than the picture has two lines.
+// Says which two pictures the difference is of. A text that is wider than the picture has two
+// lines.
 static void label_difference(DipUi *ui, const DipWindow *window) {
     const DipPreviewState *state = window->state;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);

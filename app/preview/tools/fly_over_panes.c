@@ -1,4 +1,5 @@
-// Turns what the mouse does over the panes into what the free camera carries out in its next turn.
+// Turns what the mouse does over the panes into moves that the free camera makes in the loop's next
+// turn.
 #include "app/preview/state/pilot.h"
 #include "app/preview/tools/window.h"
 
@@ -23,7 +24,7 @@ static void press(DipFlight *flight, const DipUiInput *input) {
     flight->press_y = flight->drag_y = input->y;
 }
 
-// Adds the way of the pointer to what the loop carries out in its next turn.
+// Adds the way that the pointer has moved to what the loop moves the camera by in its next turn.
 static void drag(DipUi *ui, DipWindow *window, const DipUiInput *input) {
     DipPreviewState *state = window->state;
     DipFlight *flight = &state->flight;

@@ -1,4 +1,4 @@
-// Lays the window out.
+// Says where the panes and the dock lie in a window.
 #include "app/preview/tools/layout.h"
 
 #include "app/ui/style.h"

@@ -1,7 +1,5 @@
-// The loupe's arithmetic, and the samples that it has read.
+// Finds the pixels that the loupe shows, and reads their samples.
 #include "app/preview/tools/loupe.h"
-
-#include "app/ui/style.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -119,30 +117,12 @@ DipSampleCount dip_loupe_count(const DipSampleValue *samples, int count) {
 
 // --- memory ------------------------------------------------------------------------------------
 
-DipLoupe *dip_loupe_create(DipError *err) {
-    DipLoupe *loupe = calloc(1, sizeof *loupe);
-    if (!loupe) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
-        return NULL;
-    }
-    dip_srgb_decode_table(&loupe->decode);
-    dip_srgb_encode_table(&loupe->encode);
-    loupe->version = DIP_LOUPE_VERSION;
-    return loupe;
-}
-
-void dip_loupe_destroy(DipLoupe **loupe_pointer) {
-    DipLoupe *loupe = *loupe_pointer;
-    if (!loupe) {
-        return;
-    }
-    *loupe_pointer = NULL;
+void dip_loupe_free(DipLoupe *loupe) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         free(loupe->panes[p].samples);
         dip_canvas_free(&loupe->panes[p].crop.canvas);
         dip_canvas_free(&loupe->panes[p].box.canvas);
     }
-    free(loupe);
 }
 
 void dip_loupe_want(DipLoupe *loupe, DipTargetRegion region) {
@@ -150,14 +130,12 @@ void dip_loupe_want(DipLoupe *loupe, DipTargetRegion region) {
     loupe->is_wanted = region.x0 < region.x1 && region.y0 < region.y1;
 }
 
-static bool same_region(const DipTargetRegion *a, const DipTargetRegion *b) {
-    return a->x0 == b->x0 && a->y0 == b->y0 && a->x1 == b->x1 && a->y1 == b->y1;
-}
-
-// Whether a pane's samples, or the failure to read them, are those of a picture and a region.
+// Returns whether a pane's samples, or the failure to read them, are those of a picture and a
+// region.
 static bool is_current(const DipPaneSamples *held, uint64_t version,
                        const DipTargetRegion *region) {
-    return held->tried && held->version == version && same_region(&held->region, region);
+    return held->tried && held->version == version &&
+           memcmp(&held->region, region, sizeof *region) == 0;
 }
 
 static bool make_room(DipPaneSamples *held, size_t count) {

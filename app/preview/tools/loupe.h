@@ -1,14 +1,14 @@
-// The loupe's arithmetic and memory: which pixels it shows, where the panes mark them, and what the
-// samples of these pixels are.
+// The loupe shows pixels enlarged. This header says which pixels it shows, where the panes mark
+// them, and what the samples of these pixels are.
 //
 // The loupe looks at one pixel of both panes. Below each pane, the dock shows the pixels around it,
 // each as a square of `zoom` x `zoom` pixels of the window, and the samples of the pixel itself.
 #ifndef DIP_APP_PREVIEW_TOOLS_LOUPE_H
 #define DIP_APP_PREVIEW_TOOLS_LOUPE_H
 
+#include "app/preview/state/tool_state.h"
+#include "app/preview/tools/tools_input.h"
 #include "app/ui/canvas.h"
-#include "app/preview/tools/tools.h"
-#include "app/session/session.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/readback.h"
@@ -73,6 +73,22 @@ typedef struct DipKeptPicture {
     uint64_t version;
 } DipKeptPicture;
 
+// What a pane's crop and box show. They are compared byte by byte, so they are set to 0 before
+// their members are set.
+typedef struct DipCropKey {
+    uint64_t frame_version;
+    unsigned generation; // Of the loupe.
+    DipLoupeCrop crop;
+} DipCropKey;
+
+typedef struct DipBoxKey {
+    const DipSamplePattern *pattern;
+    int side;
+    DipColour pixel;
+    bool has_samples;
+    DipSampleValue samples[DIP_MAX_SAMPLES];
+} DipBoxKey;
+
 typedef struct DipPaneSamples {
     DipSampleValue *samples; // Owned.
     size_t capacity;         // In entries.
@@ -82,18 +98,12 @@ typedef struct DipPaneSamples {
     DipTargetRegion region;
     const DipSamplePattern *pattern;
     DipKeptPicture crop;
-    DipLoupeCrop crop_shown; // What the crop picture shows.
-    uint64_t crop_frame_version;
-    unsigned crop_generation;
+    DipCropKey crop_key;
     DipKeptPicture box;
-    DipColour box_pixel; // What the box picture shows.
-    const DipSamplePattern *box_pattern;
-    DipSampleValue box_samples[DIP_MAX_SAMPLES];
-    bool box_has_samples;
-    int box_side;
+    DipBoxKey box_key;
 } DipPaneSamples;
 
-struct DipLoupe {
+typedef struct DipLoupe {
     DipSrgbDecodeTable decode;
     DipSrgbEncodeTable encode;
     DipTargetRegion wanted;
@@ -102,10 +112,9 @@ struct DipLoupe {
     unsigned generation;  // Grows whenever samples are read.
     uint64_t version;     // Version of the picture that was drawn last.
     DipPaneSamples panes[DIP_PANE_COUNT];
-};
+} DipLoupe;
 
-DipLoupe *dip_loupe_create(DipError *err);
-void dip_loupe_destroy(DipLoupe **loupe);
+void dip_loupe_free(DipLoupe *loupe);
 
 // Tells the loupe which pixels the panes' crops show; called while the window is drawn. region: the
 // pixels whose samples are of interest.

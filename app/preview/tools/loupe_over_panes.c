@@ -1,4 +1,5 @@
-// The loupe over the panes: its marks, the legend of mip colours, and how mouse and keys move it.
+// Draws the loupe's marks and the legend of mip colours over the panes, and moves the loupe by
+// mouse and keys.
 #include "app/preview/tools/compare.h"
 #include "app/preview/tools/loupe.h"
 #include "app/preview/tools/maps.h"
@@ -10,7 +11,7 @@
 
 enum { TINY = 10 }; // Size of letters.
 
-// Returns the part of the panes that a crop shows, from the crop's usual width in the tab.
+// Outlines the part of a pane that a crop of the usual size in the tab shows.
 static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
     const DipToolState *tools = &window->state->tools;
     const DipPixels *frame = &window->frames[pane];
@@ -57,7 +58,8 @@ static void handle_panes(DipWindow *window, const DipUiInput panes[DIP_PANE_COUN
     }
 }
 
-// Explains the colours of a pane that shows mip levels: size of the level in texels.
+// Explains the colours of a pane that shows mip levels: each stands for a size of a level in
+// texels.
 static void draw_mip_legend(DipUi *ui, DipRect shown) {
     enum { COUNT = DIP_MIP_DEBUG_LEVELS };
     const int margin = dip_ui_px(ui, 8);

@@ -13,11 +13,6 @@ enum { MASK_SIDE = 64 };
 
 // --- the crop ------------------------------------------------------------------------------------
 
-static bool same_crop(const DipLoupeCrop *a, const DipLoupeCrop *b) {
-    return dip_rect_equals(a->source, b->source) && dip_rect_equals(a->shown, b->shown) &&
-           dip_rect_equals(a->frame, b->frame) && a->zoom == b->zoom;
-}
-
 // Returns the part of a picture that lies in a rectangle of its pixels.
 static DipPixels part_of(const DipPixels *picture, DipRect rect) {
     const size_t offset = (size_t)rect.y * picture->stride_bytes + 4 * (size_t)rect.x;
@@ -82,15 +77,15 @@ static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *con
 bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
                             DipPixels *picture, uint64_t *version) {
     DipPaneSamples *held = &loupe->panes[pane];
-    const bool current = held->crop.valid && held->crop_frame_version == content->version &&
-                         held->crop_generation == loupe->generation &&
-                         same_crop(&held->crop_shown, &content->crop);
-    if (!current) {
+    DipCropKey key;
+    memset(&key, 0, sizeof key);
+    key.frame_version = content->version;
+    key.generation = loupe->generation;
+    key.crop = content->crop;
+    if (!held->crop.valid || memcmp(&held->crop_key, &key, sizeof key) != 0) {
         held->crop.valid = draw_crop(loupe, pane, content, &held->crop.canvas);
         held->crop.version = ++loupe->version;
-        held->crop_shown = content->crop;
-        held->crop_frame_version = content->version;
-        held->crop_generation = loupe->generation;
+        memcpy(&held->crop_key, &key, sizeof key);
     }
     *picture = dip_canvas_pixels(&held->crop.canvas);
     *version = held->crop.version;
@@ -195,38 +190,25 @@ static bool draw_box(const DipLoupe *loupe, const DipBoxContent *content, DipCan
     return true;
 }
 
-static bool same_samples(const DipPaneSamples *held, const DipBoxContent *content) {
-    if (!content->samples) {
-        return !held->box_has_samples;
-    }
-    bool same = held->box_has_samples;
-    for (int s = 0; s < content->pattern->count && same; ++s) {
-        const DipSampleValue *a = &held->box_samples[s];
-        const DipSampleValue *b = &content->samples[s];
-        same = a->patch == b->patch && memcmp(&a->depth, &b->depth, sizeof a->depth) == 0 &&
-               memcmp(a->linear16, b->linear16, sizeof a->linear16) == 0;
-    }
-    return same;
-}
-
 bool dip_loupe_box_picture(DipLoupe *loupe, int pane, const DipBoxContent *content,
                            DipPixels *picture, uint64_t *version) {
     DipPaneSamples *held = &loupe->panes[pane];
-    const bool current = held->box.valid && held->box_side == content->side &&
-                         held->box_pattern == content->pattern &&
-                         dip_colour_equals(held->box_pixel, content->pixel) &&
-                         same_samples(held, content);
-    if (!current) {
+    DipBoxKey key;
+    memset(&key, 0, sizeof key);
+    key.pattern = content->pattern;
+    key.side = content->side;
+    key.pixel = content->pixel;
+    key.has_samples = content->samples != NULL;
+    for (int s = 0; content->samples && s < content->pattern->count; ++s) {
+        const DipSampleValue *sample = &content->samples[s];
+        memcpy(key.samples[s].linear16, sample->linear16, sizeof sample->linear16);
+        key.samples[s].patch = sample->patch;
+        key.samples[s].depth = sample->depth;
+    }
+    if (!held->box.valid || memcmp(&held->box_key, &key, sizeof key) != 0) {
         held->box.valid = draw_box(loupe, content, &held->box.canvas);
         held->box.version = ++loupe->version;
-        held->box_side = content->side;
-        held->box_pattern = content->pattern;
-        held->box_pixel = content->pixel;
-        held->box_has_samples = content->samples != NULL;
-        if (content->samples) {
-            memcpy(held->box_samples, content->samples,
-                   (size_t)content->pattern->count * sizeof *content->samples);
-        }
+        memcpy(&held->box_key, &key, sizeof key);
     }
     *picture = dip_canvas_pixels(&held->box.canvas);
     *version = held->box.version;

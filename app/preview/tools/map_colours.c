@@ -1,7 +1,8 @@
 // The palette "cividis" by J. R. Nuñez, C. R. Anderton and R. S. Renslow ("Optimizing colormaps
 // with consideration for color vision deficiency to enable accurate interpretation of scientific
-// data", 2018), which people with and without colour blindness see alike. Every 17th entry of the
-// 256 entries that Matplotlib publishes, with straight lines between them.
+// data", 2018), which people with and without colour blindness see alike. The table below holds
+// every 17th of the 256 colours that Matplotlib publishes; colours between them lie on straight
+// lines.
 #include "app/preview/tools/map_colours.h"
 
 #include <math.h>
@@ -28,12 +29,6 @@ void dip_cividis(float value, uint8_t rgb[3]) {
     for (int c = 0; c < 3; c++) {
         const float light = anchors[first][c] + part * (anchors[first + 1][c] - anchors[first][c]);
         rgb[c] = (uint8_t)(light * 255.0f + 0.5f);
-    }
-}
-
-void dip_map_table(DipPalette *palette, uint8_t rgb[DIP_MAP_COLOURS][3]) {
-    for (int i = 0; i < DIP_MAP_COLOURS; i++) {
-        palette((float)i / (DIP_MAP_COLOURS - 1), rgb[i]);
     }
 }
 

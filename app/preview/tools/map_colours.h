@@ -1,4 +1,4 @@
-// Colour scales of the maps, and how their values are written.
+// The palette of the maps of work, the ends of the maps' scales, and how values are written.
 #ifndef DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
 #define DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
 
@@ -10,11 +10,6 @@ enum { DIP_MAP_COLOURS = 256 };
 // Writes the sRGB colour of a value in 0..1 in the palette "cividis", from dark blue to yellow.
 // Values outside 0..1 are clamped. Thread-safe.
 void dip_cividis(float value, uint8_t rgb[3]);
-
-typedef void DipPalette(float value, uint8_t rgb[3]); // dip_magma (errors) or dip_cividis (work)
-
-// Writes a palette as a table. Entry i is the colour of the value i / 255.
-void dip_map_table(DipPalette *palette, uint8_t rgb[DIP_MAP_COLOURS][3]);
 
 // Returns the index of the colour of a value on a scale from 0 to `end`.
 static inline int dip_map_colour_index(float value, float end) {

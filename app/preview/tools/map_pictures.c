@@ -1,4 +1,4 @@
-// Draws the maps' pictures.
+// Draws the maps' pictures, and says what a map waits for.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tools/maps.h"
 
@@ -9,8 +9,6 @@
 
 // A work map shows this many 256ths of its colour; the rest is the grey picture beneath it.
 enum { COLOUR_SHARE = 174 };
-
-typedef uint8_t Table[DIP_MAP_COLOURS][3];
 
 static void put(uint8_t *to, const uint8_t rgb[3]) {
     memcpy(to, rgb, 3);
@@ -32,8 +30,10 @@ static void blend(uint8_t *to, const uint8_t *rgba8, const uint8_t rgb[3], int s
 // --- a function for each map ---------------------------------------------------------------------
 
 static void draw_flip(DipMapPicture *picture, const float *flip) {
-    Table table;
-    dip_map_table(dip_magma, table);
+    uint8_t table[DIP_MAP_COLOURS][3];
+    for (int i = 0; i < DIP_MAP_COLOURS; i++) {
+        dip_magma((float)i / (DIP_MAP_COLOURS - 1), table[i]);
+    }
     for (size_t i = 0; i < picture->pixels; i++) {
         put(picture->rgba8 + 4 * i, table[dip_map_colour_index(flip[i], (float)picture->end)]);
     }
@@ -92,23 +92,16 @@ static void draw_mixed(DipMapPicture *picture, const DipMapWork *work, const Dip
 // the version of these values.
 static bool find_source(const DipMaps *maps, DipMap map, int pane, const DipPixels *frame,
                         uint64_t *source) {
-    const DipPaneWork *work = dip_maps_pane(maps, pane);
+    const DipMapWork *work = dip_maps_work(maps, pane);
     const DipErrorPictures *errors = maps->errors;
-    *source = maps->generation;
-    switch (map) {
-    case DIP_MAP_NONE:
-    case DIP_MAP_COUNT:
-        return false;
-    case DIP_MAP_FLIP:
+    if (map == DIP_MAP_FLIP) {
         *source = errors ? errors->version : 0;
         return errors && errors->flip[pane] && errors->width == frame->width &&
                errors->height == frame->height;
-    case DIP_MAP_MIPS:
-        return work->mips && work->mips_width == frame->width && work->mips_height == frame->height;
-    default:
-        return work->work.draws && work->work.width == frame->width &&
-               work->work.height == frame->height;
     }
+    *source = maps->generation;
+    return map != DIP_MAP_NONE && (map == DIP_MAP_MIPS ? work->mips != NULL : work->draws > 0) &&
+           work->width == frame->width && work->height == frame->height;
 }
 
 static bool make_room(DipMapPicture *picture, const DipPixels *frame) {
@@ -122,15 +115,15 @@ static bool make_room(DipMapPicture *picture, const DipPixels *frame) {
 }
 
 static void draw(const DipMaps *maps, int pane, const DipPixels *frame, DipMapPicture *picture) {
-    const DipPaneWork *work = dip_maps_pane(maps, pane);
+    const DipMapWork *work = dip_maps_work(maps, pane);
     if (picture->map == DIP_MAP_FLIP) {
         draw_flip(picture, maps->errors->flip[pane]);
     } else if (picture->map == DIP_MAP_MIPS) {
         memcpy(picture->rgba8, work->mips, 4 * picture->pixels);
     } else if (picture->map == DIP_MAP_SAMPLES) {
-        draw_mixed(picture, &work->work, frame);
+        draw_mixed(picture, work, frame);
     } else {
-        draw_tiles(picture, &work->work, frame);
+        draw_tiles(picture, work, frame);
     }
 }
 
@@ -186,8 +179,8 @@ static const char *flip_status(const DipMaps *maps, int pane, char *text, size_t
 
 static const char *work_status(const DipMaps *maps, DipMap map, int pane, char *text,
                                size_t size_bytes) {
-    const DipPaneWork *work = dip_maps_pane(maps, pane);
-    const int draws = work->work.draws;
+    const DipMapWork *work = dip_maps_work(maps, pane);
+    const int draws = work->draws;
     if (maps->failed) {
         return "The frame could not be measured: memory ran out.";
     }
@@ -248,11 +241,11 @@ static double distance_from(const uint8_t *pixel, const double colour[3]) {
 
 int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y) {
     enum { BLENDS = 4, FARTHEST = 60 };
-    const DipPaneWork *work = dip_maps_pane(maps, pane);
-    if (!work->mips || x < 0 || y < 0 || x >= work->mips_width || y >= work->mips_height) {
+    const DipMapWork *work = dip_maps_work(maps, pane);
+    if (!work->mips || x < 0 || y < 0 || x >= work->width || y >= work->height) {
         return 0;
     }
-    const uint8_t *pixel = work->mips + 4 * ((size_t)y * (size_t)work->mips_width + (size_t)x);
+    const uint8_t *pixel = work->mips + 4 * ((size_t)y * (size_t)work->width + (size_t)x);
     double least = FARTHEST * FARTHEST;
     int size = 0;
     for (int i = 0; i < BLENDS * (DIP_MIP_DEBUG_LEVELS - 1) + 1; i++) {

@@ -3,42 +3,27 @@
 #include "app/preview/tools/maps.h"
 
 #include "app/preview/tools/compare.h"
-#include "app/preview/tools/maps.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { FIRST_DRAWS = 3 }; // Every pane is drawn this often before any pane is drawn more often.
 
-DipMaps *dip_maps_create(DipError *err) {
-    DipMaps *maps = calloc(1, sizeof *maps);
-    if (!maps) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "maps", "out of memory");
-    }
-    return maps;
+static void free_work(DipMapWork *work) {
+    free(work->records);
+    free(work->draws_ms);
+    free(work->ms);
+    free(work->mixed);
+    free(work->mips);
+    *work = (DipMapWork){0};
 }
 
-static void free_work(DipPaneWork *pane) {
-    free(pane->records);
-    free(pane->draws_ms);
-    free(pane->ms);
-    free(pane->mixed);
-    free(pane->mips);
-    *pane = (DipPaneWork){.work = {.draws = 0}};
-}
-
-void dip_maps_destroy(DipMaps **maps_pointer) {
-    DipMaps *maps = *maps_pointer;
-    if (!maps) {
-        return;
-    }
-    *maps_pointer = NULL;
+void dip_maps_free(DipMaps *maps) {
     dip_painter_destroy(&maps->painter);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         free_work(&maps->panes[p]);
         free(maps->pictures[p].rgba8);
     }
-    free(maps);
 }
 
 // --- errors --------------------------------------------------------------------------------------
@@ -75,26 +60,20 @@ void dip_maps_choose(DipToolState *tools, DipMap map) {
 
 // --- measuring work ------------------------------------------------------------------------------
 
-static bool make_arrays(DipPaneWork *pane, const DipFrame *frame) {
+static bool make_arrays(DipMapWork *work, const DipFrame *frame) {
     const size_t tiles = (size_t)frame->tiles.across * (size_t)frame->tiles.down;
-    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    pane->records = malloc(tiles * sizeof *pane->records);
-    pane->draws_ms = malloc(tiles * DIP_MAP_DRAWS * sizeof *pane->draws_ms);
-    pane->ms = malloc(tiles * sizeof *pane->ms);
-    pane->mixed = malloc(pixels);
-    if (!pane->records || !pane->draws_ms || !pane->ms || !pane->mixed) {
-        free_work(pane);
+    work->width = frame->width;
+    work->height = frame->height;
+    work->across = frame->tiles.across;
+    work->down = frame->tiles.down;
+    work->records = malloc(tiles * sizeof *work->records);
+    work->draws_ms = malloc(tiles * DIP_MAP_DRAWS * sizeof *work->draws_ms);
+    work->ms = malloc(tiles * sizeof *work->ms);
+    work->mixed = malloc((size_t)frame->width * (size_t)frame->height);
+    if (!work->records || !work->draws_ms || !work->ms || !work->mixed) {
+        free_work(work);
         return false;
     }
-    pane->work = (DipMapWork){
-        .width = frame->width,
-        .height = frame->height,
-        .across = frame->tiles.across,
-        .down = frame->tiles.down,
-        .records = pane->records,
-        .ms = pane->ms,
-        .mixed = pane->mixed,
-    };
     return true;
 }
 
@@ -111,40 +90,36 @@ static double median(const double *values, int count) {
 }
 
 // Adds a draw of a pane's frame to what is known about it. All draws count the same work.
-static bool add_draw(DipPaneWork *pane, const DipFrame *frame) {
-    if (!pane->records && !make_arrays(pane, frame)) {
+static bool add_draw(DipMapWork *work, const DipFrame *frame) {
+    if (!work->records && !make_arrays(work, frame)) {
         return false;
     }
-    DipMapWork *work = &pane->work;
     const int tiles = work->across * work->down;
     const int draw = work->draws++;
-    memcpy(pane->records, frame->tiles.records, (size_t)tiles * sizeof *pane->records);
-    memcpy(pane->mixed, frame->tiles.mixed, (size_t)work->width * (size_t)work->height);
+    memcpy(work->records, frame->tiles.records, (size_t)tiles * sizeof *work->records);
+    memcpy(work->mixed, frame->tiles.mixed, (size_t)work->width * (size_t)work->height);
     work->mirrored_ms = frame->tiles.mirrored_times.total_ms;
     work->geometry_ms = frame->stages.geometry_ms - frame->tiles.mirrored_times.geometry_ms;
     for (int t = 0; t < tiles; t++) {
-        const DipTileRecord *record = &pane->records[t];
-        double *draws_ms = pane->draws_ms + (size_t)t * DIP_MAP_DRAWS;
+        const DipTileRecord *record = &work->records[t];
+        double *draws_ms = work->draws_ms + (size_t)t * DIP_MAP_DRAWS;
         draws_ms[draw] =
             1e-6 * (double)(record->raster_ns + record->shading_ns + record->resolve_ns);
-        pane->ms[t] = median(draws_ms, work->draws);
+        work->ms[t] = median(draws_ms, work->draws);
     }
     return true;
 }
 
-static bool keep_mips(DipPaneWork *pane, const DipFrame *frame) {
+static bool keep_mips(DipMapWork *work, const DipFrame *frame) {
     const size_t row_bytes = 4 * (size_t)frame->width;
-    pane->mips = malloc(row_bytes * (size_t)frame->height);
-    if (!pane->mips) {
-        return false;
-    }
-    for (int y = 0; y < frame->height; y++) {
-        memcpy(pane->mips + (size_t)y * row_bytes, frame->rgba8 + (size_t)y * frame->stride_bytes,
+    work->mips = malloc(row_bytes * (size_t)frame->height);
+    work->width = frame->width;
+    work->height = frame->height;
+    for (int y = 0; work->mips && y < frame->height; y++) {
+        memcpy(work->mips + (size_t)y * row_bytes, frame->rgba8 + (size_t)y * frame->stride_bytes,
                row_bytes);
     }
-    pane->mips_width = frame->width;
-    pane->mips_height = frame->height;
-    return true;
+    return work->mips != NULL;
 }
 
 // Forgets all measurements if the panes no longer show the frames that were measured.
@@ -222,27 +197,23 @@ static bool draw(DipMaps *maps, const DipToolsInput *input, int pane) {
 
 // Returns how often a pane is yet to be drawn for the wanted map.
 static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
-    const DipPaneWork *work = &maps->panes[pane];
+    const DipMapWork *work = &maps->panes[pane];
     if (pane == DIP_PANE_REQUESTED && maps->key.copied) {
         return 0;
     }
     if (maps->wanted == DIP_MAP_MIPS) {
         return work->mips ? 0 : 1;
     }
-    return wanted_draws - work->work.draws;
+    return wanted_draws - work->draws;
 }
 
 // Returns the pane to draw next, or -1.
 static int next_pane(const DipMaps *maps) {
     const int all = maps->wanted == DIP_MAP_TIME ? DIP_MAP_DRAWS : 1;
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        if (draws_left(maps, p, all < FIRST_DRAWS ? all : FIRST_DRAWS) > 0) {
-            return p;
-        }
-    }
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        if (draws_left(maps, p, all) > 0) {
-            return p;
+    const int wanted[] = {dip_min(all, FIRST_DRAWS), all};
+    for (int i = 0; i < 2 * DIP_PANE_COUNT; i++) {
+        if (draws_left(maps, i % DIP_PANE_COUNT, wanted[i / DIP_PANE_COUNT]) > 0) {
+            return i % DIP_PANE_COUNT;
         }
     }
     return -1;
@@ -266,12 +237,8 @@ bool dip_maps_update(DipMaps *maps, const DipToolsInput *input) {
 
 // --- what is known -------------------------------------------------------------------------------
 
-const DipPaneWork *dip_maps_pane(const DipMaps *maps, int pane) {
-    return &maps->panes[maps->key.copied ? DIP_PANE_CURRENT : pane];
-}
-
 const DipMapWork *dip_maps_work(const DipMaps *maps, int pane) {
-    return &dip_maps_pane(maps, pane)->work;
+    return &maps->panes[maps->key.copied ? DIP_PANE_CURRENT : pane];
 }
 
 int dip_map_tile(const DipMapWork *work, int x, int y) {

@@ -6,26 +6,29 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_MAPS_H
 #define DIP_APP_PREVIEW_TOOLS_MAPS_H
 
-#include "app/ui/pixels.h"
 #include "app/preview/live/error_thread.h"
+#include "app/preview/state/tool_state.h"
 #include "app/preview/tools/map_colours.h"
-#include "app/preview/tools/tools.h"
-#include "app/session/session.h"
+#include "app/preview/tools/tools_input.h"
+#include "app/ui/pixels.h"
 
 enum { DIP_MAP_DRAWS = 15 }; // Draws of a frame from which the median time of a tile is taken.
 
-// The work of a pane's frame. The arrays are valid until the next dip_maps_update.
+// What was measured of a pane's frame. The arrays are owned, NULL until the frame has been drawn,
+// and valid until the next dip_maps_update.
 typedef struct DipMapWork {
     int draws; // Number of draws so far, 0..DIP_MAP_DRAWS. 0: nothing is known.
     int width; // Size of the frame, in pixels.
     int height;
     int across; // Number of tiles.
     int down;
-    const DipTileRecord *records; // Counters of each tile; the times are those of one draw.
-    const double *ms;             // Median time of each tile, on the worker that drew it.
-    const uint8_t *mixed;         // DipFrameTiles.mixed
-    double geometry_ms;           // Time of one draw before the tiles.
-    double mirrored_ms;           // Time of one draw for the mirrored scene.
+    DipTileRecord *records; // Counters of each tile; the times are those of one draw.
+    double *draws_ms;       // DIP_MAP_DRAWS times for each tile.
+    double *ms;             // Median time of each tile, on the worker that drew it.
+    uint8_t *mixed;         // DipFrameTiles.mixed
+    uint8_t *mips;          // The frame in mip colours, rows packed. It needs no other draw.
+    double geometry_ms;     // Time of one draw before the tiles.
+    double mirrored_ms;     // Time of one draw for the mirrored scene.
 } DipMapWork;
 
 typedef enum DipMapOver {
@@ -40,18 +43,6 @@ typedef struct DipMapView {
     int x;        // The pixel under the pointer.
     int y;
 } DipMapView;
-
-// What was measured of a pane's frame. The arrays are NULL until the frame has been drawn.
-typedef struct DipPaneWork {
-    DipMapWork work; // Points to the arrays below.
-    DipTileRecord *records;
-    double *draws_ms; // DIP_MAP_DRAWS times for each tile.
-    double *ms;
-    uint8_t *mixed;
-    uint8_t *mips; // The frame in mip colours, rows packed.
-    int mips_width;
-    int mips_height;
-} DipPaneWork;
 
 // Everything that decides what the panes' frames show and how they are drawn.
 typedef struct DipMapKey {
@@ -80,25 +71,24 @@ typedef struct DipMapPicture {
     uint64_t version;
 } DipMapPicture;
 
-// The memory of the maps. Others than the files of the maps read `reading` and `errors`, set
-// `wanted` while the window is drawn, and keep the tab's choices in `view`.
-struct DipMaps {
+// The memory of the maps; zero-initialise. The maps' tab reads `reading` and `errors`, sets
+// `wanted` while the window is drawn, and keeps its choices in `view`.
+typedef struct DipMaps {
     DipMap wanted;       // The map that the window showed last.
     DipPainter *painter; // Draws what the panes show, with records; NULL until a map needs it.
     DipMapKey key;
     bool failed;         // The frames of the key could not be drawn.
     uint64_t generation; // Grows whenever something new is known about work.
-    DipPaneWork panes[DIP_PANE_COUNT];
+    DipMapWork panes[DIP_PANE_COUNT];
     DipErrorReading reading;
     const DipErrorPictures *errors; // Borrowed; NULL if there are none.
     DipPixels truth;
     DipMapPicture pictures[DIP_PANE_COUNT];
     uint64_t picture_count;
     DipMapView view;
-};
+} DipMaps;
 
-DipMaps *dip_maps_create(DipError *err);
-void dip_maps_destroy(DipMaps **maps);
+void dip_maps_free(DipMaps *maps);
 
 // --- what the preview's loop calls ---------------------------------------------------------------
 
@@ -114,7 +104,7 @@ void dip_maps_set_errors(DipMaps *maps, const DipErrorReading *reading,
 // dip_maps_set_errors. `version` as in dip_draw_list_picture; no frame has the same number.
 const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version);
 
-// Draws at most one frame for the map that the window showed last (dip_maps_want), if nothing
+// Draws at most one frame for the map that the window showed last (DipMaps.wanted), if nothing
 // moves. Returns whether the window must be drawn again. Runs on the thread that draws frames.
 bool dip_maps_update(DipMaps *maps, const DipToolsInput *input);
 
@@ -124,7 +114,6 @@ void dip_maps_choose(DipToolState *tools, DipMap map);
 // --- what is known about the panes ---------------------------------------------------------------
 
 // Returns what was measured of the frame that a pane shows.
-const DipPaneWork *dip_maps_pane(const DipMaps *maps, int pane);
 const DipMapWork *dip_maps_work(const DipMaps *maps, int pane);
 
 // Returns the tile that holds a pixel.

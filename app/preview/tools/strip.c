@@ -1,58 +1,15 @@
 // Draws the thumbnails of a path with a renderer of their own, which exists while they are drawn.
 #include "app/preview/tools/strip.h"
 
-#include "app/ui/canvas.h"
-#include "app/session/painter.h"
 #include "campaths/campath.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-// What all thumbnails of a strip have in common.
-typedef struct StripSubject {
-    const DipCamPath *path;
-    double fov_y_deg;
-    const DipScene *scene;
-    DipQuality quality;
-    int width;
-    int height;
-} StripSubject;
-
-struct DipStrip {
-    StripSubject subject;
-    DipPainter *painter; // NULL unless thumbnails are being drawn.
-    DipCanvas pictures[DIP_STRIP_COUNT];
-    uint64_t versions[DIP_STRIP_COUNT];
-    uint64_t version; // Of the thumbnail that was drawn last.
-    int drawn;        // Number of thumbnails, from the first, that show the subject.
-    bool failed;      // The subject cannot be drawn.
-    bool wanted;
-    int wanted_width;
-    int wanted_height;
-    int64_t duration_ns;
-};
-
-DipStrip *dip_strip_create(DipError *err) {
-    DipStrip *strip = calloc(1, sizeof *strip);
-    if (!strip) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
-        return NULL;
-    }
-    strip->version = DIP_STRIP_VERSION;
-    return strip;
-}
-
-void dip_strip_destroy(DipStrip **strip_pointer) {
-    DipStrip *strip = *strip_pointer;
-    if (!strip) {
-        return;
-    }
-    *strip_pointer = NULL;
+void dip_strip_free(DipStrip *strip) {
     dip_painter_destroy(&strip->painter);
     for (int i = 0; i < DIP_STRIP_COUNT; ++i) {
         dip_canvas_free(&strip->pictures[i]);
     }
-    free(strip);
 }
 
 void dip_strip_want(DipStrip *strip, int width, int height) {
@@ -61,10 +18,10 @@ void dip_strip_want(DipStrip *strip, int width, int height) {
     strip->wanted_height = height;
 }
 
-static StripSubject subject_of(const DipStrip *strip, const DipToolsInput *input) {
+static DipStripSubject subject_of(const DipStrip *strip, const DipToolsInput *input) {
     const DipCamTrack *track = &input->session->track;
     const DipCamCategory *category = &track->categories[track->active];
-    StripSubject subject;
+    DipStripSubject subject;
     memset(&subject, 0, sizeof subject); // memcmp compares the padding, too.
     category = category->path ? category : &track->categories[0];
     subject.path = category->path;
@@ -78,7 +35,7 @@ static StripSubject subject_of(const DipStrip *strip, const DipToolsInput *input
 
 // Begins a new strip if the subject has changed.
 static void follow_subject(DipStrip *strip, const DipToolsInput *input) {
-    const StripSubject subject = subject_of(strip, input);
+    const DipStripSubject subject = subject_of(strip, input);
     if (memcmp(&subject, &strip->subject, sizeof subject) == 0) {
         return;
     }

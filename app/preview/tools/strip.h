@@ -3,8 +3,8 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_STRIP_H
 #define DIP_APP_PREVIEW_TOOLS_STRIP_H
 
-#include "app/ui/pixels.h"
-#include "app/preview/tools/tools.h"
+#include "app/preview/tools/tools_input.h"
+#include "app/ui/canvas.h"
 
 enum { DIP_STRIP_COUNT = 10 };
 
@@ -15,8 +15,31 @@ typedef struct DipThumbnail {
     int64_t time_ns; // Time on the path.
 } DipThumbnail;
 
-DipStrip *dip_strip_create(DipError *err);
-void dip_strip_destroy(DipStrip **strip);
+// What all thumbnails of a strip have in common.
+typedef struct DipStripSubject {
+    const DipCamPath *path;
+    double fov_y_deg;
+    const DipScene *scene;
+    DipQuality quality;
+    int width;
+    int height;
+} DipStripSubject;
+
+typedef struct DipStrip {
+    DipStripSubject subject;
+    DipPainter *painter; // NULL unless thumbnails are being drawn.
+    DipCanvas pictures[DIP_STRIP_COUNT];
+    uint64_t versions[DIP_STRIP_COUNT];
+    uint64_t version; // Of the thumbnail that was drawn last.
+    int drawn;        // Number of thumbnails, from the first, that show the subject.
+    bool failed;      // The subject cannot be drawn.
+    bool wanted;
+    int wanted_width;
+    int wanted_height;
+    int64_t duration_ns;
+} DipStrip;
+
+void dip_strip_free(DipStrip *strip);
 
 // Asks for thumbnails of a size in pixels; called while the window is drawn with a strip. Without a
 // call since the last update, the strip draws nothing.

@@ -1,11 +1,6 @@
 // Holds the memory of all tools.
 #include "app/preview/tools/tools.h"
 
-#include "app/preview/tools/compare.h"
-#include "app/preview/tools/loupe.h"
-#include "app/preview/tools/maps.h"
-#include "app/preview/tools/strip.h"
-
 #include <stdlib.h>
 
 DipTools *dip_tools_create(DipError *err) {
@@ -14,32 +9,28 @@ DipTools *dip_tools_create(DipError *err) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
         return NULL;
     }
-    tools->loupe = dip_loupe_create(err);
-    tools->compare = tools->loupe ? dip_compare_create(err) : NULL;
-    tools->strip = tools->compare ? dip_strip_create(err) : NULL;
-    tools->maps = tools->strip ? dip_maps_create(err) : NULL;
-    if (!tools->maps) {
-        dip_tools_destroy(&tools);
-    }
+    dip_srgb_decode_table(&tools->loupe.decode);
+    dip_srgb_encode_table(&tools->loupe.encode);
+    tools->loupe.version = DIP_LOUPE_VERSION;
+    tools->compare.version = DIP_DIFFERENCE_VERSION;
+    tools->strip.version = DIP_STRIP_VERSION;
     return tools;
 }
 
-void dip_tools_destroy(DipTools **tools_pointer) {
-    DipTools *tools = *tools_pointer;
-    if (!tools) {
-        return;
+void dip_tools_destroy(DipTools **tools) {
+    if (*tools) {
+        dip_loupe_free(&(*tools)->loupe);
+        dip_canvas_free(&(*tools)->compare.difference);
+        dip_strip_free(&(*tools)->strip);
+        dip_maps_free(&(*tools)->maps);
+        free(*tools);
+        *tools = NULL;
     }
-    *tools_pointer = NULL;
-    dip_loupe_destroy(&tools->loupe);
-    dip_compare_destroy(&tools->compare);
-    dip_strip_destroy(&tools->strip);
-    dip_maps_destroy(&tools->maps);
-    free(tools);
 }
 
 bool dip_tools_update(DipTools *tools, const DipToolsInput *input) {
-    const bool samples = dip_loupe_update(tools->loupe, input);
-    const bool thumbnail = dip_strip_update(tools->strip, input);
-    const bool map = dip_maps_update(tools->maps, input);
+    const bool samples = dip_loupe_update(&tools->loupe, input);
+    const bool thumbnail = dip_strip_update(&tools->strip, input);
+    const bool map = dip_maps_update(&tools->maps, input);
     return samples || thumbnail || map;
 }

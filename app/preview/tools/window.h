@@ -6,8 +6,9 @@
 #include "app/preview/prices/prices.h"
 #include "app/preview/state/state.h"
 #include "app/preview/tools/layout.h"
-#include "app/preview/tools/tools.h"
 #include "app/ui/ui.h"
+
+typedef struct DipTools DipTools; // tools.h
 
 // Everything that the window shows. All pointers are borrowed for one pass.
 typedef struct DipWindow {

@@ -149,7 +149,7 @@ static void test_difference_is_computed_only_when_pictures_change(void **state) 
     (void)state;
     DipPixels picture;
     uint64_t first, again;
-    DipComparer *compare = tw.tools->compare;
+    DipComparer *compare = &tw.tools->compare;
     assert_non_null(dip_compare_make_difference(compare, &tw.window, &picture, &first));
     assert_non_null(dip_compare_make_difference(compare, &tw.window, &picture, &again));
     assert_true(first == again);
@@ -317,7 +317,7 @@ static void test_brackets_move_the_divider_or_the_gain(void **state) {
 
 static void test_strip_is_drawn_one_thumbnail_at_a_time(void **state) {
     (void)state;
-    DipStrip *strip = tw.tools->strip;
+    DipStrip *strip = &tw.tools->strip;
     for (int i = 0; i < DIP_STRIP_COUNT; i++) {
         dip_tool_window_draw(&tw);
         assert_true(dip_tool_window_update(&tw));

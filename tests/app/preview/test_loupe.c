@@ -238,7 +238,7 @@ static int code_of(double linear) {
 static void check_samples(int pane, int x, int y, int count) {
     const DipSamplePattern *pattern;
     const DipSampleValue *samples =
-        dip_loupe_samples(tw.tools->loupe, pane, tw.window.versions[pane], x, y, &pattern);
+        dip_loupe_samples(&tw.tools->loupe, pane, tw.window.versions[pane], x, y, &pattern);
     assert_non_null(samples);
     assert_int_equal(pattern->count, count);
     for (int c = 0; c < 3; c++) {
@@ -279,8 +279,8 @@ static void test_copied_panes_share_their_samples(void **state) {
     check_samples(DIP_PANE_CURRENT, tw.state.tools.x, tw.state.tools.y, 8);
     check_samples(DIP_PANE_REQUESTED, tw.state.tools.x, tw.state.tools.y, 8);
     const DipSamplePattern *pattern;
-    dip_loupe_samples(tw.tools->loupe, 1, tw.window.versions[1], tw.state.tools.x, tw.state.tools.y,
-                      &pattern);
+    dip_loupe_samples(&tw.tools->loupe, 1, tw.window.versions[1], tw.state.tools.x,
+                      tw.state.tools.y, &pattern);
     assert_ptr_equal(pattern, dip_sample_pattern_of(8, DIP_PATTERN_ODD));
 }
 
@@ -294,15 +294,15 @@ static void test_moving_pictures_have_no_samples(void **state) {
     assert_true(dip_tool_window_update(&tw));
     const uint64_t before = tw.window.versions[1];
     dip_tool_window_draw_frames(&tw, "aa=none", "aa=8", 1);
-    assert_null(dip_loupe_samples(tw.tools->loupe, 1, tw.window.versions[1], tw.state.tools.x,
+    assert_null(dip_loupe_samples(&tw.tools->loupe, 1, tw.window.versions[1], tw.state.tools.x,
                                   tw.state.tools.y, &pattern));
-    assert_non_null(dip_loupe_samples(tw.tools->loupe, 1, before, tw.state.tools.x,
+    assert_non_null(dip_loupe_samples(&tw.tools->loupe, 1, before, tw.state.tools.x,
                                       tw.state.tools.y, &pattern));
 }
 
 static void test_box_shows_samples_at_their_positions(void **state) {
     (void)state;
-    DipLoupe *loupe = tw.tools->loupe;
+    DipLoupe *loupe = &tw.tools->loupe;
     static const int places[4][2] = {{96, 32}, {224, 96}, {32, 160}, {160, 224}}; // 1/256 pixel
     DipSampleValue samples[4];
     for (int s = 0; s < 4; s++) {

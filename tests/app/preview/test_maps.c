@@ -144,7 +144,7 @@ static void the_error_map_has_the_colours_of_its_values(void **state) {
     (void)state;
     static uint8_t truth[4 * PIXELS], frame[4 * PIXELS];
     static float flip[PIXELS];
-    DipMaps *maps = dip_maps_create(NULL);
+    DipMaps *maps = calloc(1, sizeof *maps);
     DipToolState tools = {.map = DIP_MAP_FLIP, .brightness = 2.0};
     DipErrorReading reading = {.status = DIP_ERROR_STATUS_WORKING};
     DipErrorPictures errors = {
@@ -183,8 +183,8 @@ static void the_error_map_has_the_colours_of_its_values(void **state) {
     tools.brightness = 1.0;
     assert_true(dip_maps_end(maps, &tools) == 1.0);
     assert_true(dip_maps_truth(maps, &version)->rgba8 == truth);
-    dip_maps_destroy(&maps);
-    assert_null(maps);
+    dip_maps_free(maps);
+    free(maps);
 }
 
 // --- maps of work --------------------------------------------------------------------------------
@@ -216,7 +216,7 @@ static int open_stage(void **state) {
         assert_non_null(stage.session.renderers[p]);
     }
     assert_true(dip_session_draw_pose(&stage.session, &stage.scene.pose, 0, 0, &stage.frame, NULL));
-    stage.maps = dip_maps_create(NULL);
+    stage.maps = calloc(1, sizeof *stage.maps);
     stage.input = (DipToolsInput){.session = &stage.session,
                                   .pose = &stage.scene.pose,
                                   .width = WIDTH,
@@ -227,7 +227,8 @@ static int open_stage(void **state) {
 
 static int close_stage(void **state) {
     (void)state;
-    dip_maps_destroy(&stage.maps);
+    dip_maps_free(stage.maps);
+    free(stage.maps);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         dip_painter_destroy(&stage.session.renderers[p]);
     }

@@ -1,0 +1,56 @@
+// Rows, columns and grids: rectangles that are cut from rectangles, and texts that fill them.
+//
+// Code that lays out controls keeps the rectangle that is still free, and cuts from it what each
+// row or column needs:
+//
+//     DipRect rest = body;
+//     const DipRect buttons = dip_cut_bottom(&rest, dip_ui_px(ui, 28));
+//     dip_ui_line(ui, 12, dip_style_white, &rest, "%d samples", count);
+#ifndef DIP_APP_UI_LAYOUT_H
+#define DIP_APP_UI_LAYOUT_H
+
+#include "app/ui/ui.h"
+
+static inline int dip_rect_right(DipRect rect) {
+    return rect.x + rect.width;
+}
+
+static inline int dip_rect_bottom(DipRect rect) {
+    return rect.y + rect.height;
+}
+
+// Each cuts a piece from one side of *rest and returns it. A piece that is longer than *rest leaves
+// it empty, with a length below 0.
+DipRect dip_cut_top(DipRect *rest, int height);
+DipRect dip_cut_bottom(DipRect *rest, int height);
+DipRect dip_cut_left(DipRect *rest, int width);
+DipRect dip_cut_right(DipRect *rest, int width);
+
+// Returns a rectangle without `x` pixels at its left and right side, and `y` pixels at its top and
+// bottom.
+DipRect dip_rect_inset(DipRect rect, int x, int y);
+
+// Returns a rectangle of the given size in the middle of another one.
+DipRect dip_rect_middle(DipRect room, int width, int height);
+
+// Returns a cell of a grid that is as wide as `room` and begins at its top. The cells are numbered
+// row by row. height: of a cell. gap_x, gap_y: between two columns and two rows.
+DipRect dip_rect_cell(DipRect room, int columns, int height, int gap_x, int gap_y, int index);
+
+// Shows a line of text in a rectangle: halfway between its top and bottom, and at its left side,
+// its right side or in its middle. A line that is too wide ends in an ellipsis.
+void dip_ui_label(DipUi *ui, int size, DipColour colour, DipAlign align, DipRect rect,
+                  const char *text);
+
+// Shows a line of text at the top of *rest, and cuts the line's height from it.
+void dip_ui_line(DipUi *ui, int size, DipColour colour, DipRect *rest, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+
+// Shows a line of text at the left side of *rest as dip_ui_label does, and cuts the text's width
+// and `gap` from it.
+void dip_ui_word(DipUi *ui, int size, DipColour colour, DipRect *rest, int gap, const char *text);
+
+// Declares a control that the caller draws, and that the arrow keys and the wheel step.
+DipUiInput dip_ui_stepper(DipUi *ui, DipUiId id, DipRect rect, const char *tip);
+
+#endif
