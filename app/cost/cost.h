@@ -3,7 +3,7 @@
 #define DIP_APP_COST_COST_H
 
 #include "app/cost/options.h"
-#include "app/report/page/picture_set.h"
+#include "app/report/page/report_pictures.h"
 #include "app/session/session.h"
 
 #include <limits.h>

@@ -46,11 +46,8 @@ static void format_estimate(const DipField *field, const DipEstimate *estimate, 
     }
 }
 
-void dip_field_text(const DipField *field, const void *value, char text[DIP_CELL_BYTES]) {
-    text[0] = '\0';
-    if (!value) {
-        return;
-    }
+// Writes what is known: a number or text, without its unit.
+static void format_value(const DipField *field, const void *value, char text[DIP_CELL_BYTES]) {
     switch (field->kind) {
     case DIP_FIELD_TEXT:
         snprintf(text, DIP_CELL_BYTES, "%s", (const char *)value);
@@ -71,101 +68,71 @@ void dip_field_text(const DipField *field, const void *value, char text[DIP_CELL
         format_estimate(field, value, text);
         break;
     default:
-        DIP_ASSERT(field->kind == DIP_FIELD_NUMBER);
+        DIP_ASSERT(field->kind == DIP_FIELD_NUMBER || field->kind == DIP_FIELD_NUMBERS);
         format_number(field, *(const double *)value, text);
     }
 }
 
 // --- lines ---------------------------------------------------------------------------------------
 
-typedef struct Line {
-    const DipColumn *column;
-    DipCellVisit *visit;
-    void *context;
-    int count; // Cells visited.
-    bool is_head;
-} Line;
-
-static void visit_cell(Line *line, const DipField *field, const void *value, const char *text) {
-    const DipCell cell = {.field = field,
-                          .value = value,
-                          .text = text,
-                          .unit = line->is_head ? field->unit : NULL,
-                          .index = line->count++,
-                          .is_text =
-                              field->kind != DIP_FIELD_NUMBER && field->kind != DIP_FIELD_NUMBERS &&
-                              field->kind != DIP_FIELD_ESTIMATE && field->kind != DIP_FIELD_WHOLE};
-    DIP_ASSERT(cell.index < DIP_TABLE_MOST_CELLS);
-    line->visit(line->context, &cell);
-}
-
-// An object of numbers has a cell for each.
-static void visit_numbers(Line *line, const DipField *field, const double *values) {
-    char text[DIP_CELL_BYTES];
-    for (size_t i = 0; i < field->size / sizeof *values; i++) {
-        text[0] = '\0';
-        if (line->is_head) {
-            snprintf(text, sizeof text, "%s", field->names[i]);
-            for (char *c = text; *c; c++) { // A title may be broken into lines at blanks.
-                *c = *c == '_' ? ' ' : *c;
-            }
-        } else if (values) {
-            format_number(field, values[i], text);
-        }
-        visit_cell(line, field, values, text);
-    }
-}
-
-static void visit_field(void *context, const DipField *field, const void *value) {
-    Line *line = context;
-    char text[DIP_CELL_BYTES];
-    if (field->kind == DIP_FIELD_NUMBERS) {
-        visit_numbers(line, field, value);
-        return;
-    }
-    if (line->is_head) {
-        const char *title = line->column->title ? line->column->title
-                            : field->title      ? field->title
-                                                : field->name;
-        snprintf(text, sizeof text, "%s", title);
-    } else {
-        dip_field_text(field, value, text);
-    }
-    visit_cell(line, field, value, text);
-    if (field->kind == DIP_FIELD_ESTIMATE) {
-        text[0] = '\0';
-        if (line->is_head) {
-            snprintf(text, sizeof text, "95 %% interval");
-        } else if (value) {
-            dip_field_interval_text(field, value, text);
-        }
-        visit_cell(line, field, value, text);
-    }
-}
-
-static DipFieldAt item_of(const DipTable *table, int line) {
-    const char *item =
-        (const char *)table->items + (size_t)(line < 0 ? 0 : line) * table->record->size;
-    return (DipFieldAt){table->context, line < 0 ? NULL : item, line, NULL};
+DipFieldAt dip_table_item(const DipTable *table, int line) {
+    const char *items = table->items;
+    return (DipFieldAt){table->context,
+                        line < 0 ? NULL : items + (size_t)line * table->record->size, line, NULL};
 }
 
 bool dip_table_shows(const DipTable *table, int line) {
-    const DipFieldAt at = item_of(table, line);
+    const DipFieldAt at = dip_table_item(table, line);
     return !table->shows || table->shows(&at);
 }
 
-int dip_table_row(const DipTable *table, int line) {
-    const DipFieldAt at = item_of(table, line);
-    return table->row ? table->row(&at) : -1;
+// Fills in the cells of a column, and returns their number.
+static int fill_column(const DipColumn *column, const DipFieldFound *found, bool is_head,
+                       DipCell *cells) {
+    const DipField *field = &found->field;
+    const bool is_object = field->kind == DIP_FIELD_NUMBERS;
+    const bool is_estimate = field->kind == DIP_FIELD_ESTIMATE;
+    const int count = is_object ? (int)(field->size / sizeof(double)) : is_estimate ? 2 : 1;
+    const char *title = column->has_title ? column->title
+                        : field->title    ? field->title
+                                          : field->name;
+    for (int i = 0; i < count; i++) {
+        DipCell *cell = &cells[i];
+        *cell =
+            (DipCell){.unit = is_head ? field->unit : NULL,
+                      .kind = field->kind,
+                      .show = field->show,
+                      .is_known = found->value,
+                      .is_text = !is_object && !is_estimate && field->kind != DIP_FIELD_NUMBER &&
+                                 field->kind != DIP_FIELD_WHOLE};
+        if (is_head) {
+            snprintf(cell->text, sizeof cell->text, "%s",
+                     is_object               ? field->names[i]
+                     : is_estimate && i == 1 ? "95 % interval"
+                                             : title);
+            for (char *c = cell->text; is_object && *c; c++) {
+                *c = *c == '_' ? ' ' : *c; // Pages may break a title into lines at blanks.
+            }
+        } else if (found->value && is_estimate && i == 1) {
+            dip_field_interval_text(field, found->value, cell->text);
+        } else if (found->value) {
+            format_value(field, (const double *)found->value + i, cell->text);
+        }
+    }
+    return count;
 }
 
-void dip_table_visit(const DipTable *table, int line, DipCellVisit *visit, void *context) {
-    const DipFieldAt at = item_of(table, line);
-    Line cells = {.visit = visit, .context = context, .is_head = line < 0};
-    for (int c = 0; c < table->column_count; c++) {
-        cells.column = &table->columns[c];
-        dip_field_visit(table->record, &at, cells.column->path, visit_field, &cells);
+int dip_table_cells(const DipTable *table, int line, DipCell cells[DIP_TABLE_MOST_CELLS]) {
+    const DipFieldAt at = dip_table_item(table, line);
+    const char *columns = table->columns;
+    int count = 0;
+    for (DipColumn column; dip_column_take(&columns, &column);) {
+        DipFieldFound found;
+        dip_field_find(table->record, &at, column.path, &found);
+        count += fill_column(&column, &found, line < 0, &cells[count]);
+        DIP_ASSERT(count <= DIP_TABLE_MOST_CELLS);
     }
+    return count;
 }
 
 // --- layout --------------------------------------------------------------------------------------
@@ -173,111 +140,82 @@ void dip_table_visit(const DipTable *table, int line, DipCellVisit *visit, void 
 static int count_characters(const char *text) {
     int count = 0;
     for (; *text; text++) {
-        count += ((unsigned char)*text & 0xc0) != 0x80; // The other bytes of UTF-8 go on.
+        count += ((unsigned char)*text & 0xc0) != 0x80; // The other bytes continue a character.
     }
     return count;
 }
 
-typedef struct Measuring {
-    DipTableLayout *layout;
-    // The number of the first line, and whether others differ from it.
-    char first[DIP_TABLE_MOST_CELLS][DIP_NUMBER_BYTES];
-    bool differs[DIP_TABLE_MOST_CELLS];
-    int lines;
-} Measuring;
-
-static void measure_cell(void *context, const DipCell *cell) {
-    Measuring *m = context;
-    int *width = &m->layout->width[cell->index];
-    const int count = count_characters(cell->text);
-    char number[DIP_NUMBER_BYTES];
+static void widen(int *width, const char *text) {
+    const int count = text ? count_characters(text) : 0;
     *width = count > *width ? count : *width;
-    snprintf(number, sizeof number, "%.23s", cell->text);
-    if (m->lines == 0) {
-        strcpy(m->first[cell->index], number);
-    }
-    m->differs[cell->index] |= strcmp(m->first[cell->index], number) != 0;
-}
-
-// A cell of the head counts if any line has something beneath it.
-static void measure_head(void *context, const DipCell *cell) {
-    Measuring *m = context;
-    DipTableLayout *layout = m->layout;
-    const int title = count_characters(cell->text);
-    const int unit = cell->unit ? count_characters(cell->unit) : 0;
-    const bool is_same =
-        cell->field->kind == DIP_FIELD_NUMBERS && m->lines > 1 && !m->differs[cell->index];
-    layout->shown[cell->index] = layout->width[cell->index] > 0 && !is_same;
-    if (layout->shown[cell->index]) {
-        const int most = title > unit ? title : unit;
-        layout->width[cell->index] =
-            most > layout->width[cell->index] ? most : layout->width[cell->index];
-        layout->last = cell->index;
-    }
 }
 
 void dip_table_measure(const DipTable *table, DipTableLayout *layout) {
-    Measuring measuring = {.layout = layout};
-    *layout = (DipTableLayout){.last = -1};
+    DipCell first[DIP_TABLE_MOST_CELLS], cells[DIP_TABLE_MOST_CELLS];
+    bool differs[DIP_TABLE_MOST_CELLS] = {false};
+    int lines = 0;
+    memset(layout, 0, sizeof *layout);
+    layout->count = dip_table_cells(table, -1, layout->head);
     for (int i = 0; i < table->count; i++) {
-        if (dip_table_shows(table, i)) {
-            dip_table_visit(table, i, measure_cell, &measuring);
-            measuring.lines++;
+        if (!dip_table_shows(table, i)) {
+            continue;
+        }
+        dip_table_cells(table, i, lines++ == 0 ? first : cells);
+        for (int c = 0; c < layout->count; c++) {
+            const char *text = lines == 1 ? first[c].text : cells[c].text;
+            widen(&layout->width[c], text);
+            differs[c] |= strcmp(first[c].text, text) != 0;
         }
     }
-    dip_table_visit(table, -1, measure_head, &measuring);
+    for (int c = 0; c < layout->count; c++) {
+        const DipCell *head = &layout->head[c];
+        const bool is_same = head->kind == DIP_FIELD_NUMBERS && lines > 1 && !differs[c];
+        layout->shown[c] = layout->width[c] > 0 && !is_same;
+        widen(&layout->width[c], head->text);
+        widen(&layout->width[c], head->unit);
+    }
 }
 
 // --- terminals -----------------------------------------------------------------------------------
 
-typedef struct Printing {
-    const DipTableLayout *layout;
-    FILE *out;
-    bool units; // The head's second line.
-    bool is_head;
-    int room; // Blanks before the next cell.
-} Printing;
-
-static void print_cell(void *context, const DipCell *cell) {
-    Printing *p = context;
-    if (!p->layout->shown[cell->index]) {
-        return;
+// Prints a line, or one of the two lines of the head: the titles, or the units.
+static void print_line(const DipCell *cells, const DipTableLayout *layout, bool is_head, bool units,
+                       FILE *out) {
+    int room = 2; // Blanks before the next cell.
+    for (int c = 0; c < layout->count; c++) {
+        const DipCell *cell = &cells[c];
+        if (!layout->shown[c]) {
+            continue;
+        }
+        const char *text = !units ? cell->text : cell->unit ? cell->unit : "";
+        text = *text || is_head || cell->is_text ? text : "-";
+        const int left = layout->width[c] - count_characters(text);
+        room += cell->is_text ? 0 : left;
+        if (*text) {
+            dip_put_text(out, "%*s%s", room, "", text);
+            room = 0;
+        }
+        room += 2 + (cell->is_text ? left : 0);
     }
-    const char *text = p->units ? cell->unit ? cell->unit : "" : cell->text;
-    text = *text || p->is_head || cell->is_text ? text : "-";
-    const int left = p->layout->width[cell->index] - count_characters(text);
-    p->room += cell->is_text ? 0 : left;
-    if (*text) {
-        dip_put_text(p->out, "%*s%s", p->room, "", text);
-        p->room = 0;
-    }
-    p->room += 2 + (cell->is_text ? left : 0);
-}
-
-static void has_unit(void *context, const DipCell *cell) {
-    Printing *p = context;
-    p->units = p->units || (cell->unit && p->layout->shown[cell->index]);
-}
-
-static void print_line(const DipTable *table, int line, Printing *p) {
-    p->room = 2;
-    dip_table_visit(table, line, print_cell, p);
-    dip_put_text(p->out, "\n");
+    dip_put_text(out, "\n");
 }
 
 void dip_table_print_text(const DipTable *table, FILE *out) {
     DipTableLayout layout;
+    DipCell cells[DIP_TABLE_MOST_CELLS];
+    bool has_units = false;
     dip_table_measure(table, &layout);
-    Printing p = {.layout = &layout, .out = out, .is_head = true};
-    print_line(table, -1, &p);
-    dip_table_visit(table, -1, has_unit, &p);
-    if (p.units) {
-        print_line(table, -1, &p);
+    for (int c = 0; c < layout.count; c++) {
+        has_units = has_units || (layout.head[c].unit && layout.shown[c]);
     }
-    p.is_head = p.units = false;
+    print_line(layout.head, &layout, true, false, out);
+    if (has_units) {
+        print_line(layout.head, &layout, true, true, out);
+    }
     for (int i = 0; i < table->count; i++) {
         if (dip_table_shows(table, i)) {
-            print_line(table, i, &p);
+            dip_table_cells(table, i, cells);
+            print_line(cells, &layout, false, false, out);
         }
     }
 }

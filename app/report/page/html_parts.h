@@ -1,4 +1,4 @@
-// Parts of the HTML page beyond the sections that terminals have, too. The scripts of the page
+// Writes the parts of the HTML page that terminals do not have. The scripts of the page
 // (app/report/page/web/) find measurements by the attribute data-row, which holds the index of a
 // row of the report, and sets of pictures by the attribute data-set.
 #ifndef DIP_APP_REPORT_PAGE_HTML_PARTS_H
@@ -32,6 +32,7 @@ bool dip_html_front(DipForm *form, const DipCostReport *report, const DipCostPic
 // is written without times or combinations. Returns false when memory runs out.
 bool dip_html_path(DipForm *form, const DipCostReport *report);
 
+// Each sweep: bars of time and error, a table and, if `pictures` is not NULL, pictures.
 void dip_html_sweeps(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures);
 
 #endif

@@ -1,9 +1,10 @@
-// What the page says about a row of the report: a line of text for plots and scripts, and pictures.
+// Writes what the page says about a row of the report: a line of text for plots and scripts, and
+// pictures.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
 
-// Formats the times of a row, or "" if it was not timed.
+// Formats the times of a row, or "" if the row was not timed.
 static void format_time(const DipCostReport *report, int row, char text[DIP_COST_TEXT]) {
     const DipPathEstimate *time = &report->rows[row].time;
     text[0] = '\0';
