@@ -1,4 +1,4 @@
-// What all comparisons have in common: growth of quantities, marks of rows, and notes.
+// Computes what all comparisons have in common: growth of quantities, marks of rows, and notes.
 #include "app/cost/diff/diff.h"
 
 #include <math.h>
@@ -8,10 +8,11 @@
 #include <string.h>
 
 static const char *const error_titles[DIP_COST_DIFF_ERROR_COUNT] = {
-#define ERROR_TITLE(name, title, higher) title,
-    DIP_COST_DIFF_ERROR_LIST(ERROR_TITLE)
-#undef ERROR_TITLE
-};
+    "RMSE", "PSNR", "SSIM", "FLIP", "flicker", "two-frame mean"};
+
+bool dip_cost_diff_no_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
+}
 
 void dip_cost_diff_note(DipCostDiff *diff, const char *format, ...) {
     if (diff->note_count == DIP_COST_DIFF_MAX_NOTES) {

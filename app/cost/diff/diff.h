@@ -1,9 +1,9 @@
-// `diptych cost diff`: what got slower or worse between two reports or two programs.
+// `diptych cost diff` finds what got slower or worse between two reports or two programs.
 //
-// A comparison has rows. A row is one combination of settings on one camera path that both sides
-// have. Side 0 is A, side 1 is B. Each row has the values of some quantities on both sides. A
-// quantity is an error or a counter; quantities are exact, so that any difference has a cause. A
-// row also has times, which are noisy and have intervals.
+// A comparison has two sides: 0 is A, 1 is B. Each of its rows is a combination of settings on a
+// camera path that both sides have, with the values of some quantities on both sides. A quantity is
+// an error, a counter or the number of pictures that differ. Quantities are exact, so any
+// difference has a cause. A row also has times, which are noisy and have intervals.
 #ifndef DIP_APP_COST_DIFF_DIFF_H
 #define DIP_APP_COST_DIFF_DIFF_H
 
@@ -15,25 +15,15 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// X(name, "title", higher is better): the errors that are compared.
-#define DIP_COST_DIFF_ERROR_LIST(X)                                                                \
-    X(rmse, "RMSE", false)                                                                         \
-    X(psnr, "PSNR", true)                                                                          \
-    X(ssim, "SSIM", true)                                                                          \
-    X(flip, "FLIP", false)                                                                         \
-    X(flicker, "flicker", false)                                                                   \
-    X(two_mean, "two-frame mean", false)
-
 // Indices of the quantities: errors, then the number of pictures that differ, then the counters.
 enum {
-#define DIP_COST_DIFF_ERROR(name, title, higher) DIP_COST_DIFF_##name,
-    DIP_COST_DIFF_ERROR_LIST(DIP_COST_DIFF_ERROR)
-#undef DIP_COST_DIFF_ERROR
-        DIP_COST_DIFF_ERROR_COUNT,
+    DIP_COST_DIFF_rmse,
+    DIP_COST_DIFF_psnr,
+    DIP_COST_DIFF_ssim,
+    DIP_COST_DIFF_flip,
+    DIP_COST_DIFF_flicker,
+    DIP_COST_DIFF_two_mean,
+    DIP_COST_DIFF_ERROR_COUNT,
     DIP_COST_DIFF_pictures = DIP_COST_DIFF_ERROR_COUNT,
     DIP_COST_DIFF_FIRST_COUNTER,
     DIP_COST_DIFF_QUANTITY_COUNT = DIP_COST_DIFF_FIRST_COUNTER + DIP_COST_COUNTER_COUNT
@@ -57,13 +47,14 @@ typedef struct DipCostDiffRow {
     char path[16];
     double values[2][DIP_COST_DIFF_QUANTITY_COUNT]; // NAN: not known, or not comparable.
     bool timed;                                     // Both sides have a time.
-    bool is_base;                                   // The baseline of a report's path.
+    bool is_base;                                   // It is the baseline of a report's path.
     double ms[2];                                   // Mean time of a frame.
     DipEstimate ratios[2];                          // Reports only: the time over the baseline's.
     DipEstimate change;  // How many times as long B takes, with its 95 % interval.
     double surely_above; // The change is surely greater than this; see dip_cost_diff_mark.
     double surely_below;
-    // Programs only: 1 + (B's time in a stage - A's time in it) / A's time of the frame.
+    // Programs only, for each stage of a frame: 1 + (B's time in the stage - A's time in it) / A's
+    // time of the frame.
     DipEstimate stages[DIP_COST_DIFF_STAGES];
     DipCostDiffMark mark;
 } DipCostDiffRow;
@@ -101,6 +92,9 @@ typedef struct DipCostDiff {
 // Appends a note; ignores it if there are too many.
 void dip_cost_diff_note(DipCostDiff *diff, const char *format, ...) DIP_PRINTF(2, 3);
 
+// Reports that memory ran out. Returns false.
+bool dip_cost_diff_no_memory(DipError *err);
+
 // Frees the rows.
 void dip_cost_diff_free(DipCostDiff *diff);
 
@@ -125,6 +119,32 @@ void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
 // inverse. Times are left out if the times may not be compared, if a machine is red, or if two
 // reports come from different machines.
 void dip_cost_diff_mark(DipCostDiff *diff);
+
+// --- groups of exact differences -----------------------------------------------------------------
+
+// How one quantity differs over the rows of a group.
+typedef struct DipCostDiffChange {
+    int quantity;
+    int rows;     // Number of rows in which the quantity differs.
+    int greatest; // The row with the greatest change.
+    double least; // Least and greatest growth (dip_cost_diff_growth).
+    double most;
+} DipCostDiffChange;
+
+// Quantities that differ in the same rows. All errors are one group.
+typedef struct DipCostDiffGroup {
+    char which[256]; // The rows, in words: "all 12 rows with af=16".
+    int row_count;   // Number of rows in which any of the quantities differs.
+    DipCostDiffChange changes[DIP_COST_DIFF_QUANTITY_COUNT];
+    int change_count;
+} DipCostDiffGroup;
+
+// Finds all groups, so that a reader sees the few causes of the differences and not one line per
+// row. Each quantity is in at most one group. Returns their number, or -1 when memory runs out.
+int dip_cost_diff_group(const DipCostDiff *diff,
+                        DipCostDiffGroup groups[DIP_COST_DIFF_QUANTITY_COUNT]);
+
+// --- comparing -----------------------------------------------------------------------------------
 
 // True if a side's machine was too busy for its times to be believed.
 bool dip_cost_diff_is_busy(const DipCostDiff *diff);
@@ -154,9 +174,5 @@ bool dip_cost_diff_print(const DipCostDiff *diff, FILE *out, DipError *err);
 // Writes the comparison to a JSON file.
 extern const DipRecord dip_cost_diff_record; // DipCostDiff
 bool dip_cost_diff_write_json(const DipCostDiff *diff, const char *file, DipError *err);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

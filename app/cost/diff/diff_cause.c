@@ -1,7 +1,8 @@
-// One fit through the origin for each kind of work; the bootstrap over the starts tells whether the
-// best fit is luck.
+// Fits a line through the origin for each kind of work. The bootstrap over the starts of the
+// programs tells whether the best fit is more than chance.
 #include "app/cost/diff/diff_cause.h"
 
+#include "app/cost/diff/diff.h"
 #include "app/measure/stats/random.h"
 
 #include <math.h>
@@ -27,8 +28,8 @@ bool dip_cause_is_same_work(const DipCauseData *data, int a, int b) {
     return lengths > 0.0 && dot(x, y, data->rows) > same_cosine * lengths;
 }
 
-// Finds the kind that explains most of the sum of squares, with a positive price. Counts kinds that
-// cannot be told apart as the first of them.
+// Finds the kind of work that explains most of the sum of squares of the times, with a positive
+// price. Counts kinds that cannot be told apart as the first of them.
 static DipCause best_fit(const DipCauseData *data, const double *times) {
     DipCause best = {.kind = -1};
     const double squares = dot(times, times, data->rows);
@@ -85,8 +86,7 @@ static double share_of_wins(const DipCauseData *data, int kind, int *drawn, doub
 bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err) {
     double *times = malloc((size_t)data->rows * sizeof *times);
     int *drawn = malloc((size_t)data->starts * sizeof *drawn);
-    const bool made = (times && drawn) ||
-                      dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
+    const bool made = (times && drawn) || dip_cost_diff_no_memory(err);
     *cause = (DipCause){.kind = -1};
     for (int s = 0; made && s < data->starts; s++) {
         drawn[s] = s;

@@ -1,14 +1,10 @@
-// The likely cause of a slowdown: the kind of work with which the additional time grows.
+// Finds the likely cause of a slowdown: the kind of work with which the additional time grows.
 #ifndef DIP_APP_COST_DIFF_DIFF_CAUSE_H
 #define DIP_APP_COST_DIFF_DIFF_CAUSE_H
 
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 // Additional times of some rows, and the work that may explain them. Arrays are borrowed.
 typedef struct DipCauseData {
@@ -34,9 +30,5 @@ bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err);
 
 // True if two kinds of work are proportional over the rows, so that they cannot be told apart.
 bool dip_cause_is_same_work(const DipCauseData *data, int a, int b);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

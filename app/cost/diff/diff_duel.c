@@ -1,9 +1,10 @@
-// Running the programs, start by start, and estimating from their times.
+// Runs the programs, start by start, and estimates from their times.
 #include "app/cost/diff/diff_duel.h"
 
 #include "app/cli/drive.h"
 #include "app/cli/interrupt.h"
 #include "app/cli/machine.h"
+#include "app/cost/diff/diff.h"
 #include "app/measure/timing/child.h"
 
 #include <math.h>
@@ -17,16 +18,12 @@ enum { MOST_ARGUMENTS = 40 + 2 * DIP_MAX_MODELS, MOST_SUBJECTS = 2 * (DIP_COST_D
 // Rest before a frame, in which the other program's threads go to sleep.
 static const int64_t rest_ns = 1000000;
 
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
-}
-
 // --- the command line of the programs ------------------------------------------------------------
 
 typedef struct CommandLine {
     char *list[MOST_ARGUMENTS];
     int count;
-    char numbers[8][24]; // Texts of the numbers.
+    char numbers[8][24]; // Texts of the options that are numbers.
     int number_count;
 } CommandLine;
 
@@ -48,7 +45,7 @@ static void add_number(CommandLine *line, const char *name, const char *format, 
     add_option(line, name, text);
 }
 
-// Hands the options of the scene and of the drawing on.
+// Adds the options of the scene and of the drawing.
 static void add_session(CommandLine *line, const DipSessionOptions *session) {
     add_option(line, "--config", session->config);
     for (int m = 0; m < session->model_count; m++) {
@@ -188,43 +185,32 @@ bool dip_cost_duel_run(DipCostDuel *duel, const DipCostDiffArguments *arguments,
     add_session(&p.line, session);
     duel->first = calloc(2 * (size_t)duel->pair_count * (size_t)frames, sizeof *duel->first);
     dip_interrupt_watch();
-    return (duel->first || out_of_memory(err)) &&
+    return (duel->first || dip_cost_diff_no_memory(err)) &&
            run_starts(&p, (uint64_t)dip_measure_seed(&arguments->measure), err);
 }
 
 void dip_cost_duel_free(DipCostDuel *duel) {
-    if (duel) {
-        dip_driver_destroy(&duel->driver);
-        dip_times_fit_free(&duel->fit);
-        free(duel->first);
-        free(duel);
-    }
+    dip_driver_destroy(&duel->driver);
+    dip_times_fit_free(&duel->fit);
+    free(duel->first);
 }
 
 // --- estimates -----------------------------------------------------------------------------------
 
-const DipBenchSample *dip_cost_duel_sample(const DipCostDuel *duel, int subject, int frame) {
-    return &duel->first[subject * duel->frames + frame];
-}
-
 void dip_cost_duel_count(const DipCostDuel *duel, int subject, double *counters) {
     for (int f = 0; f < duel->frames; f++) {
-        dip_counters_add(&dip_cost_duel_sample(duel, subject, f)->counters, counters);
+        dip_counters_add(&duel->first[subject * duel->frames + f].counters, counters);
     }
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] /= duel->frames;
     }
 }
 
-double dip_cost_duel_ms(const DipCostDuel *duel, int subject) {
-    return dip_times_along(duel->fit, subject).mean_ms.value;
-}
-
 bool dip_cost_duel_per_start(const DipCostDuel *duel, DipBenchStage stage, double *per_start,
                              DipError *err) {
     DipTimes times = dip_driver_times(duel->driver);
     DipTimed *list = malloc(((size_t)times.count + 1) * sizeof *list);
-    bool done = list || out_of_memory(err);
+    bool done = list || dip_cost_diff_no_memory(err);
     const int count = times.count;
     const DipTimed *all = times.list;
     times.list = list;

@@ -1,9 +1,10 @@
-// The measurement beneath `cost diff`: pairs of subjects that take turns at every frame, in several
-// starts of the programs, because each start has luck of its own.
+// Times pairs of subjects for `cost diff`. A subject is a set of settings that one program draws.
+// The two subjects of a pair, called sides, take turns at every frame. The programs are started
+// several times, because each start is by chance a little faster or slower than another.
 //
-// The programs run as `PROGRAM bench ... --serve` (app/measure/timing/child.h) and draw sets of
-// settings. With two programs, pair p is set p in both. With one, it is set 0 beside set p + 1. The
-// last pair is the A/A pair: set 0 and the last set, which has the same settings, in program 0.
+// The programs run as `PROGRAM bench ... --serve` (app/measure/timing/child.h). With two programs,
+// pair p is set p in both. With one, it is set 0 beside set p + 1. The last pair is the A/A pair:
+// set 0 and the last set, which has the same settings, in program 0.
 #ifndef DIP_APP_COST_DIFF_DIFF_DUEL_H
 #define DIP_APP_COST_DIFF_DIFF_DUEL_H
 
@@ -15,23 +16,20 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// Zero-initialise it.
+// Zero-initialise it, and fill in the programs.
 typedef struct DipCostDuel {
-    const char *programs[2]; // The second one is NULL if there is one. Borrowed.
+    const char *programs[2]; // The second one is NULL if there is only one. Borrowed.
     char sets[(DIP_COST_DIFF_MAX_SETS + 2) * DIP_COST_TEXT];
     int set_count;
     int pair_count;
     int starts;
     int rounds;
     int frames;
-    int threads;           // Threads of a program that draw.
-    DipDriver *driver;     // Has the times: subject 2 * pair + side; side 0 is the base. Owned.
-    DipTimesFit *fit;      // Owned.
-    DipBenchSample *first; // [subject * frames + frame]: counters and hashes. Owned.
+    int threads;       // Number of threads of a program that draw.
+    DipDriver *driver; // Has the times of subject 2 * pair + side. Side 0 is the base. Owned.
+    DipTimesFit *fit;  // Owned.
+    // [subject * frames + frame]: the first drawing, which has counters and a hash. Owned.
+    DipBenchSample *first;
 } DipCostDuel;
 
 // Adds a set of settings.
@@ -42,18 +40,12 @@ void dip_cost_duel_add_set(DipCostDuel *duel, const char *text);
 bool dip_cost_duel_run(DipCostDuel *duel, const DipCostDiffArguments *arguments, int frames,
                        int rounds, DipError *err);
 
-// Frees the duel, which was allocated with malloc. Accepts NULL.
+// Frees what the duel owns.
 void dip_cost_duel_free(DipCostDuel *duel);
-
-// Returns the first drawing of a subject's frame, which has its counters and hash.
-const DipBenchSample *dip_cost_duel_sample(const DipCostDuel *duel, int subject, int frame);
 
 // Adds up the counters of a subject's frames and divides them by the number of frames. The counters
 // have the order of DIP_COUNTER_LIST and must be 0.
 void dip_cost_duel_count(const DipCostDuel *duel, int subject, double *counters);
-
-// Returns the mean time of a subject's frames.
-double dip_cost_duel_ms(const DipCostDuel *duel, int subject);
 
 // Writes how much longer side 1 of each pair takes in a stage, in milliseconds, in each start by
 // itself: per_start[pair * starts + start]. Fails with DIP_ERROR_MEMORY.
@@ -62,9 +54,5 @@ bool dip_cost_duel_per_start(const DipCostDuel *duel, DipBenchStage stage, doubl
 
 // Judges the machine by the waiting times and the A/A pair.
 DipCostVerdict dip_cost_duel_verdict(const DipCostDuel *duel, char reason[DIP_COST_REASON]);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -1,5 +1,5 @@
-// Finding the quantities that differ in the same rows, and describing these rows in a few words.
-#include "app/cost/diff/diff_groups.h"
+// Finds the quantities that differ in the same rows, and describes these rows in a few words.
+#include "app/cost/diff/diff.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,11 +10,11 @@
 
 enum { ANY = -1, NOT_DEFAULT = -2 };
 
-// A condition on rows: on a path, and on the steps of up to two settings.
+// A condition on rows: on their path, and on their steps of up to two settings.
 typedef struct Condition {
-    int path_row;    // The rows on the path of this row; ANY: on any path.
+    int path_row;    // Rows on the path of this row meet the condition; ANY: rows on any path.
     int settings[2]; // ANY: no condition.
-    int steps[2];    // NOT_DEFAULT: any step but the default.
+    int steps[2];    // [as in settings]; NOT_DEFAULT: any step but the default.
 } Condition;
 
 static bool meets(const DipCostDiff *diff, int row, const Condition *condition) {
@@ -42,15 +42,16 @@ static int term_count(const Condition *condition) {
            (condition->settings[1] != ANY);
 }
 
+// A search for the condition that describes some rows best.
 typedef struct Search {
     const DipCostDiff *diff;
-    const bool *rows; // [row]: it is one of those to describe.
+    const bool *rows; // [row]: it is one of the rows to describe.
     Condition best;
-    int best_count; // Rows that meet the best condition; 0 if there is none yet.
+    int best_count; // Number of rows that meet the best condition; 0 if there is none yet.
 } Search;
 
-// Keeps a condition that holds for all wanted rows if it holds for fewer others than the best so
-// far, or for as many and has fewer terms.
+// Keeps a condition if all rows to describe meet it, and if fewer other rows meet it than meet the
+// best condition so far, or as many and it has fewer terms.
 static void consider(Search *search, const Condition *condition) {
     int count = 0;
     for (int r = 0; r < search->diff->row_count; r++) {
@@ -65,15 +66,6 @@ static void consider(Search *search, const Condition *condition) {
         search->best = *condition;
         search->best_count = count;
     }
-}
-
-static bool is_first_of_path(const DipCostDiff *diff, int row) {
-    for (int r = 0; r < row; r++) {
-        if (strcmp(diff->rows[r].path, diff->rows[row].path) == 0) {
-            return false;
-        }
-    }
-    return true;
 }
 
 // Considers all steps of the i-th setting of a condition, and of the settings after it.
@@ -110,7 +102,7 @@ static void format_condition(const DipCostDiff *diff, const Condition *condition
     }
 }
 
-// Describes the rows, of which there is at least one.
+// Describes rows, of which there is at least one, in a few words.
 static void describe(const DipCostDiff *diff, const bool *rows, char *text, size_t size) {
     Search search = {.diff = diff, .rows = rows};
     int count = 0, first = 0;
@@ -126,11 +118,7 @@ static void describe(const DipCostDiff *diff, const bool *rows, char *text, size
         return;
     }
     consider_settings(&search, (Condition){ANY, {ANY, ANY}, {0, 0}}, 0);
-    for (int r = 0; r < diff->row_count; r++) {
-        if (rows[r] && is_first_of_path(diff, r)) {
-            consider_settings(&search, (Condition){r, {ANY, ANY}, {0, 0}}, 0);
-        }
-    }
+    consider_settings(&search, (Condition){first, {ANY, ANY}, {0, 0}}, 0);
     char condition[160];
     format_condition(diff, &search.best, condition, sizeof condition);
     if (count == search.best_count) {

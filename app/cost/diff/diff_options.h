@@ -1,4 +1,4 @@
-// Options of `diptych cost diff`.
+// The command line of `diptych cost diff`.
 #ifndef DIP_APP_COST_DIFF_DIFF_OPTIONS_H
 #define DIP_APP_COST_DIFF_DIFF_OPTIONS_H
 
@@ -30,15 +30,10 @@ typedef struct DipCostDiffArguments {
     int side_count;
     DipCostDiffSet sets[DIP_COST_DIFF_MAX_SETS];
     int set_count;
-    DipMeasureOptions measure; // Rounds are 0 if what is compared chooses them.
-    int frames;                // 0: chosen by what is compared.
+    DipMeasureOptions measure; // Rounds 0: as the report or the program that is compared needs.
+    int frames;                // 0: as the report or the program that is compared needs.
     double fail_over;          // 1.03 for --fail-over 3%; 0: never fail.
     const char *json;
 } DipCostDiffArguments;
-
-extern const DipOptionParts dip_cost_diff_option_parts;
-
-void dip_cost_diff_options_default(void *arguments, int argc, char *const *argv);
-bool dip_cost_diff_options_check(const void *arguments, DipError *err);
 
 #endif

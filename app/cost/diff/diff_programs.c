@@ -1,4 +1,4 @@
-// Comparing two programs that took turns at every frame, and measuring the rows of a report again.
+// Compares two programs that took turns at every frame, and measures the rows of a report again.
 #include "app/cost/diff/diff.h"
 
 #include "app/cli/machine.h"
@@ -10,10 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
-}
-
 // --- two programs --------------------------------------------------------------------------------
 
 static void compare_work(const DipCostDuel *duel, int pair, DipCostDiffRow *row) {
@@ -23,10 +19,9 @@ static void compare_work(const DipCostDuel *duel, int pair, DipCostDiffRow *row)
         }
         dip_cost_duel_count(duel, 2 * pair + side, row->values[side] + DIP_COST_DIFF_FIRST_COUNTER);
     }
+    const DipBenchSample *a = duel->first + 2 * pair * duel->frames, *b = a + duel->frames;
     for (int f = 0; f < duel->frames; f++) {
-        row->values[1][DIP_COST_DIFF_pictures] +=
-            strcmp(dip_cost_duel_sample(duel, 2 * pair, f)->hash,
-                   dip_cost_duel_sample(duel, 2 * pair + 1, f)->hash) != 0;
+        row->values[1][DIP_COST_DIFF_pictures] += strcmp(a[f].hash, b[f].hash) != 0;
     }
 }
 
@@ -40,7 +35,7 @@ static void compare_pair(const DipCostDuel *duel, const DipCostDiffArguments *ar
                                : "DEFAULT");
     compare_work(duel, pair, row);
     for (int side = 0; side < 2; side++) {
-        row->ms[side] = dip_cost_duel_ms(duel, 2 * pair + side);
+        row->ms[side] = dip_times_along(duel->fit, 2 * pair + side).mean_ms.value;
     }
     row->change = dip_times_ratio(duel->fit, 2 * pair + 1);
     row->surely_above = row->change.low;
@@ -79,7 +74,8 @@ static void judge_machine(const DipCostDuel *duel, DipCostDiff *diff) {
 
 // --- the likely cause ----------------------------------------------------------------------------
 
-// The stage that takes most of the additional time of the slower rows. Writes its share of it.
+// Returns the stage that takes most of the additional time of the slower rows. Writes the share of
+// the additional time that this stage takes.
 static DipBenchStage slowest_stage(const DipCostDiff *diff, double *share) {
     double most = 0.0, total = 0.0;
     DipBenchStage found = (DipBenchStage)0;
@@ -100,8 +96,8 @@ static DipBenchStage slowest_stage(const DipCostDiff *diff, double *share) {
     return found;
 }
 
-// Kinds of work that may explain additional time: 0 is one per frame, 1 is A's time of the stage,
-// and then the counters.
+// Kinds of work that may explain additional time: one unit per frame, A's time of the stage, and
+// the counters.
 enum { PER_FRAME, STAGE_TIME, FIRST_COUNTER };
 
 static void list_work(const DipCostDuel *duel, const DipCostDiff *diff, DipBenchStage stage,
@@ -160,7 +156,7 @@ static bool find_cause(const DipCostDuel *duel, DipCostDiff *diff, DipError *err
     }
     double *per_start = malloc((size_t)(rows * (starts + kinds)) * sizeof *per_start);
     if (!per_start) {
-        return out_of_memory(err);
+        return dip_cost_diff_no_memory(err);
     }
     DipCause cause;
     const DipCauseData data = {rows, starts, kinds, per_start, per_start + rows * starts};
@@ -178,7 +174,7 @@ static bool compare_pairs(const DipCostDuel *duel, const DipCostDiffArguments *a
                           DipCostDiff *diff, DipError *err) {
     diff->rows = calloc((size_t)arguments->set_count, sizeof *diff->rows);
     if (!diff->rows) {
-        return out_of_memory(err);
+        return dip_cost_diff_no_memory(err);
     }
     diff->kind = DIP_COST_DIFF_PROGRAMS;
     diff->same_machine = true;
@@ -195,20 +191,16 @@ static bool compare_pairs(const DipCostDuel *duel, const DipCostDiffArguments *a
 
 bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *const programs[2],
                             DipCostDiff *diff, DipError *err) {
-    DipCostDuel *duel = calloc(1, sizeof *duel);
-    bool done = duel || out_of_memory(err);
-    for (int s = 0; done && s <= arguments->set_count; s++) { // The last one is the A/A pair's.
-        dip_cost_duel_add_set(duel, arguments->sets[s % arguments->set_count].text);
+    DipCostDuel duel = {.programs = {programs[0], programs[1]}};
+    for (int s = 0; s <= arguments->set_count; s++) { // The last one is the A/A pair's.
+        dip_cost_duel_add_set(&duel, arguments->sets[s % arguments->set_count].text);
     }
-    if (done) {
-        memcpy(duel->programs, programs, sizeof duel->programs);
-    }
-    done = done &&
-           dip_cost_duel_run(
-               duel, arguments, arguments->frames ? arguments->frames : DIP_COST_DIFF_FRAMES,
-               arguments->measure.rounds ? arguments->measure.rounds : DIP_COST_DIFF_ROUNDS, err) &&
-           compare_pairs(duel, arguments, diff, err);
-    dip_cost_duel_free(duel);
+    const bool done =
+        dip_cost_duel_run(
+            &duel, arguments, arguments->frames ? arguments->frames : DIP_COST_DIFF_FRAMES,
+            arguments->measure.rounds ? arguments->measure.rounds : DIP_COST_DIFF_ROUNDS, err) &&
+        compare_pairs(&duel, arguments, diff, err);
+    dip_cost_duel_free(&duel);
     if (!done) {
         dip_cost_diff_free(diff);
     }
@@ -217,24 +209,14 @@ bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *c
 
 // --- a report and a program ----------------------------------------------------------------------
 
-static int find_row(const DipCostReport *report, const DipQuality *quality) {
-    for (int r = 0; r < report->row_count; r++) {
-        if (report->rows[r].path == 0 &&
-            memcmp(&report->rows[r].quality, quality, sizeof *quality) == 0) {
-            return r;
-        }
-    }
-    return -1;
-}
-
 // Lists the rows to measure: the baseline is combination 0 and has no pair of its own.
 static int list_rows(const DipCostDiffArguments *arguments, const DipCostReport *report,
                      int rows[DIP_COST_DIFF_MAX_SETS]) {
     int count = 0;
     for (int s = 0; s < arguments->set_count; s++) {
-        const int row = find_row(report, &arguments->sets[s].quality);
-        if (row >= 0 && memcmp(&arguments->sets[s].quality, &report->options.baseline,
-                               sizeof(DipQuality)) != 0) {
+        const DipQuality *quality = &arguments->sets[s].quality;
+        const int row = dip_report_find(report, quality, 0, 0);
+        if (row >= 0 && memcmp(quality, &report->options.baseline, sizeof *quality) != 0) {
             rows[count++] = row;
         }
     }
@@ -297,7 +279,7 @@ static bool make_report(const DipCostReport *report, const DipCostDuel *duel, co
     measured->rows = calloc((size_t)count + 1, sizeof *measured->rows);
     measured->row_count = measured->rows ? count + 1 : 0;
     if (!measured->rows || !dip_cost_report_alloc(measured, NULL)) {
-        return out_of_memory(err);
+        return dip_cost_diff_no_memory(err);
     }
     for (int i = 0; i <= count; i++) {
         // Row 0 is the baseline, which is side 0 of every pair.
@@ -305,7 +287,7 @@ static bool make_report(const DipCostReport *report, const DipCostDuel *duel, co
         DipCostRow *row = &measured->rows[i];
         row->quality = i ? report->rows[rows[i - 1]].quality : report->options.baseline;
         dip_cost_duel_count(duel, subject, row->counters);
-        row->time.mean_ms.value = dip_cost_duel_ms(duel, subject);
+        row->time.mean_ms.value = dip_times_along(duel->fit, subject).mean_ms.value;
         row->time.ratio = i ? dip_times_ratio(duel->fit, subject) : dip_estimate_unknown(1.0);
     }
     measured->verdict = dip_cost_duel_verdict(duel, measured->verdict_reason);
@@ -325,20 +307,16 @@ bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const c
                                                  : "none of the settings to time");
     }
     const DipCostDiffArguments all = options_of_report(arguments, report);
-    DipCostDuel *duel = calloc(1, sizeof *duel);
-    bool done = duel || out_of_memory(err);
-    for (int i = 0; done && i < count + 2; i++) { // The last one is the A/A pair's.
+    DipCostDuel duel = {.programs = {program}};
+    for (int i = 0; i < count + 2; i++) { // The last one is the A/A pair's.
         const bool is_row = i > 0 && i <= count;
-        add_quality(duel, is_row ? &report->rows[rows[i - 1]].quality : &report->options.baseline);
+        add_quality(&duel, is_row ? &report->rows[rows[i - 1]].quality : &report->options.baseline);
     }
-    if (done) {
-        duel->programs[0] = program;
-    }
-    done = done &&
-           dip_cost_duel_run(duel, &all, dip_cost_frame_count(report),
-                             arguments->measure.rounds ? arguments->measure.rounds : 1, err) &&
-           make_report(report, duel, rows, count, &all.session, measured, err);
-    dip_cost_duel_free(duel);
+    const bool done =
+        dip_cost_duel_run(&duel, &all, dip_cost_frame_count(report),
+                          arguments->measure.rounds ? arguments->measure.rounds : 1, err) &&
+        make_report(report, &duel, rows, count, &all.session, measured, err);
+    dip_cost_duel_free(&duel);
     if (!done) {
         dip_cost_report_free(measured);
     }

@@ -2,7 +2,6 @@
 // prices are known.
 #include "app/cost/diff/diff.h"
 #include "app/cost/diff/diff_cause.h"
-#include "app/cost/diff/diff_groups.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>
