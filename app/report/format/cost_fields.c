@@ -22,7 +22,8 @@ static int row_of(const DipFieldAt *at) {
     return (int)((const DipCostRow *)at->item - report_of(at)->rows);
 }
 
-// An object that is a part of the item itself.
+// Members of a DipField that is an object in JSON, though its values are members of the item
+// itself.
 #define PART .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON
 
 static bool is_row(const DipCostReport *report, int row) {
@@ -41,7 +42,7 @@ static int count_set(const bool *flags, int count) {
     return set;
 }
 
-// Returns the index of the flag before which `number` flags are set and which is set itself.
+// Returns the index of the set flag that has `number` set flags before it.
 static int find_set(const bool *flags, int number) {
     int i = 0;
     for (int left = number + !flags[0]; left > 0; left -= flags[i]) {
@@ -72,7 +73,8 @@ typedef struct Region {
     DipMetrics metrics;
 } Region;
 
-// Derives the share of all pixels. The item that owns a class of pixels is a Figures.
+// Derives the share that a class of pixels has in all pixels. The class belongs to Figures, whose
+// first region is the whole picture.
 static const void *derive_share(const DipFieldAt *at, DipFieldScratch *scratch) {
     const Region *all = at->owner->item;
     scratch->numbers[0] = ((const Region *)at->item)->pixels / fmax(all->pixels, 1.0);
@@ -115,7 +117,7 @@ static const DipField figures_fields[] = {REGION_FIELD(0, "all", "the whole pict
 static const DipRecord figures_record =
     DIP_RECORD("figures", "Metrics of each class of pixels.", figures_fields, Figures, NULL);
 
-// Returns whether a viewpoint of a row was judged, and the sums over all that were.
+// Adds up the errors of a row at all viewpoints that were judged. Returns whether there is any.
 static bool sums_of(const DipFieldAt *at, DipMetricSums *sums) {
     int viewpoints;
     *sums = dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
@@ -162,7 +164,7 @@ static const void *derive_over_time(const DipFieldAt *at, DipFieldScratch *scrat
     return sums_of(at, &sums) ? DIP_MADE(DipFlickerMetrics, dip_flicker_metrics_of(&sums)) : NULL;
 }
 
-// A sweep is the item of each of its steps.
+// Returns the sweep of a step. All steps of a sweep have the sweep itself as their item.
 static const DipCostSweep *sweep_of(const DipFieldAt *at) {
     return at->item;
 }
@@ -243,7 +245,8 @@ static const void *derive_tail(const DipFieldAt *at, DipFieldScratch *scratch) {
     return tail->viewpoints > 0 ? tail : NULL;
 }
 
-// A judged viewpoint of a row. The tail comes first, as in DipCostTail.
+// A judged viewpoint of a row. The tail comes first, as in DipCostTail, so that tail_fields fit
+// both.
 typedef struct Viewpoint {
     DipFlipTail tail;
     int place;
@@ -446,7 +449,7 @@ static int count_visits(const DipFieldAt *at) {
     return count;
 }
 
-// *scratch still has the visit before.
+// Makes a visit from the log. It begins where the visit before ends, which *scratch still has.
 static const void *get_visit(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
     const DipCostReport *report = report_of(at);
     Visit *visit = (Visit *)scratch;
@@ -464,7 +467,8 @@ static const void *get_visit(const DipFieldAt *at, int index, DipFieldScratch *s
     return visit;
 }
 
-// Older files have no visits, but pairs of times (cost_json.c).
+// Refuses visits of a report without starts. No visits are fine, since older files have pairs of
+// times instead (cost_json.c).
 static DipErrorCode open_visits(const DipFieldAt *at, int count) {
     const DipCostReport *report = report_of(at);
     return count == 0 || (report->starts > 0 && report->rounds % report->starts == 0)
@@ -552,7 +556,7 @@ static const DipRecord visit_record = DIP_RECORD(
 
 // --- paths and their truths ----------------------------------------------------------------------
 
-// Names of paths are those of categories, or of an option's value.
+// Checks the name of a path, which is that of a category or the value of an option.
 static bool check_path(const DipFieldAt *at) {
     const char *name = report_of(at)->paths[at->index];
     return *name && strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
@@ -783,7 +787,7 @@ const DipRecord dip_cost_elsewhere_record =
                "threads, in milliseconds of the report.",
                elsewhere_fields, DipCostElsewhere, check_elsewhere);
 
-enum { MOST_SIDE = 16384 }; // Pixels.
+enum { MOST_SIDE = 16384 }; // Greatest width and height of a picture, in pixels.
 
 static const DipField smaller_fields[] = {
     {"width", NULL, "px", "Width of these pictures.", DIP_FACT(WHOLE, DipCostReport, smaller_width),
@@ -831,7 +835,7 @@ DIP_OF_ITEM(int, count_interactions,
 
 DIP_GET_ITEM(get_interaction, &report_of(at)->analysis->interactions[index])
 
-// The price of a kind of work is one of the terms of the fit.
+// The kinds of work whose prices are known are the terms of the fit.
 DIP_DERIVE(derive_stage, ((const DipCostFit *)at->item)->stages[at->index])
 DIP_DERIVE(derive_work, ((const DipCostFit *)at->item)->names[at->index])
 static const DipField price_fields[] = {
@@ -885,7 +889,7 @@ DIP_DERIVE(derive_chosen,
 DIP_DERIVE(derive_next,
            DIP_MADE(int, has_next(at) ? candidate_of(at, advice_of(at)->next)->row : -1))
 
-// The chosen time, with the error that all candidates share.
+// Derives the chosen time. Its interval includes the error that all candidates share.
 static const void *derive_chosen_ms(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCandidate *chosen = dip_cost_chosen(report_of(at), at->index);
     return chosen ? DIP_MADE(DipEstimate, dip_estimate_widen(&chosen->time, chosen->common_error))

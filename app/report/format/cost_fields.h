@@ -1,5 +1,5 @@
-// The fields of cost.json: of a report, its rows, sweeps and advice. DipFieldAt.context is the
-// DipCostReport in all of them.
+// Lists the fields of cost.json: of a report, its rows, sweeps and advice. For all of them,
+// DipFieldAt.context is the DipCostReport.
 #ifndef DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 #define DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 
@@ -58,7 +58,7 @@
         (void)at;                                                                                  \
         return value;                                                                              \
     }
-// Stores a computed value in the scratch memory, and gives its address to DIP_DERIVE.
+// Stores a computed value in the scratch memory. Use it as the value of DIP_DERIVE.
 #define DIP_MADE(TYPE, value) (*(TYPE *)scratch = (value), scratch)
 #define DIP_RECORD(NAME, MEANS, fields, TYPE, CHECK)                                               \
     { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), sizeof(TYPE), CHECK }
@@ -66,6 +66,7 @@
     { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), 0, CHECK }
 #define DIP_FIELD_COUNT_OF(fields) (int)(sizeof(fields) / sizeof *(fields))
 
+// The comments name the struct that has the fields.
 extern const DipRecord dip_cost_report_record;               // DipCostReport
 extern const DipRecord dip_cost_row_record;                  // DipCostRow
 extern const DipRecord dip_cost_metrics_record;              // DipMetrics

@@ -112,8 +112,9 @@ static bool next_number(const cJSON **item, double least, double most, double *v
     return known;
 }
 
-// Adds the times of a row that older files have as pairs: arrays of the times of the frames, and of
-// the baseline's same frames beside them. Frame f of a path belongs to round f % rounds.
+// Adds the times of a row to the log. Older files have them as pairs: an array of the times of the
+// row's frames, and one of the times of the baseline's same frames. Frame f of a path belongs to
+// round f % rounds.
 static bool add_pairs(const cJSON *pairs, DipCostReport *report, int row, DipTimed *log) {
     static const char *const names[] = {"base_ms", "ms", "base_wait", "wait"};
     const int base = report->base_rows[report->rows[row].path];

@@ -61,15 +61,15 @@ struct DipField;
 
 // A kind of struct that has fields.
 typedef struct DipRecord {
-    const char *name; // Name in the documentation.
-    const char *means;
+    const char *name;  // Name in the documentation.
+    const char *means; // A sentence for the documentation.
     const struct DipField *fields;
     int count;
     // Bytes from item to item. 0: each item is the struct that owns all of them and holds their
     // values in arrays, from which DipField.stride and DipFieldAt.index choose.
     size_t size;
-    // Returns whether the facts of an item fit together. Called when all have been read. NULL: they
-    // always do.
+    // Returns whether the facts of an item fit together. It is called when all of them have been
+    // read. NULL: they always fit.
     bool (*check)(const DipFieldAt *at);
 } DipRecord;
 
@@ -121,7 +121,7 @@ const void *dip_field_value(const DipField *field, const DipFieldAt *at, DipFiel
 // Returns where the member lies that holds the value of a field without `derive`.
 void *dip_field_member(const DipField *field, const DipFieldAt *at);
 
-// True if both ends of an interval are known: they are finite and not the same.
+// Returns whether both ends of an interval are known: they are finite and not the same.
 bool dip_field_has_interval(const DipEstimate *estimate);
 
 // A field that was found, and its value.
@@ -165,14 +165,14 @@ typedef struct DipColumn {
 // Takes the first column from a list. Returns false if the list is empty.
 bool dip_column_take(const char **columns, DipColumn *column);
 
-// Prints the names of the columns if `at->item` is NULL, or an item's line of CSV. An estimate has
+// Prints a line of CSV: an item, or the names of the columns if `at->item` is NULL. An estimate has
 // three columns. What is not known is empty.
 void dip_fields_print_csv(const DipRecord *record, const DipFieldAt *at, const char *columns,
                           FILE *out);
 
 // --- tables for people ---------------------------------------------------------------------------
 
-enum { DIP_CELL_BYTES = 512, DIP_TABLE_MOST_CELLS = 64 };
+enum { DIP_CELL_BYTES = 512 };
 
 // Writes an estimate's interval, "1.23 to 1.45", or "".
 void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
@@ -180,7 +180,10 @@ void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
 
 // A table of items of one record. Terminals and pages print the same columns. They leave out
 // columns of which no line knows anything, and the numbers of an object that are the same in all
-// lines. All members are borrowed.
+// lines. A value has its field's digits, its unit in the head, and, if it is a change, its sign; a
+// change whose interval holds 0 is marked with '?'. An estimate has a second column for its
+// interval. A flag that is true has its title as text. What is not known, and a flag that is false,
+// is empty. All members are borrowed.
 typedef struct DipTable {
     const char *id; // Id of the table in a page, and the name of the file that its CSV is saved to.
     const char *caption; // NULL or "": none.
@@ -190,47 +193,17 @@ typedef struct DipTable {
     const void *items;
     int count;
     bool (*shows)(const DipFieldAt *at); // NULL: all items are shown.
-    // The first item's member that has the row of the report that the item shows, or -1; the other
-    // items have it at the same place. NULL: no item shows a row.
+    // Points to the member of the first item that says which row of the report the item shows; -1:
+    // none. The other items have this member at the same place. NULL: no item shows a row.
     const int *row;
     const char *set; // Set of pictures of the rows; NULL: none.
 } DipTable;
 
-// A cell of a table's line or head. A value has its field's digits, its unit and, if it is a
-// change, its sign; a change whose interval holds 0 is marked with '?'. A flag that is true has its
-// title as text. What is not known, and a flag that is false, is "".
-typedef struct DipCell {
-    char text[DIP_CELL_BYTES];
-    const char *unit; // Unit of a cell of the head; NULL: none.
-    DipFieldKind kind;
-    unsigned show;
-    bool is_known;
-    bool is_text; // It is set to the left.
-} DipCell;
-
-// Fills in the cells of the line with this index, or of the head (-1). An estimate has a second
-// cell for its interval. Returns the number of cells, which is the same for all lines.
-int dip_table_cells(const DipTable *table, int line, DipCell cells[DIP_TABLE_MOST_CELLS]);
-
-// Returns the item of the line with this index; for the head (-1) it is not known.
-DipFieldAt dip_table_item(const DipTable *table, int line);
-
-// Returns whether the line with this index is shown.
-bool dip_table_shows(const DipTable *table, int line);
-
-// The head of a table, which of its cells are shown, and how many characters they have at most.
-typedef struct DipTableLayout {
-    DipCell head[DIP_TABLE_MOST_CELLS];
-    int count;
-    bool shown[DIP_TABLE_MOST_CELLS];
-    int width[DIP_TABLE_MOST_CELLS];
-} DipTableLayout;
-void dip_table_measure(const DipTable *table, DipTableLayout *layout);
-
 // Prints a table without its caption for a terminal, each line after two blanks.
 void dip_table_print_text(const DipTable *table, FILE *out);
 
-// Prints a table for a page, with its caption.
+// Prints a table for a page, with its caption. The page's scripts find the rows of a report by the
+// attribute data-row, and the settings that a table can be filtered by in data-settings.
 void dip_table_print_html(const DipTable *table, FILE *out);
 
 #endif

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-// Writes the names of a column's cells: a name, '_' and what follows, with '_' for '.'.
+// Writes the names of a column's cells: the column's name with '_' for '.', and an ending such as
+// "_low".
 static void put_names(const DipColumn *column, const DipField *field, FILE *out) {
     static const char *const of_estimate[] = {"", "low", "high"};
     const char *name = column->has_title ? column->title : column->path;

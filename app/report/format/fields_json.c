@@ -13,7 +13,7 @@ enum { PATH_ROOM = 96, NAME_ROOM = 64 };
 
 // --- writing -------------------------------------------------------------------------------------
 
-// Prints a number with as few digits as tell it from all others.
+// Prints a number with the fewest digits from which the same number is read.
 static void print_number(double value, FILE *out) {
     char text[32] = "null";
     for (int digits = 15; isfinite(value) && digits <= 17; digits++) {
@@ -52,7 +52,8 @@ static void print_numbers(const DipField *field, const double *values, FILE *out
     fputs(field->names ? "}" : "]", out);
 }
 
-// Returns an item of a list, or what has the value of one that is a single value.
+// Returns an item of a list. If the list's items are single values, returns the struct or array
+// that has the value.
 static DipFieldAt list_item(const DipFieldList *list, const DipFieldAt *at, int index,
                             DipFieldScratch *scratch) {
     DipFieldAt within = {at->context, NULL, index, at};
@@ -87,7 +88,7 @@ static void print_list(const DipFieldList *list, const DipFieldAt *at, FILE *out
     fputc(']', out);
 }
 
-// Prints a value, which may be NULL: not known.
+// Prints a value. NULL: it is not known.
 static void print_value(const DipField *field, const DipFieldAt *at, const void *value, FILE *out) {
     char settings[256];
     if (field->kind == DIP_FIELD_ESTIMATE) {
@@ -145,7 +146,7 @@ void dip_fields_print_json(const DipRecord *record, const DipFieldAt *at, FILE *
     fputc('}', out);
 }
 
-// What is written to a file.
+// An item that is written to a file of its own.
 typedef struct Whole {
     const DipRecord *record;
     DipFieldAt at;
@@ -165,12 +166,13 @@ bool dip_fields_write_json(const DipRecord *record, const void *item, const char
 
 // --- reading -------------------------------------------------------------------------------------
 
-// The path of the field at fault is made from its end, while functions return.
 typedef struct Reader {
-    char fault[PATH_ROOM];
+    char fault[PATH_ROOM]; // Path of the field at fault.
     DipErrorCode code;
 } Reader;
 
+// Puts a name before the path of the field at fault. The functions that read call this one after
+// another while they return, from the innermost to the outermost, so the path grows at its front.
 static bool fail(Reader *reader, DipErrorCode code, const char *name) {
     char rest[PATH_ROOM];
     reader->code = code;
@@ -213,7 +215,7 @@ static bool read_numbers(const cJSON *item, const DipField *field, double *to) {
     if (field->names ? !cJSON_IsObject(item) : cJSON_GetArraySize(item) != count) {
         return false;
     }
-    const cJSON *next = item->child; // Of an array.
+    const cJSON *next = item->child; // The next number of an array.
     for (int i = 0; i < count; i++) {
         const cJSON *number =
             field->names ? cJSON_GetObjectItemCaseSensitive(item, field->names[i]) : next;
@@ -244,7 +246,7 @@ static bool read_text(const cJSON *item, const DipField *field, char *to) {
     return fits;
 }
 
-// Reads what is a single item of JSON. Returns false if it is wrong.
+// Reads a value that is a single item of JSON. Returns false if the item is wrong.
 static bool read_plain(const cJSON *item, const DipField *field, void *to) {
     switch (field->kind) {
     case DIP_FIELD_TEXT:

@@ -104,8 +104,8 @@ static const void *derive_time(const DipFieldAt *at, DipFieldScratch *scratch) {
                      : NULL;
 }
 
-// Viewpoints differ from each other more than settings do, so the interval comes from the change at
-// each viewpoint.
+// Derives the change of FLIP. Viewpoints differ from each other more than settings do, so its
+// interval comes from the changes at the single viewpoints.
 static const void *derive_change_flip(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCostLine *line = at->item;
     return line->before ? DIP_MADE(DipEstimate, dip_cost_flip_change(report_of(at), line->row,

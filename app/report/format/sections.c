@@ -30,7 +30,7 @@ void dip_section_ties(DipForm *form, const DipCandidates *candidates, const DipA
     }
 }
 
-// What the next better settings cost, in the kind of time of the budget.
+// Writes what the next better settings cost, in the kind of time (such as p95) of the budget.
 static void write_next(DipForm *form, const DipCandidates *candidates, const DipAdvice *advice) {
     char text[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES];
     if (advice->next < 0) {

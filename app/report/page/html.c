@@ -121,7 +121,7 @@ static void write_work(DipForm *form, const DipCostReport *report) {
     dip_section_fit(form, report);
 }
 
-// Explains fields by their own sentences.
+// Explains the words of the page: the truth, the mark '?', and fields by their own sentences.
 static void write_words(const DipCostReport *report, FILE *out) {
     static const char *const paths[] = {"ratio",
                                         "ms",
@@ -221,13 +221,13 @@ static void write_left_out(const DipCostReport *report, const DipCostPictures *p
 
 // --- the page ------------------------------------------------------------------------------------
 
-// What the page is made from.
+// What the page shows.
 typedef struct Page {
     const DipCostReport *report;
     const DipCostPictures *pictures; // NULL: none.
 } Page;
 
-// Returns false when memory runs out.
+// Writes the page. Returns false when memory runs out.
 static bool write_page(const void *page, FILE *out) {
     const DipCostReport *report = ((const Page *)page)->report;
     const DipCostPictures *pictures = ((const Page *)page)->pictures;

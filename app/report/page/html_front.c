@@ -25,7 +25,7 @@ typedef struct Points {
 } Points;
 
 // Adds a point, and returns room for its title. The axes are logarithmic, so a FLIP of 0 is plotted
-// as the least that is told apart.
+// as a tiny one.
 static char *add_point(Points *points, int row, const DipCandidate *candidate) {
     static const double least_flip = 1e-7;
     const int i = points->count++;

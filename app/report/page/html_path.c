@@ -7,10 +7,10 @@
 #include <string.h>
 
 enum {
-    MOST_LINES = 6, // The number of colours of a plot.
+    MOST_LINES = 6, // As many as a plot has colours.
     TITLE_ROOM = DIP_COST_TEXT + 64,
     MOST_FRAMES = 256,
-    MOST_POINTS = DIP_COST_MAX_PLACES // Frames or viewpoints.
+    MOST_POINTS = DIP_COST_MAX_PLACES // Points are viewpoints, or at most MOST_FRAMES frames.
 };
 
 // The lines of the plot that is written: of the times at frames, or of the errors at viewpoints.

@@ -48,7 +48,7 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
     }
     const double room = BAR_ROOM - 60.0;
     const DipEstimate ratio = sweep->ratios[index];
-    // The step that the others are compared with has no interval.
+    // The step with which the others are compared has no interval.
     const double end = BAR_LEFT + room * fmax(ratio.value, ratio.high) / most;
     write_bar(out, BAR_LEFT, y, room * ratio.value / most, "bar-time");
     if (!isnan(ratio.low)) {

@@ -22,8 +22,8 @@ typedef struct DipPlotSeries {
     int count;
     bool marks_only;           // True: no line connects the points.
     const char *const *labels; // Texts below and left of the points; NULL for none.
-    // Numbers of the points, which a page's script finds in the attribute data-row (-1: the point
-    // has none), and titles, which browsers show beside the pointer; NULL for none.
+    // Numbers that a page's script finds in the attribute data-row of the points (-1: the point has
+    // none), and titles that browsers show beside the pointer. NULL for none.
     const int *rows;
     const char *const *titles;
     const char *style; // CSS class of the line; NULL: series-0, series-1, ...

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Scratch memory for making sets, and the source of their frames.
+// Scratch memory for making sets of pictures, and the source of their frames.
 typedef struct Cutter {
     const DipCostReport *report;      // Borrowed.
     const DipCostFrameSource *source; // Borrowed.
@@ -128,7 +128,7 @@ static int64_t judge_crop(const Cutter *c, const DipCostPictureSet *set, int x0,
     return sum;
 }
 
-// Finds the crop in which the rows' errors differ most, among crops at a grid of positions.
+// Finds the crop in which the errors of the rows differ most. Tries crops at a grid of positions.
 static void find_crop(const Cutter *c, DipCostPictureSet *set) {
     const int width = c->report->width, height = c->report->height;
     int64_t most = -1;
@@ -150,7 +150,7 @@ static void find_crop(const Cutter *c, DipCostPictureSet *set) {
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-// Writes the four digits of up to three bytes.
+// Writes up to three bytes as four digits of base64.
 static void write_group(const unsigned char *bytes, size_t left, char *to) {
     const unsigned word = (unsigned)bytes[0] << 16 | (left > 1 ? (unsigned)bytes[1] << 8 : 0u) |
                           (left > 2 ? bytes[2] : 0u);
@@ -220,7 +220,7 @@ static char *cut_map(const Cutter *c, const DipCostPictureSet *set, const uint8_
     return take_uri(made, "image/png", bytes, size_bytes);
 }
 
-// Returns false when memory runs out.
+// Cuts out what a picture shows of a frame. Returns false when memory runs out.
 static bool cut_picture(const Cutter *c, const DipCostPictureSet *set, const uint8_t *rgba8,
                         bool whole, DipCostPicture *picture) {
     picture->crop = cut_crop(c, set, rgba8);
@@ -285,7 +285,7 @@ static void drop(char **uri) {
     *uri = NULL;
 }
 
-// True if some row of the set has a crop.
+// Returns whether a row of the set has a crop.
 static bool has_crops(const DipCostPictureSet *set) {
     for (int i = 0; i < set->count; i++) {
         if (set->pictures[i].crop) {
@@ -295,7 +295,7 @@ static bool has_crops(const DipCostPictureSet *set) {
     return false;
 }
 
-// Keeps the crops of a set that fit. Returns the bytes left.
+// Frees the crops of a set that do not fit in `room` bytes. Returns the bytes that are left.
 static double fit_crops(DipCostPictureSet *set, double room, int *left_out) {
     double need = size_of(set->truth.crop);
     for (int i = 0; i < set->count; i++) {
@@ -317,7 +317,7 @@ static double fit_crops(DipCostPictureSet *set, double room, int *left_out) {
     return room;
 }
 
-// Replaces the crops of a set by whole frames where these fit. Returns the bytes left.
+// Replaces the crops of a set by whole frames where these fit. Returns the bytes that are left.
 static double fit_frames(DipCostPictureSet *set, double room, int *left_out) {
     double need = size_of(set->truth.frame);
     bool has_frames = false;
@@ -385,7 +385,8 @@ static void sort_by_time(const DipCostReport *report, DipCostPictureSet *set) {
     }
 }
 
-// The set of combinations gets the advised rows first, since a set has a limited number of rows.
+// Chooses the rows of the set of combinations. Advised rows come first, since a set has room for
+// few.
 static void plan_front(const DipCostReport *report, DipCostPictureSet *set) {
     const DipCostChoice *choice = &report->choice;
     for (int i = 0; i < choice->advice_count; i++) {

@@ -1,4 +1,4 @@
-// Fields as people read them, and their tables for a terminal.
+// Lays out tables of fields, and prints them for a terminal and for a page.
 #include "app/files/put.h"
 #include "app/report/format/fields.h"
 #include "app/report/words.h"
@@ -7,6 +7,26 @@
 
 #include <math.h>
 #include <string.h>
+
+enum { MOST_CELLS = 64 };
+
+// A cell of a table's line or head.
+typedef struct Cell {
+    char text[DIP_CELL_BYTES];
+    const char *unit; // Unit of a cell of the head; NULL: none.
+    DipFieldKind kind;
+    unsigned show;
+    bool is_known;
+    bool is_text; // The cell is set to the left; numbers are set to the right.
+} Cell;
+
+// The head of a table, which of its cells are shown, and how many characters they have at most.
+typedef struct Layout {
+    Cell head[MOST_CELLS];
+    int count;
+    bool shown[MOST_CELLS];
+    int width[MOST_CELLS];
+} Layout;
 
 // --- cells ---------------------------------------------------------------------------------------
 
@@ -39,14 +59,14 @@ void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
 
 static void format_estimate(const DipField *field, const DipEstimate *estimate, char *text) {
     format_number(field, estimate->value, text);
-    if (*text && field->show & DIP_SHOW_SIGN) { // A blank keeps the digits beneath each other.
+    if (*text && field->show & DIP_SHOW_SIGN) { // A blank in place of '?' keeps digits aligned.
         const bool doubtful =
             dip_field_has_interval(estimate) && estimate->low <= 0.0 && estimate->high >= 0.0;
         strcat(text, doubtful ? "?" : " ");
     }
 }
 
-// Writes what is known: a number or text, without its unit.
+// Formats a known value as people read it, without its unit.
 static void format_value(const DipField *field, const void *value, char text[DIP_CELL_BYTES]) {
     switch (field->kind) {
     case DIP_FIELD_TEXT:
@@ -75,20 +95,21 @@ static void format_value(const DipField *field, const void *value, char text[DIP
 
 // --- lines ---------------------------------------------------------------------------------------
 
-DipFieldAt dip_table_item(const DipTable *table, int line) {
+// Returns the item of the line with this index; for the head (-1) it is not known.
+static DipFieldAt item_of(const DipTable *table, int line) {
     const char *items = table->items;
     return (DipFieldAt){table->context,
                         line < 0 ? NULL : items + (size_t)line * table->record->size, line, NULL};
 }
 
-bool dip_table_shows(const DipTable *table, int line) {
-    const DipFieldAt at = dip_table_item(table, line);
+static bool shows(const DipTable *table, int line) {
+    const DipFieldAt at = item_of(table, line);
     return !table->shows || table->shows(&at);
 }
 
 // Fills in the cells of a column, and returns their number.
 static int fill_column(const DipColumn *column, const DipFieldFound *found, bool is_head,
-                       DipCell *cells) {
+                       Cell *cells) {
     const DipField *field = &found->field;
     const bool is_object = field->kind == DIP_FIELD_NUMBERS;
     const bool is_estimate = field->kind == DIP_FIELD_ESTIMATE;
@@ -97,14 +118,13 @@ static int fill_column(const DipColumn *column, const DipFieldFound *found, bool
                         : field->title    ? field->title
                                           : field->name;
     for (int i = 0; i < count; i++) {
-        DipCell *cell = &cells[i];
-        *cell =
-            (DipCell){.unit = is_head ? field->unit : NULL,
-                      .kind = field->kind,
-                      .show = field->show,
-                      .is_known = found->value,
-                      .is_text = !is_object && !is_estimate && field->kind != DIP_FIELD_NUMBER &&
-                                 field->kind != DIP_FIELD_WHOLE};
+        Cell *cell = &cells[i];
+        *cell = (Cell){.unit = is_head ? field->unit : NULL,
+                       .kind = field->kind,
+                       .show = field->show,
+                       .is_known = found->value,
+                       .is_text = !is_object && !is_estimate && field->kind != DIP_FIELD_NUMBER &&
+                                  field->kind != DIP_FIELD_WHOLE};
         if (is_head) {
             snprintf(cell->text, sizeof cell->text, "%s",
                      is_object               ? field->names[i]
@@ -122,15 +142,17 @@ static int fill_column(const DipColumn *column, const DipFieldFound *found, bool
     return count;
 }
 
-int dip_table_cells(const DipTable *table, int line, DipCell cells[DIP_TABLE_MOST_CELLS]) {
-    const DipFieldAt at = dip_table_item(table, line);
+// Fills in the cells of the line with this index, or of the head (-1). Returns their number, which
+// is the same for all lines.
+static int fill_cells(const DipTable *table, int line, Cell cells[MOST_CELLS]) {
+    const DipFieldAt at = item_of(table, line);
     const char *columns = table->columns;
     int count = 0;
     for (DipColumn column; dip_column_take(&columns, &column);) {
         DipFieldFound found;
         dip_field_find(table->record, &at, column.path, &found);
         count += fill_column(&column, &found, line < 0, &cells[count]);
-        DIP_ASSERT(count <= DIP_TABLE_MOST_CELLS);
+        DIP_ASSERT(count <= MOST_CELLS);
     }
     return count;
 }
@@ -150,17 +172,17 @@ static void widen(int *width, const char *text) {
     *width = count > *width ? count : *width;
 }
 
-void dip_table_measure(const DipTable *table, DipTableLayout *layout) {
-    DipCell first[DIP_TABLE_MOST_CELLS], cells[DIP_TABLE_MOST_CELLS];
-    bool differs[DIP_TABLE_MOST_CELLS] = {false};
+static void measure(const DipTable *table, Layout *layout) {
+    Cell first[MOST_CELLS], cells[MOST_CELLS];
+    bool differs[MOST_CELLS] = {false};
     int lines = 0;
     memset(layout, 0, sizeof *layout);
-    layout->count = dip_table_cells(table, -1, layout->head);
+    layout->count = fill_cells(table, -1, layout->head);
     for (int i = 0; i < table->count; i++) {
-        if (!dip_table_shows(table, i)) {
+        if (!shows(table, i)) {
             continue;
         }
-        dip_table_cells(table, i, lines++ == 0 ? first : cells);
+        fill_cells(table, i, lines++ == 0 ? first : cells);
         for (int c = 0; c < layout->count; c++) {
             const char *text = lines == 1 ? first[c].text : cells[c].text;
             widen(&layout->width[c], text);
@@ -168,7 +190,7 @@ void dip_table_measure(const DipTable *table, DipTableLayout *layout) {
         }
     }
     for (int c = 0; c < layout->count; c++) {
-        const DipCell *head = &layout->head[c];
+        const Cell *head = &layout->head[c];
         const bool is_same = head->kind == DIP_FIELD_NUMBERS && lines > 1 && !differs[c];
         layout->shown[c] = layout->width[c] > 0 && !is_same;
         widen(&layout->width[c], head->text);
@@ -179,11 +201,11 @@ void dip_table_measure(const DipTable *table, DipTableLayout *layout) {
 // --- terminals -----------------------------------------------------------------------------------
 
 // Prints a line, or one of the two lines of the head: the titles, or the units.
-static void print_line(const DipCell *cells, const DipTableLayout *layout, bool is_head, bool units,
+static void print_line(const Cell *cells, const Layout *layout, bool is_head, bool units,
                        FILE *out) {
-    int room = 2; // Blanks before the next cell.
+    int room = 2; // Number of blanks before the next cell.
     for (int c = 0; c < layout->count; c++) {
-        const DipCell *cell = &cells[c];
+        const Cell *cell = &cells[c];
         if (!layout->shown[c]) {
             continue;
         }
@@ -201,10 +223,10 @@ static void print_line(const DipCell *cells, const DipTableLayout *layout, bool 
 }
 
 void dip_table_print_text(const DipTable *table, FILE *out) {
-    DipTableLayout layout;
-    DipCell cells[DIP_TABLE_MOST_CELLS];
+    Layout layout;
+    Cell cells[MOST_CELLS];
     bool has_units = false;
-    dip_table_measure(table, &layout);
+    measure(table, &layout);
     for (int c = 0; c < layout.count; c++) {
         has_units = has_units || (layout.head[c].unit && layout.shown[c]);
     }
@@ -213,9 +235,97 @@ void dip_table_print_text(const DipTable *table, FILE *out) {
         print_line(layout.head, &layout, true, true, out);
     }
     for (int i = 0; i < table->count; i++) {
-        if (dip_table_shows(table, i)) {
-            dip_table_cells(table, i, cells);
+        if (shows(table, i)) {
+            fill_cells(table, i, cells);
             print_line(cells, &layout, false, false, out);
         }
     }
+}
+
+// --- pages ---------------------------------------------------------------------------------------
+
+// Settings get blanks, at which browsers may break the line.
+static void write_text(const Cell *cell, FILE *out) {
+    const bool breaks = cell->kind == DIP_FIELD_SETTINGS;
+    for (const char *text = cell->text; breaks && *text; text++) {
+        dip_put_html(out, *text == ',' ? "%c " : "%c", *text);
+    }
+    dip_put_html(out, "%s", breaks ? "" : cell->text);
+}
+
+static void write_head(const Layout *layout, FILE *out) {
+    for (int c = 0; c < layout->count; c++) {
+        const Cell *cell = &layout->head[c];
+        if (!layout->shown[c]) {
+            continue;
+        }
+        dip_put_html(out, "<th scope=\"col\" class=\"%s\">%s", cell->is_text ? "l" : "n",
+                     cell->text);
+        if (cell->unit) {
+            dip_put_html(out, " <span class=\"unit\">%s</span>", cell->unit);
+        }
+        dip_put_html(out, "</th>");
+    }
+}
+
+// Begins a line, whose first cell names it.
+static void begin_line(const DipTable *table, int line, const Cell *first, FILE *out) {
+    const int row =
+        table->row ? *(const int *)((const char *)table->row + (size_t)line * table->record->size)
+                   : -1;
+    dip_put_html(out, "<tr");
+    if (row >= 0) {
+        dip_put_html(out, " data-row=\"%d\"", row);
+    }
+    if (first->kind == DIP_FIELD_SETTINGS && first->is_known) {
+        const DipFieldAt at = item_of(table, line);
+        const char *columns = table->columns;
+        DipColumn column;
+        DipFieldFound found;
+        char settings[DIP_CELL_BYTES];
+        dip_column_take(&columns, &column);
+        dip_field_find(table->record, &at, column.path, &found);
+        dip_quality_format(found.value, settings, sizeof settings);
+        dip_put_html(out, " data-settings=\"%s\"", settings);
+    }
+    dip_put_html(out, "><th scope=\"row\">");
+    write_text(first, out);
+    dip_put_html(out, "</th>");
+}
+
+static void write_line(const DipTable *table, const Layout *layout, int line, FILE *out) {
+    Cell cells[MOST_CELLS];
+    fill_cells(table, line, cells);
+    begin_line(table, line, &cells[0], out);
+    for (int c = 1; c < layout->count; c++) {
+        const Cell *cell = &cells[c];
+        if (layout->shown[c]) {
+            dip_put_html(out, "<td class=\"%s\">",
+                         cell->show & DIP_SHOW_CODE                           ? "l code"
+                         : cell->kind == DIP_FIELD_SETTINGS && cell->is_known ? "l name"
+                         : cell->is_text                                      ? "l"
+                                                                              : "n");
+            write_text(cell, out);
+            dip_put_html(out, "</td>");
+        }
+    }
+    dip_put_html(out, "</tr>\n");
+}
+
+void dip_table_print_html(const DipTable *table, FILE *out) {
+    Layout layout;
+    measure(table, &layout);
+    dip_put_html(out,
+                 "<div class=\"table\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+                 "aria-labelledby=\"%s-caption\">\n<table id=\"%s\" data-set=\"%s\">\n"
+                 "<caption id=\"%s-caption\"><span>%s</span></caption>\n<thead><tr>",
+                 table->id, table->id, table->set ? table->set : "", table->id, table->caption);
+    write_head(&layout, out);
+    dip_put_html(out, "</tr></thead>\n<tbody>\n");
+    for (int i = 0; i < table->count; i++) {
+        if (shows(table, i)) {
+            write_line(table, &layout, i, out);
+        }
+    }
+    dip_put_html(out, "</tbody></table>\n</div></div>\n");
 }
