@@ -62,7 +62,7 @@ bool dip_cost_diff_is_busy(const DipCostDiff *diff) {
            (diff->verdicts[0] == DIP_COST_RED || diff->verdicts[1] == DIP_COST_RED);
 }
 
-// Counts the rows in which a side's quantity is known, and those in which it is not 0.
+// Counts the rows in which a side's quantity is known, and the rows in which it is known and not 0.
 static void count_rows(const DipCostDiff *diff, int side, int quantity, int *known, int *used) {
     *known = *used = 0;
     for (int r = 0; r < diff->row_count; r++) {
@@ -78,7 +78,7 @@ void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff) {
         int known[2], used[2];
         count_rows(diff, 0, q, &known[0], &used[0]);
         count_rows(diff, 1, q, &known[1], &used[1]);
-        const int side = used[0] == 0 ? 0 : 1; // The side that may not count it.
+        const int side = used[0] == 0 ? 0 : 1; // The side that perhaps does not count it.
         if (used[side] > 0 || used[1 - side] == 0 || used[1 - side] < known[1 - side]) {
             continue;
         }

@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Differences of times below this are not reported.
+// Changes of times by less than this factor are not reported.
 static const double least_limit = 1.01;
 
 // --- options -------------------------------------------------------------------------------------
@@ -118,8 +118,8 @@ static const char *program_of(const char *name) {
     return is_report ? NULL : name;
 }
 
-// Compares what A and B are. Of a report and a program, the program measures rows of the report
-// again.
+// Compares two reports, two programs, or a report and a program, which then measures rows of the
+// report again.
 static bool compare(const DipCostDiffArguments *arguments, DipCostDiff *diff, DipError *err) {
     const char *programs[2];
     DipCostReport reports[2] = {{.rows = NULL}, {.rows = NULL}};

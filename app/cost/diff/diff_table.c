@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// With more rows than this, only those that are slower or faster are printed.
+// If there are more rows than this, only those that are slower or faster are printed.
 enum { MOST_ROWS = 24 };
 
 // --- headings ------------------------------------------------------------------------------------
