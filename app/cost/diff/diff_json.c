@@ -73,10 +73,9 @@ DIP_OF_ITEM(bool, is_timed, ((const DipCostDiffRow *)at->item)->timed)
 DIP_OF_ITEM(bool, has_ratios, is_timed(at) && diff_of(at)->kind == DIP_COST_DIFF_REPORTS)
 DIP_OF_ITEM(bool, has_stages, is_timed(at) && diff_of(at)->kind == DIP_COST_DIFF_PROGRAMS)
 
-static const void *derive_settings(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_cost_settings_text(&((const DipCostDiffRow *)at->item)->quality, scratch->text);
-    return scratch->text;
-}
+DIP_DERIVE(derive_settings,
+           DIP_WRITTEN(dip_cost_settings_text(&((const DipCostDiffRow *)at->item)->quality,
+                                              scratch->text)))
 
 #define STAGE(name, text)                                                                          \
     {#name, NULL, NULL, "Of " text ".",                                                            \

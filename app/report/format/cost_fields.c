@@ -331,11 +331,8 @@ static bool put_viewpoint(const DipFieldAt *at, int index, const void *item) {
 
 DIP_OF_ITEM(bool, is_timed, dip_cost_is_timed(report_of(at), row_of(at)))
 
-static const void *derive_text(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_cost_settings_text(&((const DipCostRow *)at->item)->quality, scratch->text);
-    return scratch->text;
-}
-
+DIP_DERIVE(derive_text, DIP_WRITTEN(dip_cost_settings_text(&((const DipCostRow *)at->item)->quality,
+                                                           scratch->text)))
 DIP_DERIVE(derive_at_floor,
            is_judged(at) ? DIP_MADE(bool, dip_cost_at_floor(report_of(at), row_of(at))) : NULL)
 
@@ -632,10 +629,9 @@ static bool put_floor(const DipFieldAt *at, int index, const void *item) {
 DIP_OF_ITEM(bool, is_step_timed, dip_cost_is_timed(report_of(at), sweep_of(at)->rows[at->index]))
 
 DIP_DERIVE(derive_row, &report_of(at)->rows[sweep_of(at)->rows[at->index]])
-static const void *derive_step(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_cost_step_text(report_of(at), sweep_of(at), sweep_of(at)->rows[at->index], scratch->text);
-    return scratch->text;
-}
+DIP_DERIVE(derive_step,
+           DIP_WRITTEN(dip_cost_step_text(report_of(at), sweep_of(at),
+                                          sweep_of(at)->rows[at->index], scratch->text)))
 
 #define CHANGE_FIELD(METRIC, NAME, title, unit, DIGITS)                                            \
     {NAME "_change",                                                                               \
@@ -660,11 +656,7 @@ DIP_OF_ITEM(bool, check_step, is_row(report_of(at), sweep_of(at)->rows[at->index
 static const DipRecord step_record =
     DIP_RECORD_OF_ARRAYS("step", "A step of a sweep.", step_fields, check_step);
 
-static const void *derive_title(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_cost_sweep_title(report_of(at), at->item, scratch->text);
-    return scratch->text;
-}
-
+DIP_DERIVE(derive_title, DIP_WRITTEN(dip_cost_sweep_title(report_of(at), at->item, scratch->text)))
 static const DipField sweep_fields[] = {
     {"title", NULL, NULL, "The setting, and the others that are off their defaults.",
      DIP_DERIVED(TEXT, derive_title)},

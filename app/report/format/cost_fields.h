@@ -58,8 +58,10 @@
         (void)at;                                                                                  \
         return value;                                                                              \
     }
-// Stores a computed value in the scratch memory. Use it as the value of DIP_DERIVE.
+// Values for DIP_DERIVE: one that is stored in the scratch memory, and a text that a call writes to
+// scratch->text.
 #define DIP_MADE(TYPE, value) (*(TYPE *)scratch = (value), scratch)
+#define DIP_WRITTEN(call)     ((call), scratch->text)
 #define DIP_RECORD(NAME, MEANS, fields, TYPE, CHECK)                                               \
     { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), sizeof(TYPE), CHECK }
 #define DIP_RECORD_OF_ARRAYS(NAME, MEANS, fields, CHECK)                                           \

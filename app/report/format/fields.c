@@ -2,6 +2,7 @@
 #include "app/report/format/fields.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/scene/quality.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +16,17 @@ const void *dip_field_value(const DipField *field, const DipFieldAt *at, DipFiel
     return !at->item || (field->known && !field->known(at)) ? NULL
            : field->derive                                  ? field->derive(at, scratch)
                                                             : dip_field_member(field, at);
+}
+
+const char *dip_field_as_text(const DipField *field, const void *value,
+                              char settings[DIP_SETTINGS_BYTES]) {
+    if (field->kind == DIP_FIELD_SETTINGS) {
+        dip_quality_format(value, settings, DIP_SETTINGS_BYTES);
+        return settings;
+    }
+    return field->kind == DIP_FIELD_TEXT    ? value
+           : field->kind == DIP_FIELD_NAMED ? field->names[*(const int *)value]
+                                            : NULL;
 }
 
 bool dip_field_has_interval(const DipEstimate *estimate) {

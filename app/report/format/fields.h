@@ -121,6 +121,12 @@ const void *dip_field_value(const DipField *field, const DipFieldAt *at, DipFiel
 // Returns where the member lies that holds the value of a field without `derive`.
 void *dip_field_member(const DipField *field, const DipFieldAt *at);
 
+// Returns the text of a value that is a text, a name or settings, or NULL for other kinds. The text
+// of settings is written to `settings`.
+enum { DIP_SETTINGS_BYTES = 256 };
+const char *dip_field_as_text(const DipField *field, const void *value,
+                              char settings[DIP_SETTINGS_BYTES]);
+
 // Returns whether both ends of an interval are known: they are finite and not the same.
 bool dip_field_has_interval(const DipEstimate *estimate);
 

@@ -1,10 +1,8 @@
 // Writes fields as comma-separated values (RFC 4180).
 #include "app/files/put.h"
 #include "app/report/format/fields.h"
-#include "renderer/scene/quality.h"
 
 #include <math.h>
-#include <string.h>
 
 // Writes the names of a column's cells: the column's name with '_' for '.', and an ending such as
 // "_low".
@@ -37,7 +35,8 @@ static void put_numbers(const double *values, int count, FILE *out) {
 static void put_value(const DipField *field, const void *value, FILE *out) {
     const DipEstimate unknown = dip_estimate_unknown(NAN);
     const DipEstimate *estimate = value ? value : &unknown;
-    char settings[256];
+    char settings[DIP_SETTINGS_BYTES];
+    const char *text = value ? dip_field_as_text(field, value, settings) : NULL;
     if (field->kind == DIP_FIELD_ESTIMATE) {
         const bool has = dip_field_has_interval(estimate);
         const double ends[] = {estimate->value, has ? estimate->low : NAN,
@@ -45,18 +44,11 @@ static void put_value(const DipField *field, const void *value, FILE *out) {
         put_numbers(ends, 3, out);
     } else if (field->kind == DIP_FIELD_NUMBERS) {
         put_numbers(value, (int)(field->size / sizeof(double)), out);
-    } else if (!value) {
-        return;
-    } else if (field->kind == DIP_FIELD_TEXT) {
-        dip_put_csv_text(out, value);
-    } else if (field->kind == DIP_FIELD_NAMED) {
-        dip_put_csv_text(out, field->names[*(const int *)value]);
-    } else if (field->kind == DIP_FIELD_SETTINGS) {
-        dip_quality_format(value, settings, sizeof settings);
-        dip_put_csv_text(out, settings);
-    } else if (field->kind == DIP_FIELD_FLAG) {
+    } else if (text) {
+        dip_put_csv_text(out, text);
+    } else if (value && field->kind == DIP_FIELD_FLAG) {
         dip_put_csv_text(out, *(const bool *)value ? "true" : "false");
-    } else {
+    } else if (value) {
         const double number =
             field->kind == DIP_FIELD_WHOLE ? *(const int *)value : *(const double *)value;
         put_numbers(&number, 1, out);

@@ -90,42 +90,25 @@ static void print_list(const DipFieldList *list, const DipFieldAt *at, FILE *out
 
 // Prints a value. NULL: it is not known.
 static void print_value(const DipField *field, const DipFieldAt *at, const void *value, FILE *out) {
-    char settings[256];
+    char settings[DIP_SETTINGS_BYTES];
+    const char *text = value ? dip_field_as_text(field, value, settings) : NULL;
     if (field->kind == DIP_FIELD_ESTIMATE) {
         print_estimate(field, value, out);
-        return;
-    }
-    if (!value) {
+    } else if (text) {
+        dip_put_script_string(out, text);
+    } else if (!value) {
         fputs("null", out);
-        return;
-    }
-    switch (field->kind) {
-    case DIP_FIELD_TEXT:
-        dip_put_script_string(out, value);
-        break;
-    case DIP_FIELD_WHOLE:
+    } else if (field->kind == DIP_FIELD_WHOLE) {
         fprintf(out, "%d", *(const int *)value);
-        break;
-    case DIP_FIELD_FLAG:
+    } else if (field->kind == DIP_FIELD_FLAG) {
         fputs(*(const bool *)value ? "true" : "false", out);
-        break;
-    case DIP_FIELD_NUMBER:
+    } else if (field->kind == DIP_FIELD_NUMBER) {
         print_number(*(const double *)value, out);
-        break;
-    case DIP_FIELD_SETTINGS:
-        dip_quality_format(value, settings, sizeof settings);
-        dip_put_script_string(out, settings);
-        break;
-    case DIP_FIELD_NAMED:
-        dip_put_script_string(out, field->names[*(const int *)value]);
-        break;
-    case DIP_FIELD_NUMBERS:
+    } else if (field->kind == DIP_FIELD_NUMBERS) {
         print_numbers(field, value, out);
-        break;
-    case DIP_FIELD_RECORD:
+    } else if (field->kind == DIP_FIELD_RECORD) {
         dip_fields_print_json(field->record, &(DipFieldAt){at->context, value, at->index, at}, out);
-        break;
-    default:
+    } else {
         print_list(field->list, at, out);
     }
 }

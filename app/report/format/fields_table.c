@@ -68,27 +68,19 @@ static void format_estimate(const DipField *field, const DipEstimate *estimate, 
 
 // Formats a known value as people read it, without its unit.
 static void format_value(const DipField *field, const void *value, char text[DIP_CELL_BYTES]) {
-    switch (field->kind) {
-    case DIP_FIELD_TEXT:
+    if (field->kind == DIP_FIELD_TEXT) {
         snprintf(text, DIP_CELL_BYTES, "%s", (const char *)value);
-        break;
-    case DIP_FIELD_NAMED:
+    } else if (field->kind == DIP_FIELD_NAMED) {
         snprintf(text, DIP_CELL_BYTES, "%s", field->names[*(const int *)value]);
-        break;
-    case DIP_FIELD_SETTINGS:
+    } else if (field->kind == DIP_FIELD_SETTINGS) {
         dip_quality_format_changes(value, text, DIP_CELL_BYTES);
-        break;
-    case DIP_FIELD_WHOLE:
+    } else if (field->kind == DIP_FIELD_WHOLE) {
         snprintf(text, DIP_CELL_BYTES, "%d", *(const int *)value);
-        break;
-    case DIP_FIELD_FLAG:
+    } else if (field->kind == DIP_FIELD_FLAG) {
         snprintf(text, DIP_CELL_BYTES, "%s", *(const bool *)value ? field->title : "");
-        break;
-    case DIP_FIELD_ESTIMATE:
+    } else if (field->kind == DIP_FIELD_ESTIMATE) {
         format_estimate(field, value, text);
-        break;
-    default:
-        DIP_ASSERT(field->kind == DIP_FIELD_NUMBER || field->kind == DIP_FIELD_NUMBERS);
+    } else {
         format_number(field, *(const double *)value, text);
     }
 }
@@ -282,11 +274,11 @@ static void begin_line(const DipTable *table, int line, const Cell *first, FILE 
         const char *columns = table->columns;
         DipColumn column;
         DipFieldFound found;
-        char settings[DIP_CELL_BYTES];
+        char settings[DIP_SETTINGS_BYTES];
         dip_column_take(&columns, &column);
         dip_field_find(table->record, &at, column.path, &found);
-        dip_quality_format(found.value, settings, sizeof settings);
-        dip_put_html(out, " data-settings=\"%s\"", settings);
+        dip_put_html(out, " data-settings=\"%s\"",
+                     dip_field_as_text(&found.field, found.value, settings));
     }
     dip_put_html(out, "><th scope=\"row\">");
     write_text(first, out);

@@ -31,8 +31,10 @@ void dip_form_fact(DipForm *form, const char *term, const char *format, ...) DIP
 // Writes a fact that people copy, on one line.
 void dip_form_code(DipForm *form, const char *term, const char *code);
 
-// Writes a table with its caption. A table without lines is left out.
+// Writes a table with its caption. A table without lines is left out. DIP_FORM_TABLE takes members
+// of the table.
 void dip_form_table(DipForm *form, const DipTable *table);
+#define DIP_FORM_TABLE(form, ...) dip_form_table(form, &(DipTable){__VA_ARGS__})
 
 // Ends a list of facts that is open. Call it before something else is written to `out`, and at the
 // end.

@@ -120,13 +120,10 @@ void dip_section_tiers(DipForm *form, DipCostTier *tiers, int count) {
         }
         tiers[at] = tier;
     }
-    dip_form_table(form, &(DipTable){.id = "tiers",
-                                     .caption = "The four budgets as the tiers of a settings menu.",
-                                     .record = &tier_record,
-                                     .columns = "tier; budget; line",
-                                     .items = tiers,
-                                     .count = count,
-                                     .row = &tiers->row});
+    DIP_FORM_TABLE(form, .id = "tiers",
+                   .caption = "The four budgets as the tiers of a settings menu.",
+                   .record = &tier_record, .columns = "tier; budget; line", .items = tiers,
+                   .count = count, .row = &tiers->row);
 }
 
 static void write_advice(DipForm *form, const DipCostReport *report, int index) {
@@ -187,32 +184,28 @@ void dip_section_front(DipForm *form, const DipCostReport *report) {
              choice->candidates.count, report->paths[0],
              dip_time_kind_names[choice->candidates.kind],
              choice->knee >= 0 ? " Beyond the knee, more time buys least." : "");
-    dip_form_table(form,
-                   &(DipTable){.id = "pareto-front",
-                               .caption = caption,
-                               .set = "front",
-                               .columns = columns,
-                               DIP_COST_LINES(report, lines, dip_cost_front_lines(report, lines))});
+    DIP_FORM_TABLE(form, .id = "pareto-front", .caption = caption, .set = "front",
+                   .columns = columns,
+                   DIP_COST_LINES(report, lines, dip_cost_front_lines(report, lines)));
 }
 
 void dip_section_same(DipForm *form, const DipCostReport *report) {
-    if (report->same_count > 0 && !form->is_page) {
+    if (report->same_count == 0) {
+        return;
+    }
+    if (!form->is_page) {
         dip_form_paragraph(form, NULL,
                            "%d more combinations draw the same pictures as one with fewer settings "
                            "off their defaults; cost.json lists them.",
                            report->same_count);
-    } else {
-        dip_form_table(form, &(DipTable){.id = "same-pictures",
-                                         .caption = "Each of these combinations draws the same "
-                                                    "pictures, by hash, at all viewpoints as one "
-                                                    "with fewer settings off their defaults.",
-                                         .record = &dip_cost_same_record,
-                                         .columns = "settings; same_as",
-                                         .context = (void *)report,
-                                         .items = report->same,
-                                         .count = report->same_count,
-                                         .row = &report->same->row});
+        return;
     }
+    DIP_FORM_TABLE(form, .id = "same-pictures",
+                   .caption = "Each of these combinations draws the same pictures, by hash, at all "
+                              "viewpoints as one with fewer settings off their defaults.",
+                   .record = &dip_cost_same_record, .columns = "settings; same_as",
+                   .context = (void *)report, .items = report->same, .count = report->same_count,
+                   .row = &report->same->row);
 }
 
 // --- what was measured ---------------------------------------------------------------------------
@@ -258,13 +251,12 @@ void dip_section_measured(DipForm *form, const DipCostReport *report) {
         form, style, "The machine was %s. %s%s %s", verdict, report->verdict_reason,
         report->verdict == DIP_COST_RED ? " The times are wrong, and no settings are advised." : "",
         level);
-    dip_form_table(form,
-                   &(DipTable){.id = "baseline-twice",
-                               .caption = "On each path, the baseline was timed a second time "
-                                          "as if it were another setting (A/A). Differences "
-                                          "between settings that are smaller are noise.",
-                               .columns = "path; ratio",
-                               DIP_COST_LINES(report, lines, dip_cost_same_lines(report, lines))});
+    DIP_FORM_TABLE(form, .id = "baseline-twice",
+                   .caption =
+                       "On each path, the baseline was timed a second time as if it were another "
+                       "setting (A/A). Differences between settings that are smaller are noise.",
+                   .columns = "path; ratio",
+                   DIP_COST_LINES(report, lines, dip_cost_same_lines(report, lines)));
 }
 
 // --- predictions ---------------------------------------------------------------------------------
@@ -307,19 +299,15 @@ void dip_section_interactions(DipForm *form, const DipCostReport *report) {
         return;
     }
     dip_form_heading(form, "interactions", "Two settings together");
-    dip_form_table(form,
-                   &(DipTable){.id = "interaction-table",
-                               .caption = "Two settings at their last steps, against each alone: "
-                                          "means over the combinations of the other settings. A "
-                                          "time above 1 means that both together cost more than "
-                                          "the product of their ratios. A FLIP above 0 means that "
-                                          "both together lower FLIP by less than the sum of what "
-                                          "each lowers it.",
-                               .record = &dip_cost_interaction_record,
-                               .columns = "a=setting; b=with; time; flip; combinations",
-                               .context = (void *)report,
-                               .items = report->analysis->interactions,
-                               .count = report->analysis->interaction_count});
+    DIP_FORM_TABLE(
+        form, .id = "interaction-table",
+        .caption = "Two settings at their last steps, against each alone: means over the "
+                   "combinations of the other settings. A time above 1 means that both together "
+                   "cost more than the product of their ratios. A FLIP above 0 means that both "
+                   "together lower FLIP by less than the sum of what each lowers it.",
+        .record = &dip_cost_interaction_record,
+        .columns = "a=setting; b=with; time; flip; combinations", .context = (void *)report,
+        .items = report->analysis->interactions, .count = report->analysis->interaction_count);
 }
 
 void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep) {
@@ -330,17 +318,13 @@ void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep) {
     dip_cost_sweep_title(report, &report->sweeps[sweep], title);
     snprintf(caption, sizeof caption, "%s on path %s: times and errors of each step", title,
              report->paths[report->sweeps[sweep].path]);
-    dip_form_table(
-        form,
-        &(DipTable){.id = id,
-                    .caption = caption,
-                    .set = set,
-                    .columns =
-                        "step; row.ms.value; row.p95_ms.value; ratio; row.figures.all.rmse_lin; "
-                        "row.figures.all.psnr_db; row.figures.all.ssim; row.figures.all.flip; "
-                        "row.over_time.flicker_rms_lin; row.over_time.two_frame_mean_rms_lin; "
-                        "row.at_floor=noise floor",
-                    DIP_COST_LINES(report, lines, dip_cost_step_lines(report, sweep, lines))});
+    DIP_FORM_TABLE(form, .id = id, .caption = caption, .set = set,
+                   .columns =
+                       "step; row.ms.value; row.p95_ms.value; ratio; row.figures.all.rmse_lin; "
+                       "row.figures.all.psnr_db; row.figures.all.ssim; row.figures.all.flip; "
+                       "row.over_time.flicker_rms_lin; row.over_time.two_frame_mean_rms_lin; "
+                       "row.at_floor=noise floor",
+                   DIP_COST_LINES(report, lines, dip_cost_step_lines(report, sweep, lines)));
     if (dip_cost_order_text(report, &report->sweeps[sweep], order, sizeof order)) {
         dip_form_paragraph(form, "note", "%s", order);
     }
@@ -364,26 +348,22 @@ void dip_section_fit(DipForm *form, const DipCostReport *report) {
              "median error is %.1f %%, and %.0f %% of the rows are predicted within 10 %%.",
              fit->rows, smaller, fit->r2, 100.0 * fit->median_miss, 100.0 * fit->others.median,
              100.0 * fit->others.within_10);
-    dip_form_table(form, &(DipTable){.id = "prices-of-work",
-                                     .caption = caption,
-                                     .record = &dip_cost_price_record,
-                                     .columns = "work; stage; ns",
-                                     .context = (void *)report,
-                                     .items = fit,
-                                     .count = fit->count,
-                                     .shows = has_price});
+    DIP_FORM_TABLE(form, .id = "prices-of-work", .caption = caption,
+                   .record = &dip_cost_price_record, .columns = "work; stage; ns",
+                   .context = (void *)report, .items = fit, .count = fit->count,
+                   .shows = has_price);
 }
 
 void dip_section_truth(DipForm *form, const DipCostReport *report) {
     DipCostLine lines[DIP_COST_MAX_PATHS];
     dip_form_heading(form, "truth", "The truth and its noise floor");
-    dip_form_table(
-        form, &(DipTable){.id = "noise-floors",
-                          .caption = "What the truth's own noise makes of each metric. An RMSE "
-                                     "below three times this one is \"at floor\", and "
-                                     "combinations whose FLIP is below this one rank alike.",
-                          .columns = "path; floor.rmse_lin; floor.psnr_db; floor.ssim; floor.flip",
-                          DIP_COST_LINES(report, lines, dip_cost_floor_lines(report, lines))});
+    DIP_FORM_TABLE(
+        form, .id = "noise-floors",
+        .caption =
+            "What the truth's own noise makes of each metric. An RMSE below three times this one "
+            "is \"at floor\", and combinations whose FLIP is below this one rank alike.",
+        .columns = "path; floor.rmse_lin; floor.psnr_db; floor.ssim; floor.flip",
+        DIP_COST_LINES(report, lines, dip_cost_floor_lines(report, lines)));
     if (report->refused_count > 0) {
         dip_form_heading(form, NULL, "Steps left out");
     }

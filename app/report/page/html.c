@@ -65,11 +65,9 @@ static void write_regions(DipForm *form, const DipCostReport *report) {
     const int count = dip_cost_all_step_lines(report, lines);
     if (count > 0) {
         dip_form_heading(form, "parts", "Where the errors are");
-        dip_form_table(form, &(DipTable){.id = "picture-parts",
-                                         .caption = "Mean FLIP over the pixels of each part of the "
-                                                    "picture.",
-                                         .columns = columns,
-                                         DIP_COST_LINES(report, lines, count)});
+        DIP_FORM_TABLE(form, .id = "picture-parts",
+                       .caption = "Mean FLIP over the pixels of each part of the picture.",
+                       .columns = columns, DIP_COST_LINES(report, lines, count));
     }
 }
 
@@ -88,17 +86,14 @@ static void write_tails(DipForm *form, const DipCostReport *report) {
                        "block is the part of at most %d x %d pixels with the greatest mean FLIP at "
                        "any viewpoint.",
                        DIP_FLIP_TAIL_BLOCK, DIP_FLIP_TAIL_BLOCK);
-    dip_form_table(
-        form,
-        &(DipTable){
-            .id = "flip-tails",
-            .caption = "Distribution of FLIP over pixels, for each step "
-                       "of each setting and for the Pareto front.",
-            .shows = has_tail,
-            .columns =
-                "settings; title; path; row.figures.all.flip; row.flip_tail.p50; "
-                "row.flip_tail.p95; row.flip_tail.p99; row.flip_tail.worst; row.flip_tail.place",
-            DIP_COST_LINES(report, lines, count)});
+    DIP_FORM_TABLE(
+        form, .id = "flip-tails",
+        .caption = "Distribution of FLIP over pixels, for each step of each setting and for the "
+                   "Pareto front.",
+        .shows = has_tail,
+        .columns = "settings; title; path; row.figures.all.flip; row.flip_tail.p50; "
+                   "row.flip_tail.p95; row.flip_tail.p99; row.flip_tail.worst; row.flip_tail.place",
+        DIP_COST_LINES(report, lines, count));
 }
 
 static void write_work(DipForm *form, const DipCostReport *report) {
@@ -109,14 +104,12 @@ static void write_work(DipForm *form, const DipCostReport *report) {
     dip_put_html(form->out, "<section class=\"%s\" aria-labelledby=\"work\">\n",
                  report->sweep_count > 0 ? "wide" : "narrow");
     dip_form_heading(form, "work", "Work");
-    dip_form_table(
-        form, &(DipTable){.id = "work-counters",
-                          .caption = "Work per frame, in thousands: means over the timed frames. "
-                                     "The counters are exact, the same on every machine and "
-                                     "with any number of threads. Those that are the same in "
-                                     "all steps are left out.",
-                          .columns = "name; row.counters=",
-                          DIP_COST_LINES(report, lines, dip_cost_all_step_lines(report, lines))});
+    DIP_FORM_TABLE(form, .id = "work-counters",
+                   .caption = "Work per frame, in thousands: means over the timed frames. The "
+                              "counters are exact, the same on every machine and with any number "
+                              "of threads. Those that are the same in all steps are left out.",
+                   .columns = "name; row.counters=",
+                   DIP_COST_LINES(report, lines, dip_cost_all_step_lines(report, lines)));
     dip_put_html(form->out, "</section>\n");
     dip_section_fit(form, report);
 }

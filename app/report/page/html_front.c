@@ -141,17 +141,12 @@ static void write_all_table(DipForm *form, const DipCostReport *report) {
              "combinations pale in the plot.",
              report->paths[0]);
     dip_put_html(form->out, "<details><summary>All %d combinations</summary>\n", count);
-    dip_form_table(
-        form,
-        &(DipTable){
-            .id = "combinations",
-            .caption = caption,
-            .set = "front",
-            .columns =
-                "settings; row.ms; row.p95_ms.value; row.ratio; row.figures.all.flip; "
-                "row.over_time.flicker_rms_lin; row.figures.all.psnr_db; row.figures.all.ssim; "
-                "row.figures.all.rmse_lin; row.at_floor=noise floor",
-            DIP_COST_LINES(report, lines, count)});
+    DIP_FORM_TABLE(form, .id = "combinations", .caption = caption, .set = "front",
+                   .columns =
+                       "settings; row.ms; row.p95_ms.value; row.ratio; row.figures.all.flip; "
+                       "row.over_time.flicker_rms_lin; row.figures.all.psnr_db; "
+                       "row.figures.all.ssim; row.figures.all.rmse_lin; row.at_floor=noise floor",
+                   DIP_COST_LINES(report, lines, count));
     dip_put_html(form->out, "</details>\n");
     if (report->same_count > 0) {
         dip_put_html(form->out,
@@ -182,15 +177,12 @@ static void write_predictions(DipForm *form, const DipCostReport *report,
     dip_section_predictions(form, report);
     dip_put_html(form->out, "<details><summary>%d predicted combinations</summary>\n",
                  listed->count);
-    dip_form_table(
-        form,
-        &(DipTable){
-            .id = "predictions",
-            .caption = caption,
-            .columns = "settings; predicted.ms; predicted.p95_ms; predicted.flip; "
-                       "row.ms.value=measured mean; row.figures.all.flip=measured FLIP; time_miss; "
-                       "flip_miss",
-            DIP_COST_LINES(report, lines, listed->count)});
+    DIP_FORM_TABLE(
+        form, .id = "predictions", .caption = caption,
+        .columns =
+            "settings; predicted.ms; predicted.p95_ms; predicted.flip; row.ms.value=measured mean; "
+            "row.figures.all.flip=measured FLIP; time_miss; flip_miss",
+        DIP_COST_LINES(report, lines, listed->count));
     dip_put_html(form->out, "</details>\n");
 }
 

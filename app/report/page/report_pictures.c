@@ -23,7 +23,7 @@ typedef struct Cutter {
     uint8_t *frames; // Frames, [picture of the set][pixel], rgba8.
     uint8_t *maps;   // FLIP maps in 1/255, [picture of the set][pixel].
     float *map;      // FLIP map of one frame.
-    uint8_t *crop;   // Crop of a FLIP map.
+    uint8_t crop[DIP_COST_CROP_WIDTH * DIP_COST_CROP_HEIGHT]; // Crop of a FLIP map.
 } Cutter;
 
 enum {
@@ -53,22 +53,19 @@ static void close_cutter(Cutter *cutter) {
     free(cutter->frames);
     free(cutter->maps);
     free(cutter->map);
-    free(cutter->crop);
 }
 
 // `most_rows` is the greatest number of rows in a set. On failure the cutter is closed.
-static bool open_cutter(Cutter *cutter, const DipCostReport *report,
-                        const DipCostFrameSource *source, int most_rows, DipError *err) {
-    Cutter *c = cutter;
+static bool open_cutter(Cutter *c, const DipCostReport *report, const DipCostFrameSource *source,
+                        int most_rows, DipError *err) {
     *c = (Cutter){.report = report, .source = source};
     const size_t pixels = pixel_count(c) * (size_t)most_rows;
     c->truth = malloc(pixel_count(c) * 4);
     c->frames = malloc(pixels * 4);
     c->maps = malloc(pixels);
     c->map = malloc(pixel_count(c) * sizeof *c->map);
-    c->crop = malloc((size_t)DIP_COST_CROP_WIDTH * DIP_COST_CROP_HEIGHT);
     const bool made =
-        c->truth && c->frames && c->maps && c->map && c->crop &&
+        c->truth && c->frames && c->maps && c->map &&
         dip_flip_init(&c->flip, report->width, report->height, report->options.pixels_per_degree) &&
         dip_flip_analysis_init(&c->flip, &c->truth_side);
     if (!made) {
@@ -203,7 +200,7 @@ static char *cut_frame(const Cutter *c, const uint8_t *rgba8) {
     return take_uri(made, "image/jpeg", bytes, size_bytes);
 }
 
-static char *cut_map(const Cutter *c, const DipCostPictureSet *set, const uint8_t *map) {
+static char *cut_map(Cutter *c, const DipCostPictureSet *set, const uint8_t *map) {
     uint8_t palette[3 * 256];
     const size_t width = (size_t)c->report->width;
     for (int i = 0; i < 256; i++) {
@@ -228,7 +225,7 @@ static bool cut_picture(const Cutter *c, const DipCostPictureSet *set, const uin
     return picture->crop && (!whole || picture->frame);
 }
 
-static bool cut_all(const Cutter *c, DipCostPictureSet *set, bool whole) {
+static bool cut_all(Cutter *c, DipCostPictureSet *set, bool whole) {
     bool cut = cut_picture(c, set, c->truth, whole, &set->truth);
     for (int i = 0; cut && i < set->count; i++) {
         DipCostPicture *picture = &set->pictures[i];
@@ -295,50 +292,34 @@ static bool has_crops(const DipCostPictureSet *set) {
     return false;
 }
 
-// Frees the crops of a set that do not fit in `room` bytes. Returns the bytes that are left.
-static double fit_crops(DipCostPictureSet *set, double room, int *left_out) {
-    double need = size_of(set->truth.crop);
+// Frees the crops of a set that do not fit in `room` bytes, or replaces crops by whole frames where
+// these fit. The truth's picture counts with the first row. Returns the bytes that are left.
+static double fit_set(DipCostPictureSet *set, bool frames, double room, int *left_out) {
+    char **truth = frames ? &set->truth.frame : &set->truth.crop;
+    double with_first = size_of(*truth);
+    bool any = false;
     for (int i = 0; i < set->count; i++) {
         DipCostPicture *picture = &set->pictures[i];
-        need += size_of(picture->crop) + size_of(picture->map);
-        if (need <= room) {
+        const double small = size_of(picture->crop) + size_of(picture->map);
+        const double need = with_first + (frames ? size_of(picture->frame) - small : small);
+        const bool fits = need <= room;
+        if (fits) {
             room -= need;
-            need = 0.0;
+            with_first = 0.0;
+            any = true;
         } else {
-            need -= size_of(picture->crop) + size_of(picture->map);
-            drop(&picture->crop);
-            drop(&picture->map);
             ++*left_out;
         }
-    }
-    if (!has_crops(set)) {
-        drop(&set->truth.crop);
-    }
-    return room;
-}
-
-// Replaces the crops of a set by whole frames where these fit. Returns the bytes that are left.
-static double fit_frames(DipCostPictureSet *set, double room, int *left_out) {
-    double need = size_of(set->truth.frame);
-    bool has_frames = false;
-    for (int i = 0; i < set->count; i++) {
-        DipCostPicture *picture = &set->pictures[i];
-        const double more =
-            size_of(picture->frame) - size_of(picture->crop) - size_of(picture->map);
-        if (need + more <= room) {
-            room -= need + more;
-            need = 0.0;
-            has_frames = true;
+        if (fits == frames) { // The frame takes the crop's place, or the crop does not fit.
             drop(&picture->crop);
             drop(&picture->map);
-        } else {
+        } else if (frames) {
             drop(&picture->frame);
-            ++*left_out;
         }
     }
-    if (!has_frames) {
-        drop(&set->truth.frame);
-    } else if (!has_crops(set)) {
+    if (frames ? !any : !has_crops(set)) {
+        drop(truth);
+    } else if (frames && !has_crops(set)) {
         drop(&set->truth.crop);
     }
     return room;
@@ -348,15 +329,15 @@ void dip_cost_pictures_fit(DipCostPictures *pictures, double room) {
     bool whole = pictures->front.truth.frame != NULL;
     for (int s = 0; s < DIP_COST_MAX_SWEEPS; s++) {
         whole = whole || pictures->sweeps[s].truth.frame;
-        room = fit_crops(&pictures->sweeps[s], room, &pictures->crops_left_out);
+        room = fit_set(&pictures->sweeps[s], false, room, &pictures->crops_left_out);
     }
-    room = fit_crops(&pictures->front, room, &pictures->crops_left_out);
+    room = fit_set(&pictures->front, false, room, &pictures->crops_left_out);
     if (!whole) {
         return;
     }
-    room = fit_frames(&pictures->front, room, &pictures->frames_left_out);
+    room = fit_set(&pictures->front, true, room, &pictures->frames_left_out);
     for (int s = 0; s < DIP_COST_MAX_SWEEPS; s++) {
-        room = fit_frames(&pictures->sweeps[s], room, &pictures->frames_left_out);
+        room = fit_set(&pictures->sweeps[s], true, room, &pictures->frames_left_out);
     }
 }
 
