@@ -7,7 +7,7 @@
 
 #include "app/cost/journal.h"
 #include "app/cost/plan.h"
-#include "app/report/page/picture_set.h"
+#include "app/report/page/report_pictures.h"
 #include "app/cli/measure_options.h"
 #include "app/gallery/gallery.h"
 #include "app/measure/metrics/truth.h"

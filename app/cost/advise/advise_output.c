@@ -225,18 +225,16 @@ bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommon
 // --- the terminal --------------------------------------------------------------------------------
 
 static void print_reports(DipForm *form, const Advised *advised) {
-    static const DipColumn columns[] = {
-        {"number", NULL},  {"name", NULL},    {"scene", NULL},
-        {"path", NULL},    {"width", NULL},   {"height", NULL},
-        {"threads", NULL}, {"verdict", NULL}, {"combinations", NULL}};
     const DipCostCommon *common = advised->common;
-    dip_form_table(form, &(DipTable){.caption = "The reports.",
-                                     .record = &report_record,
-                                     .context = (void *)advised,
-                                     .columns = columns,
-                                     .column_count = DIP_FIELD_COUNT_OF(columns),
-                                     .items = common->reports,
-                                     .count = common->report_count});
+    dip_form_table(
+        form,
+        &(DipTable){.caption = "The reports.",
+                    .record = &report_record,
+                    .context = (void *)advised,
+                    .columns =
+                        "number; name; scene; path; width; height; threads; verdict; combinations",
+                    .items = common->reports,
+                    .count = common->report_count});
     dip_form_paragraph(
         form, NULL,
         "%d combination%s of settings %s in every report. Times are %s times with their intervals "
@@ -267,8 +265,6 @@ static void print_next(DipForm *form, const DipCostCommon *common, const DipAdvi
 }
 
 static void print_chosen(DipForm *form, const Advised *advised, const DipCostCommonAdvice *advice) {
-    static const DipColumn columns[] = {
-        {"number", NULL}, {"ms", NULL}, {"flip", NULL}, {"loss", NULL}, {"other", NULL}};
     const DipCostCommon *common = advised->common;
     const DipCandidate *chosen = &common->candidates.list[advice->all.chosen];
     Line lines[DIP_COST_MAX_COMMON_REPORTS];
@@ -286,8 +282,7 @@ static void print_chosen(DipForm *form, const Advised *advised, const DipCostCom
     dip_section_ini(form, &chosen->quality);
     dip_form_table(form, &(DipTable){.record = &line_record,
                                      .context = (void *)advised,
-                                     .columns = columns,
-                                     .column_count = DIP_FIELD_COUNT_OF(columns),
+                                     .columns = "number; ms; flip; loss; other",
                                      .items = lines,
                                      .count = common->report_count});
 }

@@ -1,4 +1,4 @@
-// What all comparisons have in common: growth of quantities, marks of rows, and notes.
+// Computes what all comparisons have in common: growth of quantities, marks of rows, and notes.
 #include "app/cost/diff/diff.h"
 
 #include <math.h>
@@ -8,10 +8,11 @@
 #include <string.h>
 
 static const char *const error_titles[DIP_COST_DIFF_ERROR_COUNT] = {
-#define ERROR_TITLE(name, title, higher) title,
-    DIP_COST_DIFF_ERROR_LIST(ERROR_TITLE)
-#undef ERROR_TITLE
-};
+    "RMSE", "PSNR", "SSIM", "FLIP", "flicker", "two-frame mean"};
+
+bool dip_cost_diff_no_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
+}
 
 void dip_cost_diff_note(DipCostDiff *diff, const char *format, ...) {
     if (diff->note_count == DIP_COST_DIFF_MAX_NOTES) {
@@ -61,7 +62,7 @@ bool dip_cost_diff_is_busy(const DipCostDiff *diff) {
            (diff->verdicts[0] == DIP_COST_RED || diff->verdicts[1] == DIP_COST_RED);
 }
 
-// Counts the rows in which a side's quantity is known, and those in which it is not 0.
+// Counts the rows in which a side's quantity is known, and the rows in which it is known and not 0.
 static void count_rows(const DipCostDiff *diff, int side, int quantity, int *known, int *used) {
     *known = *used = 0;
     for (int r = 0; r < diff->row_count; r++) {
@@ -77,7 +78,7 @@ void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff) {
         int known[2], used[2];
         count_rows(diff, 0, q, &known[0], &used[0]);
         count_rows(diff, 1, q, &known[1], &used[1]);
-        const int side = used[0] == 0 ? 0 : 1; // The side that may not count it.
+        const int side = used[0] == 0 ? 0 : 1; // The side that perhaps does not count it.
         if (used[side] > 0 || used[1 - side] == 0 || used[1 - side] < known[1 - side]) {
             continue;
         }

@@ -1,39 +1,62 @@
-// `diptych cost diff`: what got slower or worse between two reports or two programs.
+// `diptych cost diff` finds what got slower or worse between two reports or two programs.
 //
-// A comparison has rows. A row is one combination of settings on one camera path that both sides
-// have. Side 0 is A, side 1 is B. Each row has the values of some quantities on both sides. A
-// quantity is an error or a counter; quantities are exact, so that any difference has a cause. A
-// row also has times, which are noisy and have intervals.
+// A comparison has two sides: 0 is A, 1 is B. Each of its rows is a combination of settings on a
+// camera path that both sides have, with the values of some quantities on both sides. A quantity is
+// an error, a counter or the number of pictures that differ. Quantities are exact, so any
+// difference has a cause. A row also has times, which are noisy and have intervals.
 #ifndef DIP_APP_COST_DIFF_DIFF_H
 #define DIP_APP_COST_DIFF_DIFF_H
 
-#include "app/cost/diff/diff_options.h"
+#include "app/cli/command.h"
+#include "app/cli/measure_options.h"
 #include "app/measure/timing/sample.h"
 #include "app/report/format/fields.h"
 #include "app/report/report.h"
+#include "app/session/session_options.h"
 
 #include <stdbool.h>
 #include <stdio.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+// --- the command line ----------------------------------------------------------------------------
 
-// X(name, "title", higher is better): the errors that are compared.
-#define DIP_COST_DIFF_ERROR_LIST(X)                                                                \
-    X(rmse, "RMSE", false)                                                                         \
-    X(psnr, "PSNR", true)                                                                          \
-    X(ssim, "SSIM", true)                                                                          \
-    X(flip, "FLIP", false)                                                                         \
-    X(flicker, "flicker", false)                                                                   \
-    X(two_mean, "two-frame mean", false)
+enum {
+    DIP_COST_DIFF_MAX_SETS = 24,
+    DIP_COST_DIFF_STARTS = 6,
+    DIP_COST_DIFF_ROUNDS = 8,
+    DIP_COST_DIFF_FRAMES = 6
+};
+
+// A combination of settings to compare.
+typedef struct DipCostDiffSet {
+    char text[80]; // As it was typed.
+    DipQuality quality;
+} DipCostDiffSet;
+
+// The whole command line. Texts are borrowed from argv.
+typedef struct DipCostDiffArguments {
+    DipProgramOptions program;
+    DipSessionOptions session; // What the programs draw.
+    const char *sides[2];      // A and B.
+    int side_count;
+    DipCostDiffSet sets[DIP_COST_DIFF_MAX_SETS];
+    int set_count;
+    DipMeasureOptions measure; // Rounds 0: as the report or the program that is compared needs.
+    int frames;                // 0: as the report or the program that is compared needs.
+    double fail_over;          // 1.03 for --fail-over 3%; 0: never fail.
+    const char *json;
+} DipCostDiffArguments;
+
+// --- comparisons ---------------------------------------------------------------------------------
 
 // Indices of the quantities: errors, then the number of pictures that differ, then the counters.
 enum {
-#define DIP_COST_DIFF_ERROR(name, title, higher) DIP_COST_DIFF_##name,
-    DIP_COST_DIFF_ERROR_LIST(DIP_COST_DIFF_ERROR)
-#undef DIP_COST_DIFF_ERROR
-        DIP_COST_DIFF_ERROR_COUNT,
+    DIP_COST_DIFF_rmse,
+    DIP_COST_DIFF_psnr,
+    DIP_COST_DIFF_ssim,
+    DIP_COST_DIFF_flip,
+    DIP_COST_DIFF_flicker,
+    DIP_COST_DIFF_two_mean,
+    DIP_COST_DIFF_ERROR_COUNT,
     DIP_COST_DIFF_pictures = DIP_COST_DIFF_ERROR_COUNT,
     DIP_COST_DIFF_FIRST_COUNTER,
     DIP_COST_DIFF_QUANTITY_COUNT = DIP_COST_DIFF_FIRST_COUNTER + DIP_COST_COUNTER_COUNT
@@ -57,13 +80,14 @@ typedef struct DipCostDiffRow {
     char path[16];
     double values[2][DIP_COST_DIFF_QUANTITY_COUNT]; // NAN: not known, or not comparable.
     bool timed;                                     // Both sides have a time.
-    bool is_base;                                   // The baseline of a report's path.
+    bool is_base;                                   // It is the baseline of a report's path.
     double ms[2];                                   // Mean time of a frame.
     DipEstimate ratios[2];                          // Reports only: the time over the baseline's.
     DipEstimate change;  // How many times as long B takes, with its 95 % interval.
     double surely_above; // The change is surely greater than this; see dip_cost_diff_mark.
     double surely_below;
-    // Programs only: 1 + (B's time in a stage - A's time in it) / A's time of the frame.
+    // Programs only, for each stage of a frame: 1 + (B's time in the stage - A's time in it) / A's
+    // time of the frame.
     DipEstimate stages[DIP_COST_DIFF_STAGES];
     DipCostDiffMark mark;
 } DipCostDiffRow;
@@ -80,7 +104,7 @@ typedef struct DipCostDiff {
     char machines[2][256];      // "Xeon, 2 threads, avx512"; "" if not known.
     char builds[2][33];         // Hash of the program's file; "" if not known.
     char scene[DIP_COST_TEXT];  // "court.gltf, 640x480 pixels"; "" if not known.
-    bool some_rows;             // One side has only some rows of the other, on purpose.
+    bool some_rows;             // One side was measured with only some rows of the other.
     bool same_machine;          // The sides' machines, threads and instruction sets are the same.
     bool has_times;             // The times may be compared.
     DipCostVerdict verdicts[2]; // How quiet each side's machine was; for programs both are equal.
@@ -91,15 +115,18 @@ typedef struct DipCostDiff {
     int note_count;
     char cause[512];  // The likely cause of a slowdown; "" if nothing is sure.
     double limit;     // A row is slower if it surely takes more than this many times as long.
-    double fail_over; // The same limit for failing, and for errors; 0: never fail.
+    double fail_over; // The limit beyond which times and errors fail; 0: nothing fails.
     int slower;       // Number of rows with each mark.
     int faster;
-    int failed_times;  // Rows beyond fail_over.
-    int failed_errors; // Rows with an error that grew beyond fail_over.
+    int failed_times;  // Number of rows that are slower beyond fail_over.
+    int failed_errors; // Number of rows with an error that grew beyond fail_over.
 } DipCostDiff;
 
-// Appends a note; ignores it if there are too many.
+// Appends a note, or ignores it if there are too many.
 void dip_cost_diff_note(DipCostDiff *diff, const char *format, ...) DIP_PRINTF(2, 3);
+
+// Reports that memory ran out. Returns false.
+bool dip_cost_diff_no_memory(DipError *err);
 
 // Frees the rows.
 void dip_cost_diff_free(DipCostDiff *diff);
@@ -107,7 +134,7 @@ void dip_cost_diff_free(DipCostDiff *diff);
 // Returns the title of a quantity: "FLIP", "texels_fetched".
 const char *dip_cost_diff_title(int quantity);
 
-// True if a row's quantity is known on both sides and differs.
+// Returns whether a row's quantity is known on both sides and differs.
 bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
 
 // Returns by what share an error grew from A to B (0.1: B's error is 10 % greater), or 0 if it is
@@ -116,8 +143,8 @@ bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
 // growth of the value.
 double dip_cost_diff_growth(const DipCostDiffRow *row, int quantity);
 
-// Leaves out the counters that are 0 in all rows of one side and in no row of the other, with a
-// note: an older build does not count what a newer one does.
+// Leaves out the counters that are 0 in all rows of one side and in no row of the other, and notes
+// their names: perhaps an older build does not count what a newer one counts.
 void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
 
 // Computes the rows' marks and the counts from the rows and the limits. A row is marked as slower
@@ -126,7 +153,67 @@ void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
 // reports come from different machines.
 void dip_cost_diff_mark(DipCostDiff *diff);
 
-// True if a side's machine was too busy for its times to be believed.
+// --- groups of exact differences -----------------------------------------------------------------
+
+// How one quantity differs over the rows of a group.
+typedef struct DipCostDiffChange {
+    int quantity;
+    int rows;     // Number of rows in which the quantity differs.
+    int greatest; // The row with the greatest change.
+    double least; // Least and greatest growth (dip_cost_diff_growth).
+    double most;
+} DipCostDiffChange;
+
+// Quantities that differ in the same rows. All errors are one group.
+typedef struct DipCostDiffGroup {
+    char which[256]; // The rows, in words: "all 12 rows with af=16".
+    int row_count;   // Number of rows in which any of the quantities differs.
+    DipCostDiffChange changes[DIP_COST_DIFF_QUANTITY_COUNT];
+    int change_count;
+} DipCostDiffGroup;
+
+// Finds all groups, so that a reader sees the few causes of the differences and not one line per
+// row. Each quantity is in at most one group. Returns their number, or -1 when memory runs out.
+int dip_cost_diff_group(const DipCostDiff *diff,
+                        DipCostDiffGroup groups[DIP_COST_DIFF_QUANTITY_COUNT]);
+
+// --- causes of a slowdown ------------------------------------------------------------------------
+
+// Additional times of some rows, and the work that may explain them. Arrays are borrowed.
+typedef struct DipCauseData {
+    int rows;
+    int starts;
+    int kinds;               // Kinds of work.
+    const double *per_start; // [row * starts + start]: additional time; NAN: not known.
+    const double *work;      // [kind * rows + row], at least 0.
+} DipCauseData;
+
+typedef struct DipCause {
+    int kind;     // The kind of work that explains the additional times best; -1 if none is sure.
+    double price; // Additional time per unit of this work.
+    double share; // Share of the sum of squares of the additional times that it explains.
+} DipCause;
+
+// Fits the additional times y of the rows by y = price * work, for each kind of work by itself,
+// with least squares, and takes the kind that leaves the least error. This kind is sure if it wins
+// in 90 % of 200 bootstrap draws of the starts and explains 90 % of the sum of squares. Kinds of
+// work that are proportional over the rows to within a few per cent (the cosine of their angle is
+// above .999) cannot be told apart and count as the first of them. Fails with DIP_ERROR_MEMORY.
+bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err);
+
+// Returns whether two kinds of work are proportional over the rows, so that they cannot be told
+// apart.
+bool dip_cause_is_same_work(const DipCauseData *data, int a, int b);
+
+// Writes diff->cause from the times of two programs: the stage that takes most of the additional
+// time of the slower rows and, with four rows or more, the kind of work with which this time grows.
+// Subject 2 * row + side of the times is the row on this side. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTimesFit *fit,
+                           DipError *err);
+
+// --- comparing -----------------------------------------------------------------------------------
+
+// Returns whether a side's machine was too busy for its times to be believed.
 bool dip_cost_diff_is_busy(const DipCostDiff *diff);
 
 // Compares two reports. The names, limits and some_rows of *diff must be filled in before. Fails
@@ -154,9 +241,5 @@ bool dip_cost_diff_print(const DipCostDiff *diff, FILE *out, DipError *err);
 // Writes the comparison to a JSON file.
 extern const DipRecord dip_cost_diff_record; // DipCostDiff
 bool dip_cost_diff_write_json(const DipCostDiff *diff, const char *file, DipError *err);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -1,12 +1,14 @@
-// One fit through the origin for each kind of work; the bootstrap over the starts tells whether the
-// best fit is luck.
-#include "app/cost/diff/diff_cause.h"
-
+// Finds the likely cause of a slowdown: the kind of work with which the additional time grows. Fits
+// a line through the origin for each kind of work. The bootstrap over the starts of the programs
+// tells whether the best fit is more than chance.
+#include "app/cost/diff/diff.h"
 #include "app/measure/stats/random.h"
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { DRAWS = 200 };
 static const double surely_wins = 0.9;
@@ -27,8 +29,8 @@ bool dip_cause_is_same_work(const DipCauseData *data, int a, int b) {
     return lengths > 0.0 && dot(x, y, data->rows) > same_cosine * lengths;
 }
 
-// Finds the kind that explains most of the sum of squares, with a positive price. Counts kinds that
-// cannot be told apart as the first of them.
+// Finds the kind of work that explains most of the sum of squares of the times, with a positive
+// price. Counts kinds that cannot be told apart as the first of them.
 static DipCause best_fit(const DipCauseData *data, const double *times) {
     DipCause best = {.kind = -1};
     const double squares = dot(times, times, data->rows);
@@ -85,8 +87,7 @@ static double share_of_wins(const DipCauseData *data, int kind, int *drawn, doub
 bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err) {
     double *times = malloc((size_t)data->rows * sizeof *times);
     int *drawn = malloc((size_t)data->starts * sizeof *drawn);
-    const bool made = (times && drawn) ||
-                      dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
+    const bool made = (times && drawn) || dip_cost_diff_no_memory(err);
     *cause = (DipCause){.kind = -1};
     for (int s = 0; made && s < data->starts; s++) {
         drawn[s] = s;
@@ -101,4 +102,133 @@ bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err) {
     free(times);
     free(drawn);
     return made;
+}
+
+// --- describing the cause
+// --------------------------------------------------------------------------
+
+// Returns the stage that takes most of the additional time of the slower rows. Writes the share of
+// the additional time that this stage takes.
+static DipBenchStage slowest_stage(const DipCostDiff *diff, double *share) {
+    double most = 0.0, total = 0.0;
+    DipBenchStage found = (DipBenchStage)0;
+    for (int stage = 0; stage < DIP_COST_DIFF_STAGES; stage++) {
+        double ms = 0.0;
+        for (int r = 0; r < diff->row_count; r++) {
+            const DipCostDiffRow *row = &diff->rows[r];
+            ms += row->mark == DIP_COST_DIFF_SLOWER ? row->ms[0] * (row->stages[stage].value - 1.0)
+                                                    : 0.0;
+        }
+        total += fmax(ms, 0.0);
+        if (ms > most) {
+            most = ms;
+            found = (DipBenchStage)stage;
+        }
+    }
+    *share = total > 0.0 ? most / total : 0.0;
+    return found;
+}
+
+// Kinds of work that may explain additional time: one unit per frame, A's time of the stage, and
+// the counters.
+enum { PER_FRAME, STAGE_TIME, FIRST_COUNTER };
+
+static void list_work(const DipTimesFit *fit, const DipCostDiff *diff, DipBenchStage stage,
+                      double *work) {
+    const int rows = diff->row_count;
+    for (int r = 0; r < rows; r++) {
+        work[PER_FRAME * rows + r] = 1.0;
+        work[STAGE_TIME * rows + r] = diff->rows[r].ms[0] * dip_times_shares(fit, 2 * r)[stage];
+        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+            const double value = diff->rows[r].values[0][DIP_COST_DIFF_FIRST_COUNTER + c];
+            work[(FIRST_COUNTER + c) * rows + r] = isnan(value) ? 0.0 : value;
+        }
+    }
+}
+
+static void write_cause(DipCostDiff *diff, const DipCauseData *data, const DipCause *cause,
+                        const char *stage) {
+    const size_t used = strlen(diff->cause);
+    char *text = diff->cause + used;
+    const size_t size = sizeof diff->cause - used;
+    if (cause->kind == PER_FRAME) {
+        snprintf(text, size,
+                 " It is about the same with all settings, %.3f ms per frame, so its cause does "
+                 "not grow with their work.",
+                 cause->price);
+    } else if (cause->kind == STAGE_TIME) {
+        snprintf(text, size, " It is about the same share of %s with all settings, %.1f %%.", stage,
+                 100.0 * cause->price);
+    } else if (cause->kind >= FIRST_COUNTER) {
+        const int counter = cause->kind - FIRST_COUNTER;
+        int written = snprintf(text, size,
+                               " It grows with %s, by %.3g ns each: this work is the likely cause.",
+                               dip_cost_counter_names[counter], 1e6 * cause->price);
+        for (int k = cause->kind + 1; k < data->kinds; k++) {
+            if (dip_cause_is_same_work(data, cause->kind, k) && written >= 0 &&
+                (size_t)written < size) {
+                written +=
+                    snprintf(text + written, size - (size_t)written, " (%s grows in proportion.)",
+                             dip_cost_counter_names[k - FIRST_COUNTER]);
+            }
+        }
+    }
+}
+
+// Writes how much longer B takes in a stage, in milliseconds, for each row in each start by itself:
+// per_start[row * starts + start].
+static bool list_per_start(const DipTimes *all, int rows, DipBenchStage stage, double *per_start,
+                           DipError *err) {
+    DipTimesFit *fit = NULL;
+    DipTimed *list = malloc(((size_t)all->count + 1) * sizeof *list);
+    bool done = list || dip_cost_diff_no_memory(err);
+    DipTimes times = *all;
+    times.list = list;
+    times.starts = 1;
+    for (int start = 0; done && start < all->starts; start++) {
+        times.count = 0;
+        for (int i = 0; i < all->count; i++) {
+            if (all->list[i].start == start) {
+                list[times.count] = all->list[i];
+                list[times.count++].start = 0;
+            }
+        }
+        fit = dip_times_fit_part(&times, (int)stage, err);
+        done = fit != NULL;
+        for (int r = 0; done && r < rows; r++) {
+            per_start[r * all->starts + start] = dip_times_along(fit, 2 * r + 1).mean_ms.value -
+                                                 dip_times_along(fit, 2 * r).mean_ms.value;
+        }
+        dip_times_fit_free(&fit);
+    }
+    free(list);
+    return done;
+}
+
+bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTimesFit *fit,
+                           DipError *err) {
+    const int rows = diff->row_count, starts = times->starts;
+    const int kinds = FIRST_COUNTER + DIP_COST_COUNTER_COUNT;
+    double share;
+    const DipBenchStage stage = slowest_stage(diff, &share);
+    const char *name = dip_bench_stage_names[stage];
+    snprintf(diff->cause, sizeof diff->cause, "%.0f %% of the additional time is in the stage %s.",
+             100.0 * share, name);
+    if (rows < 4) {
+        return true;
+    }
+    double *per_start = malloc((size_t)(rows * (starts + kinds)) * sizeof *per_start);
+    if (!per_start) {
+        return dip_cost_diff_no_memory(err);
+    }
+    DipCause cause;
+    const DipCauseData data = {rows, starts, kinds, per_start, per_start + rows * starts};
+    list_work(fit, diff, stage, per_start + rows * starts);
+    const bool done =
+        list_per_start(times, rows, stage, per_start, err) && dip_cause_find(&data, &cause, err);
+    if (done) {
+        write_cause(diff, &data, &cause, name);
+    }
+    free(per_start);
+    return done;
 }

@@ -1,18 +1,107 @@
-// The command `diptych cost diff`: finds out what A and B are, compares them and judges the result.
+// The command `diptych cost diff`: reads its options, finds out what A and B are, compares them and
+// judges the result.
 #include "app/cost/command.h"
 #include "app/cost/diff/diff.h"
 #include "app/report/format/formats.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/number.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Differences of times below this are not reported.
+// Changes of times by less than this factor are not reported.
 static const double least_limit = 1.01;
+
+// --- options -------------------------------------------------------------------------------------
+
+#define FIELD(name) offsetof(DipCostDiffArguments, name)
+
+// Settings that use each part of the renderer: samples, filters, sample groups, compression, and
+// all of them.
+static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=on;opt=advanced;"
+                                   "aa=8,aaa=on,asd=2,af=16,aaf=on";
+
+static bool read_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    (void)row;
+    DipCostDiffArguments *diff = fields;
+    DipCostDiffSet *set = &diff->sets[diff->set_count];
+    snprintf(set->text, sizeof set->text, "%s", value);
+    return dip_quality_parse(value, &set->quality, err);
+}
+
+static bool read_share(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipCostDiffArguments *diff = fields;
+    const size_t length = strlen(value);
+    double percent;
+    if (length < 2 || value[length - 1] != '%' || !dip_number_parse(value, length - 1, &percent) ||
+        percent < 0.1 || percent > 1000.0) {
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
+                                 "a share from 0.1% to 1000%, such as 3%");
+    }
+    diff->fail_over = 1.0 + percent / 100.0;
+    return true;
+}
+
+static const DipOptionRow judge_rows[] = {
+    {"--fail-over", "P%", DIP_OPTION_CUSTOM, .read = read_share,
+     .text = "Exit with code 1 if B takes surely more than P % longer with any settings, or if an "
+             "error grew by more than P %. Without the option, differences are only reported."},
+};
+
+static const DipOptionRow run_rows[] = {
+    {"--sets", "LIST", DIP_OPTION_LIST, .count = FIELD(set_count), .room = DIP_COST_DIFF_MAX_SETS,
+     .separator = ';', .read = read_set,
+     .text = "Settings to time, as SET;SET;... in quotes. The default is eight sets that use every "
+             "part of the renderer."},
+    {"--frames", "N", DIP_OPTION_INTEGER, FIELD(frames), .least = 1, .most = 1000,
+     .text = "Draw this many frames, which divide the camera path evenly. The default is 6. If a "
+             "program is compared with a report, the frames are those of the report."},
+};
+
+static const DipOptionTable judge_table = DIP_OPTION_TABLE("Judging and output", judge_rows);
+static const DipOptionTable run_table = DIP_OPTION_TABLE("Timing programs", run_rows);
+
+static const DipOptionPart parts[] = {
+    {&judge_table, 0},
+    {&dip_json_option_table, FIELD(json)},
+    {&run_table, 0},
+    {&dip_measure_option_table, offsetof(DipCostDiffArguments, measure)},
+    {&dip_starts_option_table, offsetof(DipCostDiffArguments, measure)},
+    {&dip_scene_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_path_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_category_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_size_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_threads_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_program_option_table, offsetof(DipCostDiffArguments, program)},
+};
+static const DipOptionParts option_parts = {parts, DIP_ARRAY_COUNT(parts)};
+
+static void set_defaults(void *arguments, int argc, char *const *argv) {
+    (void)argc;
+    (void)argv;
+    DipCostDiffArguments *diff = arguments;
+    diff->measure.starts = DIP_COST_DIFF_STARTS;
+    dip_option_store(&run_rows[0], default_sets, diff, NULL);
+}
+
+static bool check(const void *arguments, DipError *err) {
+    const DipCostDiffArguments *diff = arguments;
+    if (diff->side_count != 2) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost diff",
+                             "there is nothing to compare; give two reports or programs: cost diff "
+                             "A B");
+    }
+    if (diff->measure.starts < 2) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--starts",
+                             "1 start has no spread; give 2 or more");
+    }
+    return dip_session_options_check(&diff->session, err);
+}
 
 // --- comparing -----------------------------------------------------------------------------------
 
@@ -29,8 +118,8 @@ static const char *program_of(const char *name) {
     return is_report ? NULL : name;
 }
 
-// Compares what A and B are. Of a report and a program, the program measures rows of the report
-// again.
+// Compares two reports, two programs, or a report and a program, which then measures rows of the
+// report again.
 static bool compare(const DipCostDiffArguments *arguments, DipCostDiff *diff, DipError *err) {
     const char *programs[2];
     DipCostReport reports[2] = {{.rows = NULL}, {.rows = NULL}};
@@ -80,7 +169,7 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     const DipCostDiffArguments *arguments = all_arguments;
     DipCostDiff *diff = calloc(1, sizeof *diff);
     if (!diff) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
+        return dip_cost_diff_no_memory(err);
     }
     diff->fail_over = arguments->fail_over;
     diff->limit = diff->fail_over > 0.0 ? fmin(least_limit, diff->fail_over) : least_limit;
@@ -121,11 +210,11 @@ const DipCommand dip_cost_diff_command = {
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),
     .lists_settings = true,
-    .parts = &dip_cost_diff_option_parts,
+    .parts = &option_parts,
     .operands = {offsetof(DipCostDiffArguments, sides), offsetof(DipCostDiffArguments, side_count),
                  2},
     .options_size = sizeof(DipCostDiffArguments),
-    .set_defaults = dip_cost_diff_options_default,
-    .check = dip_cost_diff_options_check,
+    .set_defaults = set_defaults,
+    .check = check,
     .run = run,
 };

@@ -1,5 +1,5 @@
-// Finding the quantities that differ in the same rows, and describing these rows in a few words.
-#include "app/cost/diff/diff_groups.h"
+// Finds the quantities that differ in the same rows, and describes these rows in a few words.
+#include "app/cost/diff/diff.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,53 +8,45 @@
 
 // --- describing rows -----------------------------------------------------------------------------
 
-enum { ANY = -1, NOT_DEFAULT = -2 };
+enum { NOT_DEFAULT = -1, MOST_TERMS = 2 };
 
-// A condition on rows: on a path, and on the steps of up to two settings.
+// A condition on rows: on their path, and on their steps of some settings.
 typedef struct Condition {
-    int path_row;    // The rows on the path of this row; ANY: on any path.
-    int settings[2]; // ANY: no condition.
-    int steps[2];    // NOT_DEFAULT: any step but the default.
+    const char *path; // NULL: rows on any path meet the condition.
+    int count;        // Number of settings.
+    int settings[MOST_TERMS];
+    int steps[MOST_TERMS]; // NOT_DEFAULT: any step but the default.
 } Condition;
 
-static bool meets(const DipCostDiff *diff, int row, const Condition *condition) {
+static bool meets(const DipCostDiffRow *row, const Condition *condition) {
     const DipQuality standard = dip_quality_default();
-    if (condition->path_row != ANY &&
-        strcmp(diff->rows[row].path, diff->rows[condition->path_row].path) != 0) {
-        return false;
+    bool met = !condition->path || strcmp(row->path, condition->path) == 0;
+    for (int i = 0; met && i < condition->count; i++) {
+        const int setting = condition->settings[i], step = row->quality.step[setting];
+        met = condition->steps[i] == NOT_DEFAULT ? step != standard.step[setting]
+                                                 : step == condition->steps[i];
     }
-    for (int i = 0; i < 2; i++) {
-        const int setting = condition->settings[i];
-        if (setting == ANY) {
-            continue;
-        }
-        const int step = diff->rows[row].quality.step[setting];
-        if (condition->steps[i] == NOT_DEFAULT ? step == standard.step[setting]
-                                               : step != condition->steps[i]) {
-            return false;
-        }
-    }
-    return true;
+    return met;
 }
 
 static int term_count(const Condition *condition) {
-    return (condition->path_row != ANY) + (condition->settings[0] != ANY) +
-           (condition->settings[1] != ANY);
+    return (condition->path != NULL) + condition->count;
 }
 
+// A search for the condition that describes some rows best.
 typedef struct Search {
     const DipCostDiff *diff;
-    const bool *rows; // [row]: it is one of those to describe.
+    const bool *rows; // [row]: it is one of the rows to describe.
     Condition best;
-    int best_count; // Rows that meet the best condition; 0 if there is none yet.
+    int best_count; // Number of rows that meet the best condition; 0 if there is none yet.
 } Search;
 
-// Keeps a condition that holds for all wanted rows if it holds for fewer others than the best so
-// far, or for as many and has fewer terms.
+// Keeps a condition if all rows to describe meet it, and if fewer other rows meet it than meet the
+// best condition so far, or as many and it has fewer terms.
 static void consider(Search *search, const Condition *condition) {
     int count = 0;
     for (int r = 0; r < search->diff->row_count; r++) {
-        const bool met = meets(search->diff, r, condition);
+        const bool met = meets(&search->diff->rows[r], condition);
         if (search->rows[r] && !met) {
             return;
         }
@@ -67,50 +59,36 @@ static void consider(Search *search, const Condition *condition) {
     }
 }
 
-static bool is_first_of_path(const DipCostDiff *diff, int row) {
-    for (int r = 0; r < row; r++) {
-        if (strcmp(diff->rows[r].path, diff->rows[row].path) == 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
-// Considers all steps of the i-th setting of a condition, and of the settings after it.
-static void consider_settings(Search *search, Condition condition, int i) {
+// Considers a condition, alone and with all steps of further settings after its last one.
+static void consider_settings(Search *search, Condition condition) {
     consider(search, &condition);
-    for (int s = i > 0 ? condition.settings[0] + 1 : 0; i < 2 && s < DIP_SETTING_COUNT; s++) {
-        condition.settings[i] = s;
+    const int last = condition.count++;
+    for (int s = last > 0 ? condition.settings[last - 1] + 1 : 0;
+         last < MOST_TERMS && s < DIP_SETTING_COUNT; s++) {
+        condition.settings[last] = s;
         for (int step = NOT_DEFAULT; step < dip_setting_info((DipSetting)s)->step_count; step++) {
-            condition.steps[i] = step;
-            if (step != ANY) {
-                consider_settings(search, condition, i + 1);
-            }
+            condition.steps[last] = step;
+            consider_settings(search, condition);
         }
-        condition.settings[i] = ANY;
     }
 }
 
-static void format_condition(const DipCostDiff *diff, const Condition *condition, char *text,
-                             size_t size) {
+static void format_condition(const Condition *condition, char *text, size_t size) {
     size_t used = 0;
     text[0] = '\0';
-    for (int i = 0; i < 2; i++) {
-        if (condition->settings[i] == ANY) {
-            continue;
-        }
+    for (int i = 0; i < condition->count; i++) {
         const DipSettingInfo *info = dip_setting_info((DipSetting)condition->settings[i]);
         const int step = condition->steps[i];
         used += (size_t)snprintf(text + used, size - used, "%s%s%s%s", used ? " and " : " with ",
                                  info->key, step == NOT_DEFAULT ? " other than " : "=",
                                  info->steps[step == NOT_DEFAULT ? info->default_step : step]);
     }
-    if (condition->path_row != ANY) {
-        snprintf(text + used, size - used, " on path %s", diff->rows[condition->path_row].path);
+    if (condition->path) {
+        snprintf(text + used, size - used, " on path %s", condition->path);
     }
 }
 
-// Describes the rows, of which there is at least one.
+// Describes rows, of which there is at least one, in a few words.
 static void describe(const DipCostDiff *diff, const bool *rows, char *text, size_t size) {
     Search search = {.diff = diff, .rows = rows};
     int count = 0, first = 0;
@@ -125,14 +103,10 @@ static void describe(const DipCostDiff *diff, const bool *rows, char *text, size
                  diff->rows[first].path);
         return;
     }
-    consider_settings(&search, (Condition){ANY, {ANY, ANY}, {0, 0}}, 0);
-    for (int r = 0; r < diff->row_count; r++) {
-        if (rows[r] && is_first_of_path(diff, r)) {
-            consider_settings(&search, (Condition){r, {ANY, ANY}, {0, 0}}, 0);
-        }
-    }
+    consider_settings(&search, (Condition){.path = NULL});
+    consider_settings(&search, (Condition){.path = diff->rows[first].path});
     char condition[160];
-    format_condition(diff, &search.best, condition, sizeof condition);
+    format_condition(&search.best, condition, sizeof condition);
     if (count == search.best_count) {
         snprintf(text, size, "all %d rows%s", count, condition);
     } else {

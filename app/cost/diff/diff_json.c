@@ -1,9 +1,6 @@
-// The fields of a comparison, and its JSON.
+// Lists the fields of a comparison, and writes them as JSON.
 #include "app/cost/diff/diff.h"
-#include "app/files/whole_file.h"
 #include "app/report/format/cost_fields.h"
-
-#include <string.h>
 
 static const char *const mark_names[] = {"same", "slower", "faster"};
 
@@ -12,40 +9,26 @@ static const DipCostDiff *diff_of(const DipFieldAt *at) {
     return at->context;
 }
 
-static bool has_times(const DipFieldAt *at) {
-    return diff_of(at)->has_times;
-}
+DIP_OF_ITEM(bool, has_times, diff_of(at)->has_times)
 
-// --- sides: the item is the name's pointer -------------------------------------------------------
+// --- sides ---------------------------------------------------------------------------------------
 
-#define OF_SIDE(name, value)                                                                       \
-    static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
-        (void)scratch;                                                                             \
-        return value;                                                                              \
-    }
-OF_SIDE(derive_name, diff_of(at)->names[at->index])
-OF_SIDE(derive_build, diff_of(at)->builds[at->index])
-OF_SIDE(derive_machine, diff_of(at)->machines[at->index])
-OF_SIDE(derive_verdict, dip_cost_verdict_names[diff_of(at)->verdicts[at->index]])
-OF_SIDE(derive_reason, diff_of(at)->reasons[at->index])
-
+DIP_DERIVE(derive_name, diff_of(at)->names[at->index])
+DIP_DERIVE(derive_verdict, dip_cost_verdict_names[diff_of(at)->verdicts[at->index]])
+#define OF_SIDE(member)                                                                            \
+    DIP_COMPUTED(TEXT, DipCostDiff, member[0]), .stride = sizeof *((DipCostDiff *)0)->member
 static const DipField side_fields[] = {
     {"name", NULL, NULL, "As on the command line.", DIP_DERIVED(TEXT, derive_name)},
-    {"build", NULL, NULL, "Hash of the program's file.", DIP_DERIVED(TEXT, derive_build)},
-    {"machine", NULL, NULL, "Processor, threads and instruction set.",
-     DIP_DERIVED(TEXT, derive_machine)},
+    {"build", NULL, NULL, "Hash of the program's file.", OF_SIDE(builds)},
+    {"machine", NULL, NULL, "Processor, threads and instruction set.", OF_SIDE(machines)},
     {"verdict", NULL, NULL, "How quiet the machine was; null without times.",
      DIP_DERIVED(TEXT, derive_verdict), .known = has_times},
-    {"reason", NULL, NULL, "What the verdict comes from.", DIP_DERIVED(TEXT, derive_reason),
-     .known = has_times},
+    {"reason", NULL, NULL, "What the verdict comes from.", OF_SIDE(reasons), .known = has_times},
 };
 static const DipRecord side_record =
-    DIP_RECORD("side", "A report or a program.", side_fields, char *, NULL);
+    DIP_RECORD_OF_ARRAYS("side", "A report or a program.", side_fields, NULL);
 
-static int count_sides(const DipFieldAt *at) {
-    (void)at;
-    return 2;
-}
+DIP_OF_ITEM(int, count_sides, 2)
 
 // --- differences ---------------------------------------------------------------------------------
 
@@ -54,11 +37,7 @@ typedef struct Difference {
     double a, b, growth;
 } Difference;
 
-static const void *derive_quantity(const DipFieldAt *at, DipFieldScratch *scratch) {
-    (void)scratch;
-    return ((const Difference *)at->item)->quantity;
-}
-
+DIP_DERIVE(derive_quantity, ((const Difference *)at->item)->quantity)
 static const DipField difference_fields[] = {
     {"quantity", NULL, NULL, "What differs.", DIP_DERIVED(TEXT, derive_quantity)},
     {"a", NULL, NULL, "Its value in A.", DIP_FACT(NUMBER, Difference, a)},
@@ -88,27 +67,15 @@ static const void *get_difference(const DipFieldAt *at, int index, DipFieldScrat
     return scratch;
 }
 
-static const DipFieldList difference_list = {
-    .record = &difference_record, .count = count_differences, .item = get_difference};
-
 // --- rows ----------------------------------------------------------------------------------------
 
-static bool is_timed(const DipFieldAt *at) {
-    return ((const DipCostDiffRow *)at->item)->timed;
-}
+DIP_OF_ITEM(bool, is_timed, ((const DipCostDiffRow *)at->item)->timed)
+DIP_OF_ITEM(bool, has_ratios, is_timed(at) && diff_of(at)->kind == DIP_COST_DIFF_REPORTS)
+DIP_OF_ITEM(bool, has_stages, is_timed(at) && diff_of(at)->kind == DIP_COST_DIFF_PROGRAMS)
 
-static bool has_ratios(const DipFieldAt *at) {
-    return is_timed(at) && diff_of(at)->kind == DIP_COST_DIFF_REPORTS;
-}
-
-static bool has_stages(const DipFieldAt *at) {
-    return is_timed(at) && diff_of(at)->kind == DIP_COST_DIFF_PROGRAMS;
-}
-
-static const void *derive_settings(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_cost_settings_text(&((const DipCostDiffRow *)at->item)->quality, scratch->text);
-    return scratch->text;
-}
+DIP_DERIVE(derive_settings,
+           DIP_WRITTEN(dip_cost_settings_text(&((const DipCostDiffRow *)at->item)->quality,
+                                              scratch->text)))
 
 #define STAGE(name, text)                                                                          \
     {#name, NULL, NULL, "Of " text ".",                                                            \
@@ -136,29 +103,21 @@ static const DipField row_fields[] = {
     {"stages", NULL, NULL, "The change in each stage; programs only.", .kind = DIP_FIELD_RECORD,
      .where = DIP_FIELD_JSON, .record = &stage_record, .known = has_stages},
     {"differences", NULL, NULL, "Errors, pictures and counters that differ.",
-     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON, .list = &difference_list},
+     DIP_LIST(.record = &difference_record, .count = count_differences, .item = get_difference)},
 };
 static const DipRecord row_record =
     DIP_RECORD("row", "Settings that both sides have.", row_fields, DipCostDiffRow, NULL);
 
-static const void *derive_busy(const DipFieldAt *at, DipFieldScratch *scratch) {
-    *(bool *)scratch = dip_cost_diff_is_busy(diff_of(at));
-    return scratch;
-}
+DIP_DERIVE(derive_busy, DIP_MADE(bool, dip_cost_diff_is_busy(diff_of(at))))
 
 #define DIFF(KIND, member) DIP_FACT(KIND, DipCostDiff, member)
-static const DipField note_element = {.kind = DIP_FIELD_TEXT, .size = DIP_COST_DIFF_NOTE};
+static const DipField note_element = {
+    .kind = DIP_FIELD_TEXT, .size = DIP_COST_DIFF_NOTE, .stride = DIP_COST_DIFF_NOTE};
 static const DipField diff_fields[] = {
     {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
-    {"sides", NULL, NULL, "A and B.", .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON,
-     .list = &(const DipFieldList){.record = &side_record,
-                                   .items = offsetof(DipCostDiff, names),
-                                   .count = count_sides}},
-    {"notes", NULL, NULL, "Differences of a whole side.", .kind = DIP_FIELD_LIST,
-     .where = DIP_FIELD_JSON,
-     .list = &(const DipFieldList){.element = &note_element,
-                                   .items = offsetof(DipCostDiff, notes),
-                                   .counted = offsetof(DipCostDiff, note_count)}},
+    {"sides", NULL, NULL, "A and B.", DIP_LIST(.record = &side_record, .count = count_sides)},
+    {"notes", NULL, NULL, "Differences of a whole side.",
+     DIP_LIST(.element = &note_element, DIP_ARRAY(DipCostDiff, notes, note_count))},
     {"busy", NULL, NULL, "Whether a machine was too busy for its times to be believed.",
      DIP_DERIVED(FLAG, derive_busy)},
     {"slower", NULL, NULL, "Number of rows that are surely slower in B.", DIFF(WHOLE, slower)},
@@ -169,21 +128,12 @@ static const DipField diff_fields[] = {
      DIFF(WHOLE, failed_errors)},
     {"cause", NULL, NULL, "The likely cause of a slowdown; \"\" if nothing is sure.",
      DIFF(TEXT, cause)},
-    {"rows", NULL, NULL, "The rows.", .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON,
-     .list = &(const DipFieldList){.record = &row_record,
-                                   .items = offsetof(DipCostDiff, rows),
-                                   .points = true,
-                                   .counted = offsetof(DipCostDiff, row_count)}},
+    {"rows", NULL, NULL, "The rows.",
+     DIP_LIST(.record = &row_record, DIP_ARRAY(DipCostDiff, rows, row_count), .points = true)},
 };
 const DipRecord dip_cost_diff_record = DIP_RECORD(
     "comparison", "What `diptych cost diff --json` writes.", diff_fields, DipCostDiff, NULL);
 
-static bool print_json(const void *context, FILE *out) {
-    const DipFieldAt at = {(void *)context, context, 0, NULL};
-    dip_fields_print_json(&dip_cost_diff_record, &at, out);
-    return true;
-}
-
 bool dip_cost_diff_write_json(const DipCostDiff *diff, const char *file, DipError *err) {
-    return dip_whole_file_print(file, print_json, diff, err);
+    return dip_fields_write_json(&dip_cost_diff_record, diff, file, err);
 }

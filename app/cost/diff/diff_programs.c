@@ -1,36 +1,268 @@
-// Comparing two programs that took turns at every frame, and measuring the rows of a report again.
+// Compares two programs that take turns at every frame, and measures the rows of a report again
+// with a program.
+//
+// For both, it times pairs of subjects. A subject is a set of settings that one program draws. The
+// two subjects of a pair, called sides, take turns at every frame. The programs are started several
+// times, because each start is by chance a little faster or slower than another.
+//
+// The programs run as `PROGRAM bench ... --serve` (app/measure/timing/child.h). With two programs,
+// pair p is set p in both. With one, it is set 0 beside set p + 1. The last pair is the A/A pair:
+// set 0 and the last set, which has the same settings, in program 0.
 #include "app/cost/diff/diff.h"
 
+#include "app/cli/drive.h"
+#include "app/cli/progress.h"
 #include "app/cli/machine.h"
-#include "app/cost/diff/diff_cause.h"
-#include "app/cost/diff/diff_duel.h"
+#include "app/measure/timing/child.h"
+#include "app/measure/timing/driver.h"
+#include "app/report/verdict.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
+// The programs, their pairs and times.
+typedef struct Duel {
+    const char *programs[2]; // The second one is NULL if there is only one. Borrowed.
+    char sets[(DIP_COST_DIFF_MAX_SETS + 2) * DIP_COST_TEXT];
+    int set_count;
+    int pair_count;
+    int starts;
+    int rounds;
+    int frames;
+    int threads;       // Number of threads of a program that draw.
+    DipDriver *driver; // Times of the subjects 2 * pair + side. Side 0 is the base. Owned.
+    DipTimesFit *fit;  // Owned.
+    // [subject * frames + frame]: the first drawing, which has counters and a hash. Owned.
+    DipBenchSample *first;
+} Duel;
+
+enum { MOST_ARGUMENTS = 40 + 2 * DIP_MAX_MODELS, MOST_SUBJECTS = 2 * (DIP_COST_DIFF_MAX_SETS + 1) };
+
+// A rest before each frame, in which the other program's threads go to sleep.
+static const int64_t rest_ns = 1000000;
+
+// --- the command line of the programs ------------------------------------------------------------
+
+typedef struct CommandLine {
+    char *list[MOST_ARGUMENTS];
+    int count;
+    char numbers[8][24]; // Texts of the options that are numbers.
+    int number_count;
+} CommandLine;
+
+static void add_option(CommandLine *line, const char *name, const char *value) {
+    if (value) {
+        line->list[line->count++] = (char *)name;
+        line->list[line->count++] = (char *)value;
+    }
+}
+
+static void add_number(CommandLine *line, const char *name, const char *format, ...)
+    DIP_PRINTF(3, 4);
+static void add_number(CommandLine *line, const char *name, const char *format, ...) {
+    char *text = line->numbers[line->number_count++];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof line->numbers[0], format, arguments);
+    va_end(arguments);
+    add_option(line, name, text);
+}
+
+// Adds the options of the scene and of the drawing.
+static void add_session(CommandLine *line, const DipSessionOptions *session) {
+    add_option(line, "--config", session->config);
+    for (int m = 0; m < session->model_count; m++) {
+        add_option(line, "--model", session->models[m]);
+    }
+    add_option(line, "--scene", session->scene);
+    if (session->look) {
+        add_number(line, "--look", "%d", session->look + 1);
+    }
+    add_option(line, "--up", session->up ? dip_up_axis_names[session->up] : NULL);
+    add_option(line, "--shading",
+               session->has_shading ? dip_model_shading_names[session->shading] : NULL);
+    if (session->import_seconds) {
+        add_number(line, "--import-seconds", "%d", session->import_seconds);
+    }
+    if (session->force_all_effects) {
+        line->list[line->count++] = (char *)"--force-all-effects";
+    }
+    add_option(line, "--path", session->path);
+    add_option(line, "--category", session->category);
+    if (session->has_size) {
+        add_number(line, "--size", "%dx%d", session->size.width, session->size.height);
+    }
+    if (session->has_threads) {
+        add_number(line, "--threads", "%d", session->threads);
+    }
+    add_option(line, "--isa", session->has_isa ? dip_isa_name(session->isa) : NULL);
+}
+
+// Adds a set of settings.
+static void add_set(Duel *duel, const char *text) {
+    const size_t used = strlen(duel->sets);
+    snprintf(duel->sets + used, sizeof duel->sets - used, "%s%s", used ? ";" : "", text);
+    duel->set_count++;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+typedef struct Programs {
+    Duel *duel;
+    CommandLine line;
+    DipChild *children[2];
+} Programs;
+
+static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
+    const Programs *p = context;
+    const Duel *duel = p->duel;
+    const int pair = turn->subject / 2, side = turn->subject % 2, same = duel->pair_count - 1;
+    const bool two = duel->programs[1] != NULL;
+    const int set = two ? (pair == same && side == 0 ? 0 : pair) : side * (pair + 1);
+    const bool first = turn->phase == DIP_DRIVER_WARM_UP && turn->start == 0;
+    char request[64];
+    DipBenchSample sample;
+    snprintf(request, sizeof request, "draw %d %d %d", set, turn->frame, first);
+    if (!dip_child_draw(p->children[two && side == 1 && pair < same], request, &sample, timed,
+                        err)) {
+        return false;
+    }
+    if (first) {
+        duel->first[turn->subject * duel->frames + turn->frame] = sample;
+    }
+    return true;
+}
+
+static void stop_programs(Programs *p) {
+    dip_child_stop(&p->children[0], dip_interrupted());
+    dip_child_stop(&p->children[1], dip_interrupted());
+}
+
+// Starts the programs anew. If a program does not answer at its first start, it was named wrongly,
+// so the fault lies in the input.
+static bool start_programs(void *context, int start, DipError *err) {
+    Programs *p = context;
+    Duel *duel = p->duel;
+    stop_programs(p);
+    for (int i = 0; i < 2 && duel->programs[i]; i++) {
+        const DipChildDef def = {duel->programs[i], p->line.list, p->line.count, "bench",
+                                 duel->set_count,   duel->frames, "--vs"};
+        p->children[i] = dip_child_start(&def, err);
+        if (!p->children[i]) {
+            if (err && err->code != DIP_ERROR_MEMORY) {
+                err->origin = start == 0 ? DIP_ORIGIN_INPUT : DIP_ORIGIN_RUNTIME;
+                memcpy(err->key, "cost diff", sizeof "cost diff");
+            }
+            return false;
+        }
+        if (duel->threads == 0) {
+            // The ini of the programs decides how many threads draw, so they are counted. The
+            // program has a pool for bench and one for the session, and the main thread is in both.
+            const int threads = (dip_child_thread_count(p->children[i]) + 1) / 2;
+            duel->threads = threads > 0 ? threads : 1;
+        }
+    }
+    return true;
+}
+
+static bool run_starts(Programs *p, uint64_t seed, DipError *err) {
+    Duel *duel = p->duel;
+    int base_of[MOST_SUBJECTS];
+    for (int s = 0; s < 2 * duel->pair_count; s++) {
+        base_of[s] = s - s % 2;
+    }
+    const DipDriverDef timing = {
+        .subjects = 2 * duel->pair_count,
+        .base_of = base_of,
+        .block_subjects = 1,
+        .starts = duel->starts,
+        .rounds = duel->rounds,
+        .frames = duel->frames,
+        .warm_frames = duel->frames,
+        .seed = seed,
+        .in_turn = true,
+        .rest_ns = rest_ns,
+    };
+    const DipDriverCalls calls = {.draw = draw, .start = start_programs, .context = p};
+    duel->driver = dip_driver_create(&timing, &calls, err);
+    if (duel->driver && dip_drive(duel->driver, "frames", "cost diff", "interrupted", err)) {
+        const DipTimes times = dip_driver_times(duel->driver);
+        duel->fit = dip_times_fit(&times, err);
+    }
+    stop_programs(p);
+    return duel->fit != NULL;
+}
+
+// Times all pairs in `frames` frames and `rounds` rounds of each start. Fails as dip_child_start
+// does, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with DIP_ERROR_MEMORY.
+static bool run_duel(Duel *duel, const DipCostDiffArguments *arguments, int frames, int rounds,
+                     DipError *err) {
+    const DipSessionOptions *session = &arguments->session;
+    Programs p = {.duel = duel};
+    duel->pair_count = duel->set_count - (duel->programs[1] ? 0 : 1);
+    duel->starts = arguments->measure.starts;
+    duel->rounds = rounds;
+    duel->frames = frames;
+    duel->threads = !session->has_threads ? 0
+                    : session->threads    ? session->threads
+                                          : dip_machine_processor_count();
+    add_option(&p.line, "diptych", "bench");
+    add_option(&p.line, "--sets", duel->sets);
+    add_number(&p.line, "--frames", "%d", frames);
+    add_session(&p.line, session);
+    duel->first = calloc(2 * (size_t)duel->pair_count * (size_t)frames, sizeof *duel->first);
+    dip_interrupt_watch();
+    return (duel->first || dip_cost_diff_no_memory(err)) &&
+           run_starts(&p, (uint64_t)dip_measure_seed(&arguments->measure), err);
+}
+
+static void free_duel(Duel *duel) {
+    dip_driver_destroy(&duel->driver);
+    dip_times_fit_free(&duel->fit);
+    free(duel->first);
+}
+
+// --- estimates -----------------------------------------------------------------------------------
+
+// Adds up the counters of a subject's frames and divides them by the number of frames. The counters
+// have the order of DIP_COUNTER_LIST and must be 0.
+static void count_work(const Duel *duel, int subject, double *counters) {
+    for (int f = 0; f < duel->frames; f++) {
+        dip_counters_add(&duel->first[subject * duel->frames + f].counters, counters);
+    }
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        counters[c] /= duel->frames;
+    }
+}
+
+// Judges the machine by the waiting times and the A/A pair.
+static DipCostVerdict judge_duel(const Duel *duel, char reason[DIP_COST_REASON]) {
+    const int same = 2 * duel->pair_count - 1;
+    const DipDriverMachine machine = dip_driver_machine(duel->driver, duel->threads);
+    DipCostSigns signs = dip_cost_signs_of(duel->fit, same + 1, &same, 1);
+    signs.wait = machine.has_wait ? machine.wait : 0.0;
+    return dip_cost_verdict_of(&signs, reason);
 }
 
 // --- two programs --------------------------------------------------------------------------------
 
-static void compare_work(const DipCostDuel *duel, int pair, DipCostDiffRow *row) {
+static void compare_work(const Duel *duel, int pair, DipCostDiffRow *row) {
     for (int side = 0; side < 2; side++) {
         for (int q = 0; q < DIP_COST_DIFF_QUANTITY_COUNT; q++) {
             row->values[side][q] = q < DIP_COST_DIFF_ERROR_COUNT ? NAN : 0.0;
         }
-        dip_cost_duel_count(duel, 2 * pair + side, row->values[side] + DIP_COST_DIFF_FIRST_COUNTER);
+        count_work(duel, 2 * pair + side, row->values[side] + DIP_COST_DIFF_FIRST_COUNTER);
     }
+    const DipBenchSample *a = duel->first + 2 * pair * duel->frames, *b = a + duel->frames;
     for (int f = 0; f < duel->frames; f++) {
-        row->values[1][DIP_COST_DIFF_pictures] +=
-            strcmp(dip_cost_duel_sample(duel, 2 * pair, f)->hash,
-                   dip_cost_duel_sample(duel, 2 * pair + 1, f)->hash) != 0;
+        row->values[1][DIP_COST_DIFF_pictures] += strcmp(a[f].hash, b[f].hash) != 0;
     }
 }
 
-static void compare_pair(const DipCostDuel *duel, const DipCostDiffArguments *arguments, int pair,
+static void compare_pair(const Duel *duel, const DipCostDiffArguments *arguments, int pair,
                          DipCostDiffRow *row) {
     const DipSessionOptions *session = &arguments->session;
     *row = (DipCostDiffRow){.quality = arguments->sets[pair].quality, .timed = true};
@@ -40,15 +272,15 @@ static void compare_pair(const DipCostDuel *duel, const DipCostDiffArguments *ar
                                : "DEFAULT");
     compare_work(duel, pair, row);
     for (int side = 0; side < 2; side++) {
-        row->ms[side] = dip_cost_duel_ms(duel, 2 * pair + side);
+        row->ms[side] = dip_times_along(duel->fit, 2 * pair + side).mean_ms.value;
     }
     row->change = dip_times_ratio(duel->fit, 2 * pair + 1);
     row->surely_above = row->change.low;
     row->surely_below = row->change.high;
 }
 
-// Estimates the changes of all rows, as if only one stage differed.
-static bool compare_stages(const DipCostDuel *duel, DipCostDiff *diff, DipError *err) {
+// Estimates the changes of all rows for each stage, as if only this stage differed.
+static bool compare_stages(const Duel *duel, DipCostDiff *diff, DipError *err) {
     const DipTimes times = dip_driver_times(duel->driver);
     for (int stage = 0; stage < DIP_COST_DIFF_STAGES; stage++) {
         DipTimesFit *fit = dip_times_fit_part(&times, stage, err);
@@ -63,11 +295,11 @@ static bool compare_stages(const DipCostDuel *duel, DipCostDiff *diff, DipError 
     return true;
 }
 
-static void judge_machine(const DipCostDuel *duel, DipCostDiff *diff) {
+static void judge_machine(const Duel *duel, DipCostDiff *diff) {
     char processor[DIP_COST_TEXT];
     dip_machine_processor(processor, sizeof processor);
     for (int side = 0; side < 2; side++) {
-        diff->verdicts[side] = dip_cost_duel_verdict(duel, diff->reasons[side]);
+        diff->verdicts[side] = judge_duel(duel, diff->reasons[side]);
         snprintf(diff->machines[side], sizeof diff->machines[side], "%s, %d thread%s", processor,
                  duel->threads, dip_cost_plural(duel->threads));
     }
@@ -77,108 +309,11 @@ static void judge_machine(const DipCostDuel *duel, DipCostDiff *diff) {
     }
 }
 
-// --- the likely cause ----------------------------------------------------------------------------
-
-// The stage that takes most of the additional time of the slower rows. Writes its share of it.
-static DipBenchStage slowest_stage(const DipCostDiff *diff, double *share) {
-    double most = 0.0, total = 0.0;
-    DipBenchStage found = (DipBenchStage)0;
-    for (int stage = 0; stage < DIP_COST_DIFF_STAGES; stage++) {
-        double ms = 0.0;
-        for (int r = 0; r < diff->row_count; r++) {
-            const DipCostDiffRow *row = &diff->rows[r];
-            ms += row->mark == DIP_COST_DIFF_SLOWER ? row->ms[0] * (row->stages[stage].value - 1.0)
-                                                    : 0.0;
-        }
-        total += fmax(ms, 0.0);
-        if (ms > most) {
-            most = ms;
-            found = (DipBenchStage)stage;
-        }
-    }
-    *share = total > 0.0 ? most / total : 0.0;
-    return found;
-}
-
-// Kinds of work that may explain additional time: 0 is one per frame, 1 is A's time of the stage,
-// and then the counters.
-enum { PER_FRAME, STAGE_TIME, FIRST_COUNTER };
-
-static void list_work(const DipCostDuel *duel, const DipCostDiff *diff, DipBenchStage stage,
-                      double *work) {
-    const int rows = diff->row_count;
-    for (int r = 0; r < rows; r++) {
-        work[PER_FRAME * rows + r] = 1.0;
-        work[STAGE_TIME * rows + r] =
-            diff->rows[r].ms[0] * dip_times_shares(duel->fit, 2 * r)[stage];
-        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-            const double value = diff->rows[r].values[0][DIP_COST_DIFF_FIRST_COUNTER + c];
-            work[(FIRST_COUNTER + c) * rows + r] = isnan(value) ? 0.0 : value;
-        }
-    }
-}
-
-static void write_cause(DipCostDiff *diff, const DipCauseData *data, const DipCause *cause,
-                        const char *stage) {
-    const size_t used = strlen(diff->cause);
-    char *text = diff->cause + used;
-    const size_t size = sizeof diff->cause - used;
-    if (cause->kind == PER_FRAME) {
-        snprintf(text, size,
-                 " It is about the same with all settings, %.3f ms per frame, so its cause does "
-                 "not grow with their work.",
-                 cause->price);
-    } else if (cause->kind == STAGE_TIME) {
-        snprintf(text, size, " It is about the same share of %s with all settings, %.1f %%.", stage,
-                 100.0 * cause->price);
-    } else if (cause->kind >= FIRST_COUNTER) {
-        const int counter = cause->kind - FIRST_COUNTER;
-        int written = snprintf(text, size,
-                               " It grows with %s, by %.3g ns each: this work is the likely cause.",
-                               dip_cost_counter_names[counter], 1e6 * cause->price);
-        for (int k = cause->kind + 1; k < data->kinds; k++) {
-            if (dip_cause_is_same_work(data, cause->kind, k) && written >= 0 &&
-                (size_t)written < size) {
-                written +=
-                    snprintf(text + written, size - (size_t)written, " (%s grows in proportion.)",
-                             dip_cost_counter_names[k - FIRST_COUNTER]);
-            }
-        }
-    }
-}
-
-static bool find_cause(const DipCostDuel *duel, DipCostDiff *diff, DipError *err) {
-    const int rows = diff->row_count, starts = duel->starts;
-    const int kinds = FIRST_COUNTER + DIP_COST_COUNTER_COUNT;
-    double share;
-    const DipBenchStage stage = slowest_stage(diff, &share);
-    const char *name = dip_bench_stage_names[stage];
-    snprintf(diff->cause, sizeof diff->cause, "%.0f %% of the additional time is in the stage %s.",
-             100.0 * share, name);
-    if (rows < 4) {
-        return true;
-    }
-    double *per_start = malloc((size_t)(rows * (starts + kinds)) * sizeof *per_start);
-    if (!per_start) {
-        return out_of_memory(err);
-    }
-    DipCause cause;
-    const DipCauseData data = {rows, starts, kinds, per_start, per_start + rows * starts};
-    list_work(duel, diff, stage, per_start + rows * starts);
-    const bool done =
-        dip_cost_duel_per_start(duel, stage, per_start, err) && dip_cause_find(&data, &cause, err);
-    if (done) {
-        write_cause(diff, &data, &cause, name);
-    }
-    free(per_start);
-    return done;
-}
-
-static bool compare_pairs(const DipCostDuel *duel, const DipCostDiffArguments *arguments,
+static bool compare_pairs(const Duel *duel, const DipCostDiffArguments *arguments,
                           DipCostDiff *diff, DipError *err) {
     diff->rows = calloc((size_t)arguments->set_count, sizeof *diff->rows);
     if (!diff->rows) {
-        return out_of_memory(err);
+        return dip_cost_diff_no_memory(err);
     }
     diff->kind = DIP_COST_DIFF_PROGRAMS;
     diff->same_machine = true;
@@ -190,25 +325,23 @@ static bool compare_pairs(const DipCostDuel *duel, const DipCostDiffArguments *a
     judge_machine(duel, diff);
     dip_cost_diff_leave_out_uncounted(diff);
     dip_cost_diff_mark(diff);
-    return compare_stages(duel, diff, err) && (diff->slower == 0 || find_cause(duel, diff, err));
+    const DipTimes times = dip_driver_times(duel->driver);
+    return compare_stages(duel, diff, err) &&
+           (diff->slower == 0 || dip_cost_diff_explain(diff, &times, duel->fit, err));
 }
 
 bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *const programs[2],
                             DipCostDiff *diff, DipError *err) {
-    DipCostDuel *duel = calloc(1, sizeof *duel);
-    bool done = duel || out_of_memory(err);
-    for (int s = 0; done && s <= arguments->set_count; s++) { // The last one is the A/A pair's.
-        dip_cost_duel_add_set(duel, arguments->sets[s % arguments->set_count].text);
+    Duel duel = {.programs = {programs[0], programs[1]}};
+    for (int s = 0; s <= arguments->set_count; s++) { // The last set is that of the A/A pair.
+        add_set(&duel, arguments->sets[s % arguments->set_count].text);
     }
-    if (done) {
-        memcpy(duel->programs, programs, sizeof duel->programs);
-    }
-    done = done &&
-           dip_cost_duel_run(
-               duel, arguments, arguments->frames ? arguments->frames : DIP_COST_DIFF_FRAMES,
-               arguments->measure.rounds ? arguments->measure.rounds : DIP_COST_DIFF_ROUNDS, err) &&
-           compare_pairs(duel, arguments, diff, err);
-    dip_cost_duel_free(duel);
+    const bool done =
+        run_duel(&duel, arguments, arguments->frames ? arguments->frames : DIP_COST_DIFF_FRAMES,
+                 arguments->measure.rounds ? arguments->measure.rounds : DIP_COST_DIFF_ROUNDS,
+                 err) &&
+        compare_pairs(&duel, arguments, diff, err);
+    free_duel(&duel);
     if (!done) {
         dip_cost_diff_free(diff);
     }
@@ -217,38 +350,29 @@ bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *c
 
 // --- a report and a program ----------------------------------------------------------------------
 
-static int find_row(const DipCostReport *report, const DipQuality *quality) {
-    for (int r = 0; r < report->row_count; r++) {
-        if (report->rows[r].path == 0 &&
-            memcmp(&report->rows[r].quality, quality, sizeof *quality) == 0) {
-            return r;
-        }
-    }
-    return -1;
-}
-
-// Lists the rows to measure: the baseline is combination 0 and has no pair of its own.
+// Lists the rows to measure. The baseline is set 0 of all pairs and has no pair of its own.
 static int list_rows(const DipCostDiffArguments *arguments, const DipCostReport *report,
                      int rows[DIP_COST_DIFF_MAX_SETS]) {
     int count = 0;
     for (int s = 0; s < arguments->set_count; s++) {
-        const int row = find_row(report, &arguments->sets[s].quality);
-        if (row >= 0 && memcmp(&arguments->sets[s].quality, &report->options.baseline,
-                               sizeof(DipQuality)) != 0) {
+        const DipQuality *quality = &arguments->sets[s].quality;
+        const int row = dip_report_find(report, quality, 0, 0);
+        if (row >= 0 && memcmp(quality, &report->options.baseline, sizeof *quality) != 0) {
             rows[count++] = row;
         }
     }
     return count;
 }
 
-// Another build may not know every setting, so those with their defaults are left out.
-static void add_quality(DipCostDuel *duel, const DipQuality *quality) {
+// Adds a combination as a set. Another build may not know every setting, so settings that have
+// their defaults are left out.
+static void add_quality(Duel *duel, const DipQuality *quality) {
     const DipQuality standard = dip_quality_default();
     char text[DIP_COST_TEXT] = "aa=none";
     if (memcmp(quality, &standard, sizeof standard) != 0) {
         dip_cost_settings_text(quality, text);
     }
-    dip_cost_duel_add_set(duel, text);
+    add_set(duel, text);
 }
 
 // Completes the options with what the report was measured with.
@@ -276,10 +400,9 @@ static DipCostDiffArguments options_of_report(const DipCostDiffArguments *argume
     return all;
 }
 
-// Fills in a report that has the report's first path and `count` rows besides the baseline.
-static bool make_report(const DipCostReport *report, const DipCostDuel *duel, const int *rows,
-                        int count, const DipSessionOptions *session, DipCostReport *measured,
-                        DipError *err) {
+// Fills in the new report: the first path of the old one, the baseline and `count` rows.
+static bool make_report(const DipCostReport *report, const Duel *duel, const int *rows, int count,
+                        const DipSessionOptions *session, DipCostReport *measured, DipError *err) {
     *measured = (DipCostReport){
         .threads = duel->threads,
         .width = session->size.width,
@@ -297,18 +420,18 @@ static bool make_report(const DipCostReport *report, const DipCostDuel *duel, co
     measured->rows = calloc((size_t)count + 1, sizeof *measured->rows);
     measured->row_count = measured->rows ? count + 1 : 0;
     if (!measured->rows || !dip_cost_report_alloc(measured, NULL)) {
-        return out_of_memory(err);
+        return dip_cost_diff_no_memory(err);
     }
     for (int i = 0; i <= count; i++) {
         // Row 0 is the baseline, which is side 0 of every pair.
         const int subject = i ? 2 * i - 1 : 0;
         DipCostRow *row = &measured->rows[i];
         row->quality = i ? report->rows[rows[i - 1]].quality : report->options.baseline;
-        dip_cost_duel_count(duel, subject, row->counters);
-        row->time.mean_ms.value = dip_cost_duel_ms(duel, subject);
+        count_work(duel, subject, row->counters);
+        row->time.mean_ms.value = dip_times_along(duel->fit, subject).mean_ms.value;
         row->time.ratio = i ? dip_times_ratio(duel->fit, subject) : dip_estimate_unknown(1.0);
     }
-    measured->verdict = dip_cost_duel_verdict(duel, measured->verdict_reason);
+    measured->verdict = judge_duel(duel, measured->verdict_reason);
     return true;
 }
 
@@ -325,20 +448,15 @@ bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const c
                                                  : "none of the settings to time");
     }
     const DipCostDiffArguments all = options_of_report(arguments, report);
-    DipCostDuel *duel = calloc(1, sizeof *duel);
-    bool done = duel || out_of_memory(err);
-    for (int i = 0; done && i < count + 2; i++) { // The last one is the A/A pair's.
+    Duel duel = {.programs = {program}};
+    for (int i = 0; i < count + 2; i++) { // The last set is that of the A/A pair.
         const bool is_row = i > 0 && i <= count;
-        add_quality(duel, is_row ? &report->rows[rows[i - 1]].quality : &report->options.baseline);
+        add_quality(&duel, is_row ? &report->rows[rows[i - 1]].quality : &report->options.baseline);
     }
-    if (done) {
-        duel->programs[0] = program;
-    }
-    done = done &&
-           dip_cost_duel_run(duel, &all, dip_cost_frame_count(report),
-                             arguments->measure.rounds ? arguments->measure.rounds : 1, err) &&
-           make_report(report, duel, rows, count, &all.session, measured, err);
-    dip_cost_duel_free(duel);
+    const bool done = run_duel(&duel, &all, dip_cost_frame_count(report),
+                               arguments->measure.rounds ? arguments->measure.rounds : 1, err) &&
+                      make_report(report, &duel, rows, count, &all.session, measured, err);
+    free_duel(&duel);
     if (!done) {
         dip_cost_report_free(measured);
     }

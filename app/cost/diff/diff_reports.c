@@ -1,4 +1,4 @@
-// Comparing two reports: their scenes, paths and rows, exact quantities, and ratios of times.
+// Compares two reports: their scenes, paths and rows, exact quantities, and ratios of times.
 #include "app/cost/diff/diff.h"
 
 #include <math.h>
@@ -6,20 +6,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Two starts of one program differ by this standard deviation in their ratios. A report of a single
-// start does not show it.
-static const double luck_of_a_start = 0.006;
+// Ratios that two starts of one program measure differ by this standard deviation. A report of a
+// single start does not show how far.
+static const double start_error = 0.006;
 
 enum { NAMED_ROWS = 4 }; // Rows that a note names; the others are counted.
 
-// What of two reports may be compared.
+// Which parts of two reports may be compared.
 typedef struct Comparable {
-    bool pictures;                   // The scene and the size.
-    bool errors;                     // The converged pictures and viewpoints, too.
-    bool counters;                   // The timed frames, too.
-    bool ratios;                     // The baselines.
-    bool poses[DIP_COST_MAX_PATHS];  // Path of A: B has the same poses.
-    int path_of[DIP_COST_MAX_PATHS]; // Path of A: the path of B with this name, or -1.
+    bool pictures;                   // Scene and size are the same.
+    bool errors;                     // So are the converged pictures and the viewpoints.
+    bool counters;                   // So are the timed frames.
+    bool ratios;                     // So are the baselines.
+    bool poses[DIP_COST_MAX_PATHS];  // [path of A]: B has the same poses.
+    int path_of[DIP_COST_MAX_PATHS]; // [path of A]: the path of B with this name, or -1.
 } Comparable;
 
 // --- headings ------------------------------------------------------------------------------------
@@ -107,7 +107,7 @@ static int find_path(const DipCostReport *report, const char *name) {
     return -1;
 }
 
-// Unknown poses, as those of a program are, pass for the same.
+// Returns whether poses are the same. Unknown poses, such as those of a program, count as the same.
 static bool same_poses(const char *a, const char *b) {
     return !*a || !*b || strcmp(a, b) == 0;
 }
@@ -142,19 +142,15 @@ static bool is_repeated_baseline(const DipCostReport *report, int row) {
 }
 
 // Finds the first row of B that has the settings and path of a row of A and is not taken.
-static int find_row(const DipCostReport *a, int row, const DipCostReport *b, const Comparable *can,
-                    const bool *taken) {
-    const DipCostRow *wanted = &a->rows[row];
-    for (int r = 0; r < b->row_count; r++) {
-        if (!taken[r] && b->rows[r].path == can->path_of[wanted->path] &&
-            !is_repeated_baseline(b, r) &&
-            memcmp(&wanted->quality, &b->rows[r].quality, sizeof wanted->quality) == 0) {
-            return r;
-        }
+static int find_row(const DipCostRow *wanted, const DipCostReport *b, int path, const bool *taken) {
+    int row = dip_report_find(b, &wanted->quality, path, 0);
+    while (row >= 0 && (taken[row] || is_repeated_baseline(b, row))) {
+        row = dip_report_find(b, &wanted->quality, path, row + 1);
     }
-    return -1;
+    return row;
 }
 
+// Notes the rows that only one side has.
 static void note_lonely(DipCostDiff *diff, const DipCostReport *report, const bool *lonely,
                         const char *side) {
     char text[DIP_COST_DIFF_NOTE] = "";
@@ -181,7 +177,7 @@ static void note_lonely(DipCostDiff *diff, const DipCostReport *report, const bo
     }
 }
 
-// Copies the errors of the viewpoints that both reports judged. `row` holds an index per side.
+// Copies the errors of the viewpoints that both reports judged. `rows` holds an index per side.
 static void copy_errors(const DipCostReport *const reports[2], const int rows[2],
                         DipCostDiffRow *to) {
     DipMetricSums sums[2] = {{.bursts = 0.0}, {.bursts = 0.0}};
@@ -206,7 +202,9 @@ static void copy_errors(const DipCostReport *const reports[2], const int rows[2]
     }
 }
 
-// Counters are whole numbers. A report has their means, whose rounding may differ.
+// Copies the means of counters over the frames. Counters are whole numbers, so their sums are
+// rounded before they are compared: the sums of two reports may have been rounded in different
+// ways.
 static void copy_counters(const DipCostReport *const reports[2], const int rows[2],
                           DipCostDiffRow *to) {
     for (int side = 0; side < 2; side++) {
@@ -218,8 +216,9 @@ static void copy_counters(const DipCostReport *const reports[2], const int rows[
     }
 }
 
-// The quotient of two ratios. Its logarithm's error is that of both ratios in quadrature, and the
-// luck of a start if a report does not have it. The baseline's ratio to itself has no error.
+// Computes the quotient of the two ratios. The error of its logarithm combines those of both ratios
+// and, for reports of a single start, the error of a start. The baseline's ratio to itself has no
+// error.
 static void compare_times(const DipCostReport *const reports[2], const int rows[2],
                           DipCostDiffRow *to) {
     const int rounds = reports[0]->options.rounds < reports[1]->options.rounds
@@ -234,19 +233,19 @@ static void compare_times(const DipCostReport *const reports[2], const int rows[
         return;
     }
     double error = 0.0, degrees = rounds - 1;
-    bool has_luck = true;
+    bool shows_starts = true;
     for (int side = 0; side < 2; side++) {
         const double own = to->ratios[side].log_error;
         error = hypot(error, isnan(own) ? 0.0 : own);
         degrees = fmin(degrees, to->ratios[side].degrees);
-        has_luck = has_luck && reports[side]->starts > 1;
+        shows_starts = shows_starts && reports[side]->starts > 1;
     }
     to->change = dip_estimate_make(to->ratios[1].value / to->ratios[0].value,
-                                   hypot(error, has_luck ? 0.0 : luck_of_a_start), degrees);
+                                   hypot(error, shows_starts ? 0.0 : start_error), degrees);
 }
 
-// Widens the intervals so that all rows together are judged with 95 %: of a hundred intervals of 95
-// %, five miss (Bonferroni).
+// Computes bounds of the changes that are so wide that all of them together hold with 95 %. Of a
+// hundred intervals of 95 % each, five would miss (Bonferroni's correction).
 static void widen_bounds(DipCostDiff *diff) {
     int count = 0;
     for (int r = 0; r < diff->row_count; r++) {
@@ -286,15 +285,16 @@ static void add_row(const DipCostReport *const reports[2], const int rows[2], co
     }
 }
 
-static void compare_rows(const DipCostReport *const reports[2], const Comparable *can, bool *taken,
-                         bool *lonely, DipCostDiff *diff) {
+static void compare_rows(const DipCostReport *const reports[2], const Comparable *can,
+                         DipCostDiff *diff) {
     const DipCostReport *a = reports[0], *b = reports[1];
+    bool taken[DIP_COST_MAX_ROWS] = {false}, lonely[DIP_COST_MAX_ROWS] = {false};
     for (int r = 0; r < a->row_count; r++) {
-        const int path = a->rows[r].path;
-        if (is_repeated_baseline(a, r) || can->path_of[path] < 0) {
+        const int path = can->path_of[a->rows[r].path];
+        if (is_repeated_baseline(a, r) || path < 0) {
             continue;
         }
-        const int other = find_row(a, r, b, can, taken);
+        const int other = find_row(&a->rows[r], b, path, taken);
         lonely[r] = other < 0;
         if (other >= 0) {
             taken[other] = true;
@@ -311,29 +311,21 @@ static void compare_rows(const DipCostReport *const reports[2], const Comparable
 
 bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCostDiff *diff,
                            DipError *err) {
-    const size_t most = (size_t)(a->row_count > b->row_count ? a->row_count : b->row_count);
-    const DipCostReport *const reports[2] = {a, b};
-    bool *taken = calloc(most, sizeof *taken), *lonely = calloc(most, sizeof *lonely);
+    Comparable can = {.pictures = true};
     diff->rows = calloc((size_t)a->row_count, sizeof *diff->rows);
     diff->kind = DIP_COST_DIFF_REPORTS;
-    const bool made = (taken && lonely && diff->rows) ||
-                      dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
-    if (made) {
-        Comparable can = {.pictures = true};
-        describe(a, 0, diff);
-        describe(b, 1, diff);
-        compare_headers(a, b, &can, diff);
-        compare_paths(a, b, &can, diff);
-        compare_rows(reports, &can, taken, lonely, diff);
-        dip_cost_diff_leave_out_uncounted(diff);
-        if (diff->has_times) {
-            widen_bounds(diff);
-        }
-        dip_cost_diff_mark(diff);
-    } else {
-        dip_cost_diff_free(diff);
+    if (!diff->rows) {
+        return dip_cost_diff_no_memory(err);
     }
-    free(taken);
-    free(lonely);
-    return made;
+    describe(a, 0, diff);
+    describe(b, 1, diff);
+    compare_headers(a, b, &can, diff);
+    compare_paths(a, b, &can, diff);
+    compare_rows((const DipCostReport *const[2]){a, b}, &can, diff);
+    dip_cost_diff_leave_out_uncounted(diff);
+    if (diff->has_times) {
+        widen_bounds(diff);
+    }
+    dip_cost_diff_mark(diff);
+    return true;
 }

@@ -1,6 +1,5 @@
-// Printing a comparison for a terminal.
+// Prints a comparison for a terminal.
 #include "app/cost/diff/diff.h"
-#include "app/cost/diff/diff_groups.h"
 #include "app/files/put.h"
 
 #include <math.h>
@@ -8,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// With more rows than this, only those that are slower or faster are printed.
+// If there are more rows than this, only those that are slower or faster are printed.
 enum { MOST_ROWS = 24 };
 
 // --- headings ------------------------------------------------------------------------------------
@@ -21,34 +20,24 @@ static void print_side(const DipCostDiff *diff, int side, FILE *out) {
     dip_put_text(out, "\n");
 }
 
-static void print_machines(const DipCostDiff *diff, FILE *out) {
-    for (int side = 0; side < 2; side++) {
-        if (*diff->machines[side] && (side == 0 || !diff->same_machine)) {
-            dip_put_text(out, "machine%s %s\n",
-                         diff->same_machine ? " "
-                         : side             ? " B"
-                                            : " A",
-                         diff->machines[side]);
-        }
-    }
-    for (int side = 0; diff->has_times && side < 2; side++) {
-        if (side == 0 || diff->kind == DIP_COST_DIFF_REPORTS) {
-            dip_put_text(out, "verdict%s %s: %s\n",
-                         diff->kind == DIP_COST_DIFF_PROGRAMS ? " "
-                         : side                               ? " B"
-                                                              : " A",
-                         dip_cost_verdict_names[diff->verdicts[side]], diff->reasons[side]);
-        }
-    }
-}
-
 static void print_heading(const DipCostDiff *diff, FILE *out) {
+    static const char *const names[] = {" A", " B"};
+    const bool is_program = diff->kind == DIP_COST_DIFF_PROGRAMS;
     print_side(diff, 0, out);
     print_side(diff, 1, out);
     if (*diff->scene) {
         dip_put_text(out, "scene    %s\n", diff->scene);
     }
-    print_machines(diff, out);
+    for (int side = 0; side < (diff->same_machine ? 1 : 2); side++) {
+        if (*diff->machines[side]) {
+            dip_put_text(out, "machine%s %s\n", diff->same_machine ? " " : names[side],
+                         diff->machines[side]);
+        }
+    }
+    for (int side = 0; diff->has_times && side < (is_program ? 1 : 2); side++) {
+        dip_put_text(out, "verdict%s %s: %s\n", is_program ? " " : names[side],
+                     dip_cost_verdict_names[diff->verdicts[side]], diff->reasons[side]);
+    }
     for (int i = 0; i < diff->note_count; i++) {
         dip_put_text(out, "note     %s\n", diff->notes[i]);
     }
@@ -92,7 +81,7 @@ static bool print_exact(const DipCostDiff *diff, FILE *out, DipError *err) {
     const int count = groups ? dip_cost_diff_group(diff, groups) : -1;
     if (count < 0) {
         free(groups);
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
+        return dip_cost_diff_no_memory(err);
     }
     if (count > 0) {
         dip_put_text(

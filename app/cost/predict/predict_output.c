@@ -131,8 +131,6 @@ static void print_checks(DipForm *form, const DipCostElsewherePrediction *p) {
 }
 
 void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out) {
-    static const DipColumn columns[] = {
-        {"settings", NULL}, {"report_ms", NULL}, {"ms", NULL}, {"timed.ms", "timed"}};
     const DipCostReport *report = &p->report;
     DipForm form = {.out = out};
     char smaller[64] = "";
@@ -144,8 +142,7 @@ void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out
                                                  "report's run.",
                                       .record = &there_record,
                                       .context = (void *)p,
-                                      .columns = columns,
-                                      .column_count = DIP_FIELD_COUNT_OF(columns),
+                                      .columns = "settings; report_ms; ms; timed.ms=timed",
                                       .items = p->list,
                                       .count = p->count});
     dip_form_heading(&form, NULL, "How they were predicted");
@@ -173,20 +170,13 @@ bool dip_cost_predict_there_write_json(const DipCostElsewherePrediction *p, cons
 }
 
 static bool print_csv(const void *context, FILE *out) {
-    static const DipColumn columns[] = {{"there.width", "width"},
-                                        {"there.height", "height"},
-                                        {"there.path", "path"},
-                                        {"there.threads", "threads"},
-                                        {"settings", NULL},
-                                        {"role", NULL},
-                                        {"report_ms", NULL},
-                                        {"report_alone_ms", NULL},
-                                        {"ms", NULL},
-                                        {"timed.ms", NULL}};
+    static const char columns[] =
+        "there.width=width; there.height=height; there.path=path; there.threads=threads; "
+        "settings; role; report_ms; report_alone_ms; ms; timed.ms";
     const DipCostElsewherePrediction *p = context;
     for (int i = -1; i < p->count; i++) {
         const DipFieldAt at = {(void *)context, i < 0 ? NULL : &p->list[i], i, NULL};
-        dip_fields_print_csv(&there_record, &at, columns, DIP_FIELD_COUNT_OF(columns), out);
+        dip_fields_print_csv(&there_record, &at, columns, out);
     }
     return true;
 }

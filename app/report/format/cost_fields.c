@@ -1,4 +1,4 @@
-// The fields of cost.json, in the order in which they are written and read.
+// Lists the fields of cost.json, in the order in which they are written and read.
 #include "app/report/format/cost_fields.h"
 
 #include "app/measure/stats/estimate.h"
@@ -16,25 +16,15 @@ static DipCostReport *report_of(const DipFieldAt *at) {
     return at->context;
 }
 
-// The index of a row that is an item.
+// Returns the index of the row that is the item.
 static int row_of(const DipFieldAt *at) {
     return (int)((const DipCostRow *)at->item - report_of(at)->rows);
 }
 
-// A list that lies in an array of its owner, and one that its owner points to.
-#define ARRAY_OF(OWNER, MEMBER, COUNTED, MOST, RECORD)                                             \
-    .list = &(const DipFieldList) {                                                                \
-        .record = RECORD, .items = offsetof(OWNER, MEMBER), .counted = offsetof(OWNER, COUNTED),   \
-        .most = MOST                                                                               \
-    }
-#define OWNED(OWNER, MEMBER, COUNTED, MOST, RECORD)                                                \
-    .list = &(const DipFieldList) {                                                                \
-        .record = RECORD, .items = offsetof(OWNER, MEMBER), .counted = offsetof(OWNER, COUNTED),   \
-        .most = MOST, .points = true                                                               \
-    }
+// Members of a DipField that is an object in JSON, though its values are members of the item
+// itself.
+#define PART .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON
 
-#define LIST   .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON
-#define RECORD .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON
 static bool is_row(const DipCostReport *report, int row) {
     return row >= 0 && row < report->row_count;
 }
@@ -42,6 +32,23 @@ static bool is_row(const DipCostReport *report, int row) {
 #define SETTING_KEY(key, ...) #key,
 static const char *const setting_keys[] = {DIP_SETTING_LIST(SETTING_KEY)};
 #undef SETTING_KEY
+
+static int count_set(const bool *flags, int count) {
+    int set = 0;
+    for (int i = 0; i < count; i++) {
+        set += flags[i];
+    }
+    return set;
+}
+
+// Returns the index of the set flag that has `number` set flags before it.
+static int find_set(const bool *flags, int number) {
+    int i = 0;
+    for (int left = number + !flags[0]; left > 0; left -= flags[i]) {
+        i++;
+    }
+    return i;
+}
 
 // --- metrics -------------------------------------------------------------------------------------
 
@@ -65,7 +72,8 @@ typedef struct Region {
     DipMetrics metrics;
 } Region;
 
-// The share of all pixels. The owner of a class is an item of figures.
+// Derives the share that a class of pixels has in all pixels. The class belongs to Figures, whose
+// first region is the whole picture.
 static const void *derive_share(const DipFieldAt *at, DipFieldScratch *scratch) {
     const Region *all = at->owner->item;
     scratch->numbers[0] = ((const Region *)at->item)->pixels / fmax(all->pixels, 1.0);
@@ -83,8 +91,8 @@ static const DipField region_fields[] = {
      .digits = 4},
     {"flip", "FLIP", NULL, "Mean FLIP of these pixels.", DIP_FACT(NUMBER, Region, metrics.flip),
      .digits = 4},
-    {"share", "of all pixels", "%", "Their share of all pixels.", .kind = DIP_FIELD_NUMBER,
-     .where = DIP_FIELD_DERIVED, .derive = derive_share, .digits = 1, .scale = 100.0},
+    {"share", "of all pixels", "%", "Their share of all pixels.", DIP_SHOWN(NUMBER, derive_share),
+     .digits = 1, .scale = 100.0},
 };
 static const DipRecord region_record =
     DIP_RECORD("class of pixels", "Metrics of a part of the picture.", region_fields, Region, NULL);
@@ -108,10 +116,21 @@ static const DipField figures_fields[] = {REGION_FIELD(0, "all", "the whole pict
 static const DipRecord figures_record =
     DIP_RECORD("figures", "Metrics of each class of pixels.", figures_fields, Figures, NULL);
 
-// The metrics of a row, or NULL if no viewpoint was judged.
-static const void *derive_figures(const DipFieldAt *at, DipFieldScratch *scratch) {
+// Adds up the errors of a row at all viewpoints that were judged. Returns whether there is any.
+static bool sums_of(const DipFieldAt *at, DipMetricSums *sums) {
     int viewpoints;
-    const DipMetricSums sums = dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
+    *sums = dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
+    return viewpoints > 0;
+}
+
+static bool is_judged(const DipFieldAt *at) {
+    DipMetricSums sums;
+    return sums_of(at, &sums);
+}
+
+static const void *derive_figures(const DipFieldAt *at, DipFieldScratch *scratch) {
+    DipMetricSums sums;
+    const bool judged = sums_of(at, &sums);
     Figures *figures = (Figures *)scratch;
     for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
         figures->regions[r] = (Region){sums.regions[r].pixels, {NAN, NAN, NAN, NAN}};
@@ -119,7 +138,7 @@ static const void *derive_figures(const DipFieldAt *at, DipFieldScratch *scratch
             figures->regions[r].metrics = dip_metrics_of(&sums, r);
         }
     }
-    return viewpoints > 0 ? figures : NULL;
+    return judged ? figures : NULL;
 }
 
 static const DipField over_time_fields[] = {
@@ -140,34 +159,14 @@ static const DipRecord over_time_record =
                over_time_fields, DipFlickerMetrics, NULL);
 
 static const void *derive_over_time(const DipFieldAt *at, DipFieldScratch *scratch) {
-    int viewpoints;
-    const DipMetricSums sums = dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
-    DipFlickerMetrics *flicker = (DipFlickerMetrics *)scratch;
-    *flicker = dip_flicker_metrics_of(&sums);
-    return viewpoints > 0 ? flicker : NULL;
+    DipMetricSums sums;
+    return sums_of(at, &sums) ? DIP_MADE(DipFlickerMetrics, dip_flicker_metrics_of(&sums)) : NULL;
 }
 
-// A metric of a row with its interval over the viewpoints, and its change from the base of a sweep.
-#define METRIC_FUNCTIONS(METRIC)                                                                   \
-    static const void *derive_##METRIC(const DipFieldAt *at, DipFieldScratch *scratch) {           \
-        DipEstimate *to = (DipEstimate *)scratch;                                                  \
-        int viewpoints;                                                                            \
-        dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);                                 \
-        *to = dip_cost_metric(report_of(at), row_of(at), DIP_COST_##METRIC);                       \
-        return viewpoints > 0 ? to : NULL;                                                         \
-    }                                                                                              \
-    static const void *derive_change_##METRIC(const DipFieldAt *at, DipFieldScratch *scratch) {    \
-        const DipCostSweep *sweep = at->owner->item;                                               \
-        DipEstimate *to = (DipEstimate *)scratch;                                                  \
-        *to = dip_cost_metric_change(report_of(at), sweep->rows[at->index], sweep->base,           \
-                                     DIP_COST_##METRIC);                                           \
-        return to;                                                                                 \
-    }
-METRIC_FUNCTIONS(RMSE)
-METRIC_FUNCTIONS(PSNR)
-METRIC_FUNCTIONS(SSIM)
-METRIC_FUNCTIONS(FLIP)
-METRIC_FUNCTIONS(FLICKER)
+// Returns the sweep of a step. All steps of a sweep have the sweep itself as their item.
+static const DipCostSweep *sweep_of(const DipFieldAt *at) {
+    return at->item;
+}
 
 // X(METRIC, name, title, unit, digits)
 #define METRIC_LIST(X)                                                                             \
@@ -176,6 +175,19 @@ METRIC_FUNCTIONS(FLICKER)
     X(SSIM, "ssim", "SSIM", NULL, 4)                                                               \
     X(FLIP, "flip", "FLIP", NULL, 4)                                                               \
     X(FLICKER, "flicker_rms_lin", "flicker", "linear", 5)
+
+// Derives a metric of a row with its interval over the viewpoints, and the change of the metric
+// from the base of a sweep.
+#define METRIC_FUNCTIONS(METRIC, ...)                                                              \
+    DIP_DERIVE(derive_##METRIC,                                                                    \
+               is_judged(at) ? DIP_MADE(DipEstimate, dip_cost_metric(report_of(at), row_of(at),    \
+                                                                     DIP_COST_##METRIC))           \
+                             : NULL)                                                               \
+    DIP_DERIVE(                                                                                    \
+        derive_change_##METRIC,                                                                    \
+        DIP_MADE(DipEstimate, dip_cost_metric_change(report_of(at), sweep_of(at)->rows[at->index], \
+                                                     sweep_of(at)->base, DIP_COST_##METRIC)))
+METRIC_LIST(METRIC_FUNCTIONS)
 
 // --- viewpoints ----------------------------------------------------------------------------------
 
@@ -208,10 +220,10 @@ static const DipField tail_fields[] = {
     TAIL_FIELD("worst_height", worst_height, 8192.0, NULL, "Height of the worst block, in pixels.",
                0),
     {"worst_viewpoint", "its viewpoint", NULL,
-     "The viewpoint with the worst block, from 0 on; only of a row.", .kind = DIP_FIELD_WHOLE,
-     .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .offset = offsetof(DipCostTail, worst_viewpoint)},
-    {"place", "where", NULL, "Where the worst block is; only of a row.", .kind = DIP_FIELD_TEXT,
-     .where = DIP_FIELD_DERIVED, .derive = derive_place},
+     "The viewpoint with the worst block, from 0 on; only of a row.",
+     DIP_COMPUTED(WHOLE, DipCostTail, worst_viewpoint)},
+    {"place", "where", NULL, "Where the worst block is; only of a row.",
+     DIP_SHOWN(TEXT, derive_place)},
 };
 static const DipRecord viewpoint_tail_record = {
     "distribution of FLIP",
@@ -232,7 +244,8 @@ static const void *derive_tail(const DipFieldAt *at, DipFieldScratch *scratch) {
     return tail->viewpoints > 0 ? tail : NULL;
 }
 
-// A judged viewpoint of a row. The tail comes first, as in DipCostTail.
+// A judged viewpoint of a row. The tail comes first, as in DipCostTail, so that tail_fields fit
+// both.
 typedef struct Viewpoint {
     DipFlipTail tail;
     int place;
@@ -240,9 +253,7 @@ typedef struct Viewpoint {
     DipMetricSums sums;
 } Viewpoint;
 
-static bool has_tail(const DipFieldAt *at) {
-    return ((const Viewpoint *)at->item)->tail.worst_width > 0.0;
-}
+DIP_OF_ITEM(bool, has_tail, ((const Viewpoint *)at->item)->tail.worst_width > 0.0)
 
 #define SUMS_FIELD(name, means, TYPE, MEMBER)                                                      \
     {                                                                                              \
@@ -263,8 +274,8 @@ static const DipField viewpoint_fields[] = {
      DIP_FACT(RECORD, Viewpoint, tail), .record = &viewpoint_tail_record, .known = has_tail},
 };
 
-// True if there are no or at least one counted things (pixels or bursts), and if the mean of the
-// sum over them is possible.
+// Returns whether a sum over a number of pixels or bursts is possible: their number is 0 or at
+// least 1, and the mean of the sum over them lies within its limit.
 static bool is_sum(double sum, double count) {
     return (count == 0.0 || count >= 1.0) && fabs(sum) <= DIP_COST_MOST_MEAN * count;
 }
@@ -285,20 +296,12 @@ static bool are_sums(const DipMetricSums *sums) {
 static const DipRecord viewpoint_record = DIP_RECORD(
     "viewpoint of a row", "What was judged at a viewpoint.", viewpoint_fields, Viewpoint, NULL);
 
-static int count_viewpoints(const DipFieldAt *at) {
-    int count = 0;
-    for (int p = 0; p < report_of(at)->options.places; p++) {
-        count += ((const DipCostRow *)at->item)->judged[p];
-    }
-    return count;
-}
+DIP_OF_ITEM(int, count_viewpoints,
+            count_set(((const DipCostRow *)at->item)->judged, report_of(at)->options.places))
 
 static const void *get_viewpoint(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
     const DipCostRow *row = at->item;
-    int place = 0;
-    for (int left = index + !row->judged[0]; left > 0; left -= row->judged[place]) {
-        place++;
-    }
+    const int place = find_set(row->judged, index);
     Viewpoint *to = (Viewpoint *)scratch;
     *to = (Viewpoint){.tail = row->tails[place], .place = place, .sums = row->viewpoints[place]};
     memcpy(to->pictures, row->pictures[place], sizeof to->pictures);
@@ -323,29 +326,14 @@ static bool put_viewpoint(const DipFieldAt *at, int index, const void *item) {
     return true;
 }
 
-static const DipFieldList viewpoint_list = {.record = &viewpoint_record,
-                                            .count = count_viewpoints,
-                                            .item = get_viewpoint,
-                                            .open = open_places,
-                                            .put = put_viewpoint};
-
 // --- rows ----------------------------------------------------------------------------------------
 
-static bool is_timed(const DipFieldAt *at) {
-    return dip_cost_is_timed(report_of(at), row_of(at));
-}
+DIP_OF_ITEM(bool, is_timed, dip_cost_is_timed(report_of(at), row_of(at)))
 
-static const void *derive_text(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_cost_settings_text(&((const DipCostRow *)at->item)->quality, scratch->text);
-    return scratch->text;
-}
-
-static const void *derive_at_floor(const DipFieldAt *at, DipFieldScratch *scratch) {
-    int viewpoints;
-    dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
-    *(bool *)scratch = dip_cost_at_floor(report_of(at), row_of(at));
-    return viewpoints > 0 ? scratch : NULL;
-}
+DIP_DERIVE(derive_text, DIP_WRITTEN(dip_cost_settings_text(&((const DipCostRow *)at->item)->quality,
+                                                           scratch->text)))
+DIP_DERIVE(derive_at_floor,
+           is_judged(at) ? DIP_MADE(bool, dip_cost_at_floor(report_of(at), row_of(at))) : NULL)
 
 #define TIME_FIELD(NAME, title, unit, means, MEMBER, DIGITS)                                       \
     {                                                                                              \
@@ -380,7 +368,9 @@ static const DipField row_fields[] = {
      DIP_DERIVED(TEXT, derive_text)},
     {"path", "path", NULL, "Index of the camera path in `paths`.",
      DIP_FACT(WHOLE, DipCostRow, path), .most = DIP_COST_MAX_PATHS - 1},
-    {"places", NULL, NULL, "The judged viewpoints.", LIST, .list = &viewpoint_list},
+    {"places", NULL, NULL, "The judged viewpoints.",
+     DIP_LIST(.record = &viewpoint_record, .count = count_viewpoints, .item = get_viewpoint,
+              .open = open_places, .put = put_viewpoint)},
     {"figures", NULL, NULL, "Metrics over the judged viewpoints.",
      DIP_DERIVED(RECORD, derive_figures), .record = &figures_record},
     {"over_time", NULL, NULL, "Metrics of successive frames.",
@@ -406,9 +396,7 @@ static const DipField row_fields[] = {
     COUNTERS_FIELD(DipCostRow, is_timed),
 };
 
-static bool check_row(const DipFieldAt *at) {
-    return ((const DipCostRow *)at->item)->path < report_of(at)->path_count;
-}
+DIP_OF_ITEM(bool, check_row, ((const DipCostRow *)at->item)->path < report_of(at)->path_count)
 
 const DipRecord dip_cost_row_record =
     DIP_RECORD("row", "One measured combination: quality settings on a camera path.", row_fields,
@@ -428,17 +416,18 @@ static DipErrorCode open_rows(const DipFieldAt *at, int count) {
 
 // --- visits --------------------------------------------------------------------------------------
 
-// A frame is timed a few times for the advice, and a baseline's in every block.
+// A frame of a row is timed at most this many times, on average over all rows. Advice times a frame
+// a few times, and a baseline's frame is timed in every block.
 enum { MOST_TIMES = 64 };
 
-// A visit: successive frames of the log, from the index `first` on.
+// A visit: successive frames of the log, which have the same row, start, round and block.
 typedef struct Visit {
     int row;
     int start;
     int round;
     int block;
     double begin_ms;
-    int first;
+    DipTimed *frames; // Part of the log.
     int count;
 } Visit;
 
@@ -456,25 +445,26 @@ static int count_visits(const DipFieldAt *at) {
     return count;
 }
 
-// *scratch has the visit before.
+// Makes a visit from the log. It begins where the visit before ends, which *scratch still has.
 static const void *get_visit(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
     const DipCostReport *report = report_of(at);
     Visit *visit = (Visit *)scratch;
-    const int first = index > 0 ? visit->first + visit->count : 0;
-    const DipTimed *timed = &report->log[first];
-    *visit = (Visit){.row = timed->subject,
-                     .start = timed->start,
-                     .round = timed->round,
-                     .block = timed->block,
-                     .begin_ms = (double)timed->begin_ns / 1e6,
-                     .first = first};
-    while (first + visit->count < report->log_count && is_same_visit(timed, &timed[visit->count])) {
+    DipTimed *first = index > 0 ? visit->frames + visit->count : report->log;
+    *visit = (Visit){.row = first->subject,
+                     .start = first->start,
+                     .round = first->round,
+                     .block = first->block,
+                     .begin_ms = (double)first->begin_ns / 1e6,
+                     .frames = first};
+    const int most = report->log_count - (int)(first - report->log);
+    while (visit->count < most && is_same_visit(first, &first[visit->count])) {
         visit->count++;
     }
     return visit;
 }
 
-// Older files have no visits, but pairs of times (cost_json.c).
+// Refuses visits of a report without starts. No visits are fine, since older files have pairs of
+// times instead (cost_json.c).
 static DipErrorCode open_visits(const DipFieldAt *at, int count) {
     const DipCostReport *report = report_of(at);
     return count == 0 || (report->starts > 0 && report->rounds % report->starts == 0)
@@ -486,8 +476,8 @@ static bool put_visit(const DipFieldAt *at, int index, const void *item) {
     const DipCostReport *report = report_of(at);
     const Visit *visit = item;
     (void)index;
-    for (int i = visit->first; i < visit->first + visit->count; i++) {
-        DipTimed *timed = &report->log[i];
+    for (int i = 0; i < visit->count; i++) {
+        DipTimed *timed = &visit->frames[i];
         timed->subject = visit->row;
         timed->start = visit->start;
         timed->round = visit->round;
@@ -499,10 +489,6 @@ static bool put_visit(const DipFieldAt *at, int index, const void *item) {
     }
     return is_row(report, visit->row) && visit->start < report->starts &&
            visit->round < report->rounds / report->starts;
-}
-
-static int count_frames(const DipFieldAt *at) {
-    return ((const Visit *)at->item)->count;
 }
 
 // Makes room for the frames of a visit at the end of the log.
@@ -518,44 +504,29 @@ static DipErrorCode open_frames(const DipFieldAt *at, int count) {
     if (!log) {
         return DIP_ERROR_MEMORY;
     }
-    memset(log + report->log_count, 0, (size_t)count * sizeof *log);
-    visit->first = report->log_count;
+    visit->frames = log + report->log_count;
     visit->count = count;
+    memset(visit->frames, 0, (size_t)count * sizeof *log);
     report->log = log;
     report->log_count = (int)needed;
     return DIP_ERROR_NONE;
 }
 
 static DipErrorCode open_times(const DipFieldAt *at, int count) {
-    return count == count_frames(at) ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
+    return count == ((const Visit *)at->item)->count ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
 }
 
-#define TIMED_FUNCTION(member)                                                                     \
-    static const void *get_timed_##member(const DipFieldAt *at, int index,                         \
-                                          DipFieldScratch *scratch) {                              \
-        (void)scratch;                                                                             \
-        return &report_of(at)->log[((const Visit *)at->item)->first + index].member;               \
-    }
-TIMED_FUNCTION(frame)
-TIMED_FUNCTION(ms)
-TIMED_FUNCTION(wait)
+DIP_OF_ITEM(bool, is_wait_known, isfinite(((const DipTimed *)at->item)[at->index].wait))
 
-static bool is_wait_known(const DipFieldAt *at) {
-    return isfinite(*(const double *)at->item);
-}
+#define OF_FRAME(KIND, member) DIP_FACT(KIND, DipTimed, member), .stride = sizeof(DipTimed)
+static const DipField frame_element = {OF_FRAME(WHOLE, frame), .most = INT_MAX};
+static const DipField ms_element = {OF_FRAME(NUMBER, ms), .least = DIP_COST_LEAST_MS,
+                                    .most = DIP_COST_MOST_MS};
+static const DipField wait_element = {OF_FRAME(NUMBER, wait), .most = DIP_COST_MOST_MEAN,
+                                      .known = is_wait_known};
 
-static const DipField frame_element = {.kind = DIP_FIELD_WHOLE, .most = INT_MAX};
-static const DipField ms_element = {
-    .kind = DIP_FIELD_NUMBER, .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS};
-static const DipField wait_element = {
-    .kind = DIP_FIELD_NUMBER, .most = DIP_COST_MOST_MEAN, .known = is_wait_known};
-
-#define TIMED_FIELD(name, MEMBER, ELEMENT, OPEN, means)                                            \
-    {                                                                                              \
-        name, NULL, NULL, means, LIST, .list = &(const DipFieldList) {                             \
-            .element = &(ELEMENT), .count = count_frames, .item = get_timed_##MEMBER, .open = OPEN \
-        }                                                                                          \
-    }
+#define OF_FRAMES(ELEMENT, OPEN)                                                                   \
+    DIP_LIST(.element = &(ELEMENT), DIP_ARRAY(Visit, frames, count), .points = true, .open = OPEN)
 static const DipField visit_fields[] = {
     {"row", NULL, NULL, "Index of the row.", DIP_FACT(WHOLE, Visit, row),
      .most = DIP_COST_MAX_ROWS - 1},
@@ -569,85 +540,41 @@ static const DipField visit_fields[] = {
      DIP_FACT(WHOLE, Visit, block), .most = INT_MAX - 1},
     {"begin_ms", NULL, "ms", "When the visit began, since the measurement began.",
      DIP_FACT(NUMBER, Visit, begin_ms), .most = DIP_COST_MOST_MS},
-    TIMED_FIELD("frames", frame, frame_element, open_frames, "The frames along the path."),
-    TIMED_FIELD("ms", ms, ms_element, open_times, "Time of each frame, in milliseconds."),
-    TIMED_FIELD(
-        "wait", wait, wait_element, open_times,
-        "Time that the frame's threads waited for a processor, as a share of its time; null "
-        "if the machine does not tell."),
+    {"frames", NULL, NULL, "The frames along the path.", OF_FRAMES(frame_element, open_frames)},
+    {"ms", NULL, NULL, "Time of each frame, in milliseconds.", OF_FRAMES(ms_element, open_times)},
+    {"wait", NULL, NULL,
+     "Time that the frame's threads waited for a processor, as a share of its time; null if the "
+     "machine does not tell.",
+     OF_FRAMES(wait_element, open_times)},
 };
 static const DipRecord visit_record = DIP_RECORD(
     "visit", "A few frames of one row, timed one after another.", visit_fields, Visit, NULL);
 
-static const DipFieldList visit_list = {.record = &visit_record,
-                                        .count = count_visits,
-                                        .item = get_visit,
-                                        .open = open_visits,
-                                        .put = put_visit};
-
 // --- paths and their truths ----------------------------------------------------------------------
 
-typedef struct Path {
-    char name[16];
-    char poses[33];
-    int base_row;
-    int same_row;
-} Path;
+// Checks the name of a path, which is that of a category or the value of an option.
+static bool check_path(const DipFieldAt *at) {
+    const char *name = report_of(at)->paths[at->index];
+    return *name && strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                 "0123456789_-") == strlen(name);
+}
 
+#define OF_PATH(KIND, MEMBER)                                                                      \
+    DIP_FACT(KIND, DipCostReport, MEMBER[0]), .stride = sizeof *((DipCostReport *)0)->MEMBER
 DIP_DERIVE(derive_floor, DIP_MADE(DipMetrics, (dip_cost_floor_metrics(report_of(at), at->index))))
 static const DipField path_fields[] = {
     {"name", "path", NULL, "\"DEFAULT\", \"AA\" and so on: the key of the path in the ini.",
-     DIP_FACT(TEXT, Path, name)},
-    {"poses", NULL, NULL, "Hash of the poses that are drawn.", DIP_FACT(TEXT, Path, poses)},
+     OF_PATH(TEXT, paths)},
+    {"poses", NULL, NULL, "Hash of the poses that are drawn.", OF_PATH(TEXT, path_hashes)},
     {"base_row", NULL, NULL, "The row with which the others of the path are timed.",
-     DIP_FACT(WHOLE, Path, base_row), .most = DIP_COST_MAX_ROWS - 1},
+     OF_PATH(WHOLE, base_rows), .most = DIP_COST_MAX_ROWS - 1},
     {"same_row", NULL, NULL, "The baseline once more, timed as if it were another setting (A/A).",
-     DIP_FACT(WHOLE, Path, same_row), .most = DIP_COST_MAX_ROWS - 1},
+     OF_PATH(WHOLE, same_rows), .most = DIP_COST_MAX_ROWS - 1},
     {"floor", NULL, NULL, "Estimates of the metrics that the noise of the path's truths alone has.",
      DIP_DERIVED(RECORD, derive_floor), .record = &dip_cost_metrics_record},
 };
-static const DipRecord path_record = DIP_RECORD("path", "A camera path.", path_fields, Path, NULL);
-
-static int count_paths(const DipFieldAt *at) {
-    return report_of(at)->path_count;
-}
-
-static const void *get_path(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
-    const DipCostReport *report = report_of(at);
-    Path *path = (Path *)scratch;
-    *path = (Path){.base_row = report->base_rows[index], .same_row = report->same_rows[index]};
-    memcpy(path->name, report->paths[index], sizeof path->name);
-    memcpy(path->poses, report->path_hashes[index], sizeof path->poses);
-    return path;
-}
-
-static DipErrorCode open_paths(const DipFieldAt *at, int count) {
-    const bool fits = count > 0 && count <= DIP_COST_MAX_PATHS;
-    report_of(at)->path_count = fits ? count : 0;
-    return fits ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
-}
-
-// Names of paths are those of categories, or of an option's value.
-static bool is_name(const char *text) {
-    return *text && strspn(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-                                 "0123456789_-") == strlen(text);
-}
-
-static bool put_path(const DipFieldAt *at, int index, const void *item) {
-    DipCostReport *report = report_of(at);
-    const Path *path = item;
-    memcpy(report->paths[index], path->name, sizeof path->name);
-    memcpy(report->path_hashes[index], path->poses, sizeof path->poses);
-    report->base_rows[index] = path->base_row;
-    report->same_rows[index] = path->same_row;
-    return is_name(path->name);
-}
-
-static const DipFieldList path_list = {.record = &path_record,
-                                       .count = count_paths,
-                                       .item = get_path,
-                                       .open = open_paths,
-                                       .put = put_path};
+static const DipRecord path_record =
+    DIP_RECORD_OF_ARRAYS("path", "A camera path.", path_fields, check_path);
 
 typedef struct Floor {
     int path;
@@ -671,23 +598,12 @@ static int all_floors(const DipCostReport *report) {
     return report->path_count * report->options.places;
 }
 
-static int count_floors(const DipFieldAt *at) {
-    int count = 0;
-    for (int i = 0; i < all_floors(report_of(at)); i++) {
-        count += report_of(at)->has_floor[i];
-    }
-    return count;
-}
+DIP_OF_ITEM(int, count_floors, count_set(report_of(at)->has_floor, all_floors(report_of(at))))
 
 static const void *get_floor(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
     const DipCostReport *report = report_of(at);
-    int i = 0;
-    for (int left = index + !report->has_floor[0]; left > 0; left -= report->has_floor[i]) {
-        i++;
-    }
-    *(Floor *)scratch =
-        (Floor){i / report->options.places, i % report->options.places, report->floors[i]};
-    return scratch;
+    const int i = find_set(report->has_floor, index), places = report->options.places;
+    return DIP_MADE(Floor, ((Floor){i / places, i % places, report->floors[i]}));
 }
 
 static DipErrorCode open_floors(const DipFieldAt *at, int count) {
@@ -707,29 +623,14 @@ static bool put_floor(const DipFieldAt *at, int index, const void *item) {
     return true;
 }
 
-static const DipFieldList floor_list = {.record = &floor_record,
-                                        .count = count_floors,
-                                        .item = get_floor,
-                                        .open = open_floors,
-                                        .put = put_floor};
-
 // --- sweeps --------------------------------------------------------------------------------------
 
-// A step is the index of its row, in the sweep's array.
-static const DipCostSweep *sweep_of(const DipFieldAt *at) {
-    return at->owner->item;
-}
+DIP_OF_ITEM(bool, is_step_timed, dip_cost_is_timed(report_of(at), sweep_of(at)->rows[at->index]))
 
-static bool is_step_timed(const DipFieldAt *at) {
-    return dip_cost_is_timed(report_of(at), *(const int *)at->item);
-}
-
-DIP_DERIVE(derive_ratio, &sweep_of(at)->ratios[at->index])
-DIP_DERIVE(derive_row, &report_of(at)->rows[*(const int *)at->item])
-static const void *derive_step(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_cost_step_text(report_of(at), sweep_of(at), *(const int *)at->item, scratch->text);
-    return scratch->text;
-}
+DIP_DERIVE(derive_row, &report_of(at)->rows[sweep_of(at)->rows[at->index]])
+DIP_DERIVE(derive_step,
+           DIP_WRITTEN(dip_cost_step_text(report_of(at), sweep_of(at),
+                                          sweep_of(at)->rows[at->index], scratch->text)))
 
 #define CHANGE_FIELD(METRIC, NAME, title, unit, DIGITS)                                            \
     {NAME "_change",                                                                               \
@@ -739,28 +640,22 @@ static const void *derive_step(const DipFieldAt *at, DipFieldScratch *scratch) {
      DIP_DERIVED(ESTIMATE, derive_change_##METRIC),                                                \
      .digits = DIGITS},
 static const DipField step_fields[] = {
-    {"row", NULL, NULL, "Index of the step's row.", .kind = DIP_FIELD_WHOLE,
-     .where = DIP_FIELD_JSON, .most = DIP_COST_MAX_ROWS - 1},
+    {"row", NULL, NULL, "Index of the step's row.", DIP_FACT(WHOLE, DipCostSweep, rows[0]),
+     .stride = sizeof(int), .most = DIP_COST_MAX_ROWS - 1},
     {"step", "step", NULL, "The step's name.", DIP_DERIVED(TEXT, derive_step)},
     {"ratio", "ratio", NULL, "The step's time divided by that of the sweep's base.",
-     DIP_DERIVED(ESTIMATE, derive_ratio), .known = is_step_timed, .digits = 3},
+     DIP_COMPUTED(ESTIMATE, DipCostSweep, ratios[0]), .stride = sizeof(DipEstimate),
+     .known = is_step_timed, .digits = 3},
     METRIC_LIST(CHANGE_FIELD){"measured", NULL, NULL, "The fields of the step's row.",
-                              .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_DERIVED,
-                              .derive = derive_row, .record = &dip_cost_row_record},
+                              DIP_SHOWN(RECORD, derive_row), .record = &dip_cost_row_record},
 };
 
-static bool check_step(const DipFieldAt *at) {
-    return is_row(report_of(at), *(const int *)at->item);
-}
+DIP_OF_ITEM(bool, check_step, is_row(report_of(at), sweep_of(at)->rows[at->index]))
 
 static const DipRecord step_record =
-    DIP_RECORD("step", "A step of a sweep.", step_fields, int, check_step);
+    DIP_RECORD_OF_ARRAYS("step", "A step of a sweep.", step_fields, check_step);
 
-static const void *derive_title(const DipFieldAt *at, DipFieldScratch *scratch) {
-    dip_cost_sweep_title(report_of(at), at->item, scratch->text);
-    return scratch->text;
-}
-
+DIP_DERIVE(derive_title, DIP_WRITTEN(dip_cost_sweep_title(report_of(at), at->item, scratch->text)))
 static const DipField sweep_fields[] = {
     {"title", NULL, NULL, "The setting, and the others that are off their defaults.",
      DIP_DERIVED(TEXT, derive_title)},
@@ -770,8 +665,9 @@ static const DipField sweep_fields[] = {
      .most = DIP_COST_MAX_PATHS - 1},
     {"base", NULL, NULL, "Index of the row with which the steps are compared.",
      DIP_FACT(WHOLE, DipCostSweep, base), .most = DIP_COST_MAX_ROWS - 1},
-    {"steps", NULL, NULL, "The steps, in the order of the setting.", LIST,
-     ARRAY_OF(DipCostSweep, rows, row_count, DIP_COST_MAX_SWEEP_ROWS, &step_record)},
+    {"steps", NULL, NULL, "The steps, in the order of the setting.",
+     DIP_LIST(.record = &step_record, .counted = offsetof(DipCostSweep, row_count),
+              .most = DIP_COST_MAX_SWEEP_ROWS)},
 };
 
 static bool check_sweep(const DipFieldAt *at) {
@@ -790,13 +686,11 @@ static const DipField same_fields[] = {
     {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCostSame, quality)},
     {"row", NULL, NULL, "Index of the row that stands for the combination.",
      DIP_FACT(WHOLE, DipCostSame, row), .most = DIP_COST_MAX_ROWS - 1},
-    {"same_as", "draws the same as", NULL, "The settings of that row.", .kind = DIP_FIELD_SETTINGS,
-     .where = DIP_FIELD_DERIVED, .derive = derive_same_as},
+    {"same_as", "draws the same as", NULL, "The settings of that row.",
+     DIP_SHOWN(SETTINGS, derive_same_as)},
 };
 
-static bool check_same(const DipFieldAt *at) {
-    return is_row(report_of(at), ((const DipCostSame *)at->item)->row);
-}
+DIP_OF_ITEM(bool, check_same, is_row(report_of(at), ((const DipCostSame *)at->item)->row))
 
 const DipRecord dip_cost_same_record =
     DIP_RECORD("same pictures",
@@ -848,9 +742,8 @@ static const DipField prediction_fields[] = {
      DIP_FACT(WHOLE, DipCostPrediction, row), .least = -1, .most = DIP_COST_MAX_ROWS - 1},
 };
 
-static bool check_prediction(const DipFieldAt *at) {
-    return ((const DipCostPrediction *)at->item)->row < report_of(at)->row_count;
-}
+DIP_OF_ITEM(bool, check_prediction,
+            ((const DipCostPrediction *)at->item)->row < report_of(at)->row_count)
 
 const DipRecord dip_cost_prediction_of_report_record = DIP_RECORD(
     "prediction", "A combination whose time and error were predicted from measured rows.",
@@ -859,10 +752,11 @@ const DipRecord dip_cost_prediction_of_report_record = DIP_RECORD(
 static const DipField predictions_fields[] = {
     {"trained", NULL, NULL, "Number of rows that were measured to predict all others.",
      DIP_FACT(WHOLE, DipCostPredictions, trained), .most = DIP_COST_MAX_ROWS},
-    {"misses", NULL, NULL, "How well the prediction did.", RECORD, .record = &all_misses_record},
-    {"combinations", NULL, NULL, "What was predicted.", LIST,
-     OWNED(DipCostPredictions, list, count, DIP_COST_MAX_ROWS,
-           &dip_cost_prediction_of_report_record)},
+    {"misses", NULL, NULL, "How well the prediction did.", PART, .record = &all_misses_record},
+    {"combinations", NULL, NULL, "What was predicted.",
+     DIP_LIST(.record = &dip_cost_prediction_of_report_record,
+              DIP_ARRAY(DipCostPredictions, list, count), .points = true,
+              .most = DIP_COST_MAX_ROWS)},
 };
 static const DipRecord predictions_record = DIP_RECORD(
     "predictions", "What --predict ranked.", predictions_fields, DipCostPredictions, NULL);
@@ -876,9 +770,7 @@ static const DipField elsewhere_fields[] = {
     COUNTERS_FIELD(DipCostElsewhere, NULL),
 };
 
-static bool check_elsewhere(const DipFieldAt *at) {
-    return isfinite(((const DipCostElsewhere *)at->item)->ms.value);
-}
+DIP_OF_ITEM(bool, check_elsewhere, isfinite(((const DipCostElsewhere *)at->item)->ms.value))
 
 const DipRecord dip_cost_elsewhere_record =
     DIP_RECORD("combination elsewhere",
@@ -886,27 +778,25 @@ const DipRecord dip_cost_elsewhere_record =
                "threads, in milliseconds of the report.",
                elsewhere_fields, DipCostElsewhere, check_elsewhere);
 
-enum { MOST_SIDE = 16384 }; // Pixels.
+enum { MOST_SIDE = 16384 }; // Greatest width and height of a picture, in pixels.
 
 static const DipField smaller_fields[] = {
     {"width", NULL, "px", "Width of these pictures.", DIP_FACT(WHOLE, DipCostReport, smaller_width),
      .least = 1, .most = MOST_SIDE},
     {"height", NULL, "px", "Height of these pictures.",
      DIP_FACT(WHOLE, DipCostReport, smaller_height), .least = 1, .most = MOST_SIDE},
-    {"combinations", NULL, NULL, "The combinations.", LIST,
-     ARRAY_OF(DipCostReport, smaller, smaller_count, DIP_COST_MAX_SMALLER,
-              &dip_cost_elsewhere_record)},
+    {"combinations", NULL, NULL, "The combinations.",
+     DIP_LIST(.record = &dip_cost_elsewhere_record,
+              DIP_ARRAY(DipCostReport, smaller, smaller_count), .most = DIP_COST_MAX_SMALLER)},
 };
 
-static bool check_smaller(const DipFieldAt *at) {
-    return report_of(at)->smaller_count > 0;
-}
+DIP_OF_ITEM(bool, has_smaller, report_of(at)->smaller_count > 0)
 
 static const DipRecord smaller_record =
     DIP_RECORD("smaller pictures",
                "A few combinations at about half the width and height, which tell work that grows "
                "with the picture from work that does not.",
-               smaller_fields, DipCostReport, check_smaller);
+               smaller_fields, DipCostReport, has_smaller);
 
 // --- what is computed ----------------------------------------------------------------------------
 
@@ -931,30 +821,27 @@ const DipRecord dip_cost_interaction_record =
     DIP_RECORD("interaction", "Two settings at their last steps together, against each alone.",
                interaction_fields, DipCostInteraction, NULL);
 
-static int count_interactions(const DipFieldAt *at) {
-    return report_of(at)->analysis ? report_of(at)->analysis->interaction_count : 0;
-}
+DIP_OF_ITEM(int, count_interactions,
+            report_of(at)->analysis ? report_of(at)->analysis->interaction_count : 0)
 
 DIP_GET_ITEM(get_interaction, &report_of(at)->analysis->interactions[index])
-static const DipFieldList interaction_list = {
-    .record = &dip_cost_interaction_record, .count = count_interactions, .item = get_interaction};
 
-// The price of a kind of work: an index of the fit's terms.
-DIP_DERIVE(derive_stage, report_of(at)->analysis->fit.stages[at->index])
-DIP_DERIVE(derive_work, report_of(at)->analysis->fit.names[at->index])
+// The kinds of work whose prices are known are the terms of the fit.
+DIP_DERIVE(derive_stage, ((const DipCostFit *)at->item)->stages[at->index])
+DIP_DERIVE(derive_work, ((const DipCostFit *)at->item)->names[at->index])
 static const DipField price_fields[] = {
     {"stage", "stage", NULL, "Stage of the pipeline.", DIP_DERIVED(TEXT, derive_stage)},
     {"work", "unit of work", NULL, "The kind of work; \"frame\" is what every frame takes.",
      DIP_DERIVED(TEXT, derive_work)},
-    {"ns", "time", "ns", "Time of a unit of this work.", .kind = DIP_FIELD_NUMBER,
-     .where = DIP_FIELD_JSON, .digits = 3, .show = DIP_SHOW_FIGURES},
+    {"ns", "time", "ns", "Time of a unit of this work.", DIP_FACT(NUMBER, DipCostFit, ns[0]),
+     .stride = sizeof(double), .digits = 3, .show = DIP_SHOW_FIGURES},
 };
 const DipRecord dip_cost_price_record =
-    DIP_RECORD("price of work", "What a unit of work takes.", price_fields, double, NULL);
+    DIP_RECORD_OF_ARRAYS("price of work", "What a unit of work takes.", price_fields, NULL);
 
 static const DipField fit_fields[] = {
-    {"prices", NULL, NULL, "The price of each kind of work.", LIST,
-     ARRAY_OF(DipCostFit, ns, count, 0, &dip_cost_price_record)},
+    {"prices", NULL, NULL, "The price of each kind of work.",
+     DIP_LIST(.record = &dip_cost_price_record, .counted = offsetof(DipCostFit, count))},
     {"r2", NULL, NULL, "Share of the relative variance of the times that the fit explains.",
      DIP_FACT(NUMBER, DipCostFit, r2), .digits = 3},
     {"median_miss", NULL, NULL, "Median of |fitted / measured - 1|.",
@@ -977,101 +864,67 @@ static const void *derive_fit(const DipFieldAt *at, DipFieldScratch *scratch) {
 // --- advice --------------------------------------------------------------------------------------
 
 // Only the budgets are facts: advice is computed again from times and errors.
+static const DipAdvice *advice_of(const DipFieldAt *at) {
+    return &report_of(at)->choice.advice[at->index];
+}
+
 static const DipCandidate *candidate_of(const DipFieldAt *at, int index) {
-    return index >= 0 ? &report_of(at)->choice.candidates.list[index] : NULL;
+    return &report_of(at)->choice.candidates.list[index];
 }
 
-static const DipCandidate *chosen_of(const DipFieldAt *at) {
-    return candidate_of(at, ((const DipAdvice *)at->item)->chosen);
-}
+DIP_OF_ITEM(bool, has_next, advice_of(at)->next >= 0)
 
-static const DipCandidate *next_of(const DipFieldAt *at) {
-    return candidate_of(at, ((const DipAdvice *)at->item)->next);
-}
+DIP_DERIVE(derive_chosen,
+           DIP_MADE(int,
+                    advice_of(at)->chosen >= 0 ? candidate_of(at, advice_of(at)->chosen)->row : -1))
+DIP_DERIVE(derive_next,
+           DIP_MADE(int, has_next(at) ? candidate_of(at, advice_of(at)->next)->row : -1))
 
-static const void *derive_chosen(const DipFieldAt *at, DipFieldScratch *scratch) {
-    const DipCandidate *chosen = chosen_of(at);
-    *(int *)scratch = chosen ? chosen->row : -1;
-    return scratch;
-}
-
-static const void *derive_next(const DipFieldAt *at, DipFieldScratch *scratch) {
-    const DipCandidate *next = next_of(at);
-    *(int *)scratch = next ? next->row : -1;
-    return scratch;
-}
-
-// The chosen time, with the error that all candidates share.
+// Derives the chosen time. Its interval includes the error that all candidates share.
 static const void *derive_chosen_ms(const DipFieldAt *at, DipFieldScratch *scratch) {
-    const DipCandidate *chosen = chosen_of(at);
-    if (!chosen) {
-        return NULL;
-    }
-    *(DipEstimate *)scratch = dip_estimate_widen(&chosen->time, chosen->common_error);
-    return scratch;
+    const DipCandidate *chosen = dip_cost_chosen(report_of(at), at->index);
+    return chosen ? DIP_MADE(DipEstimate, dip_estimate_widen(&chosen->time, chosen->common_error))
+                  : NULL;
 }
 
 static int count_ties(const DipFieldAt *at) {
-    const int count = ((const DipAdvice *)at->item)->tie_count;
+    const int count = advice_of(at)->tie_count;
     return count < DIP_ADVICE_TIES ? count : DIP_ADVICE_TIES;
 }
 
-DIP_GET_ITEM(get_tie, &candidate_of(at, ((const DipAdvice *)at->item)->ties[index])->row)
-static bool has_next(const DipFieldAt *at) {
-    return ((const DipAdvice *)at->item)->next >= 0;
-}
-
+DIP_GET_ITEM(get_tie, &candidate_of(at, advice_of(at)->ties[index])->row)
 static const DipField tie_element = {.kind = DIP_FIELD_WHOLE};
 
+#define OF_ADVICE(KIND, member)                                                                    \
+    DIP_COMPUTED(KIND, DipCostReport, choice.advice[0].member), .stride = sizeof(DipAdvice)
 static const DipField advice_fields[] = {
     {"budget_ms", "budget", "ms", "The time that a frame may take.",
-     DIP_FACT(NUMBER, DipAdvice, budget_ms), .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS},
+     DIP_FACT(NUMBER, DipCostReport, options.budgets_ms[0]), .stride = sizeof(double),
+     .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS},
     {"row", NULL, NULL, "Index of the chosen row, or -1 if none is surely within the budget.",
      DIP_DERIVED(WHOLE, derive_chosen)},
     {"ms", NULL, "ms", "The row's time, of the kind that the budget is meant for (`budget_of`).",
      DIP_DERIVED(ESTIMATE, derive_chosen_ms), .digits = 2},
     {"fits", "fits", NULL, "Probability that this time is within the budget.",
-     DIP_COMPUTED(NUMBER, DipAdvice, fits)},
+     OF_ADVICE(NUMBER, fits)},
     {"ties", NULL, NULL,
      "Up to eight other rows that are as good: they surely fit, too, and their FLIP is within 1 % "
      "of the least. The fastest comes first.",
-     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED,
-     .list = &(const DipFieldList){.element = &tie_element, .count = count_ties, .item = get_tie}},
-    {"tie_count", NULL, NULL, "Number of all rows that are as good.",
-     DIP_COMPUTED(WHOLE, DipAdvice, tie_count)},
+     DIP_DERIVED_LIST(.element = &tie_element, .count = count_ties, .item = get_tie)},
+    {"tie_count", NULL, NULL, "Number of all rows that are as good.", OF_ADVICE(WHOLE, tie_count)},
     {"next", NULL, NULL,
      "Index of the next better row, or of the fastest row if none is chosen; -1 if there is none.",
      DIP_DERIVED(WHOLE, derive_next)},
     {"next_ms", NULL, "ms",
      "How much longer that row takes than the chosen one, or than the budget if none is chosen.",
-     DIP_COMPUTED(NUMBER, DipAdvice, next_ms), .known = has_next, .digits = 2},
+     OF_ADVICE(NUMBER, next_ms), .known = has_next, .digits = 2},
     {"next_fits", NULL, NULL, "Probability that the time of that row is within the budget.",
-     DIP_COMPUTED(NUMBER, DipAdvice, next_fits), .known = has_next},
+     OF_ADVICE(NUMBER, next_fits), .known = has_next},
 };
 static const DipRecord advice_record =
-    DIP_RECORD("advice", "The row to choose for one time budget.", advice_fields, DipAdvice, NULL);
+    DIP_RECORD_OF_ARRAYS("advice", "The row to choose for one time budget.", advice_fields, NULL);
 
-static int count_advice(const DipFieldAt *at) {
-    return report_of(at)->choice.advice_count;
-}
-
-DIP_GET_ITEM(get_advice, &report_of(at)->choice.advice[index])
-static DipErrorCode open_advice(const DipFieldAt *at, int count) {
-    const bool fits = count <= DIP_COST_MAX_BUDGETS;
-    report_of(at)->options.budget_count = fits ? count : 0;
-    return fits ? DIP_ERROR_NONE : DIP_ERROR_FORMAT;
-}
-
-static bool put_advice(const DipFieldAt *at, int index, const void *item) {
-    report_of(at)->options.budgets_ms[index] = ((const DipAdvice *)item)->budget_ms;
-    return true;
-}
-
-static const DipFieldList advice_list = {.record = &advice_record,
-                                         .count = count_advice,
-                                         .item = get_advice,
-                                         .open = open_advice,
-                                         .put = put_advice};
+DIP_OF_ITEM(int, count_advice, report_of(at)->choice.advice_count)
 
 // --- the machine ---------------------------------------------------------------------------------
 
@@ -1100,40 +953,24 @@ static const DipRecord machine_record = DIP_RECORD(
 
 // --- the report ----------------------------------------------------------------------------------
 
-static const DipField left_out_element = {.kind = DIP_FIELD_TEXT, .size = DIP_COST_REASON};
+static const DipField left_out_element = {
+    .kind = DIP_FIELD_TEXT, .size = DIP_COST_REASON, .stride = DIP_COST_REASON};
 
-static bool has_times(const DipFieldAt *at) {
-    return report_of(at)->rounds > 0;
-}
-
-static bool has_predictions(const DipFieldAt *at) {
-    return report_of(at)->predicted.count > 0;
-}
-
-static bool has_smaller(const DipFieldAt *at) {
-    return report_of(at)->smaller_count > 0;
-}
+DIP_OF_ITEM(bool, has_times, report_of(at)->rounds > 0)
+DIP_OF_ITEM(bool, has_predictions, report_of(at)->predicted.count > 0)
 
 const void *dip_cost_derive_format(const DipFieldAt *at, DipFieldScratch *scratch) {
     (void)at;
-    *(int *)scratch = DIP_COST_JSON_FORMAT;
-    return scratch;
+    return DIP_MADE(int, DIP_COST_JSON_FORMAT);
 }
 
 #define HEADER_TEXT(member, means)                                                                 \
     { #member, NULL, NULL, means, DIP_FACT(TEXT, DipCostReport, member) }
-#define HEADER_NUMBER(member, LEAST, MOST, means)                                                  \
+#define HEADER_NUMBER(name, member, LEAST, MOST, means)                                            \
     {                                                                                              \
-#member, NULL, NULL, means, DIP_FACT(WHOLE, DipCostReport, member), .least = LEAST,        \
-                                                                            .most = MOST           \
+        name, NULL, NULL, means, DIP_FACT(WHOLE, DipCostReport, member), .least = LEAST,           \
+                                                                         .most = MOST              \
     }
-#define OPTION_NUMBER(member, LEAST, MOST, means)                                                  \
-    {                                                                                              \
-#member, NULL, NULL, means, DIP_FACT(WHOLE, DipCostReport, options.member),                \
-            .least = LEAST, .most = MOST                                                           \
-    }
-#define REPORT_LIST(name, LISTED, means)                                                           \
-    { name, NULL, NULL, means, LIST, LISTED }
 static const DipField report_fields[] = {
     {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
     HEADER_TEXT(version, "Version of Diptych."),
@@ -1143,57 +980,65 @@ static const DipField report_fields[] = {
     HEADER_TEXT(processor, "The processor."),
     HEADER_TEXT(isa, "The instruction set that was used."),
     HEADER_TEXT(date, "When the measurement ended, ISO 8601 in UTC; \"\" if it is not known."),
-    HEADER_NUMBER(threads, 1, 256, "Number of threads."),
-    HEADER_NUMBER(width, 1, 8192, "Width of the pictures, in pixels."),
-    HEADER_NUMBER(height, 1, 8192, "Height of the pictures, in pixels."),
-    HEADER_NUMBER(rounds, 0, 10000, "Number of rounds timed; 0 if the report has no times."),
-    HEADER_NUMBER(combined_first, 0, DIP_COST_MAX_ROWS,
+    HEADER_NUMBER("threads", threads, 1, 256, "Number of threads."),
+    HEADER_NUMBER("width", width, 1, 8192, "Width of the pictures, in pixels."),
+    HEADER_NUMBER("height", height, 1, 8192, "Height of the pictures, in pixels."),
+    HEADER_NUMBER("rounds", rounds, 0, 10000,
+                  "Number of rounds timed; 0 if the report has no times."),
+    HEADER_NUMBER("combined_first", combined_first, 0, DIP_COST_MAX_ROWS,
                   "Rows from this index on are the combinations, on path 0."),
-    OPTION_NUMBER(places, 1, DIP_COST_MAX_PLACES, "Number of viewpoints on each path."),
-    OPTION_NUMBER(burst, 1, DIP_COST_MAX_BURST, "Number of successive frames at each viewpoint."),
-    OPTION_NUMBER(samples, 0, 4096, "Samples per pixel in each half of the truth."),
-    OPTION_NUMBER(timed_frames, 1, 100, "Number of frames per path in each round."),
-    OPTION_NUMBER(budget_of, 0, 2, "The time that budgets are meant for: 0 p95, 1 mean, 2 worst."),
-    OPTION_NUMBER(seed, 0, INT_MAX, "Seed of the random order of the timing."),
+    HEADER_NUMBER("places", options.places, 1, DIP_COST_MAX_PLACES,
+                  "Number of viewpoints on each path."),
+    HEADER_NUMBER("burst", options.burst, 1, DIP_COST_MAX_BURST,
+                  "Number of successive frames at each viewpoint."),
+    HEADER_NUMBER("samples", options.samples, 0, 4096,
+                  "Samples per pixel in each half of the truth."),
+    HEADER_NUMBER("timed_frames", options.timed_frames, 1, 100,
+                  "Number of frames per path in each round."),
+    HEADER_NUMBER("budget_of", options.budget_of, 0, 2,
+                  "The time that budgets are meant for: 0 p95, 1 mean, 2 worst."),
+    HEADER_NUMBER("seed", options.seed, 0, INT_MAX, "Seed of the random order of the timing."),
     {"pixels_per_degree", NULL, NULL, "Pixels per degree of the field of view, for FLIP.",
      DIP_FACT(NUMBER, DipCostReport, options.pixels_per_degree), .most = DIP_COST_MOST_COUNT},
     {"baseline", NULL, NULL, "All settings of the baseline.",
      DIP_FACT(SETTINGS, DipCostReport, options.baseline)},
-    REPORT_LIST("paths", .list = &path_list, "The camera paths."),
-    {"machine", NULL, NULL, "What the timing tells about the machine; null without times.", RECORD,
+    {"paths", NULL, NULL, "The camera paths.",
+     DIP_LIST(.record = &path_record, .counted = offsetof(DipCostReport, path_count), .least = 1,
+              .most = DIP_COST_MAX_PATHS)},
+    {"machine", NULL, NULL, "What the timing tells about the machine; null without times.", PART,
      .record = &machine_record, .known = has_times},
-    REPORT_LIST("left_out",
-                .list = (&(const DipFieldList){.element = &left_out_element,
-                                               .items = offsetof(DipCostReport, refused),
-                                               .counted = offsetof(DipCostReport, refused_count),
-                                               .most = DIP_COST_MAX_REFUSED}),
-                "Steps that were left out, with the reason."),
-    REPORT_LIST("rows",
-                .list = (&(const DipFieldList){.record = &dip_cost_row_record,
-                                               .items = offsetof(DipCostReport, rows),
-                                               .counted = offsetof(DipCostReport, row_count),
-                                               .points = true,
-                                               .open = open_rows}),
-                "What was measured."),
-    REPORT_LIST("visits", .list = &visit_list,
-                "Every timed frame, from which all times are computed."),
-    REPORT_LIST("floors", .list = &floor_list, "The truths' own noise."),
-    REPORT_LIST("same_pictures",
-                OWNED(DipCostReport, same, same_count, DIP_COST_MAX_ROWS, &dip_cost_same_record),
-                "Combinations that another row stands for."),
-    REPORT_LIST("sweeps",
-                ARRAY_OF(DipCostReport, sweeps, sweep_count, DIP_COST_MAX_SWEEPS, &sweep_record),
-                "The steps of each setting."),
-    {"interactions", NULL, NULL, "Pairs of settings.", .kind = DIP_FIELD_LIST,
-     .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .list = &interaction_list},
+    {"left_out", NULL, NULL, "Steps that were left out, with the reason.",
+     DIP_LIST(.element = &left_out_element, DIP_ARRAY(DipCostReport, refused, refused_count),
+              .most = DIP_COST_MAX_REFUSED)},
+    {"rows", NULL, NULL, "What was measured.",
+     DIP_LIST(.record = &dip_cost_row_record, DIP_ARRAY(DipCostReport, rows, row_count),
+              .points = true, .open = open_rows)},
+    {"visits", NULL, NULL, "Every timed frame, from which all times are computed.",
+     DIP_LIST(.record = &visit_record, .count = count_visits, .item = get_visit,
+              .open = open_visits, .put = put_visit)},
+    {"floors", NULL, NULL, "The truths' own noise.",
+     DIP_LIST(.record = &floor_record, .count = count_floors, .item = get_floor,
+              .open = open_floors, .put = put_floor)},
+    {"same_pictures", NULL, NULL, "Combinations that another row stands for.",
+     DIP_LIST(.record = &dip_cost_same_record, DIP_ARRAY(DipCostReport, same, same_count),
+              .points = true, .most = DIP_COST_MAX_ROWS)},
+    {"sweeps", NULL, NULL, "The steps of each setting.",
+     DIP_LIST(.record = &sweep_record, DIP_ARRAY(DipCostReport, sweeps, sweep_count),
+              .most = DIP_COST_MAX_SWEEPS)},
+    {"interactions", NULL, NULL, "Pairs of settings.",
+     DIP_DERIVED_LIST(.record = &dip_cost_interaction_record, .count = count_interactions,
+                      .item = get_interaction)},
     {"fit", NULL, NULL, "How times follow from work; null with too few rows.",
      DIP_DERIVED(RECORD, derive_fit), .record = &fit_record},
     {"predicted", NULL, NULL, "What --predict ranked; null without it.",
      DIP_FACT(RECORD, DipCostReport, predicted), .record = &predictions_record,
      .known = has_predictions},
-    {"smaller", NULL, NULL, "Combinations at a smaller size; null if there are none.", RECORD,
+    {"smaller", NULL, NULL, "Combinations at a smaller size; null if there are none.", PART,
      .record = &smaller_record, .known = has_smaller},
-    REPORT_LIST("advice", .list = &advice_list, "The row to choose for each time budget."),
+    {"advice", NULL, NULL, "The row to choose for each time budget.",
+     DIP_LIST(.record = &advice_record, .count = count_advice,
+              .counted = offsetof(DipCostReport, options.budget_count),
+              .most = DIP_COST_MAX_BUDGETS)},
 };
 
 static bool check_report(const DipFieldAt *at) {

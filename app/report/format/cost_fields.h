@@ -1,5 +1,5 @@
-// The fields of cost.json: of a report, its rows, sweeps and advice. DipFieldAt.context is the
-// DipCostReport in all of them.
+// Lists the fields of cost.json: of a report, its rows, sweeps and advice. For all of them,
+// DipFieldAt.context is the DipCostReport.
 #ifndef DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 #define DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 
@@ -15,16 +15,28 @@
 #define DIP_COST_MOST_COUNT 1e15
 #define DIP_COST_MOST_MEAN  1e6
 
-// DIP_FACT is a fact that is a member of a struct. DIP_COMPUTED is a member that is computed from
-// facts, and DIP_DERIVED is a value that a function computes.
-#define DIP_FACT(KIND, TYPE, member)                                                               \
-    .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON, .offset = offsetof(TYPE, member),           \
+// Members of a DipField: a fact that is a member of a struct, a member that is computed from facts,
+// a value that a function computes, and such a value that only people read.
+#define DIP_MEMBER(KIND, WHERE, TYPE, member)                                                      \
+    .kind = DIP_FIELD_##KIND, .where = WHERE, .offset = offsetof(TYPE, member),                    \
     .size = sizeof(((TYPE *)0)->member)
+#define DIP_FACT(KIND, TYPE, member) DIP_MEMBER(KIND, DIP_FIELD_JSON, TYPE, member)
 #define DIP_COMPUTED(KIND, TYPE, member)                                                           \
-    .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED,                         \
-    .offset = offsetof(TYPE, member), .size = sizeof(((TYPE *)0)->member)
+    DIP_MEMBER(KIND, DIP_FIELD_JSON | DIP_FIELD_DERIVED, TYPE, member)
 #define DIP_DERIVED(KIND, function)                                                                \
     .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .derive = function
+#define DIP_SHOWN(KIND, function)                                                                  \
+    .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_DERIVED, .derive = function
+// A field that is a list, of facts or of derived values. The arguments are members of its
+// DipFieldList; DIP_ARRAY gives those of a list that lies in an array of its owner.
+#define DIP_LIST_OF(WHERE, ...)                                                                    \
+    .kind = DIP_FIELD_LIST, .where = WHERE, .list = &(const DipFieldList) {                        \
+        __VA_ARGS__                                                                                \
+    }
+#define DIP_LIST(...)         DIP_LIST_OF(DIP_FIELD_JSON, __VA_ARGS__)
+#define DIP_DERIVED_LIST(...) DIP_LIST_OF(DIP_FIELD_JSON | DIP_FIELD_DERIVED, __VA_ARGS__)
+#define DIP_ARRAY(OWNER, MEMBER, COUNTED)                                                          \
+    .items = offsetof(OWNER, MEMBER), .counted = offsetof(OWNER, COUNTED)
 // Defines a function that derives a field, and one that gets an item of a list.
 #define DIP_DERIVE(name, value)                                                                    \
     static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
@@ -39,19 +51,31 @@
         (void)scratch;                                                                             \
         return value;                                                                              \
     }
-// Stores a computed value in the scratch memory, and gives its address to DIP_DERIVE.
+// Defines a function that returns whether something is true of an item (TYPE bool), or a number of
+// things that the item has (TYPE int).
+#define DIP_OF_ITEM(TYPE, name, value)                                                             \
+    static TYPE name(const DipFieldAt *at) {                                                       \
+        (void)at;                                                                                  \
+        return value;                                                                              \
+    }
+// Values for DIP_DERIVE: one that is stored in the scratch memory, and a text that a call writes to
+// scratch->text.
 #define DIP_MADE(TYPE, value) (*(TYPE *)scratch = (value), scratch)
+#define DIP_WRITTEN(call)     ((call), scratch->text)
 #define DIP_RECORD(NAME, MEANS, fields, TYPE, CHECK)                                               \
     { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), sizeof(TYPE), CHECK }
+#define DIP_RECORD_OF_ARRAYS(NAME, MEANS, fields, CHECK)                                           \
+    { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), 0, CHECK }
 #define DIP_FIELD_COUNT_OF(fields) (int)(sizeof(fields) / sizeof *(fields))
 
+// The comments name the struct that has the fields.
 extern const DipRecord dip_cost_report_record;               // DipCostReport
 extern const DipRecord dip_cost_row_record;                  // DipCostRow
 extern const DipRecord dip_cost_metrics_record;              // DipMetrics
 extern const DipRecord dip_cost_prediction_of_report_record; // DipCostPrediction
 extern const DipRecord dip_cost_misses_record;               // DipCostMisses
 extern const DipRecord dip_cost_interaction_record;          // DipCostInteraction
-extern const DipRecord dip_cost_price_record;     // double: the prices of a fit, in order
+extern const DipRecord dip_cost_price_record;     // DipCostFit, whose prices are the items
 extern const DipRecord dip_cost_same_record;      // DipCostSame
 extern const DipRecord dip_cost_elsewhere_record; // DipCostElsewhere
 

@@ -1,5 +1,4 @@
-// Writing and reading cost.json.
-#include "app/files/whole_file.h"
+// Writes and reads cost.json.
 #include "app/report/format/cost_fields.h"
 #include "app/report/format/formats.h"
 #include "renderer/base/file.h"
@@ -12,33 +11,28 @@
 
 enum { MAX_FILE_BYTES = 1 << 29, TIMED_NUMBERS = 3 };
 
-static bool print_report(const void *context, FILE *out) {
-    const DipFieldAt at = {(void *)context, context, 0, NULL};
-    dip_fields_print_json(&dip_cost_report_record, &at, out);
-    return true;
-}
-
 bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError *err) {
-    return dip_whole_file_print(file, print_report, report, err);
+    return dip_fields_write_json(&dip_cost_report_record, report, file, err);
 }
 
 // --- the last format -----------------------------------------------------------------------------
 
-// Adds a member that is missing. Takes ownership of the item.
-static void add_missing(cJSON *object, const char *name, cJSON *item) {
-    if (!object || cJSON_GetObjectItemCaseSensitive(object, name) ||
-        !cJSON_AddItemToObject(object, name, item)) {
-        cJSON_Delete(item);
+static cJSON *add_empty_text(cJSON *const object, const char *const name) {
+    return cJSON_AddStringToObject(object, name, "");
+}
+
+static cJSON *add_zero(cJSON *const object, const char *const name) {
+    return cJSON_AddNumberToObject(object, name, 0.0);
+}
+
+static void add_missing(cJSON *object, const char *name,
+                        cJSON *(*add)(cJSON *const object, const char *const name)) {
+    if (object && !cJSON_GetObjectItemCaseSensitive(object, name)) {
+        add(object, name);
     }
 }
 
-static void add_nulls(cJSON *object, const char *const *names, int count) {
-    for (int i = 0; i < count; i++) {
-        add_missing(object, names[i], cJSON_CreateNull());
-    }
-}
-
-// An interval whose ends are the same was not known.
+// Replaces an interval whose ends are the same by null: it was not known.
 static void forget_no_interval(cJSON *object) {
     static const char *const names[] = {"ms_low", "ms_high"};
     const cJSON *low = cJSON_GetObjectItemCaseSensitive(object, "ms_low");
@@ -47,61 +41,49 @@ static void forget_no_interval(cJSON *object) {
         cJSON_IsNumber(low) && cJSON_IsNumber(high) && low->valuedouble < high->valuedouble;
     for (int i = 0; i < 2 && !known; i++) {
         cJSON_DeleteItemFromObjectCaseSensitive(object, names[i]);
-        add_missing(object, names[i], cJSON_CreateNull());
+        cJSON_AddNullToObject(object, names[i]);
     }
 }
 
-static void upgrade_rows(cJSON *root) {
-    static const char *const times[] = {"counters", "stages_ms"};
-    static const char *const tail[] = {"flip_tail"};
-    cJSON *row, *viewpoint;
-    cJSON_ArrayForEach(row, cJSON_GetObjectItemCaseSensitive(root, "rows")) {
-        add_nulls(row, times, 2);
-        cJSON_ArrayForEach(viewpoint, cJSON_GetObjectItemCaseSensitive(row, "places")) {
-            add_nulls(viewpoint, tail, 1);
-            add_missing(viewpoint, "pictures", cJSON_CreateString(""));
+// Adds the members that format 3 always has and format 2 leaves out: they are null or empty.
+static void upgrade(cJSON *root) {
+    static const char *const nulls[] = {"machine", "predicted", "smaller"};
+    static const char *const lists[] = {"left_out", "floors", "same_pictures",
+                                        "sweeps",   "advice", "visits"};
+    cJSON *item, *place;
+    for (int i = 0; i < 3; i++) {
+        add_missing(root, nulls[i], cJSON_AddNullToObject);
+    }
+    for (int i = 0; i < 6; i++) {
+        add_missing(root, lists[i], cJSON_AddArrayToObject);
+    }
+    add_missing(root, "date", add_empty_text);
+    add_missing(cJSON_GetObjectItemCaseSensitive(root, "machine"), "starts", add_zero);
+    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "rows")) {
+        add_missing(item, "counters", cJSON_AddNullToObject);
+        add_missing(item, "stages_ms", cJSON_AddNullToObject);
+        cJSON_ArrayForEach(place, cJSON_GetObjectItemCaseSensitive(item, "places")) {
+            add_missing(place, "flip_tail", cJSON_AddNullToObject);
+            add_missing(place, "pictures", add_empty_text);
         }
     }
-}
-
-static void upgrade_lists(cJSON *root) {
-    cJSON *item;
     const cJSON *smaller = cJSON_GetObjectItemCaseSensitive(root, "smaller");
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(smaller, "combinations")) {
         forget_no_interval(item);
     }
 }
 
-// Gives a report of format 2 the members of format 3: what was left out is null or empty.
-static void upgrade(cJSON *root) {
-    static const char *const parts[] = {"machine", "predicted", "smaller"};
-    static const char *const lists[] = {"left_out", "floors", "same_pictures",
-                                        "sweeps",   "advice", "visits"};
-    add_nulls(root, parts, 3);
-    for (int i = 0; i < 6; i++) {
-        add_missing(root, lists[i], cJSON_CreateArray());
-    }
-    add_missing(root, "date", cJSON_CreateString(""));
-    upgrade_rows(root);
-    add_missing(cJSON_GetObjectItemCaseSensitive(root, "machine"), "starts",
-                cJSON_CreateNumber(0.0));
-    upgrade_lists(root);
-}
-
 // --- memory --------------------------------------------------------------------------------------
 
 // Most functions of cJSON do not say that memory ran out: an object then merely lacks a part. So
-// its allocator is replaced while a file is read, for the whole process: only one thread may read.
+// cJSON gets another allocator while a file is read. This holds for the whole process, so only one
+// thread may read a report at a time.
 static bool ran_out;
 
 static void *allocate(size_t size_bytes) {
     void *memory = malloc(size_bytes);
     ran_out = ran_out || !memory;
     return memory;
-}
-
-static void release(void *memory) {
-    free(memory);
 }
 
 // --- reading -------------------------------------------------------------------------------------
@@ -111,8 +93,8 @@ static double number_of(const cJSON *root, const char *name) {
     return cJSON_IsNumber(item) ? item->valuedouble : 0.0;
 }
 
-// True if a file of this size can hold the times of all rows, of which each number has at least two
-// characters. If it cannot, memory for the times would be out of proportion to the file.
+// Returns whether a file of this size can hold the times of all rows. Each number of them has at
+// least two characters. If it cannot, memory for the times would be out of proportion to the file.
 static bool times_fit(const cJSON *root, size_t size_bytes) {
     const int rows = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(root, "rows"));
     return rows * number_of(root, "rounds") * number_of(root, "timed_frames") * TIMED_NUMBERS *
@@ -120,7 +102,7 @@ static bool times_fit(const cJSON *root, size_t size_bytes) {
            (double)size_bytes;
 }
 
-// Takes the next number of an array, which is from least to most.
+// Takes the next number of an array. Returns whether it lies between least and most.
 static bool next_number(const cJSON **item, double least, double most, double *value) {
     const cJSON *from = *item;
     const bool known =
@@ -130,8 +112,9 @@ static bool next_number(const cJSON **item, double least, double most, double *v
     return known;
 }
 
-// Adds the times of a row that older files have as pairs: arrays of the times of the frames, and of
-// the baseline's same frames beside them. Frame f of a path belongs to round f % rounds.
+// Adds the times of a row to the log. Older files have them as pairs: an array of the times of the
+// row's frames, and one of the times of the baseline's same frames. Frame f of a path belongs to
+// round f % rounds.
 static bool add_pairs(const cJSON *pairs, DipCostReport *report, int row, DipTimed *log) {
     static const char *const names[] = {"base_ms", "ms", "base_wait", "wait"};
     const int base = report->base_rows[report->rows[row].path];
@@ -148,7 +131,7 @@ static bool add_pairs(const cJSON *pairs, DipCostReport *report, int row, DipTim
                 return false;
             }
         }
-        // A base stands beside itself.
+        // A pair of the base has the base's time on both sides, which is logged once.
         for (int i = 0; i < 2 && ms[1] > 0.0 && (i == 0 || row != base); i++) {
             if (ms[i] < DIP_COST_LEAST_MS) {
                 return false;
@@ -213,7 +196,7 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) 
     if (!dip_file_read(file, "report", MAX_FILE_BYTES, &text, &size_bytes, err)) {
         return false;
     }
-    cJSON_Hooks hooks = {.malloc_fn = allocate, .free_fn = release};
+    cJSON_Hooks hooks = {.malloc_fn = allocate, .free_fn = free};
     ran_out = false;
     cJSON_InitHooks(&hooks);
     cJSON *root = cJSON_ParseWithLength((const char *)text, size_bytes);
@@ -222,7 +205,7 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) 
         (ran_out ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
                  : dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file"));
     bool read = parsed && read_report(root, size_bytes, report, file, err);
-    if (ran_out && parsed) { // Then a member that was added may be missing.
+    if (ran_out && parsed) { // A member that was to be added may be missing.
         read = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
     cJSON_Delete(root);

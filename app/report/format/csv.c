@@ -1,76 +1,41 @@
-// Writing a report as comma-separated values: a line per step of each sweep, and one per
+// Writes a report as comma-separated values: a line per step of each sweep, and one per
 // combination.
 #include "app/files/whole_file.h"
 #include "app/report/format/formats.h"
 #include "app/report/format/lines.h"
 
 #define REGION(name)                                                                               \
-    {"row.figures." name ".pixels", name "_pixels"},                                               \
-        {"row.figures." name ".rmse_lin", name "_rmse_lin"},                                       \
-        {"row.figures." name ".psnr_db", name "_psnr_db"},                                         \
-        {"row.figures." name ".ssim", name "_ssim"}, {"row.figures." name ".flip", name "_flip"},
+    "row.figures." name ".pixels=" name "_pixels; row.figures." name ".rmse_lin=" name             \
+    "_rmse_lin; row.figures." name ".psnr_db=" name "_psnr_db; row.figures." name ".ssim=" name    \
+    "_ssim; row.figures." name ".flip=" name "_flip; "
 #define SEEN(NAME, name, text) REGION(name)
-#define FROM_ROW(name)                                                                             \
-    { "row." name, name }
-#define FROM_REPORT(name)                                                                          \
-    { "report." name, name }
-#define OVER_TIME(name)                                                                            \
-    { "row.over_time." name, name }
-#define TAIL(name)                                                                                 \
-    { "row.flip_tail." name, "flip_tail_" name }
-static const DipColumn columns[] = {
-    {"kind", NULL},
-    {"title", NULL},
-    {"path", NULL},
-    {"settings", NULL},
-    {"ratio", NULL},
-    FROM_ROW("ms"),
-    FROM_ROW("p95_ms"),
-    FROM_ROW("worst_ms"),
-    FROM_REPORT("scene"),
-    FROM_REPORT("width"),
-    FROM_REPORT("height"),
-    FROM_REPORT("processor"),
-    FROM_REPORT("threads"),
-    FROM_REPORT("isa"),
-    FROM_REPORT("version"),
-    FROM_REPORT("date"),
-    {"report.machine.verdict", "verdict"},
-    REGION("all") DIP_SEEN_LIST(SEEN) OVER_TIME("static_rms_lin"),
-    OVER_TIME("flicker_rms_lin"),
-    OVER_TIME("step_rms_lin"),
-    OVER_TIME("two_frame_mean_rms_lin"),
-    {"floor.rmse_lin", NULL},
-    {"floor.psnr_db", NULL},
-    {"floor.ssim", NULL},
-    {"floor.flip", NULL},
-    FROM_ROW("at_floor"),
-    FROM_ROW("rmse_lin_of_viewpoints"),
-    FROM_ROW("psnr_db_of_viewpoints"),
-    FROM_ROW("ssim_of_viewpoints"),
-    FROM_ROW("flip_of_viewpoints"),
-    FROM_ROW("flicker_rms_lin_of_viewpoints"),
-    TAIL("p50"),
-    TAIL("p95"),
-    TAIL("p99"),
-    TAIL("worst"),
-    TAIL("worst_viewpoint"),
-    TAIL("worst_frame"),
-    TAIL("worst_x"),
-    TAIL("worst_y"),
-    TAIL("worst_width"),
-    TAIL("worst_height"),
-    {"predicted.ms", NULL},
-    {"predicted.p95_ms", NULL},
-    {"predicted.flip", NULL},
-    {"row.counters", ""},
-};
+#define REGIONS                REGION("all") DIP_SEEN_LIST(SEEN)
+static const char columns[] =
+    "kind; title; path; settings; ratio; row.ms=ms; row.p95_ms=p95_ms; row.worst_ms=worst_ms; "
+    "report.scene=scene; report.width=width; report.height=height; report.processor=processor; "
+    "report.threads=threads; report.isa=isa; report.version=version; report.date=date; "
+    "report.machine.verdict=verdict; " REGIONS
+    "row.over_time.static_rms_lin=static_rms_lin; row.over_time.flicker_rms_lin=flicker_rms_lin; "
+    "row.over_time.step_rms_lin=step_rms_lin; "
+    "row.over_time.two_frame_mean_rms_lin=two_frame_mean_rms_lin; "
+    "floor.rmse_lin; floor.psnr_db; floor.ssim; floor.flip; row.at_floor=at_floor; "
+    "row.rmse_lin_of_viewpoints=rmse_lin_of_viewpoints; "
+    "row.psnr_db_of_viewpoints=psnr_db_of_viewpoints; "
+    "row.ssim_of_viewpoints=ssim_of_viewpoints; row.flip_of_viewpoints=flip_of_viewpoints; "
+    "row.flicker_rms_lin_of_viewpoints=flicker_rms_lin_of_viewpoints; "
+    "row.flip_tail.p50=flip_tail_p50; row.flip_tail.p95=flip_tail_p95; "
+    "row.flip_tail.p99=flip_tail_p99; row.flip_tail.worst=flip_tail_worst; "
+    "row.flip_tail.worst_viewpoint=flip_tail_worst_viewpoint; "
+    "row.flip_tail.worst_frame=flip_tail_worst_frame; row.flip_tail.worst_x=flip_tail_worst_x; "
+    "row.flip_tail.worst_y=flip_tail_worst_y; row.flip_tail.worst_width=flip_tail_worst_width; "
+    "row.flip_tail.worst_height=flip_tail_worst_height; "
+    "predicted.ms; predicted.p95_ms; predicted.flip; row.counters=";
 
 static void print_lines(const DipCostReport *report, const DipCostLine *lines, int count,
                         FILE *out) {
     for (int i = 0; i < count; i++) {
         const DipFieldAt at = {(void *)report, lines ? &lines[i] : NULL, i, NULL};
-        dip_fields_print_csv(&dip_cost_line_record, &at, columns, DIP_FIELD_COUNT_OF(columns), out);
+        dip_fields_print_csv(&dip_cost_line_record, &at, columns, out);
     }
 }
 

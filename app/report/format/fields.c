@@ -1,72 +1,85 @@
-// What all forms ask of a field.
+// Finds fields and their values for all forms.
 #include "app/report/format/fields.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/scene/quality.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+void *dip_field_member(const DipField *field, const DipFieldAt *at) {
+    return (char *)at->item + field->offset + (size_t)at->index * field->stride;
+}
 
 const void *dip_field_value(const DipField *field, const DipFieldAt *at, DipFieldScratch *scratch) {
     return !at->item || (field->known && !field->known(at)) ? NULL
            : field->derive                                  ? field->derive(at, scratch)
-                           : (const char *)at->item + field->offset;
+                                                            : dip_field_member(field, at);
 }
 
-int dip_field_list_count(const DipFieldList *list, const DipFieldAt *at) {
-    return list->count ? list->count(at) : *(const int *)((const char *)at->item + list->counted);
-}
-
-const void *dip_field_list_item(const DipFieldList *list, const DipFieldAt *at, int index,
-                                DipFieldScratch *scratch) {
-    if (list->item) {
-        return list->item(at, index, scratch);
+const char *dip_field_as_text(const DipField *field, const void *value,
+                              char settings[DIP_SETTINGS_BYTES]) {
+    if (field->kind == DIP_FIELD_SETTINGS) {
+        dip_quality_format(value, settings, DIP_SETTINGS_BYTES);
+        return settings;
     }
-    const char *items = (const char *)at->item + list->items;
-    const size_t size = list->record ? list->record->size : list->element->size;
-    return (list->points ? *(const char *const *)items : items) +
-           (size_t)index * (list->stride ? list->stride : size) + list->within;
+    return field->kind == DIP_FIELD_TEXT    ? value
+           : field->kind == DIP_FIELD_NAMED ? field->names[*(const int *)value]
+                                            : NULL;
 }
 
 bool dip_field_has_interval(const DipEstimate *estimate) {
     return isfinite(estimate->low) && isfinite(estimate->high) && estimate->low < estimate->high;
 }
 
-void dip_field_format_exact(double value, char text[32]) {
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, 32, "%.*g", digits, value);
-        if (strtod(text, NULL) == value) {
-            return;
+// Returns the field with a name of this length.
+static const DipField *field_of(const DipRecord *record, const char *name, size_t length) {
+    for (int f = 0; f < record->count; f++) {
+        const DipField *field = &record->fields[f];
+        if (strlen(field->name) == length && memcmp(field->name, name, length) == 0) {
+            return field;
         }
+    }
+    DIP_ASSERT(false && "no such field");
+    return record->fields;
+}
+
+void dip_field_find(const DipRecord *record, const DipFieldAt *at, const char *path,
+                    DipFieldFound *found) {
+    DipFieldAt within[DIP_FIELD_DEPTH + 1] = {*at};
+    for (int level = 0;; level++) {
+        DIP_ASSERT(level < DIP_FIELD_DEPTH);
+        const size_t length = strcspn(path, ".");
+        const DipField *field = field_of(record, path, length);
+        found->field = *field;
+        found->value = dip_field_value(field, &within[level], &found->scratch[level]);
+        path += length;
+        if (field->kind != DIP_FIELD_RECORD || !*path) {
+            break;
+        }
+        record = field->record;
+        within[level + 1] =
+            (DipFieldAt){at->context, found->value, within[level].index, &within[level]};
+        path++;
+    }
+    if (*path) {
+        const bool is_value =
+            found->field.kind == DIP_FIELD_ESTIMATE && strcmp(path, ".value") == 0;
+        DIP_ASSERT(is_value);
+        (void)is_value;
+        found->field.kind = DIP_FIELD_NUMBER;
+        found->value = found->value ? &((const DipEstimate *)found->value)->value : NULL;
     }
 }
 
-void dip_field_visit(const DipRecord *record, const DipFieldAt *at, const char *path,
-                     DipFieldVisit *visit, void *context) {
-    const size_t length = strcspn(path, ".");
-    for (int f = 0; f < record->count; f++) {
-        const DipField *field = &record->fields[f];
-        DipFieldScratch scratch;
-        if (strlen(field->name) != length || memcmp(field->name, path, length) != 0) {
-            continue;
-        }
-        const void *value = dip_field_value(field, at, &scratch);
-        if (!path[length]) {
-            visit(context, field, value);
-        } else if (field->kind == DIP_FIELD_ESTIMATE) {
-            DipField number = *field;
-            const bool is_value = strcmp(path + length, ".value") == 0;
-            DIP_ASSERT(is_value);
-            (void)is_value;
-            number.kind = DIP_FIELD_NUMBER;
-            visit(context, &number, value ? &((const DipEstimate *)value)->value : NULL);
-        } else {
-            DIP_ASSERT(field->kind == DIP_FIELD_RECORD);
-            const DipFieldAt within = {at->context, value, at->index, at};
-            dip_field_visit(field->record, &within, path + length + 1, visit, context);
-        }
-        return;
-    }
-    DIP_ASSERT(false && "no such field");
+bool dip_column_take(const char **columns, DipColumn *column) {
+    const char *list = *columns + strspn(*columns, "; ");
+    const int length = (int)strcspn(list, ";"), path = (int)strcspn(list, ";=");
+    const int title = path < length ? path + 1 : length;
+    snprintf(column->path, sizeof column->path, "%.*s", path, list);
+    snprintf(column->title, sizeof column->title, "%.*s", length - title, list + title);
+    column->has_title = path < length;
+    *columns = list + length;
+    return length > 0;
 }

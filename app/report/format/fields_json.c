@@ -1,5 +1,6 @@
-// Fields as JSON: written to a stream, and read from cJSON's tree.
+// Writes fields as JSON to a stream, and reads them from cJSON's tree.
 #include "app/files/put.h"
+#include "app/files/whole_file.h"
 #include "app/report/format/fields.h"
 #include "renderer/scene/quality.h"
 
@@ -12,10 +13,14 @@ enum { PATH_ROOM = 96, NAME_ROOM = 64 };
 
 // --- writing -------------------------------------------------------------------------------------
 
+// Prints a number with the fewest digits from which the same number is read.
 static void print_number(double value, FILE *out) {
     char text[32] = "null";
-    if (isfinite(value)) {
-        dip_field_format_exact(value, text);
+    for (int digits = 15; isfinite(value) && digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) {
+            break;
+        }
     }
     fputs(text, out);
 }
@@ -26,19 +31,12 @@ static void print_name(const char *name, FILE *out) {
 }
 
 static void print_estimate(const DipField *field, const DipEstimate *estimate, FILE *out) {
-    const DipEstimate unknown = dip_estimate_unknown(NAN);
-    const DipEstimate *shown = estimate ? estimate : &unknown;
-    const bool has = dip_field_has_interval(shown);
-    const char *const ends[] = {"_low", "_high"};
-    const double values[] = {has ? shown->low : NAN, has ? shown->high : NAN};
-    print_number(shown->value, out);
-    for (int i = 0; i < 2; i++) {
-        char name[NAME_ROOM];
-        snprintf(name, sizeof name, "%s%s", field->name, ends[i]);
-        fputc(',', out);
-        print_name(name, out);
-        print_number(values[i], out);
-    }
+    const bool has = estimate && dip_field_has_interval(estimate);
+    print_number(estimate ? estimate->value : NAN, out);
+    fprintf(out, ",\"%s_low\":", field->name);
+    print_number(has ? estimate->low : NAN, out);
+    fprintf(out, ",\"%s_high\":", field->name);
+    print_number(has ? estimate->high : NAN, out);
 }
 
 static void print_numbers(const DipField *field, const double *values, FILE *out) {
@@ -54,63 +52,63 @@ static void print_numbers(const DipField *field, const double *values, FILE *out
     fputs(field->names ? "}" : "]", out);
 }
 
+// Returns an item of a list. If the list's items are single values, returns the struct or array
+// that has the value.
+static DipFieldAt list_item(const DipFieldList *list, const DipFieldAt *at, int index,
+                            DipFieldScratch *scratch) {
+    DipFieldAt within = {at->context, NULL, index, at};
+    if (list->item) {
+        within.item = list->item(at, index, scratch);
+    } else {
+        const char *items = (const char *)at->item + list->items;
+        within.item = (list->points ? *(const char *const *)items : items) +
+                      (list->record ? (size_t)index * list->record->size : 0);
+    }
+    return within;
+}
+
 static void print_value(const DipField *field, const DipFieldAt *at, const void *value, FILE *out);
 
 static void print_list(const DipFieldList *list, const DipFieldAt *at, FILE *out) {
-    const int count = dip_field_list_count(list, at);
-    DipFieldScratch scratch;
+    const int count =
+        list->count ? list->count(at) : *(const int *)((const char *)at->item + list->counted);
+    DipFieldScratch scratch, of_element;
     fputc('[', out);
     for (int i = 0; i < count; i++) {
-        const DipFieldAt within = {at->context, dip_field_list_item(list, at, i, &scratch), i, at};
+        const DipFieldAt within = list_item(list, at, i, &scratch);
         fputs(i ? "," : "", out);
         if (list->record) {
             fputc('\n', out);
             dip_fields_print_json(list->record, &within, out);
         } else {
-            print_value(list->element, &within, within.item, out);
+            print_value(list->element, &within,
+                        dip_field_value(list->element, &within, &of_element), out);
         }
     }
     fputc(']', out);
 }
 
-// Prints a value, which may be NULL: not known.
+// Prints a value. NULL: it is not known.
 static void print_value(const DipField *field, const DipFieldAt *at, const void *value, FILE *out) {
-    char settings[256];
+    char settings[DIP_SETTINGS_BYTES];
+    const char *text = value ? dip_field_as_text(field, value, settings) : NULL;
     if (field->kind == DIP_FIELD_ESTIMATE) {
         print_estimate(field, value, out);
-        return;
-    }
-    if (!value) {
+    } else if (text) {
+        dip_put_script_string(out, text);
+    } else if (!value) {
         fputs("null", out);
-        return;
-    }
-    switch (field->kind) {
-    case DIP_FIELD_TEXT:
-        dip_put_script_string(out, value);
-        break;
-    case DIP_FIELD_WHOLE:
+    } else if (field->kind == DIP_FIELD_WHOLE) {
         fprintf(out, "%d", *(const int *)value);
-        break;
-    case DIP_FIELD_FLAG:
+    } else if (field->kind == DIP_FIELD_FLAG) {
         fputs(*(const bool *)value ? "true" : "false", out);
-        break;
-    case DIP_FIELD_NUMBER:
+    } else if (field->kind == DIP_FIELD_NUMBER) {
         print_number(*(const double *)value, out);
-        break;
-    case DIP_FIELD_SETTINGS:
-        dip_quality_format(value, settings, sizeof settings);
-        dip_put_script_string(out, settings);
-        break;
-    case DIP_FIELD_NAMED:
-        dip_put_script_string(out, field->names[*(const int *)value]);
-        break;
-    case DIP_FIELD_NUMBERS:
+    } else if (field->kind == DIP_FIELD_NUMBERS) {
         print_numbers(field, value, out);
-        break;
-    case DIP_FIELD_RECORD:
+    } else if (field->kind == DIP_FIELD_RECORD) {
         dip_fields_print_json(field->record, &(DipFieldAt){at->context, value, at->index, at}, out);
-        break;
-    default:
+    } else {
         print_list(field->list, at, out);
     }
 }
@@ -131,14 +129,33 @@ void dip_fields_print_json(const DipRecord *record, const DipFieldAt *at, FILE *
     fputc('}', out);
 }
 
+// An item that is written to a file of its own.
+typedef struct Whole {
+    const DipRecord *record;
+    DipFieldAt at;
+} Whole;
+
+static bool print_whole(const void *context, FILE *out) {
+    const Whole *whole = context;
+    dip_fields_print_json(whole->record, &whole->at, out);
+    return true;
+}
+
+bool dip_fields_write_json(const DipRecord *record, const void *item, const char *file,
+                           DipError *err) {
+    const Whole whole = {record, {(void *)item, item, 0, NULL}};
+    return dip_whole_file_print(file, print_whole, &whole, err);
+}
+
 // --- reading -------------------------------------------------------------------------------------
 
-// The path of the field at fault is made from its end, while functions return.
 typedef struct Reader {
-    char fault[PATH_ROOM];
+    char fault[PATH_ROOM]; // Path of the field at fault.
     DipErrorCode code;
 } Reader;
 
+// Puts a name before the path of the field at fault. The functions that read call this one after
+// another while they return, from the innermost to the outermost, so the path grows at its front.
 static bool fail(Reader *reader, DipErrorCode code, const char *name) {
     char rest[PATH_ROOM];
     reader->code = code;
@@ -153,31 +170,27 @@ static bool is_in_range(const DipField *field, double value) {
 }
 
 // Reads a number, or NAN where null is accepted.
-static bool read_number(const cJSON *item, const DipField *field, bool null, double *value) {
+static bool read_number(const cJSON *item, const DipField *field, double *value) {
     *value = cJSON_IsNumber(item) ? item->valuedouble : NAN;
-    return (null && cJSON_IsNull(item)) || is_in_range(field, *value);
-}
-
-// Reads an end of an interval, which may lie beyond the range of values, or NAN.
-static bool read_end(const cJSON *item, double *value) {
-    *value = cJSON_IsNumber(item) ? item->valuedouble : NAN;
-    return cJSON_IsNull(item) || isfinite(*value);
+    return (field->known && cJSON_IsNull(item)) || is_in_range(field, *value);
 }
 
 static bool read_estimate(const cJSON *object, const DipField *field, DipEstimate *to) {
-    const char *const ends[] = {"", "_low", "_high"};
+    static const char *const ends[] = {"_low", "_high"};
     *to = dip_estimate_unknown(NAN);
-    double *const values[] = {&to->value, &to->low, &to->high};
-    for (int i = 0; i < 3; i++) {
+    double *const values[] = {&to->low, &to->high};
+    for (int i = 0; i < 2; i++) { // The ends may lie beyond the range of values, or be unknown.
         char name[NAME_ROOM];
         snprintf(name, sizeof name, "%s%s", field->name, ends[i]);
         const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
-        if (i == 0 ? !read_number(item, field, field->known, values[i])
-                   : !read_end(item, values[i])) {
+        *values[i] = cJSON_IsNumber(item) ? item->valuedouble : NAN;
+        if (!cJSON_IsNull(item) && !isfinite(*values[i])) {
             return false;
         }
     }
-    return (isnan(to->low) && isnan(to->high)) || dip_field_has_interval(to);
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, field->name);
+    return read_number(item, field, &to->value) &&
+           ((isnan(to->low) && isnan(to->high)) || dip_field_has_interval(to));
 }
 
 static bool read_numbers(const cJSON *item, const DipField *field, double *to) {
@@ -185,7 +198,7 @@ static bool read_numbers(const cJSON *item, const DipField *field, double *to) {
     if (field->names ? !cJSON_IsObject(item) : cJSON_GetArraySize(item) != count) {
         return false;
     }
-    const cJSON *next = field->names ? NULL : item->child;
+    const cJSON *next = item->child; // The next number of an array.
     for (int i = 0; i < count; i++) {
         const cJSON *number =
             field->names ? cJSON_GetObjectItemCaseSensitive(item, field->names[i]) : next;
@@ -216,7 +229,7 @@ static bool read_text(const cJSON *item, const DipField *field, char *to) {
     return fits;
 }
 
-// Reads what is a single item of JSON. Returns false if it is wrong.
+// Reads a value that is a single item of JSON. Returns false if the item is wrong.
 static bool read_plain(const cJSON *item, const DipField *field, void *to) {
     switch (field->kind) {
     case DIP_FIELD_TEXT:
@@ -232,7 +245,7 @@ static bool read_plain(const cJSON *item, const DipField *field, void *to) {
         *(bool *)to = cJSON_IsTrue(item);
         return cJSON_IsBool(item);
     case DIP_FIELD_NUMBER:
-        return read_number(item, field, field->known, to);
+        return read_number(item, field, to);
     case DIP_FIELD_SETTINGS:
         return cJSON_IsString(item) && dip_quality_parse(item->valuestring, to, NULL);
     case DIP_FIELD_NAMED:
@@ -249,22 +262,22 @@ static bool read_item(Reader *reader, const DipFieldList *list, const DipFieldAt
                       const cJSON *from) {
     DipFieldScratch scratch;
     memset(&scratch, 0, sizeof scratch);
-    const void *item = list->put ? &scratch : dip_field_list_item(list, at, index, &scratch);
-    const DipFieldAt within = {at->context, item, index, at};
+    const DipFieldAt within = list->put ? (DipFieldAt){at->context, &scratch, index, at}
+                                        : list_item(list, at, index, &scratch);
     char name[24];
     snprintf(name, sizeof name, "[%d]", index);
     if (list->record ? !read_record(reader, list->record, &within, from)
-                     : !read_plain(from, list->element, (void *)item)) {
+                     : !read_plain(from, list->element, dip_field_member(list->element, &within))) {
         return fail(reader, list->record ? reader->code : DIP_ERROR_FORMAT, name);
     }
-    return !list->put || list->put(at, index, item) || fail(reader, DIP_ERROR_FORMAT, name);
+    return !list->put || list->put(at, index, within.item) || fail(reader, DIP_ERROR_FORMAT, name);
 }
 
 static DipErrorCode open_list(const DipFieldList *list, const DipFieldAt *at, int count) {
     if (list->open) {
         return list->open(at, count);
     }
-    if (count > list->most) {
+    if (count < list->least || count > list->most) {
         return DIP_ERROR_FORMAT;
     }
     if (list->points) {
@@ -299,7 +312,7 @@ static bool read_list(Reader *reader, const DipField *field, const DipFieldAt *a
 static bool read_field(Reader *reader, const DipField *field, const DipFieldAt *at,
                        const cJSON *object) {
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, field->name);
-    void *to = (char *)at->item + field->offset;
+    void *to = dip_field_member(field, at);
     if (field->kind == DIP_FIELD_LIST) {
         return read_list(reader, field, at, item);
     }

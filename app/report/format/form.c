@@ -15,7 +15,7 @@ enum { LINE_WIDTH = 100, TERM_WIDTH = 14, TEXT_BYTES = 4096 };
     vsnprintf(text, sizeof text, format, arguments);                                               \
     va_end(arguments)
 
-// Breaks a text into lines at blanks. The first begins at the column `indent`, where the cursor is.
+// Breaks a text into lines at blanks. The cursor is at the column `indent`, where all lines begin.
 static void print_wrapped(FILE *out, const char *text, int indent) {
     int column = indent;
     while (*text) {

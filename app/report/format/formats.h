@@ -15,14 +15,14 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
 // the report.
 bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err);
 
-// Reads the report with this name: a JSON file, or a folder that has the file cost.json. Otherwise
-// as dip_cost_read_json.
+// Reads a report like dip_cost_read_json. `name` is a JSON file, or a folder that has the file
+// cost.json.
 bool dip_cost_read_report(const char *name, DipCostReport *report, DipError *err);
 
 // Writes one line per step of each sweep (the steps of one setting) and one per combination.
 bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError *err);
 
-// Prints the tables for a terminal.
+// Prints the report for a terminal.
 void dip_cost_print(const DipCostReport *report, FILE *out);
 
 #endif

@@ -1,4 +1,4 @@
-// Lists lines, and derives what they show.
+// Makes the lists of lines, and derives the fields of a line.
 #include "app/report/format/lines.h"
 
 #include <math.h>
@@ -10,49 +10,56 @@ static const DipCostReport *report_of(const DipFieldAt *at) {
     return at->context;
 }
 
-static bool has_times(const DipFieldAt *at) {
-    const DipCostLine *line = at->item;
-    return line->row >= 0 && dip_cost_is_timed(report_of(at), line->row);
+static const DipCostLine *line_of(const DipFieldAt *at) {
+    return at->item;
 }
 
-// Defines the function that derives a field from `line`. It may write to *scratch.
-#define DERIVE(name, value)                                                                        \
-    static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
-        const DipCostLine *line = at->item;                                                        \
-        (void)scratch;                                                                             \
-        (void)line;                                                                                \
-        return value;                                                                              \
+DIP_OF_ITEM(bool, has_times,
+            line_of(at)->row >= 0 && dip_cost_is_timed(report_of(at), line_of(at)->row))
+
+// Returns how much longer the line's candidate takes than that of the line before.
+static double change_ms(const DipCostLine *line) {
+    return line->candidate->time.value - line->before->time.value;
+}
+
+DIP_DERIVE(derive_kind, line_of(at)->kind)
+DIP_DERIVE(derive_path, report_of(at)->paths[line_of(at)->path])
+DIP_DERIVE(derive_settings, line_of(at)->quality)
+DIP_DERIVE(derive_row, line_of(at)->row >= 0 ? &report_of(at)->rows[line_of(at)->row] : NULL)
+DIP_DERIVE(derive_predicted, line_of(at)->prediction)
+DIP_DERIVE(derive_report, report_of(at))
+DIP_DERIVE(derive_change_ms, line_of(at)->before ? DIP_MADE(double, change_ms(line_of(at))) : NULL)
+
+static const void *derive_ratio(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipCostLine *line = at->item;
+    (void)scratch;
+    return !has_times(at) ? NULL
+           : line->sweep  ? &line->sweep->ratios[line->step]
+                          : &report_of(at)->rows[line->row].time.ratio;
+}
+
+static const void *derive_price_ms(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipCostLine *line = at->item;
+    if (!line->before || line->candidate->loss <= 0.0) {
+        return NULL;
     }
-#define NUMBER(value) ((scratch->numbers[0] = (value)), scratch)
-DERIVE(derive_kind, line->kind)
-DERIVE(derive_path, report_of(at)->paths[line->path])
-DERIVE(derive_settings, line->quality)
-DERIVE(derive_row, line->row >= 0 ? &report_of(at)->rows[line->row] : NULL)
-DERIVE(derive_predicted, line->prediction)
-DERIVE(derive_ratio, !has_times(at) ? NULL
-                     : line->sweep  ? (const void *)&line->sweep->ratios[line->step]
-                                    : &report_of(at)->rows[line->row].time.ratio)
-DERIVE(derive_report, line ? report_of(at) : NULL)
-DERIVE(derive_change_ms,
-       line->before ? NUMBER(line->candidate->time.value - line->before->time.value) : NULL)
-DERIVE(derive_price_ms, line->before && line->candidate->loss > 0.0
-                            ? NUMBER((line->candidate->time.value - line->before->time.value) /
-                                     (100.0 * log(line->before->loss / line->candidate->loss)))
-                            : NULL)
-DERIVE(derive_time_miss,
-       line->prediction &&has_times(at)
-           ? NUMBER(line->prediction->ms / dip_cost_ms(report_of(at), line->row) - 1.0)
-           : NULL)
+    const double percent = 100.0 * log(line->before->loss / line->candidate->loss);
+    return DIP_MADE(double, change_ms(line) / percent);
+}
+
+static const void *derive_time_miss(const DipFieldAt *at, DipFieldScratch *scratch) {
+    const DipCostPrediction *of = line_of(at)->prediction;
+    return of && has_times(at)
+               ? DIP_MADE(double, of->ms / dip_cost_ms(report_of(at), line_of(at)->row) - 1.0)
+               : NULL;
+}
 
 static const void *derive_title(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCostLine *line = at->item;
-    snprintf(scratch->text, sizeof scratch->text, "%s",
-             line->number > 0     ? "Pareto front"
-             : *line->kind == 'a' ? "the baseline twice"
-                                  : "");
-    if (line->sweep) {
-        dip_cost_sweep_title(report_of(at), line->sweep, scratch->text);
+    if (!line->sweep) {
+        return line->number > 0 ? "Pareto front" : *line->kind == 'a' ? "the baseline twice" : "";
     }
+    dip_cost_sweep_title(report_of(at), line->sweep, scratch->text);
     return scratch->text;
 }
 
@@ -90,22 +97,19 @@ static const void *derive_number(const DipFieldAt *at, DipFieldScratch *scratch)
 
 static const void *derive_time(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCandidate *candidate = ((const DipCostLine *)at->item)->candidate;
-    if (!candidate) {
-        return NULL;
-    }
-    *(DipEstimate *)scratch = dip_estimate_widen(&candidate->time, candidate->common_error);
-    return scratch;
+    return candidate ? DIP_MADE(DipEstimate,
+                                dip_estimate_widen(&candidate->time, candidate->common_error))
+                     : NULL;
 }
 
-// Viewpoints differ more than settings do, so the interval is that of the viewpoints' changes.
+// Derives the change of FLIP. Viewpoints differ from each other more than settings do, so its
+// interval comes from the changes at the single viewpoints.
 static const void *derive_change_flip(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCostLine *line = at->item;
-    if (!line->before) {
-        return NULL;
-    }
-    *(DipEstimate *)scratch =
-        dip_cost_metric_change(report_of(at), line->row, line->before->row, DIP_COST_FLIP);
-    return scratch;
+    return line->before
+               ? DIP_MADE(DipEstimate, dip_cost_metric_change(report_of(at), line->row,
+                                                              line->before->row, DIP_COST_FLIP))
+               : NULL;
 }
 
 static const void *derive_flip_miss(const DipFieldAt *at, DipFieldScratch *scratch) {
@@ -114,13 +118,13 @@ static const void *derive_flip_miss(const DipFieldAt *at, DipFieldScratch *scrat
         return NULL;
     }
     const double flip = dip_cost_row_metrics(report_of(at), line->row, 0).flip;
-    return flip > 0.0 ? NUMBER(line->prediction->flip / flip - 1.0) : NULL;
+    return flip > 0.0 ? DIP_MADE(double, line->prediction->flip / flip - 1.0) : NULL;
 }
 
 static const void *derive_floor(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCostLine *line = at->item;
-    *(DipMetrics *)scratch = dip_cost_floor_metrics(report_of(at), line->path);
-    return line->row >= 0 ? scratch : NULL;
+    return line->row >= 0 ? DIP_MADE(DipMetrics, dip_cost_floor_metrics(report_of(at), line->path))
+                          : NULL;
 }
 
 #define RECORD(function, record_of)                                                                \
@@ -160,7 +164,7 @@ const DipRecord dip_cost_line_record =
 
 // --- lists ---------------------------------------------------------------------------------------
 
-static DipCostLine line_of(const DipCostReport *report, const char *kind, int row) {
+static DipCostLine row_line(const DipCostReport *report, const char *kind, int row) {
     return (DipCostLine){.kind = kind,
                          .row = row,
                          .path = report->rows[row].path,
@@ -169,14 +173,14 @@ static DipCostLine line_of(const DipCostReport *report, const char *kind, int ro
 
 int dip_cost_same_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_PATHS]) {
     for (int p = 0; p < report->path_count; p++) {
-        lines[p] = line_of(report, "a/a", report->same_rows[p]);
+        lines[p] = row_line(report, "a/a", report->same_rows[p]);
     }
     return report->path_count;
 }
 
 int dip_cost_floor_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_PATHS]) {
     for (int p = 0; p < report->path_count; p++) {
-        lines[p] = line_of(report, "floor", report->base_rows[p]);
+        lines[p] = row_line(report, "floor", report->base_rows[p]);
     }
     return report->path_count;
 }
@@ -185,7 +189,7 @@ int dip_cost_step_lines(const DipCostReport *report, int sweep,
                         DipCostLine lines[DIP_COST_MAX_SWEEP_ROWS]) {
     const DipCostSweep *of = &report->sweeps[sweep];
     for (int i = 0; i < of->row_count; i++) {
-        lines[i] = line_of(report, "step", of->rows[i]);
+        lines[i] = row_line(report, "step", of->rows[i]);
         lines[i].sweep = of;
         lines[i].step = i;
     }
@@ -205,7 +209,7 @@ int dip_cost_front_lines(const DipCostReport *report, DipCostLine lines[DIP_COST
     const DipCostChoice *choice = &report->choice;
     for (int i = 0; i < choice->front_count; i++) {
         const DipCandidate *candidate = &choice->candidates.list[choice->front[i]];
-        lines[i] = line_of(report, "front", candidate->row);
+        lines[i] = row_line(report, "front", candidate->row);
         lines[i].number = i + 1;
         lines[i].candidate = candidate;
         lines[i].before = i > 0 ? &choice->candidates.list[choice->front[i - 1]] : NULL;
@@ -216,7 +220,7 @@ int dip_cost_front_lines(const DipCostReport *report, DipCostLine lines[DIP_COST
 int dip_cost_combination_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_ROWS]) {
     int count = 0;
     for (int r = report->combined_first; r < report->row_count; r++) {
-        lines[count++] = line_of(report, "combination", r);
+        lines[count++] = row_line(report, "combination", r);
     }
     return count;
 }
@@ -225,8 +229,4 @@ DipCostLine dip_cost_prediction_line(const DipCostReport *report, int prediction
     const DipCostPrediction *of = &report->predicted.list[prediction];
     return (DipCostLine){
         .kind = "predicted", .row = of->row, .quality = &of->quality, .prediction = of};
-}
-
-int dip_cost_line_row(const DipFieldAt *at) {
-    return ((const DipCostLine *)at->item)->row;
 }

@@ -1,5 +1,5 @@
-// The lines of tables that are about rows of a report: what CSV, terminals and pages list. Each
-// list is made by one function, so all forms have the same lines.
+// Lists rows of a report as lines of the tables that CSV, terminals and pages have. One function
+// makes each list, so all forms have the same lines.
 #ifndef DIP_APP_REPORT_FORMAT_LINES_H
 #define DIP_APP_REPORT_FORMAT_LINES_H
 
@@ -12,17 +12,17 @@ typedef struct DipCostLine {
     int path;
     const DipQuality *quality;
     const DipCostSweep *sweep;           // NULL: the row is no step of a sweep.
-    int step;                            // Index in the sweep.
+    int step;                            // Index of the step in the sweep.
     const DipCostPrediction *prediction; // NULL: there is none.
-    int number;                          // On the front, from 1 on; 0: elsewhere.
+    int number;                          // Number on the Pareto front, from 1 on; 0: not on it.
     const DipCandidate *candidate;       // NULL: none.
-    const DipCandidate *before;          // On the front; NULL: the first.
+    const DipCandidate *before;          // The one before on the front; NULL: there is none.
 } DipCostLine;
 
 extern const DipRecord dip_cost_line_record;
 
-// Each list returns the number of its lines. `lines` has room for as many as named: a line per
-// path, per step of a sweep, per row of the report, or per prediction.
+// These functions list the A/A row and the base row of each path, the steps of one sweep and of all
+// sweeps, the Pareto front, and all combinations. They return the number of lines.
 int dip_cost_same_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_PATHS]);
 int dip_cost_floor_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_PATHS]);
 int dip_cost_step_lines(const DipCostReport *report, int sweep,
@@ -35,13 +35,9 @@ int dip_cost_combination_lines(const DipCostReport *report, DipCostLine lines[DI
 // Returns the line of a prediction.
 DipCostLine dip_cost_prediction_line(const DipCostReport *report, int prediction);
 
-// Members of a DipTable of lines of the report, and an array of its columns.
-#define DIP_COST_LINES(REPORT, LINES, COUNT, COLUMNS)                                              \
-    .record = &dip_cost_line_record, .context = (void *)(REPORT), .row = dip_cost_line_row,        \
-    .items = LINES, .count = COUNT, .columns = COLUMNS,                                            \
-    .column_count = DIP_FIELD_COUNT_OF(COLUMNS)
-
-// Row of the report that a line shows, or -1; for tables.
-int dip_cost_line_row(const DipFieldAt *at);
+// Members of a DipTable that has lines of the report as items.
+#define DIP_COST_LINES(REPORT, LINES, COUNT)                                                       \
+    .record = &dip_cost_line_record, .context = (void *)(REPORT), .row = &(LINES)->row,            \
+    .items = LINES, .count = COUNT
 
 #endif

@@ -8,8 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-#define COLUMNS(list) .columns = list, .column_count = DIP_FIELD_COUNT_OF(list)
-
 // --- the answer ----------------------------------------------------------------------------------
 
 static double flip_of(const DipCostReport *report, int row) {
@@ -31,7 +29,7 @@ void dip_section_ties(DipForm *form, const DipCandidates *candidates, const DipA
     }
 }
 
-// What the next better settings cost, in the kind of time of the budget.
+// Writes what the next better settings cost, in the kind of time (such as p95) of the budget.
 static void write_next(DipForm *form, const DipCandidates *candidates, const DipAdvice *advice) {
     char text[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES];
     if (advice->next < 0) {
@@ -109,12 +107,7 @@ static const DipField tier_fields[] = {
 static const DipRecord tier_record =
     DIP_RECORD("tier", "A tier of a settings menu.", tier_fields, DipCostTier, NULL);
 
-static int row_of_tier(const DipFieldAt *at) {
-    return ((const DipCostTier *)at->item)->row;
-}
-
 void dip_section_tiers(DipForm *form, DipCostTier *tiers, int count) {
-    static const DipColumn columns[] = {{"tier", NULL}, {"budget", NULL}, {"line", NULL}};
     if (count != DIP_COST_TIER_COUNT) {
         return;
     }
@@ -126,13 +119,10 @@ void dip_section_tiers(DipForm *form, DipCostTier *tiers, int count) {
         }
         tiers[at] = tier;
     }
-    dip_form_table(form, &(DipTable){.id = "tiers",
-                                     .caption = "The four budgets as the tiers of a settings menu.",
-                                     .record = &tier_record,
-                                     COLUMNS(columns),
-                                     .items = tiers,
-                                     .count = count,
-                                     .row = row_of_tier});
+    DIP_FORM_TABLE(form, .id = "tiers",
+                   .caption = "The four budgets as the tiers of a settings menu.",
+                   .record = &tier_record, .columns = "tier; budget; line", .items = tiers,
+                   .count = count, .row = &tiers->row);
 }
 
 static void write_advice(DipForm *form, const DipCostReport *report, int index) {
@@ -180,15 +170,12 @@ void dip_section_answer(DipForm *form, const DipCostReport *report) {
 void dip_section_front(DipForm *form, const DipCostReport *report) {
     const DipCostChoice *choice = &report->choice;
     DipCostLine lines[DIP_COST_MAX_ROWS];
-    char caption[512];
-    const DipColumn columns[] = {{"settings", NULL},
-                                 {"number", NULL},
-                                 {"time.value", dip_time_kind_names[choice->candidates.kind]},
-                                 {"row.figures.all.flip", NULL},
-                                 {"row.over_time.flicker_rms_lin", NULL},
-                                 {"change_ms", NULL},
-                                 {"change_flip", NULL},
-                                 {"price_ms", NULL}};
+    char caption[512], columns[160];
+    snprintf(
+        columns, sizeof columns,
+        "settings; number; time.value=%s; row.figures.all.flip; row.over_time.flicker_rms_lin; "
+        "change_ms; change_flip; price_ms",
+        dip_time_kind_names[choice->candidates.kind]);
     snprintf(caption, sizeof caption,
              "The Pareto front of %d measured combinations on path %s: no other combination has "
              "less %s time and less FLIP. The FLIP of each is at least 1 %% below that of the line "
@@ -196,36 +183,28 @@ void dip_section_front(DipForm *form, const DipCostReport *report) {
              choice->candidates.count, report->paths[0],
              dip_time_kind_names[choice->candidates.kind],
              choice->knee >= 0 ? " Beyond the knee, more time buys least." : "");
-    dip_form_table(form, &(DipTable){.id = "pareto-front",
-                                     .caption = caption,
-                                     .set = "front",
-                                     DIP_COST_LINES(report, lines,
-                                                    dip_cost_front_lines(report, lines), columns)});
-}
-
-static int row_of_same(const DipFieldAt *at) {
-    return ((const DipCostSame *)at->item)->row;
+    DIP_FORM_TABLE(form, .id = "pareto-front", .caption = caption, .set = "front",
+                   .columns = columns,
+                   DIP_COST_LINES(report, lines, dip_cost_front_lines(report, lines)));
 }
 
 void dip_section_same(DipForm *form, const DipCostReport *report) {
-    static const DipColumn columns[] = {{"settings", NULL}, {"same_as", NULL}};
-    if (report->same_count > 0 && !form->is_page) {
+    if (report->same_count == 0) {
+        return;
+    }
+    if (!form->is_page) {
         dip_form_paragraph(form, NULL,
                            "%d more combinations draw the same pictures as one with fewer settings "
                            "off their defaults; cost.json lists them.",
                            report->same_count);
-    } else {
-        dip_form_table(form, &(DipTable){.id = "same-pictures",
-                                         .caption = "Each of these combinations draws the same "
-                                                    "pictures, by hash, at all viewpoints as one "
-                                                    "with fewer settings off their defaults.",
-                                         .record = &dip_cost_same_record,
-                                         COLUMNS(columns),
-                                         .context = (void *)report,
-                                         .items = report->same,
-                                         .count = report->same_count,
-                                         .row = row_of_same});
+        return;
     }
+    DIP_FORM_TABLE(form, .id = "same-pictures",
+                   .caption = "Each of these combinations draws the same pictures, by hash, at all "
+                              "viewpoints as one with fewer settings off their defaults.",
+                   .record = &dip_cost_same_record, .columns = "settings; same_as",
+                   .context = (void *)report, .items = report->same, .count = report->same_count,
+                   .row = &report->same->row);
 }
 
 // --- what was measured ---------------------------------------------------------------------------
@@ -257,7 +236,6 @@ static void write_facts(DipForm *form, const DipCostReport *report) {
 }
 
 void dip_section_measured(DipForm *form, const DipCostReport *report) {
-    static const DipColumn columns[] = {{"path", NULL}, {"ratio", NULL}};
     DipCostLine lines[DIP_COST_MAX_PATHS];
     dip_form_heading(form, "measured", "What was measured");
     write_facts(form, report);
@@ -272,13 +250,12 @@ void dip_section_measured(DipForm *form, const DipCostReport *report) {
         form, style, "The machine was %s. %s%s %s", verdict, report->verdict_reason,
         report->verdict == DIP_COST_RED ? " The times are wrong, and no settings are advised." : "",
         level);
-    dip_form_table(
-        form,
-        &(DipTable){.id = "baseline-twice",
-                    .caption = "On each path, the baseline was timed a second time "
-                               "as if it were another setting (A/A). Differences "
-                               "between settings that are smaller are noise.",
-                    DIP_COST_LINES(report, lines, dip_cost_same_lines(report, lines), columns)});
+    DIP_FORM_TABLE(form, .id = "baseline-twice",
+                   .caption =
+                       "On each path, the baseline was timed a second time as if it were another "
+                       "setting (A/A). Differences between settings that are smaller are noise.",
+                   .columns = "path; ratio",
+                   DIP_COST_LINES(report, lines, dip_cost_same_lines(report, lines)));
 }
 
 // --- predictions ---------------------------------------------------------------------------------
@@ -317,39 +294,22 @@ void dip_section_predictions(DipForm *form, const DipCostReport *report) {
 // --- the rest ------------------------------------------------------------------------------------
 
 void dip_section_interactions(DipForm *form, const DipCostReport *report) {
-    static const DipColumn columns[] = {
-        {"a", "setting"}, {"b", "with"}, {"time", NULL}, {"flip", NULL}, {"combinations", NULL}};
     if (!report->analysis || report->analysis->interaction_count == 0) {
         return;
     }
     dip_form_heading(form, "interactions", "Two settings together");
-    dip_form_table(form,
-                   &(DipTable){.id = "interaction-table",
-                               .caption = "Two settings at their last steps, against each alone: "
-                                          "means over the combinations of the other settings. A "
-                                          "time above 1 means that both together cost more than "
-                                          "the product of their ratios. A FLIP above 0 means that "
-                                          "both together lower FLIP by less than the sum of what "
-                                          "each lowers it.",
-                               .record = &dip_cost_interaction_record,
-                               COLUMNS(columns),
-                               .context = (void *)report,
-                               .items = report->analysis->interactions,
-                               .count = report->analysis->interaction_count});
+    DIP_FORM_TABLE(
+        form, .id = "interaction-table",
+        .caption = "Two settings at their last steps, against each alone: means over the "
+                   "combinations of the other settings. A time above 1 means that both together "
+                   "cost more than the product of their ratios. A FLIP above 0 means that both "
+                   "together lower FLIP by less than the sum of what each lowers it.",
+        .record = &dip_cost_interaction_record,
+        .columns = "a=setting; b=with; time; flip; combinations", .context = (void *)report,
+        .items = report->analysis->interactions, .count = report->analysis->interaction_count);
 }
 
 void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep) {
-    static const DipColumn columns[] = {{"step", NULL},
-                                        {"row.ms.value", NULL},
-                                        {"row.p95_ms.value", NULL},
-                                        {"ratio", NULL},
-                                        {"row.figures.all.rmse_lin", NULL},
-                                        {"row.figures.all.psnr_db", NULL},
-                                        {"row.figures.all.ssim", NULL},
-                                        {"row.figures.all.flip", NULL},
-                                        {"row.over_time.flicker_rms_lin", NULL},
-                                        {"row.over_time.two_frame_mean_rms_lin", NULL},
-                                        {"row.at_floor", "noise floor"}};
     DipCostLine lines[DIP_COST_MAX_SWEEP_ROWS];
     char id[32], set[32], title[DIP_COST_TEXT], caption[256], order[2 * DIP_COST_TEXT];
     snprintf(id, sizeof id, "steps-%d", sweep);
@@ -357,23 +317,21 @@ void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep) {
     dip_cost_sweep_title(report, &report->sweeps[sweep], title);
     snprintf(caption, sizeof caption, "%s on path %s: times and errors of each step", title,
              report->paths[report->sweeps[sweep].path]);
-    dip_form_table(form,
-                   &(DipTable){.id = id,
-                               .caption = caption,
-                               .set = set,
-                               DIP_COST_LINES(report, lines,
-                                              dip_cost_step_lines(report, sweep, lines), columns)});
+    DIP_FORM_TABLE(form, .id = id, .caption = caption, .set = set,
+                   .columns =
+                       "step; row.ms.value; row.p95_ms.value; ratio; row.figures.all.rmse_lin; "
+                       "row.figures.all.psnr_db; row.figures.all.ssim; row.figures.all.flip; "
+                       "row.over_time.flicker_rms_lin; row.over_time.two_frame_mean_rms_lin; "
+                       "row.at_floor=noise floor",
+                   DIP_COST_LINES(report, lines, dip_cost_step_lines(report, sweep, lines)));
     if (dip_cost_order_text(report, &report->sweeps[sweep], order, sizeof order)) {
         dip_form_paragraph(form, "note", "%s", order);
     }
 }
 
-static bool has_price(const DipFieldAt *at) {
-    return *(const double *)at->item > 0.0;
-}
+DIP_OF_ITEM(bool, has_price, ((const DipCostFit *)at->item)->ns[at->index] > 0.0)
 
 void dip_section_fit(DipForm *form, const DipCostReport *report) {
-    static const DipColumn columns[] = {{"work", NULL}, {"stage", NULL}, {"ns", NULL}};
     const DipCostFit *fit = report->analysis ? &report->analysis->fit : NULL;
     char smaller[64] = "", caption[512];
     if (!fit || fit->rows == 0) {
@@ -389,31 +347,22 @@ void dip_section_fit(DipForm *form, const DipCostReport *report) {
              "median error is %.1f %%, and %.0f %% of the rows are predicted within 10 %%.",
              fit->rows, smaller, fit->r2, 100.0 * fit->median_miss, 100.0 * fit->others.median,
              100.0 * fit->others.within_10);
-    dip_form_table(form, &(DipTable){.id = "prices-of-work",
-                                     .caption = caption,
-                                     .record = &dip_cost_price_record,
-                                     COLUMNS(columns),
-                                     .context = (void *)report,
-                                     .items = fit->ns,
-                                     .count = fit->count,
-                                     .shows = has_price});
+    DIP_FORM_TABLE(form, .id = "prices-of-work", .caption = caption,
+                   .record = &dip_cost_price_record, .columns = "work; stage; ns",
+                   .context = (void *)report, .items = fit, .count = fit->count,
+                   .shows = has_price);
 }
 
 void dip_section_truth(DipForm *form, const DipCostReport *report) {
-    static const DipColumn columns[] = {{"path", NULL},
-                                        {"floor.rmse_lin", NULL},
-                                        {"floor.psnr_db", NULL},
-                                        {"floor.ssim", NULL},
-                                        {"floor.flip", NULL}};
     DipCostLine lines[DIP_COST_MAX_PATHS];
     dip_form_heading(form, "truth", "The truth and its noise floor");
-    dip_form_table(
-        form,
-        &(DipTable){.id = "noise-floors",
-                    .caption = "What the truth's own noise makes of each metric. An RMSE "
-                               "below three times this one is \"at floor\", and "
-                               "combinations whose FLIP is below this one rank alike.",
-                    DIP_COST_LINES(report, lines, dip_cost_floor_lines(report, lines), columns)});
+    DIP_FORM_TABLE(
+        form, .id = "noise-floors",
+        .caption =
+            "What the truth's own noise makes of each metric. An RMSE below three times this one "
+            "is \"at floor\", and combinations whose FLIP is below this one rank alike.",
+        .columns = "path; floor.rmse_lin; floor.psnr_db; floor.ssim; floor.flip",
+        DIP_COST_LINES(report, lines, dip_cost_floor_lines(report, lines)));
     if (report->refused_count > 0) {
         dip_form_heading(form, NULL, "Steps left out");
     }

@@ -1,4 +1,4 @@
-// Writing the HTML page: its style, its sections and its scripts. The sections are complete without
+// Writes the HTML page: its style, its sections and its scripts. The sections are complete without
 // the scripts.
 #include "app/report/page/html.h"
 
@@ -6,8 +6,6 @@
 #include "app/report/page/web/embedded.h"
 #include "app/files/whole_file.h"
 #include "app/files/put.h"
-
-#include <stdlib.h>
 
 // The policy forbids the page to read any other file.
 static const char policy[] = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; "
@@ -60,30 +58,20 @@ static bool has_tails(const DipCostReport *report) {
 
 static void write_regions(DipForm *form, const DipCostReport *report) {
 #define SEEN_COLUMNS(NAME, name, text)                                                             \
-    {"row.figures." name ".flip", name}, {"row.figures." name ".share", NULL},
-    static const DipColumn columns[] = {
-        {"name", NULL}, {"row.figures.all.flip", "whole picture"}, DIP_SEEN_LIST(SEEN_COLUMNS)};
+    "; row.figures." name ".flip=" name "; row.figures." name ".share"
+    static const char columns[] =
+        "name; row.figures.all.flip=whole picture" DIP_SEEN_LIST(SEEN_COLUMNS);
     DipCostLine lines[DIP_COST_MAX_SWEEPS * DIP_COST_MAX_SWEEP_ROWS];
     const int count = dip_cost_all_step_lines(report, lines);
     if (count > 0) {
         dip_form_heading(form, "parts", "Where the errors are");
-        dip_form_table(form, &(DipTable){.id = "picture-parts",
-                                         .caption = "Mean FLIP over the pixels of each part of the "
-                                                    "picture.",
-                                         DIP_COST_LINES(report, lines, count, columns)});
+        DIP_FORM_TABLE(form, .id = "picture-parts",
+                       .caption = "Mean FLIP over the pixels of each part of the picture.",
+                       .columns = columns, DIP_COST_LINES(report, lines, count));
     }
 }
 
 static void write_tails(DipForm *form, const DipCostReport *report) {
-    static const DipColumn columns[] = {{"settings", NULL},
-                                        {"title", NULL},
-                                        {"path", NULL},
-                                        {"row.figures.all.flip", NULL},
-                                        {"row.flip_tail.p50", NULL},
-                                        {"row.flip_tail.p95", NULL},
-                                        {"row.flip_tail.p99", NULL},
-                                        {"row.flip_tail.worst", NULL},
-                                        {"row.flip_tail.place", NULL}};
     DipCostLine lines[DIP_COST_MAX_ROWS + DIP_COST_MAX_SWEEPS * DIP_COST_MAX_SWEEP_ROWS];
     int count = dip_cost_all_step_lines(report, lines);
     count += dip_cost_front_lines(report, lines + count);
@@ -98,15 +86,17 @@ static void write_tails(DipForm *form, const DipCostReport *report) {
                        "block is the part of at most %d x %d pixels with the greatest mean FLIP at "
                        "any viewpoint.",
                        DIP_FLIP_TAIL_BLOCK, DIP_FLIP_TAIL_BLOCK);
-    dip_form_table(form, &(DipTable){.id = "flip-tails",
-                                     .caption = "Distribution of FLIP over pixels, for each step "
-                                                "of each setting and for the Pareto front.",
-                                     .shows = has_tail,
-                                     DIP_COST_LINES(report, lines, count, columns)});
+    DIP_FORM_TABLE(
+        form, .id = "flip-tails",
+        .caption = "Distribution of FLIP over pixels, for each step of each setting and for the "
+                   "Pareto front.",
+        .shows = has_tail,
+        .columns = "settings; title; path; row.figures.all.flip; row.flip_tail.p50; "
+                   "row.flip_tail.p95; row.flip_tail.p99; row.flip_tail.worst; row.flip_tail.place",
+        DIP_COST_LINES(report, lines, count));
 }
 
 static void write_work(DipForm *form, const DipCostReport *report) {
-    static const DipColumn columns[] = {{"name", NULL}, {"row.counters", ""}};
     DipCostLine lines[DIP_COST_MAX_SWEEPS * DIP_COST_MAX_SWEEP_ROWS];
     if (report->rounds == 0) {
         return;
@@ -114,24 +104,17 @@ static void write_work(DipForm *form, const DipCostReport *report) {
     dip_put_html(form->out, "<section class=\"%s\" aria-labelledby=\"work\">\n",
                  report->sweep_count > 0 ? "wide" : "narrow");
     dip_form_heading(form, "work", "Work");
-    dip_form_table(
-        form, &(DipTable){
-                  .id = "work-counters",
-                  .caption = "Work per frame, in thousands: means over the timed frames. "
-                             "The counters are exact, the same on every machine and "
-                             "with any number of threads. Those that are the same in "
-                             "all steps are left out.",
-                  DIP_COST_LINES(report, lines, dip_cost_all_step_lines(report, lines), columns)});
+    DIP_FORM_TABLE(form, .id = "work-counters",
+                   .caption = "Work per frame, in thousands: means over the timed frames. The "
+                              "counters are exact, the same on every machine and with any number "
+                              "of threads. Those that are the same in all steps are left out.",
+                   .columns = "name; row.counters=",
+                   DIP_COST_LINES(report, lines, dip_cost_all_step_lines(report, lines)));
     dip_put_html(form->out, "</section>\n");
     dip_section_fit(form, report);
 }
 
-static void write_word(void *out, const DipField *field, const void *value) {
-    (void)value;
-    dip_put_html(out, "<dt>%s</dt><dd>%s</dd>\n", field->title, field->means);
-}
-
-// Explains fields by their own sentences.
+// Explains the words of the page: the truth, the mark '?', and fields by their own sentences.
 static void write_words(const DipCostReport *report, FILE *out) {
     static const char *const paths[] = {"ratio",
                                         "ms",
@@ -152,7 +135,9 @@ static void write_words(const DipCostReport *report, FILE *out) {
                  "<dt>?</dt><dd>A change is marked with ? if its 95 %% interval holds 0, so that "
                  "even its sign is not sure.</dd>\n");
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
-        dip_field_visit(&dip_cost_row_record, &nothing, paths[i], write_word, out);
+        DipFieldFound found;
+        dip_field_find(&dip_cost_row_record, &nothing, paths[i], &found);
+        dip_put_html(out, "<dt>%s</dt><dd>%s</dd>\n", found.field.title, found.field.means);
     }
     dip_put_html(out, "</dl>\n<p>FLIP is that of %g pixels per degree.</p>\n",
                  report->options.pixels_per_degree);
@@ -229,8 +214,16 @@ static void write_left_out(const DipCostReport *report, const DipCostPictures *p
 
 // --- the page ------------------------------------------------------------------------------------
 
-// Returns false when memory runs out.
-static bool write_page(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
+// What the page shows.
+typedef struct Page {
+    const DipCostReport *report;
+    const DipCostPictures *pictures; // NULL: none.
+} Page;
+
+// Writes the page. Returns false when memory runs out.
+static bool write_page(const void *page, FILE *out) {
+    const DipCostReport *report = ((const Page *)page)->report;
+    const DipCostPictures *pictures = ((const Page *)page)->pictures;
     DipForm form = {.out = out, .is_page = true};
     write_begin(report, out);
     write_contents(report, out);
@@ -258,17 +251,5 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
 
 bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pictures,
                          const char *file, DipError *err) {
-    char *page = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&page, &size);
-    if (!out) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    }
-    bool made = write_page(report, pictures, out) && !ferror(out);
-    made = fclose(out) == 0 && made && page; // glibc sets it to NULL if memory runs out here.
-    const bool written = made
-                             ? dip_whole_file_write(file, page, size, err)
-                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    free(page);
-    return written;
+    return dip_whole_file_print(file, write_page, &(Page){report, pictures}, err);
 }

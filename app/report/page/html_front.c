@@ -1,5 +1,5 @@
-// Time against error in the page: the plot of all combinations, and the tables of those that were
-// measured and of those that were predicted.
+// Writes time against error into the page: the plot of all combinations, and the tables of those
+// that were measured and of those that were predicted.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
@@ -10,52 +10,28 @@
 
 // --- points --------------------------------------------------------------------------------------
 
-enum { TITLE_ROOM = 512, LABEL_ROOM = 12 };
+enum { LABEL_ROOM = 12 };
 
-// A series of the plot. All arrays are owned.
+// A series of the plot.
 typedef struct Points {
     int count;
-    int *rows;                  // Rows of the report, or -1 for a combination without a row.
-    double *x;                  // Time of a frame, ms.
-    double *y;                  // FLIP.
-    char (*labels)[LABEL_ROOM]; // The numbers 1, 2, ...
-    char (*titles)[TITLE_ROOM];
-    const char **label_list;
-    const char **title_list;
+    int rows[DIP_COST_MAX_ROWS]; // Rows of the report, or -1 for a combination without a row.
+    double ms[DIP_COST_MAX_ROWS];
+    double flip[DIP_COST_MAX_ROWS];
+    char labels[DIP_COST_MAX_ROWS][LABEL_ROOM]; // The numbers 1, 2, ...
+    char titles[DIP_COST_MAX_ROWS][DIP_HTML_TITLE_BYTES];
+    const char *label_list[DIP_COST_MAX_ROWS];
+    const char *title_list[DIP_COST_MAX_ROWS];
 } Points;
 
-// Returns false when memory runs out.
-static bool alloc_points(Points *points, int room) {
-    const size_t count = (size_t)room + 1;
-    points->rows = calloc(count, sizeof *points->rows);
-    points->x = calloc(count, sizeof *points->x);
-    points->y = calloc(count, sizeof *points->y);
-    points->labels = calloc(count, sizeof *points->labels);
-    points->titles = calloc(count, sizeof *points->titles);
-    points->label_list = calloc(count, sizeof *points->label_list);
-    points->title_list = calloc(count, sizeof *points->title_list);
-    return points->rows && points->x && points->y && points->labels && points->titles &&
-           points->label_list && points->title_list;
-}
-
-static void free_points(Points *points) {
-    free(points->rows);
-    free(points->x);
-    free(points->y);
-    free(points->labels);
-    free(points->titles);
-    free(points->label_list);
-    free(points->title_list);
-}
-
 // Adds a point, and returns room for its title. The axes are logarithmic, so a FLIP of 0 is plotted
-// as the least that is told apart.
+// as a tiny one.
 static char *add_point(Points *points, int row, const DipCandidate *candidate) {
     static const double least_flip = 1e-7;
     const int i = points->count++;
     points->rows[i] = row;
-    points->x[i] = candidate->time.value;
-    points->y[i] = fmax(candidate->flip, least_flip);
+    points->ms[i] = candidate->time.value;
+    points->flip[i] = fmax(candidate->flip, least_flip);
     snprintf(points->labels[i], LABEL_ROOM, "%d", i + 1);
     points->label_list[i] = points->labels[i];
     points->title_list[i] = points->titles[i];
@@ -64,8 +40,8 @@ static char *add_point(Points *points, int row, const DipCandidate *candidate) {
 
 static DipPlotSeries series_of(const Points *points, const char *name, const char *style) {
     return (DipPlotSeries){.name = name,
-                           .x = points->x,
-                           .y = points->y,
+                           .x = points->ms,
+                           .y = points->flip,
                            .count = points->count,
                            .marks_only = true,
                            .rows = points->rows,
@@ -83,13 +59,6 @@ typedef struct Parts {
     DipCandidates listed;
 } Parts;
 
-static void free_parts(Parts *parts) {
-    free_points(&parts->front);
-    free_points(&parts->others);
-    free_points(&parts->predicted);
-    dip_candidates_free(&parts->listed);
-}
-
 static bool is_on_front(const DipCostChoice *choice, int candidate) {
     for (int i = 0; i < choice->front_count; i++) {
         if (choice->front[i] == candidate) {
@@ -106,23 +75,16 @@ static void add_predicted(const DipCostReport *report, Parts *parts) {
         if (p->row < 0) {
             char settings[DIP_COST_TEXT];
             dip_cost_settings_text(&p->quality, settings);
-            snprintf(add_point(&parts->predicted, -1, c), TITLE_ROOM,
+            snprintf(add_point(&parts->predicted, -1, c), DIP_HTML_TITLE_BYTES,
                      "%s: predicted %.2f ms, 95th percentile %.2f ms; predicted FLIP %.4f",
                      settings, p->ms, p->p95_ms, p->flip);
         }
     }
 }
 
-// Returns false when memory runs out.
-static bool split(const DipCostReport *report, Parts *parts) {
+static void split(const DipCostReport *report, Parts *parts) {
     const DipCostChoice *choice = &report->choice;
     const DipCandidates *all = &choice->candidates;
-    if (!dip_candidates_to_list(report, &parts->listed) ||
-        !alloc_points(&parts->front, choice->front_count) ||
-        !alloc_points(&parts->others, all->count) ||
-        !alloc_points(&parts->predicted, parts->listed.count)) {
-        return false;
-    }
     for (int i = 0; i < choice->front_count; i++) {
         const DipCandidate *c = &all->list[choice->front[i]];
         dip_html_row_title(report, c->row, add_point(&parts->front, c->row, c));
@@ -134,7 +96,6 @@ static bool split(const DipCostReport *report, Parts *parts) {
         }
     }
     add_predicted(report, parts);
-    return true;
 }
 
 static void write_plot(const DipCostReport *report, const Parts *parts, FILE *out) {
@@ -172,16 +133,6 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
 // --- tables --------------------------------------------------------------------------------------
 
 static void write_all_table(DipForm *form, const DipCostReport *report) {
-    static const DipColumn columns[] = {{"settings", NULL},
-                                        {"row.ms", NULL},
-                                        {"row.p95_ms.value", NULL},
-                                        {"row.ratio", NULL},
-                                        {"row.figures.all.flip", NULL},
-                                        {"row.over_time.flicker_rms_lin", NULL},
-                                        {"row.figures.all.psnr_db", NULL},
-                                        {"row.figures.all.ssim", NULL},
-                                        {"row.figures.all.rmse_lin", NULL},
-                                        {"row.at_floor", "noise floor"}};
     DipCostLine lines[DIP_COST_MAX_ROWS];
     const int count = dip_cost_combination_lines(report, lines);
     char caption[256];
@@ -190,10 +141,12 @@ static void write_all_table(DipForm *form, const DipCostReport *report) {
              "combinations pale in the plot.",
              report->paths[0]);
     dip_put_html(form->out, "<details><summary>All %d combinations</summary>\n", count);
-    dip_form_table(form, &(DipTable){.id = "combinations",
-                                     .caption = caption,
-                                     .set = "front",
-                                     DIP_COST_LINES(report, lines, count, columns)});
+    DIP_FORM_TABLE(form, .id = "combinations", .caption = caption, .set = "front",
+                   .columns =
+                       "settings; row.ms; row.p95_ms.value; row.ratio; row.figures.all.flip; "
+                       "row.over_time.flicker_rms_lin; row.figures.all.psnr_db; "
+                       "row.figures.all.ssim; row.figures.all.rmse_lin; row.at_floor=noise floor",
+                   DIP_COST_LINES(report, lines, count));
     dip_put_html(form->out, "</details>\n");
     if (report->same_count > 0) {
         dip_put_html(form->out,
@@ -206,14 +159,6 @@ static void write_all_table(DipForm *form, const DipCostReport *report) {
 
 static void write_predictions(DipForm *form, const DipCostReport *report,
                               const DipCandidates *listed) {
-    static const DipColumn columns[] = {{"settings", NULL},
-                                        {"predicted.ms", NULL},
-                                        {"predicted.p95_ms", NULL},
-                                        {"predicted.flip", NULL},
-                                        {"row.ms.value", "measured mean"},
-                                        {"row.figures.all.flip", "measured FLIP"},
-                                        {"time_miss", NULL},
-                                        {"flip_miss", NULL}};
     DipCostLine lines[DIP_CANDIDATES_LISTED];
     char caption[300];
     const bool is_part = listed->count < report->predicted.count;
@@ -232,21 +177,25 @@ static void write_predictions(DipForm *form, const DipCostReport *report,
     dip_section_predictions(form, report);
     dip_put_html(form->out, "<details><summary>%d predicted combinations</summary>\n",
                  listed->count);
-    dip_form_table(form, &(DipTable){.id = "predictions",
-                                     .caption = caption,
-                                     DIP_COST_LINES(report, lines, listed->count, columns)});
+    DIP_FORM_TABLE(
+        form, .id = "predictions", .caption = caption,
+        .columns =
+            "settings; predicted.ms; predicted.p95_ms; predicted.flip; row.ms.value=measured mean; "
+            "row.figures.all.flip=measured FLIP; time_miss; flip_miss",
+        DIP_COST_LINES(report, lines, listed->count));
     dip_put_html(form->out, "</details>\n");
 }
 
 bool dip_html_front(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures) {
-    Parts parts = {0};
-    const bool made = split(report, &parts);
+    Parts *parts = calloc(1, sizeof *parts);
+    const bool made = parts && dip_candidates_to_list(report, &parts->listed);
     if (made && report->choice.candidates.count > 1) {
+        split(report, parts);
         dip_form_heading(form, "front", "Time against error");
         dip_form_paragraph(form, NULL,
                            "Both axes are logarithmic. The Pareto front consists of the "
                            "combinations that no other combination beats in both time and error.");
-        write_plot(report, &parts, form->out);
+        write_plot(report, parts, form->out);
         dip_section_front(form, report);
         if (pictures) {
             dip_html_pictures(report, &pictures->front, "front", NULL, form->out);
@@ -254,8 +203,11 @@ bool dip_html_front(DipForm *form, const DipCostReport *report, const DipCostPic
         write_all_table(form, report);
     }
     if (made) {
-        write_predictions(form, report, &parts.listed);
+        write_predictions(form, report, &parts->listed);
     }
-    free_parts(&parts);
+    if (parts) {
+        dip_candidates_free(&parts->listed);
+    }
+    free(parts);
     return made;
 }

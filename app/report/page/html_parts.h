@@ -1,4 +1,4 @@
-// Parts of the HTML page beyond the sections that terminals have, too. The scripts of the page
+// Writes the parts of the HTML page that terminals do not have. The scripts of the page
 // (app/report/page/web/) find measurements by the attribute data-row, which holds the index of a
 // row of the report, and sets of pictures by the attribute data-set.
 #ifndef DIP_APP_REPORT_PAGE_HTML_PARTS_H
@@ -14,24 +14,25 @@
 enum { DIP_HTML_TITLE_BYTES = 512 };
 void dip_html_row_title(const DipCostReport *report, int row, char text[DIP_HTML_TITLE_BYTES]);
 
-// Writes the element with what the scripts know about each row, as JSON.
+// Writes an element that holds what the scripts know about each row, as JSON.
 void dip_html_measurements(const DipCostReport *report, FILE *out);
 
-// Writes a set of pictures, if it has any. `name` is the set's attribute data-set. `sweep` names
-// the steps; if it is NULL, captions are settings.
+// Writes a set of pictures, if it has any. `name` is the value of its attribute data-set. Captions
+// are the steps of `sweep`, or settings if `sweep` is NULL.
 void dip_html_pictures(const DipCostReport *report, const DipCostPictureSet *set, const char *name,
                        const DipCostSweep *sweep, FILE *out);
 
 // --- sections ----------------------------------------------------------------------------------
 
-// Time against error: the plot, the Pareto front, all combinations, the pictures of the front if
-// `pictures` is not NULL, and predictions. Returns false when memory runs out.
+// Writes time against error: the plot, the Pareto front, all combinations, the pictures of the
+// front if `pictures` is not NULL, and predictions. Returns false when memory runs out.
 bool dip_html_front(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures);
 
-// Time and error along the default path, of the baseline and of the advised combinations. Nothing
-// is written without times or combinations. Returns false when memory runs out.
+// Writes time and error along the default path, of the baseline and of the advised combinations.
+// Writes nothing without times or combinations. Returns false when memory runs out.
 bool dip_html_path(DipForm *form, const DipCostReport *report);
 
+// Writes each sweep: bars of time and error, a table and, if `pictures` is not NULL, pictures.
 void dip_html_sweeps(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures);
 
 #endif

@@ -1,28 +1,29 @@
-// Time and error along the default path in the HTML page: those of the baseline and of the advised
-// combinations, frame by frame and viewpoint by viewpoint.
+// Writes time and error along the default path into the HTML page: those of the baseline and of the
+// advised combinations, frame by frame and viewpoint by viewpoint.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
 #include <stdlib.h>
 #include <string.h>
 
-// MOST_LINES is the number of colours of a plot.
-enum { MOST_LINES = 6, TITLE_ROOM = DIP_COST_TEXT + 64, MOST_FRAMES = 256 };
+enum {
+    MOST_LINES = 6, // As many as a plot has colours.
+    TITLE_ROOM = DIP_COST_TEXT + 64,
+    MOST_FRAMES = 256,
+    MOST_POINTS = DIP_COST_MAX_PLACES // Points are viewpoints, or at most MOST_FRAMES frames.
+};
 
-// The lines of both plots. Arrays are owned.
+// The lines of the plot that is written: of the times at frames, or of the errors at viewpoints.
 typedef struct Lines {
     const DipCostReport *report;
     int rows[MOST_LINES];
     char names[MOST_LINES][DIP_COST_TEXT];
     int count;
-    int frames; // Number of timed frames; fill_times reduces it to those that are shown.
-    // Positions of the frames, and then of the viewpoints, as shares of the path in percent.
-    double *positions;
-    double *ms;   // [line * frames + frame]
-    double *flip; // [line * viewpoints + viewpoint]
-    // Tooltips at [line * (frames or viewpoints) + point]; `titles` points to `texts`.
-    char (*texts)[TITLE_ROOM];
-    const char **titles;
+    int points;                    // Number of points of each line.
+    double positions[MOST_POINTS]; // Share of the path at each point, in percent.
+    double values[MOST_LINES][MOST_POINTS];
+    char texts[MOST_LINES][MOST_POINTS][TITLE_ROOM]; // Tooltips.
+    const char *titles[MOST_LINES][MOST_POINTS];     // Point to `texts`.
 } Lines;
 
 static void add_line(Lines *lines, int row, const char *prefix) {
@@ -59,59 +60,55 @@ static void list_lines(Lines *lines) {
     }
 }
 
-static void free_lines(Lines *lines) {
-    free(lines->positions);
-    free(lines->ms);
-    free(lines->flip);
-    free(lines->texts);
-    free(lines->titles);
-}
-
-// Returns false when memory runs out.
-static bool alloc_lines(Lines *lines) {
-    const size_t frames = (size_t)lines->frames;
-    const size_t viewpoints = (size_t)lines->report->options.places;
-    const size_t shown = frames < MOST_FRAMES ? frames : MOST_FRAMES;
-    const size_t most = shown > viewpoints ? shown : viewpoints;
-    lines->positions = calloc(frames + viewpoints, sizeof *lines->positions);
-    lines->ms = calloc(MOST_LINES * frames, sizeof *lines->ms);
-    lines->flip = calloc(MOST_LINES * viewpoints, sizeof *lines->flip);
-    lines->texts = calloc(MOST_LINES * most, sizeof *lines->texts);
-    lines->titles = calloc(MOST_LINES * most, sizeof *lines->titles);
-    return lines->positions && lines->ms && lines->flip && lines->texts && lines->titles;
-}
-
-// Fills in the times and positions of the frames: of every n-th if there are more than MOST_FRAMES.
-static void fill_times(Lines *lines) {
-    const int frames = lines->frames;
+// Lists the times at every n-th frame, so that there are at most MOST_FRAMES.
+static void list_times(Lines *lines) {
+    const int frames = dip_cost_frame_count(lines->report);
     const int step = (frames + MOST_FRAMES - 1) / MOST_FRAMES;
-    lines->frames = (frames + step - 1) / step;
+    lines->points = (frames + step - 1) / step;
     for (int i = 0; i < lines->count; i++) {
         const double *ms = dip_times_frames(lines->report->fit, lines->rows[i]);
-        for (int f = 0; f < lines->frames; f++) {
-            lines->ms[i * lines->frames + f] = ms[f * step];
+        for (int f = 0; f < lines->points; f++) {
             lines->positions[f] = 100.0 * f * step / frames;
+            lines->values[i][f] = ms[f * step];
         }
     }
 }
 
-// Returns a line of `count` points, and writes the points' tooltips.
-static DipPlotSeries series_of(const Lines *lines, int line, const double *x, const double *y,
-                               int count, int digits, const char *unit) {
-    const char **titles = lines->titles + line * count;
-    for (int p = 0; p < count; p++) {
-        char *text = lines->texts[line * count + p];
-        snprintf(text, TITLE_ROOM, "%s, at %.1f %% of the path: %.*f %s", lines->names[line], x[p],
-                 digits, y[p], unit);
-        titles[p] = text;
+// Lists the FLIP at the viewpoints that all lines have.
+static void list_errors(Lines *lines) {
+    const DipCostReport *report = lines->report;
+    const int viewpoints = report->options.places;
+    lines->points = 0;
+    for (int p = 0; p < viewpoints; p++) {
+        bool judged = true;
+        for (int i = 0; i < lines->count; i++) {
+            judged = judged && report->rows[lines->rows[i]].judged[p];
+        }
+        for (int i = 0; judged && i < lines->count; i++) {
+            lines->values[i][lines->points] =
+                dip_metrics_of(&report->rows[lines->rows[i]].viewpoints[p], 0).flip;
+        }
+        lines->positions[lines->points] = 100.0 * (p + 0.5) / viewpoints;
+        lines->points += judged;
     }
-    return (DipPlotSeries){
-        .name = lines->names[line], .x = x, .y = y, .count = count, .titles = titles};
 }
 
-static void write_plot(const Lines *lines, const DipPlotSeries *series, const char *title,
-                       const char *y_title, FILE *out) {
+static void write_plot(Lines *lines, const char *title, const char *y_title, int digits,
+                       const char *unit, FILE *out) {
+    DipPlotSeries series[MOST_LINES];
     char subtitle[DIP_COST_TEXT];
+    for (int i = 0; i < lines->count; i++) {
+        for (int p = 0; p < lines->points; p++) {
+            lines->titles[i][p] = lines->texts[i][p];
+            snprintf(lines->texts[i][p], TITLE_ROOM, "%s, at %.1f %% of the path: %.*f %s",
+                     lines->names[i], lines->positions[p], digits, lines->values[i][p], unit);
+        }
+        series[i] = (DipPlotSeries){.name = lines->names[i],
+                                    .x = lines->positions,
+                                    .y = lines->values[i],
+                                    .count = lines->points,
+                                    .titles = lines->titles[i]};
+    }
     snprintf(subtitle, sizeof subtitle, "path %s, %d timed frames, %d viewpoint%s",
              lines->report->paths[0], dip_cost_frame_count(lines->report),
              lines->report->options.places, dip_cost_plural(lines->report->options.places));
@@ -130,68 +127,27 @@ static void write_plot(const Lines *lines, const DipPlotSeries *series, const ch
     dip_put_html(out, "</div>\n");
 }
 
-static void write_times(const Lines *lines, FILE *out) {
-    DipPlotSeries series[MOST_LINES];
-    for (int i = 0; i < lines->count; i++) {
-        series[i] = series_of(lines, i, lines->positions, lines->ms + i * lines->frames,
-                              lines->frames, 2, "ms");
-    }
-    write_plot(lines, series, "Time along the path", "time of a frame, ms", out);
-}
-
-// Fills in the positions and the FLIP of the viewpoints that all lines have. Returns their number.
-static int list_viewpoints(const Lines *lines, double *positions) {
-    const DipCostReport *report = lines->report;
-    const int viewpoints = report->options.places;
-    int count = 0;
-    for (int p = 0; p < viewpoints; p++) {
-        bool judged = true;
-        for (int i = 0; i < lines->count; i++) {
-            judged = judged && report->rows[lines->rows[i]].judged[p];
-        }
-        if (judged) {
-            positions[count] = 100.0 * (p + 0.5) / viewpoints;
-            for (int i = 0; i < lines->count; i++) {
-                lines->flip[i * viewpoints + count] =
-                    dip_metrics_of(&report->rows[lines->rows[i]].viewpoints[p], 0).flip;
-            }
-            count++;
-        }
-    }
-    return count;
-}
-
-static void write_errors(const Lines *lines, FILE *out) {
-    const int viewpoints = lines->report->options.places;
-    double *positions = lines->positions + lines->frames;
-    DipPlotSeries series[MOST_LINES];
-    const int count = list_viewpoints(lines, positions);
-    if (count < 2) {
-        return;
-    }
-    for (int i = 0; i < lines->count; i++) {
-        series[i] = series_of(lines, i, positions, lines->flip + i * viewpoints, count, 4, "FLIP");
-    }
-    write_plot(lines, series, "Error along the path", "FLIP against the truth, mean of a viewpoint",
-               out);
-}
-
 bool dip_html_path(DipForm *form, const DipCostReport *report) {
-    Lines lines = {.report = report, .frames = dip_cost_frame_count(report)};
     if (report->rounds == 0 || report->combined_first == report->row_count) {
         return true;
     }
-    list_lines(&lines);
-    const bool made = alloc_lines(&lines);
-    if (made) {
-        fill_times(&lines);
-        dip_form_heading(form, "along", "Time and error along the path");
-        dip_form_paragraph(form, NULL,
-                           "The plots show the times of the baseline and of the advised settings "
-                           "at every timed frame, and their mean FLIP at every viewpoint.");
-        write_times(&lines, form->out);
-        write_errors(&lines, form->out);
+    Lines *lines = calloc(1, sizeof *lines);
+    if (!lines) {
+        return false;
     }
-    free_lines(&lines);
-    return made;
+    lines->report = report;
+    list_lines(lines);
+    list_times(lines);
+    dip_form_heading(form, "along", "Time and error along the path");
+    dip_form_paragraph(form, NULL,
+                       "The plots show the times of the baseline and of the advised settings "
+                       "at every timed frame, and their mean FLIP at every viewpoint.");
+    write_plot(lines, "Time along the path", "time of a frame, ms", 2, "ms", form->out);
+    list_errors(lines);
+    if (lines->points >= 2) {
+        write_plot(lines, "Error along the path", "FLIP against the truth, mean of a viewpoint", 4,
+                   "FLIP", form->out);
+    }
+    free(lines);
+    return true;
 }

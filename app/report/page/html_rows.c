@@ -1,9 +1,10 @@
-// What the page says about a row of the report: a line of text for plots and scripts, and pictures.
+// Writes what the page says about a row of the report: a line of text for plots and scripts, and
+// pictures.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
 
-// Formats the times of a row, or "" if it was not timed.
+// Formats the times of a row, or "" if the row was not timed.
 static void format_time(const DipCostReport *report, int row, char text[DIP_COST_TEXT]) {
     const DipPathEstimate *time = &report->rows[row].time;
     text[0] = '\0';
@@ -68,11 +69,11 @@ static void write_image(FILE *out, const char *part, const char *what, const cha
     }
 }
 
-// The pictures of a set, and how the set is named.
+// A set of pictures, and what its captions are made from.
 typedef struct Shown {
     const DipCostReport *report;
     const DipCostPictureSet *set;
-    const char *name;          // Attribute data-set.
+    const char *name;          // Value of the attribute data-set.
     const DipCostSweep *sweep; // Names the steps; NULL: pictures have the names of settings.
 } Shown;
 
@@ -90,7 +91,7 @@ static const char *caption_of(const Shown *shown, const DipCostPicture *picture,
     return text;
 }
 
-// Says which row the picture shows, and where.
+// Writes which row a picture shows, and where its crop lies.
 static void write_origin(const Shown *shown, int row, FILE *out) {
     const DipCostPictureSet *set = shown->set;
     dip_put_html(out,

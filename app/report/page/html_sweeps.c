@@ -1,4 +1,4 @@
-// Each setting in the page: bars of time and error, a table of its steps, and pictures.
+// Writes each setting into the page: bars of time and error, a table of its steps, and pictures.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
@@ -9,7 +9,7 @@
 enum {
     BAR_WIDTH = 760,
     BAR_LEFT = 130,
-    BAR_ROOM = 230, // width of the longest bar and its number
+    BAR_ROOM = 230, // Width of the longest bar and its number.
     BAR_SECOND = 500,
     BAR_LINE = 26,
     BAR_TOP = 34
@@ -17,7 +17,7 @@ enum {
 
 // --- bars --------------------------------------------------------------------------------------
 
-// The greatest values of a sweep. They get the longest bars.
+// The greatest values of a sweep, which get the longest bars.
 typedef struct Scale {
     double most_ratio;
     double most_flip;
@@ -48,7 +48,7 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
     }
     const double room = BAR_ROOM - 60.0;
     const DipEstimate ratio = sweep->ratios[index];
-    // The step that the others are compared with has no interval.
+    // The step with which the others are compared has no interval.
     const double end = BAR_LEFT + room * fmax(ratio.value, ratio.high) / most;
     write_bar(out, BAR_LEFT, y, room * ratio.value / most, "bar-time");
     if (!isnan(ratio.low)) {

@@ -1,4 +1,4 @@
-// Laying out and writing SVG.
+// Lays out plots and writes them as SVG.
 #include "app/report/page/plot.h"
 
 #include "app/files/whole_file.h"
@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 // The layout, in pixels.
 enum {
@@ -17,10 +16,10 @@ enum {
     BOTTOM = 404,
     LEGEND_TOP = 476,
     LEGEND_LINE = 20,
-    LEGEND_WIDTH = 340, // width of a column of the legend
-    MOST_BARRED = 4,    // a plot with more series has no bars
+    LEGEND_WIDTH = 340, // Width of a column of the legend.
+    MOST_BARRED = 4,    // A plot with more series has no bars.
     MAX_TICKS = 16,
-    TICK_ROOM = 46 // least distance between two labels of the x axis
+    TICK_ROOM = 46 // Least distance between two labels of the x axis.
 };
 
 // The palette of Okabe and Ito without its yellow. Colour-blind readers can tell these colours
@@ -30,9 +29,9 @@ static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73",
 enum { COLOUR_COUNT = sizeof colours / sizeof *colours };
 
 typedef struct Axis {
-    double least; // range in axis units: logarithms on a logarithmic axis
+    double least; // Range in axis units, which are logarithms on a logarithmic axis.
     double most;
-    double from; // range in pixels
+    double from; // Range in pixels.
     double to;
     bool logarithmic;
     double ticks[MAX_TICKS];
@@ -126,32 +125,25 @@ static bool tick_values(Axis *axis, const DipPlot *plot) {
     return true;
 }
 
-static Axis make_x(const DipPlot *plot) {
+static Axis make_axis(const DipPlot *plot, bool is_y) {
     Axis axis = {INFINITY, -INFINITY, LEFT, RIGHT, plot->log_x, {0}, 0};
-    for (int s = 0; s < shown_series(plot); s++) {
-        for (int i = 0; i < plot->series[s].count; i++) {
-            widen(&axis, plot->series[s].x[i]);
-        }
+    if (is_y) {
+        axis = (Axis){INFINITY, -INFINITY, BOTTOM, TOP, plot->log_y, {0}, 0};
     }
-    add_margin(&axis, false);
-    if (!tick_values(&axis, plot)) {
-        axis.logarithmic ? tick_logarithmic(&axis) : tick_linear(&axis);
-    }
-    return axis;
-}
-
-static Axis make_y(const DipPlot *plot) {
-    Axis axis = {INFINITY, -INFINITY, BOTTOM, TOP, plot->log_y, {0}, 0};
     for (int s = 0; s < shown_series(plot); s++) {
         const DipPlotSeries *series = &plot->series[s];
         for (int i = 0; i < series->count; i++) {
-            widen(&axis, series->y[i]);
-            widen(&axis, series->low ? series->low[i] : series->y[i]);
-            widen(&axis, series->high ? series->high[i] : series->y[i]);
+            widen(&axis, is_y ? series->y[i] : series->x[i]);
+            if (is_y && series->low && series->high) {
+                widen(&axis, series->low[i]);
+                widen(&axis, series->high[i]);
+            }
         }
     }
-    add_margin(&axis, true);
-    axis.logarithmic ? tick_logarithmic(&axis) : tick_linear(&axis);
+    add_margin(&axis, is_y);
+    if (is_y || !tick_values(&axis, plot)) {
+        axis.logarithmic ? tick_logarithmic(&axis) : tick_linear(&axis);
+    }
     return axis;
 }
 
@@ -279,8 +271,8 @@ static void write_legend_entry(FILE *out, const DipPlotSeries *series, int index
 }
 
 void dip_plot_print(FILE *out, const DipPlot *plot) {
-    const Axis x = make_x(plot);
-    const Axis y = make_y(plot);
+    const Axis x = make_axis(plot, false);
+    const Axis y = make_axis(plot, true);
     const int shown = shown_series(plot);
     const int left_out = plot->series_count - shown;
     const int height = LEGEND_TOP + LEGEND_LINE * ((shown + 1) / 2 + (left_out > 0)) + 2;
@@ -307,19 +299,11 @@ void dip_plot_print(FILE *out, const DipPlot *plot) {
     dip_put_html(out, "</svg>\n");
 }
 
-bool dip_plot_write(const char *file, const DipPlot *plot, DipError *err) {
-    char *text = NULL;
-    size_t size_bytes = 0;
-    FILE *out = open_memstream(&text, &size_bytes);
-    if (!out) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    }
+static bool print_plot(const void *plot, FILE *out) {
     dip_plot_print(out, plot);
-    bool made = !ferror(out);
-    made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
-    const bool written = made
-                             ? dip_whole_file_write(file, text, size_bytes, err)
-                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    free(text);
-    return written;
+    return true;
+}
+
+bool dip_plot_write(const char *file, const DipPlot *plot, DipError *err) {
+    return dip_whole_file_print(file, print_plot, plot, err);
 }

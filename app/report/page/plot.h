@@ -1,5 +1,5 @@
-// Line plots as self-contained SVG. Their background is white, so they are legible on light and
-// dark pages. A page may restyle them by their classes: plot, plot-paper, plot-grid, plot-axis,
+// Writes line plots as self-contained SVG. Their background is white, so they are legible on light
+// and dark pages. A page may restyle them by their classes: plot, plot-paper, plot-grid, plot-axis,
 // plot-note, series-0 and so on, point.
 #ifndef DIP_APP_REPORT_PAGE_PLOT_H
 #define DIP_APP_REPORT_PAGE_PLOT_H
@@ -22,11 +22,11 @@ typedef struct DipPlotSeries {
     int count;
     bool marks_only;           // True: no line connects the points.
     const char *const *labels; // Texts below and left of the points; NULL for none.
-    // Numbers of the points, which a page's script finds in the attribute data-row (-1: the point
-    // has none), and titles, which browsers show beside the pointer; NULL for none.
+    // Numbers that a page's script finds in the attribute data-row of the points (-1: the point has
+    // none), and titles that browsers show beside the pointer. NULL for none.
     const int *rows;
     const char *const *titles;
-    const char *style; // Class of the line instead of series-0, series-1, ...; NULL for these.
+    const char *style; // CSS class of the line; NULL: series-0, series-1, ...
 } DipPlotSeries;
 
 // All texts are borrowed. Values on a logarithmic axis must be above 0. A linear y axis begins at

@@ -1,8 +1,6 @@
 // Comparing two made-up reports that differ in one thing, and finding the cause of a slowdown whose
 // prices are known.
 #include "app/cost/diff/diff.h"
-#include "app/cost/diff/diff_cause.h"
-#include "app/cost/diff/diff_groups.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>

@@ -3,7 +3,6 @@
 #include "app/bench/enlarge.h"
 #include "app/cost/advise/common_advice.h"
 #include "app/cost/diff/diff.h"
-#include "app/cost/diff/diff_cause.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
 #include "app/cost/journal.h"
