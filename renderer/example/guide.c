@@ -1,7 +1,7 @@
-// The pictures of docs/pipeline.md, from the first triangle to a shadow map. The document quotes
-// this file.
+// The pictures of docs/pipeline.md, from the first triangle to particles over a kept picture. The
+// document quotes this file.
 //
-// Usage: guide FOLDER (writes guide_1.ppm to guide_6.ppm into the folder)
+// Usage: guide FOLDER (writes guide_1.ppm to guide_7.ppm into the folder)
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/shapes/camera.h"
 #include "renderer/shapes/shapes.h"
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { WIDTH = 320, HEIGHT = 240, MAP = 512 };
+enum { WIDTH = 320, HEIGHT = 240, MAP = 512, SPARKS = 60 };
 
 static uint8_t picture[HEIGHT][WIDTH][4];
 
@@ -132,6 +132,7 @@ typedef struct World {
     DipPipeline *pipeline;
     DipPipeline *map_pipeline; // of the size of the shadow map
     DipMesh *ball;
+    DipMesh *spark;
     DipMesh *ground;
     DipMatrix to_clip;
     DipMatrix to_light_clip;
@@ -350,6 +351,84 @@ static void draw_shadow(World *world) {
     dip_depth_destroy(&depth);
 }
 
+// --- 7. particles over a kept picture ------------------------------------------------------------
+
+// What outlives the passes of a picture with particles.
+typedef struct Kept {
+    DipSamples *samples;
+    DipDepth *depth;
+} Kept;
+
+static Kept make_kept(void) {
+    DipError err = {0};
+    const Kept kept = {.samples = dip_samples_create(WIDTH, HEIGHT, 4, DIP_FORMAT_SRGB8, &err),
+                       .depth = dip_depth_create(WIDTH, HEIGHT, 4, &err)};
+    require(kept.samples && kept.depth, &err);
+    return kept;
+}
+
+// Draws the ground and the ball, and keeps their colours and depths in every sample.
+static void draw_still(World *world, const Kept *kept) {
+    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
+    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    const DipDraw draws[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
+    const DipPass still = {
+        .draws = draws,
+        .draw_count = 2,
+        .sample_count = 4,
+        .clear_lin = {0.25f, 0.42f, 0.65f},
+        .target = {.width = WIDTH, .height = HEIGHT},
+        .attachments = {.samples = kept->samples, .keep_target = true, .depth = kept->depth},
+    };
+    DipError err = {0};
+    require(dip_pipeline_draw(world->pipeline, &still, NULL, NULL, &err), &err);
+}
+
+// Draws particles over the samples that are kept, and shows the result in the picture.
+static void draw_over(World *world, const Kept *kept, const DipDraw *particles, int count) {
+    const DipPass over = {
+        .draws = particles,
+        .draw_count = count,
+        .sample_count = 4,
+        .target = {.rgba8 = &picture[0][0][0],
+                   .stride_bytes = WIDTH * 4,
+                   .width = WIDTH,
+                   .height = HEIGHT},
+        .attachments = {.samples = kept->samples,
+                        .colour_load = DIP_LOAD_KEEP,
+                        .colour_store = DIP_STORE_REVERT,
+                        .depth = kept->depth,
+                        .depth_load = DIP_LOAD_KEEP,
+                        .depth_store = DIP_STORE_REVERT},
+    };
+    DipError err = {0};
+    require(dip_pipeline_draw(world->pipeline, &over, NULL, NULL, &err), &err);
+}
+
+// Places glowing sparks on a spiral around the ball. Their positions turn by a fixed angle, whose
+// cosine is 0.8 and whose sine is 0.6.
+static void draw_sparks(World *world) {
+    static const DipDrawState glow = {.blend = DIP_BLEND_MODE_ADDITIVE, .keep_depth = true};
+    static const float gold[3] = {1.0f, 0.55f, 0.15f};
+    Lit sparks[SPARKS];
+    DipDraw draws[SPARKS];
+    float x = 1.25f, z = 0.0f;
+    for (int i = 0; i < SPARKS; i++) {
+        sparks[i] = lit_at(world, x, 0.2f + 0.03f * (float)i, z, gold);
+        draws[i] = lit_draw(world->spark, &sparks[i]);
+        draws[i].fragment_shader = one_colour;
+        draws[i].state = &glow;
+        const float turned = 0.8f * x - 0.6f * z;
+        z = 0.6f * x + 0.8f * z;
+        x = turned;
+    }
+    Kept kept = make_kept();
+    draw_still(world, &kept);
+    draw_over(world, &kept, draws, SPARKS);
+    dip_samples_destroy(&kept.samples);
+    dip_depth_destroy(&kept.depth);
+}
+
 // --- the program ---------------------------------------------------------------------------------
 
 static void write_picture(const char *folder, int number) {
@@ -382,6 +461,8 @@ int main(int argc, char **argv) {
     DipShape shape;
     require(dip_shape_sphere(&shape, 1.0f, 32, 16, &err), &err);
     world.ball = mesh_of(&shape, "ball");
+    require(dip_shape_sphere(&shape, 0.06f, 12, 6, &err), &err);
+    world.spark = mesh_of(&shape, "spark");
     require(dip_shape_plane(&shape, 8.0f, 8.0f, 1, 1, &err), &err);
     world.ground = mesh_of(&shape, "ground");
     make_camera(&world);
@@ -389,13 +470,14 @@ int main(int argc, char **argv) {
 
     draw_triangle(world.pipeline);
     write_picture(argv[1], 1);
-    static void (*const steps[])(World *) = {draw_lit, draw_glass, draw_outline, draw_wires,
-                                             draw_shadow};
-    for (int i = 0; i < 5; i++) {
+    static void (*const steps[])(World *) = {draw_lit,   draw_glass,  draw_outline,
+                                             draw_wires, draw_shadow, draw_sparks};
+    for (int i = 0; i < 6; i++) {
         steps[i](&world);
         write_picture(argv[1], 2 + i);
     }
     dip_mesh_destroy(&world.ball);
+    dip_mesh_destroy(&world.spark);
     dip_mesh_destroy(&world.ground);
     dip_pipeline_destroy(&world.pipeline);
     dip_pipeline_destroy(&world.map_pipeline);

@@ -187,7 +187,11 @@ static void add_tile_counters(const DipTileWork *work, DipPipelineCounters *coun
 }
 
 // Returns the bytes that storing a pixel of the target writes.
-static uint64_t stored_bytes(const DipTarget *target) {
+static uint64_t stored_bytes(const DipPass *pass) {
+    const DipTarget *target = &pass->target;
+    if (pass->attachments.keep_target) {
+        return 0;
+    }
     switch (target->format) {
     case DIP_FORMAT_RGBA32F:
         return target->floats ? 16 : 0;
@@ -204,7 +208,7 @@ static void add_counters(const DipPipeline *pipeline, DipPipelineCounters *count
     const int tiles = geometry->tile_count;
     counters->passes++;
     counters->target_bytes +=
-        stored_bytes(target) * (uint64_t)target->width * (uint64_t)target->height;
+        stored_bytes(pipeline->tile_pass.pass) * (uint64_t)target->width * (uint64_t)target->height;
     counters->tiles_drawn += (uint64_t)tiles;
     counters->tiles_spared += dip_geometry_tiles(geometry) - (uint64_t)tiles;
     add_geometry_counters(geometry, counters);
@@ -362,11 +366,18 @@ static bool check_work(const DipPassWork *works, int index, DipError *err) {
     if (!dip_pass_check(works[index].pass, pipeline->width, pipeline->height, err)) {
         return false;
     }
+    const DipSamples *samples = works[index].pass->attachments.samples;
     for (int i = 0; i < index; i++) {
         if (works[i].pipeline == pipeline || works[i].pipeline->pool != pipeline->pool) {
             return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "pipeline",
                                  "passes %d and %d cannot be drawn at once, accepted different "
                                  "pipelines of one pool",
+                                 i, index);
+        }
+        if (samples && samples == works[i].pass->attachments.samples) {
+            return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.samples",
+                                 "passes %d and %d draw into the same samples, accepted different "
+                                 "ones for passes that are drawn at once",
                                  i, index);
         }
     }

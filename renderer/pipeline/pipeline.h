@@ -16,6 +16,7 @@
 #include "renderer/pipeline/mesh.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/readback.h"
+#include "renderer/pipeline/samples.h"
 #include "renderer/pipeline/shader.h"
 #include "renderer/pipeline/state.h"
 #include "renderer/pipeline/target.h"
@@ -86,6 +87,7 @@ typedef enum DipLoad {
 typedef enum DipStore {
     DIP_STORE_KEEP,
     DIP_STORE_DISCARD, // nothing reads it: it is undefined after the pass
+    DIP_STORE_REVERT,  // it is again what it was before the pass
 } DipStore;
 
 // The attachments of a pass beside its target. All 0 means what most passes need: colours are
@@ -94,6 +96,15 @@ typedef struct DipAttachments {
     DipLoad colour_load;
     DipStore colour_store;
     bool clear_transparent; // cleared pixels have the alpha 0 instead of 1
+    // Colours of samples that outlive the pass, borrowed, of the target's size and format and of
+    // the pass's sample_count. colour_load and colour_store then say what the samples hold at the
+    // start and what becomes of them, and the target receives the mean of each pixel's samples at
+    // the end of the pass. A pass without draws that keeps samples stores their means. NULL: the
+    // pass has its own samples, and colour_load and colour_store are about the target.
+    DipSamples *samples;
+    // Only with samples: the pass leaves the target untouched. The target's pixels and its function
+    // `store` may then be NULL.
+    bool keep_target;
     // Depths and stencil values that outlive the pass, borrowed, of the target's size and of the
     // pass's sample_count. NULL: the pass has its own.
     DipDepth *depth;
@@ -123,7 +134,8 @@ typedef struct DipPass {
     float clip_planes[DIP_MAX_CLIP_PLANES][4];
     int clip_plane_count;
     // A target whose pixels are NULL, of any format but DIP_FORMAT_CALLER, is a pass without
-    // colours: it needs attachments.depth, and runs no fragment shader, only clip shaders.
+    // colours: it needs attachments.depth, and runs no fragment shader, only clip shaders. A pass
+    // with attachments.samples always has colours.
     DipTarget target;
     // Only this rectangle is needed. Blocks of 8x8 pixels that lie outside it are left untouched.
     // The other blocks are the same to the bit as without a region.

@@ -1,6 +1,7 @@
 // Loads what a tile starts from, and stores what outlives its pass.
 #include "renderer/pipeline/merge/depth_planes.h"
 #include "renderer/pipeline/merge/merge_tile.h"
+#include "renderer/pipeline/merge/sample_blocks.h"
 
 #include <string.h>
 
@@ -36,24 +37,19 @@ static inline Row row_of(const DipMergePass *pass, const DipTile *tile, int bloc
     return found;
 }
 
-// Returns the index of a pixel in the order of a block (raster/tile.h).
-static inline int in_block(int x, int y) {
-    return y / DIP_SUB_BLOCK * 32 + x / DIP_SUB_BLOCK * 16 + y % DIP_SUB_BLOCK * 4 +
-           x % DIP_SUB_BLOCK;
-}
-
 // Copies a row's values of 4 bytes out of a block's order, or into it. `of_block`: the values of
 // the block's 64 pixels; `of_row`: those of the row's pixels.
 static inline void copy_row_out(const Row *row, int y, const void *of_block, void *of_row) {
     const uint32_t *from = of_block;
     uint32_t *to = of_row;
     if (row->to - row->from == DIP_BLOCK) {
-        memcpy(to, from + in_block(0, y), DIP_SUB_BLOCK * sizeof *to);
-        memcpy(to + DIP_SUB_BLOCK, from + in_block(DIP_SUB_BLOCK, y), DIP_SUB_BLOCK * sizeof *to);
+        memcpy(to, from + dip_block_pixel(0, y), DIP_SUB_BLOCK * sizeof *to);
+        memcpy(to + DIP_SUB_BLOCK, from + dip_block_pixel(DIP_SUB_BLOCK, y),
+               DIP_SUB_BLOCK * sizeof *to);
         return;
     }
     for (int x = row->from; x < row->to; x++) {
-        to[x - row->from] = from[in_block(x, y)];
+        to[x - row->from] = from[dip_block_pixel(x, y)];
     }
 }
 
@@ -61,12 +57,13 @@ static void copy_row_in(const Row *row, int y, const void *of_row, void *of_bloc
     const uint32_t *from = of_row;
     uint32_t *to = of_block;
     if (row->to - row->from == DIP_BLOCK) {
-        memcpy(to + in_block(0, y), from, DIP_SUB_BLOCK * sizeof *to);
-        memcpy(to + in_block(DIP_SUB_BLOCK, y), from + DIP_SUB_BLOCK, DIP_SUB_BLOCK * sizeof *to);
+        memcpy(to + dip_block_pixel(0, y), from, DIP_SUB_BLOCK * sizeof *to);
+        memcpy(to + dip_block_pixel(DIP_SUB_BLOCK, y), from + DIP_SUB_BLOCK,
+               DIP_SUB_BLOCK * sizeof *to);
         return;
     }
     for (int x = row->from; x < row->to; x++) {
-        to[in_block(x, y)] = from[x - row->from];
+        to[dip_block_pixel(x, y)] = from[x - row->from];
     }
 }
 
@@ -175,13 +172,16 @@ static void store_clear(const DipMergePass *pass, const DipTile *tile, int block
     store_codes(pass, tile, block, rgba8);
 }
 
-static void store_colours(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
-                          int block) {
+// Stores the mean of each pixel's samples in the target.
+static void resolve_colours(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
+                            int block) {
+    const DipAttachments *a = &pass->pass->attachments;
     const bool ready = merge->colours.ready >> block & 1;
-    if (!ready && pass->pass->attachments.colour_load == DIP_LOAD_KEEP) {
-        return;
+    const bool kept = a->colour_load == DIP_LOAD_KEEP;
+    if (!ready && kept && !a->samples) {
+        return; // the target holds these colours
     }
-    if (!ready && pass->clamps) {
+    if (!ready && !kept && pass->clamps) {
         store_clear(pass, tile, block);
         return;
     }
@@ -196,6 +196,17 @@ static void store_colours(const DipMergePass *pass, DipMergeTile *merge, const D
         float light[CHANNELS][DIP_BLOCK_PIXELS];
         pass->kernels->dip_kernel_resolve_light(&merge->colours, block, light);
         store_light(pass, tile, block, light);
+    }
+}
+
+// Stores the colours of a block's samples.
+static void store_samples(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
+                          int block) {
+    const DipAttachments *a = &pass->pass->attachments;
+    const bool ready = merge->colours.ready >> block & 1;
+    if (ready || a->colour_load != DIP_LOAD_KEEP) {
+        dip_merge_ready_block(pass, merge, tile, block);
+        dip_samples_store_block(a->samples, &pass->stored, tile, block, &merge->colours);
     }
 }
 
@@ -238,7 +249,7 @@ void dip_load_stencil(const DipMergePass *pass, const DipTile *tile, uint8_t *st
                 const uint8_t *from = a->depth->stencil + dip_depth_row_index(a->depth, s, row.y);
                 uint8_t *to = stencil + dip_tile_index(tile, block, s);
                 for (int x = row.from; x < row.to; x++) {
-                    to[in_block(x, y)] = from[row.x + x - row.from];
+                    to[dip_block_pixel(x, y)] = from[row.x + x - row.from];
                 }
             }
         }
@@ -255,10 +266,10 @@ static void store_depth_row(const DipTile *tile, int s, int y, int x0, int x1, f
         const float *from = tile->depth + dip_tile_index(tile, block, s);
         if (x % DIP_BLOCK || end > x1) {
             for (int i = x; i < end && i < x1; i++) {
-                to[i] = touched ? from[in_block(i % DIP_BLOCK, y % DIP_BLOCK)] : 0.0f;
+                to[i] = touched ? from[dip_block_pixel(i % DIP_BLOCK, y % DIP_BLOCK)] : 0.0f;
             }
         } else if (touched) {
-            const float *row = from + in_block(0, y % DIP_BLOCK);
+            const float *row = from + dip_block_pixel(0, y % DIP_BLOCK);
             memcpy(to + x, row, DIP_SUB_BLOCK * sizeof *to);
             memcpy(to + x + DIP_SUB_BLOCK, row + DIP_SUB_BLOCK_PIXELS, DIP_SUB_BLOCK * sizeof *to);
         } else {
@@ -293,7 +304,7 @@ static void store_stencil(const DipMergePass *pass, const DipMergeTile *merge, c
             const uint8_t *from = merge->stencil + dip_tile_index(tile, block, s);
             uint8_t *to = depth->stencil + dip_depth_row_index(depth, s, row.y) + row.x;
             for (int x = row.from; x < row.to; x++) {
-                to[x - row.from] = from[in_block(x, y)];
+                to[x - row.from] = from[dip_block_pixel(x, y)];
             }
         }
     }
@@ -308,8 +319,11 @@ void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const 
         if (!dip_block_is_drawn(tile, block)) {
             continue;
         }
-        if (pass->has_colours && a->colour_store == DIP_STORE_KEEP) {
-            store_colours(pass, merge, tile, block);
+        if (pass->resolves) {
+            resolve_colours(pass, merge, tile, block);
+        }
+        if (a->samples && a->colour_store == DIP_STORE_KEEP) {
+            store_samples(pass, merge, tile, block);
         }
         if (a->depth && a->stencil_store == DIP_STORE_KEEP) {
             store_stencil(pass, merge, tile, block);

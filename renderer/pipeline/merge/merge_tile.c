@@ -2,6 +2,7 @@
 #include "renderer/pipeline/merge/merge_tile.h"
 
 #include "renderer/base/pages.h"
+#include "renderer/pipeline/merge/sample_blocks.h"
 
 #include <string.h>
 
@@ -20,13 +21,24 @@ static bool has_ordered_draws(const DipPass *pass) {
     return false;
 }
 
-static bool has_colours(const DipTarget *target) {
+static bool has_target(const DipTarget *target) {
     return target->format == DIP_FORMAT_CALLER || target->rgba8;
+}
+
+// Whether the target receives the means of the samples.
+static bool resolves(const DipPass *pass) {
+    const DipAttachments *a = &pass->attachments;
+    return a->samples ? !a->keep_target
+                      : has_target(&pass->target) && a->colour_store == DIP_STORE_KEEP;
+}
+
+bool dip_pass_has_colours(const DipPass *pass) {
+    return pass->attachments.samples || has_target(&pass->target);
 }
 
 bool dip_pass_is_merged(const DipPass *pass) {
     const DipAttachments *a = &pass->attachments;
-    return pass->target.format != DIP_FORMAT_SRGB8 || !has_colours(&pass->target) ||
+    return pass->target.format != DIP_FORMAT_SRGB8 || !has_target(&pass->target) || a->samples ||
            a->colour_load != DIP_LOAD_CLEAR || a->clear_transparent || a->depth ||
            a->clear_depth > 0.0f || is_set(&pass->viewport) || is_set(&pass->scissor) ||
            has_ordered_draws(pass);
@@ -67,7 +79,8 @@ void dip_merge_pass_begin(DipMergePass *merge, const DipPass *pass) {
     const DipAttachments *a = &pass->attachments;
     const DipFormat format = pass->target.format;
     merge->pass = pass;
-    merge->has_colours = has_colours(&pass->target);
+    merge->has_colours = dip_pass_has_colours(pass);
+    merge->resolves = resolves(pass);
     merge->clamps = format == DIP_FORMAT_SRGB8 || format == DIP_FORMAT_LINEAR8;
     merge->uses_stencil = (a->depth && a->stencil_store == DIP_STORE_KEEP) || tests_stencil(pass);
     merge->starts_from_depth =
@@ -154,13 +167,18 @@ void dip_split(DipTileColours *colours, int sub_block) {
 
 void dip_merge_load_block(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
                           int block) {
+    const DipAttachments *a = &pass->pass->attachments;
     DipTileColours *colours = &merge->colours;
+    colours->ready |= (uint64_t)1 << block;
+    if (a->samples && a->colour_load == DIP_LOAD_KEEP) {
+        dip_samples_load_block(a->samples, tile, block, colours);
+        return;
+    }
     float *to[CHANNELS];
     for (int c = 0; c < CHANNELS; c++) {
         to[c] = colours->channel[c] + dip_tile_index(tile, block, 0);
     }
     dip_load_colours(pass, tile, block, to);
-    colours->ready |= (uint64_t)1 << block;
 }
 
 void dip_merge_clear_ids(DipTile *tile) {

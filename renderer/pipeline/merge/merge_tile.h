@@ -1,7 +1,8 @@
 // A tile of a *merged* pass: a pass that needs the colours of all samples while it draws, because
-// it has ordered draws (pipeline/state.h), starts from earlier colours or depths, keeps its depths,
-// draws without colours, has a viewport or a scissor, or has a target of another format than sRGB
-// bytes. Passes that need none of this are drawn without this memory.
+// it has ordered draws (pipeline/state.h), starts from earlier colours or depths, keeps its depths
+// or the colours of its samples, draws without colours, has a viewport or a scissor, or has a
+// target of another format than sRGB bytes. Passes that need none of this are drawn without this
+// memory.
 #ifndef DIP_RENDERER_PIPELINE_MERGE_MERGE_TILE_H
 #define DIP_RENDERER_PIPELINE_MERGE_MERGE_TILE_H
 
@@ -16,11 +17,12 @@ typedef struct DipMergePass {
     const DipKernels *kernels;
     const DipPass *pass;
     const uint8_t *is_ordered; // one per draw
-    bool has_colours;
-    bool clamps;            // the target's colours stay within 0..1
-    bool uses_stencil;      // a draw tests stencil values, or the pass stores them
-    bool starts_from_depth; // depths are loaded, or cleared to another value than 0
-    DipTargetRegion stored; // pixels of the target that the pass may change
+    bool has_colours;          // draws are shaded
+    bool resolves;             // the target receives the means of the samples
+    bool clamps;               // the target's colours stay within 0..1
+    bool uses_stencil;         // a draw tests stencil values, or the pass stores them
+    bool starts_from_depth;    // depths are loaded, or cleared to another value than 0
+    DipTargetRegion stored;    // pixels of the target that the pass may change
     float clear[4];
     uint32_t clear_rgba8; // in the target's format, if that has 8 bits per channel
     const DipSrgbEncodeTable *srgb;
@@ -40,6 +42,9 @@ typedef struct DipMergeTile {
 // Whether a pass must be drawn as a merged pass.
 bool dip_pass_is_merged(const DipPass *pass);
 
+// Whether a pass draws colours, into samples or a target.
+bool dip_pass_has_colours(const DipPass *pass);
+
 // Fills in everything but `is_ordered`, whose entries must have been set.
 void dip_merge_pass_begin(DipMergePass *merge, const DipPass *pass);
 
@@ -50,7 +55,7 @@ void dip_merge_tile_free(DipMergeTile *merge);
 // Prepares a tile: its depths and stencil values, and no colours yet.
 void dip_merge_begin(const DipMergePass *pass, DipMergeTile *merge, DipTile *tile);
 
-// Gives a block its first colours: those of the target, or the clear colour.
+// Gives a block its first colours: those that the pass keeps, or the clear colour.
 void dip_merge_load_block(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
                           int block);
 

@@ -35,6 +35,12 @@ static inline int dip_block_y(int i) {
     return (i >> 5) * 4 + (i >> 2 & 3);
 }
 
+// Returns the pixel i (0..63) in column x and row y of a block.
+static inline int dip_block_pixel(int x, int y) {
+    return y / DIP_SUB_BLOCK * 32 + x / DIP_SUB_BLOCK * 16 + y % DIP_SUB_BLOCK * 4 +
+           x % DIP_SUB_BLOCK;
+}
+
 typedef struct DipTile {
     int x0; // column and row of the first pixel in the target
     int y0;

@@ -20,10 +20,6 @@ static bool is_set(const void *pointer, const char *field, DipError *err) {
            dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, field, "NULL, accepted a pointer");
 }
 
-static bool has_colours(const DipTarget *target) {
-    return target->format == DIP_FORMAT_CALLER || target->rgba8;
-}
-
 // Returns the bytes of a pixel in the target's memory, or 0 if it has none.
 static size_t pixel_bytes(DipFormat format) {
     static const size_t bytes[DIP_FORMAT_COUNT] = {
@@ -46,13 +42,20 @@ static bool check_memory(const DipTarget *target, DipError *err) {
                          "not aligned, accepted addresses that are multiples of 4");
 }
 
+// Whether a target without pixels is enough for the pass.
+static bool may_lack_pixels(const DipPass *pass) {
+    const DipAttachments *a = &pass->attachments;
+    return a->samples ? a->keep_target : a->depth != NULL;
+}
+
 static bool check_target(const DipPass *pass, int width, int height, DipError *err) {
     const DipTarget *target = &pass->target;
     if (!in_range((int)target->format, 0, DIP_FORMAT_COUNT - 1, "target.format", err)) {
         return false;
     }
-    if (!has_colours(target) && !pass->attachments.depth) {
-        return is_set(NULL, "target.rgba8", err);
+    if (target->format != DIP_FORMAT_CALLER && !may_lack_pixels(pass) &&
+        !is_set(target->rgba8, "target.rgba8", err)) {
+        return false;
     }
     if (target->width != width || target->height != height) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "target.width",
@@ -60,7 +63,8 @@ static bool check_target(const DipPass *pass, int width, int height, DipError *e
                              target->height, width, height);
     }
     if (target->format == DIP_FORMAT_CALLER) {
-        return is_set((const void *)(uintptr_t)target->store, "target.store", err);
+        return (pass->attachments.samples && pass->attachments.keep_target) ||
+               is_set((const void *)(uintptr_t)target->store, "target.store", err);
     }
     return !target->rgba8 || check_memory(target, err);
 }
@@ -150,7 +154,7 @@ bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
         return false;
     }
     for (int d = 0; d < pass->draw_count; d++) {
-        if (!check_draw(&pass->draws[d], has_colours(&pass->target), err)) {
+        if (!check_draw(&pass->draws[d], dip_pass_has_colours(pass), err)) {
             return name_draw(d, err);
         }
     }

@@ -152,7 +152,9 @@ static bool check_target(DipShaderGuard *guard, const DipTarget *target) {
                       "a shader reads a target of %dx%d pixels and rows of %zu bytes",
                       target->width, target->height, target->stride_bytes);
     }
-    return !overlap(target, &guard->pass->target) || guard->pass->target.format == DIP_FORMAT_CALLER
+    const DipPass *pass = guard->pass;
+    return pass->attachments.keep_target || !overlap(target, &pass->target) ||
+                   pass->target.format == DIP_FORMAT_CALLER
                ? true
                : refuse(guard, DIP_ERROR_CONFLICT, "sample_target",
                         "a shader reads the target that the pass draws");

@@ -76,10 +76,36 @@ static bool check_depth(const DipPass *pass, DipError *err) {
                          dip_depth_sample_count(depth), pass->sample_count);
 }
 
+// Checks the samples that outlive the pass.
+static bool check_samples(const DipPass *pass, DipError *err) {
+    const DipSamples *samples = pass->attachments.samples;
+    if (!samples) {
+        return !pass->attachments.keep_target ||
+               dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "attachments.samples",
+                             "NULL, accepted samples if the pass keeps its target");
+    }
+    const int width = dip_samples_width(samples);
+    const int height = dip_samples_height(samples);
+    if (width != pass->target.width || height != pass->target.height) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.samples",
+                             "%dx%d pixels, accepted the target's %dx%d", width, height,
+                             pass->target.width, pass->target.height);
+    }
+    if (dip_samples_sample_count(samples) != pass->sample_count) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.samples",
+                             "%d samples per pixel, accepted the pass's %d",
+                             dip_samples_sample_count(samples), pass->sample_count);
+    }
+    return dip_samples_format(samples) == pass->target.format ||
+           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.samples",
+                         "samples for targets of format %d, accepted the target's format %d",
+                         (int)dip_samples_format(samples), (int)pass->target.format);
+}
+
 bool dip_attachments_check(const DipPass *pass, DipError *err) {
     const DipAttachments *a = &pass->attachments;
     const bool keeps_caller = pass->target.format == DIP_FORMAT_CALLER &&
-                              a->colour_load == DIP_LOAD_KEEP && !pass->target.load;
+                              a->colour_load == DIP_LOAD_KEEP && !a->samples && !pass->target.load;
     if (keeps_caller) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "target.load",
                              "NULL, accepted a function if the pass keeps the target's colours");
@@ -91,11 +117,10 @@ bool dip_attachments_check(const DipPass *pass, DipError *err) {
     return in_range((int)a->colour_load, 0, DIP_LOAD_DISCARD, "attachments.colour_load", err) &&
            in_range((int)a->depth_load, 0, DIP_LOAD_DISCARD, "attachments.depth_load", err) &&
            in_range((int)a->stencil_load, 0, DIP_LOAD_DISCARD, "attachments.stencil_load", err) &&
-           in_range((int)a->colour_store, 0, DIP_STORE_DISCARD, "attachments.colour_store", err) &&
-           in_range((int)a->depth_store, 0, DIP_STORE_DISCARD, "attachments.depth_store", err) &&
-           in_range((int)a->stencil_store, 0, DIP_STORE_DISCARD, "attachments.stencil_store",
-                    err) &&
-           check_depth(pass, err);
+           in_range((int)a->colour_store, 0, DIP_STORE_REVERT, "attachments.colour_store", err) &&
+           in_range((int)a->depth_store, 0, DIP_STORE_REVERT, "attachments.depth_store", err) &&
+           in_range((int)a->stencil_store, 0, DIP_STORE_REVERT, "attachments.stencil_store", err) &&
+           check_depth(pass, err) && check_samples(pass, err);
 }
 
 bool dip_rectangle_check(const DipTargetRegion *rectangle, const DipTarget *target,

@@ -4,9 +4,9 @@
 // within the rounding of their floats.
 //
 //     test_merge [--draws N]    (default 4000; the long run draws 100,000)
+#include "tests/renderer/pipeline/merge_draws.h"
 #include "tests/renderer/pipeline/merge_list.h"
 
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,52 +16,9 @@
 
 #include <cmocka.h>
 
-enum { VERTICES = 3 * MODEL_TRIANGLES };
-
 static int draw_total = 4000;
 
 // --- drawing by the pipeline ---------------------------------------------------------------------
-
-// Positions are pixels of the whole target, exact in floats.
-static void vertex_shader(const DipVertexBatch *batch) {
-    for (int i = 0; i < batch->count; i++) {
-        batch->clip[0][i] = batch->in[0][i] * (2.0f / MODEL_WIDTH) - 1.0f;
-        batch->clip[1][i] = 1.0f - batch->in[1][i] * (2.0f / MODEL_HEIGHT);
-        batch->clip[2][i] = batch->in[2][i];
-        batch->clip[3][i] = 1.0f;
-    }
-}
-
-static void fragment_shader(DipFragmentBatch *batch) {
-    const ModelDraw *draw = batch->uniforms;
-    for (int i = 0; i < batch->count; i++) {
-        const int x = (int)batch->x[i];
-        const int y = (int)batch->y[i];
-        for (int c = 0; c < 3; c++) {
-            batch->colour[c][i] = (float)model_shade(draw, x, y, c);
-        }
-        batch->alpha[i] = (float)model_shade(draw, x, y, 3);
-    }
-}
-
-static void clip_shader(DipFragmentBatch *batch) {
-    for (int i = 0; i < batch->count; i++) {
-        batch->keep[i] = model_keeps((int)batch->x[i], (int)batch->y[i]);
-    }
-}
-
-static DipMesh *make_mesh(const ModelDraw *draw) {
-    float vertices[VERTICES][3];
-    uint32_t indices[VERTICES];
-    for (uint32_t i = 0; i < VERTICES; i++) {
-        vertices[i][0] = (float)draw->triangle[i / 3].x[i % 3] / 256.0f;
-        vertices[i][1] = (float)draw->triangle[i / 3].y[i % 3] / 256.0f;
-        vertices[i][2] = draw->depth[i / 3];
-        indices[i] = i;
-    }
-    const DipMeshData data = {"draw", &vertices[0][0], 3, VERTICES, indices, VERTICES};
-    return dip_mesh_create(&data, NULL);
-}
 
 // What the pipeline has drawn.
 typedef struct Drawn {
@@ -73,18 +30,7 @@ typedef struct Drawn {
 static void draw_pass(DipPipeline *pipeline, const ModelList *list, int p, Drawn *drawn) {
     DipDraw draws[MODEL_DRAWS];
     DipMesh *meshes[MODEL_DRAWS];
-    for (int d = 0; d < MODEL_DRAWS; d++) {
-        const ModelDraw *model = &list->draws[p][d];
-        meshes[d] = make_mesh(model);
-        assert_non_null(meshes[d]);
-        draws[d] = (DipDraw){.mesh = meshes[d],
-                             .vertex_shader = vertex_shader,
-                             .fragment_shader = fragment_shader,
-                             .clip_shader = model->clips ? clip_shader : NULL,
-                             .uniforms = model,
-                             .cull = model->cull,
-                             .state = &model->state};
-    }
+    model_make_draws(list->draws[p], MODEL_DRAWS, draws, meshes);
     const bool floats = list->format == DIP_FORMAT_RGBA32F;
     DipPass pass = {
         .draws = draws,
@@ -116,9 +62,7 @@ static void draw_pass(DipPipeline *pipeline, const ModelList *list, int p, Drawn
     if (!dip_pipeline_draw(pipeline, &pass, &counters, &times, &err)) {
         fail_msg("%s: %s", err.key, err.message);
     }
-    for (int d = 0; d < MODEL_DRAWS; d++) {
-        dip_mesh_destroy(&meshes[d]);
-    }
+    model_free_meshes(meshes, MODEL_DRAWS);
 }
 
 // --- comparing -----------------------------------------------------------------------------------
@@ -127,30 +71,14 @@ static DipTargetRegion stored_of(const DipTargetRegion *scissor) {
     return scissor->x1 ? *scissor : (DipTargetRegion){0, 0, MODEL_WIDTH, MODEL_HEIGHT};
 }
 
-static double encoded(double light) {
-    const double v = light > 0.0 ? fmin(light, 1.0) : 0.0;
-    return 255.0 * (v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1.0 / 2.4) - 0.055);
-}
-
 static void compare_colour(const ModelList *list, const Model *model, const Drawn *drawn, int x,
                            int y) {
     const ModelValue *expected = model->colour[y][x][0];
     for (int c = 0; c < 4; c++) {
         if (list->format == DIP_FORMAT_RGBA32F) {
-            const double found = drawn->floats[y][x][c];
-            // Where nothing clamps, colours may grow beyond the range of floats.
-            const bool known = expected[c].error < 1e30;
-            if (known && !(fabs(found - expected[c].value) <= 1.01 * expected[c].error)) {
-                fail_msg("pixel %d, %d, channel %d: %.9g, expected %.9g within %g", x, y, c, found,
-                         expected[c].value, expected[c].error);
-            }
+            model_assert_float(drawn->floats[y][x][c], expected[c], x, y, c);
         } else {
-            const double code = c < 3 ? encoded(expected[c].value) : 255.0 * expected[c].value;
-            // Near black, a step of 16-bit linear light is a twentieth of a code.
-            if (fabs(drawn->rgba8[y][x][c] - code) > 0.56) {
-                fail_msg("pixel %d, %d, channel %d: code %d, expected %.3f", x, y, c,
-                         drawn->rgba8[y][x][c], code);
-            }
+            model_assert_code(drawn->rgba8[y][x][c], expected[c], x, y, c);
         }
     }
 }
