@@ -2,7 +2,7 @@
 
 TOP=$PWD
 PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libx11-dev libfreetype-dev libfontconfig-dev
-    fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcglm-dev libcjson-dev"
+    fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcjson-dev"
 PACKAGES_TEST="$PACKAGES_RUN g++ git doxygen clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick
     python3"
 # The cost report's page; one machine that acts as several.
