@@ -2,19 +2,29 @@
 #ifndef DIP_APP_FILES_WHOLE_FILE_H
 #define DIP_APP_FILES_WHOLE_FILE_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 
 #include <stddef.h>
 #include <stdio.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // Writes to a temporary file beside `file` and renames it, so that a half-written file never has
 // the final name. On failure, *err has DIP_ERROR_IO, the file's name and the system's reason, and
 // no temporary file is left. Thread-safe for different files.
-bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes, DipError *err);
+DIP_API bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes,
+                                  DipError *err);
 
 // Writes what `print` prints. Fails with DIP_ERROR_MEMORY, too: if memory runs out, or if `print`
 // returns false.
-bool dip_whole_file_print(const char *file, bool (*print)(const void *context, FILE *out),
-                          const void *context, DipError *err);
+DIP_API bool dip_whole_file_print(const char *file, bool (*print)(const void *context, FILE *out),
+                                  const void *context, DipError *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif
