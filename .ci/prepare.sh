@@ -2,9 +2,9 @@
 
 TOP=$PWD
 PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libx11-dev libfreetype-dev libfontconfig-dev
-    fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcglm-dev libcjson-dev"
+    fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcjson-dev"
 PACKAGES_TEST="$PACKAGES_RUN g++ git doxygen clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick
-    python3"
+    python3 python3-cffi dpkg-dev"
 # The cost report's page; one machine that acts as several.
 PACKAGES_LONG="chromium chromium-driver python3-selenium poppler-utils parallel munge slurm-wlm"
 PACKAGES_FUZZ="clang libclang-rt-14-dev llvm" # llvm: names of functions in the findings

@@ -20,6 +20,7 @@
 #ifndef DIP_ASSETS_ANIMATION_H
 #define DIP_ASSETS_ANIMATION_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/texture.h"
 #include "renderer/scene/scene.h"
@@ -116,18 +117,19 @@ typedef struct DipAnimatedModel DipAnimatedModel;
 // OVERSIZED (a file of more than 512 MiB, or a model of more than 1 GiB), RUNTIME, MEMORY.
 //
 // Threads: different models may be loaded at the same time on different threads.
-DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImporter *importer,
-                                          DipErrorList *warnings, DipError *err);
+DIP_API DipAnimatedModel *dip_animated_model_load(const char *file,
+                                                  const struct DipImporter *importer,
+                                                  DipErrorList *warnings, DipError *err);
 
 // Destroys the model and sets the pointer to NULL. Accepts a pointer to NULL. Poses of the model
 // must be destroyed before.
-void dip_animated_model_destroy(DipAnimatedModel **model);
+DIP_API void dip_animated_model_destroy(DipAnimatedModel **model);
 
 // The description belongs to the model.
-const DipAnimatedDef *dip_animated_model_def(const DipAnimatedModel *model);
+DIP_API const DipAnimatedDef *dip_animated_model_def(const DipAnimatedModel *model);
 
 // Returns the index of the animation with this name, or -1.
-int dip_animated_model_find(const DipAnimatedModel *model, const char *animation_name);
+DIP_API int dip_animated_model_find(const DipAnimatedModel *model, const char *animation_name);
 
 // How an object is placed and shaped at the time of a pose.
 typedef struct DipObjectPose {
@@ -149,25 +151,25 @@ typedef struct DipAnimatedPose DipAnimatedPose;
 
 // Makes a pose at 0 s of animation 0, or of the model at rest if it has no animation. The model
 // must outlive the pose. Returns NULL and fills *err with MEMORY on failure.
-DipAnimatedPose *dip_animated_pose_create(const DipAnimatedModel *model, DipError *err);
+DIP_API DipAnimatedPose *dip_animated_pose_create(const DipAnimatedModel *model, DipError *err);
 
 // Destroys the pose and sets the pointer to NULL. Accepts a pointer to NULL.
-void dip_animated_pose_destroy(DipAnimatedPose **pose);
+DIP_API void dip_animated_pose_destroy(DipAnimatedPose **pose);
 
 // Sets the pose to a time of an animation. animation: 0..animation_count - 1; it is ignored if the
 // model has no animation. The animation repeats before 0 s, too. A time that is not finite counts
 // as 0. Allocates nothing. The results have the same bits on every machine.
-void dip_animated_pose_set(DipAnimatedPose *pose, int animation, double time_s);
+DIP_API void dip_animated_pose_set(DipAnimatedPose *pose, int animation, double time_s);
 
 // Returns how an object is posed. object: 0..object_count - 1. The result belongs to the pose and
 // changes with the next dip_animated_pose_set.
-const DipObjectPose *dip_animated_pose_object(const DipAnimatedPose *pose, int object);
+DIP_API const DipObjectPose *dip_animated_pose_object(const DipAnimatedPose *pose, int object);
 
 // Computes the vertices of an object: writes vertex_count positions and unit normals of three
 // floats each, before the object's transform. normals may be NULL. A normal is moved by the joints'
 // matrices themselves, which is right unless a matrix scales differently along its axes.
-void dip_animated_pose_vertices(const DipAnimatedPose *pose, int object, float *positions,
-                                float *normals);
+DIP_API void dip_animated_pose_vertices(const DipAnimatedPose *pose, int object, float *positions,
+                                        float *normals);
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,7 @@
 #ifndef DIP_ASSETS_CAMERAS_H
 #define DIP_ASSETS_CAMERAS_H
 
+#include "renderer/base/api.h"
 #include "assets/model.h"
 #include "renderer/base/error.h"
 
@@ -39,14 +40,14 @@ typedef struct DipModelCameras DipModelCameras;
 // of dip_animated_model_load. Cameras that are skipped are added to *warnings (may be NULL).
 //
 // The file is read in this process, by readers that check every offset, count and index.
-DipModelCameras *dip_model_cameras_load(const char *file, DipUpAxis up, DipErrorList *warnings,
-                                        DipError *err);
+DIP_API DipModelCameras *dip_model_cameras_load(const char *file, DipUpAxis up,
+                                                DipErrorList *warnings, DipError *err);
 
 // Destroys the cameras and sets the pointer to NULL. Accepts a pointer to NULL.
-void dip_model_cameras_destroy(DipModelCameras **cameras);
+DIP_API void dip_model_cameras_destroy(DipModelCameras **cameras);
 
 // Returns the cameras in the order of their nodes; they belong to the list.
-const DipModelCamera *dip_model_cameras_list(const DipModelCameras *cameras, int *count);
+DIP_API const DipModelCamera *dip_model_cameras_list(const DipModelCameras *cameras, int *count);
 
 #ifdef __cplusplus
 }

@@ -14,6 +14,7 @@
 #ifndef DIP_ASSETS_IMPORTER_H
 #define DIP_ASSETS_IMPORTER_H
 
+#include "renderer/base/api.h"
 #include "assets/model.h"
 #include "assets/picture.h"
 
@@ -46,14 +47,14 @@ enum {
 
 // Does the same as dip_picture_read_file (picture.h), but in an importer. NULL: in this process.
 // Further codes are those of dip_model_load_with.
-bool dip_picture_import(const char *path, const DipImporter *importer, DipPicture *picture,
-                        DipError *err);
+DIP_API bool dip_picture_import(const char *path, const DipImporter *importer, DipPicture *picture,
+                                DipError *err);
 
 // Runs the importer in the process that dip_model_load_with has started. count, arguments: the
 // command line after DipImporter.command. Returns the exit code of the process. The function limits
 // the process and closes its files, so the process can do nothing else afterwards. For a command
 // line that dip_model_load_with did not make, it returns DIP_IMPORTER_MISUSED and changes nothing.
-int dip_importer_run(int count, char *const *arguments);
+DIP_API int dip_importer_run(int count, char *const *arguments);
 
 #ifdef __cplusplus
 }

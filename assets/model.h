@@ -28,6 +28,7 @@
 #ifndef DIP_ASSETS_MODEL_H
 #define DIP_ASSETS_MODEL_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
 #include "renderer/scene/scene.h"
@@ -60,12 +61,12 @@ enum { DIP_MAX_MODEL_FILES = 256, DIP_MAX_MATERIAL_RULES = 256, DIP_MAX_LIGHT_SC
 // The files are read in this process. importer.h explains how to read untrusted files safely.
 //
 // This function loads no normal maps, so the materials have none.
-DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
-                         DipErrorList *warnings, DipError *err);
+DIP_API DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
+                                 DipErrorList *warnings, DipError *err);
 
 // Like dip_model_load, but also loads normal maps.
-DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,
-                                      DipErrorList *warnings, DipError *err);
+DIP_API DipModel *dip_model_load_with_normals(const char *const *files, int file_count,
+                                              DipPool *pool, DipErrorList *warnings, DipError *err);
 
 // Which axis of a model file points up, as X(name, "what it means", for the help). Diptych's own +Y
 // is up. docs/models.md lists the rules of `auto`.
@@ -81,7 +82,8 @@ typedef enum DipUpAxis {
         DIP_UP_COUNT
 } DipUpAxis;
 
-extern const char *const dip_up_axis_names[DIP_UP_COUNT]; // "auto", "y", "z"
+// The axes by name: "auto", "y", "z".
+extern DIP_API const char *const dip_up_axis_names[DIP_UP_COUNT];
 
 // What a rule says about the materials whose names fit its pattern. All but LIGHT_MAP say what kind
 // of surface they are, like `surface` in the metadata of a node.
@@ -125,7 +127,8 @@ typedef enum DipModelShading {
         DIP_MODEL_SHADING_COUNT
 } DipModelShading;
 
-extern const char *const dip_model_shading_names[DIP_MODEL_SHADING_COUNT]; // "auto", "flat", ...
+// The kinds of shading by name: "auto", "flat", ...
+extern DIP_API const char *const dip_model_shading_names[DIP_MODEL_SHADING_COUNT];
 
 // Ambient light of a scene with lights, in each channel, unless the options give another. It is the
 // sRGB code 89, about a tenth of white.
@@ -163,23 +166,23 @@ typedef struct DipModelOptions {
 // started), OVERSIZED (the importer needed more memory or time than its limits), UNKNOWN (a rule
 // fits no material; file, line and key are the rule's), and all codes of a light map that a rule
 // names and that cannot be read.
-DipModel *dip_model_load_with(const char *const *files, int file_count,
-                              const DipModelOptions *options, DipPool *pool, DipErrorList *warnings,
-                              DipError *err);
+DIP_API DipModel *dip_model_load_with(const char *const *files, int file_count,
+                                      const DipModelOptions *options, DipPool *pool,
+                                      DipErrorList *warnings, DipError *err);
 
 // Destroys the model and sets the pointer to NULL. Accepts a pointer to NULL.
-void dip_model_destroy(DipModel **model);
+DIP_API void dip_model_destroy(DipModel **model);
 
 // Durations of the parts of a load, in milliseconds.
 typedef struct DipModelTimes {
     double import_ms;   // from model files to meshes and materials
     double pictures_ms; // reading and decoding pictures
 } DipModelTimes;
-DipModelTimes dip_model_times(const DipModel *model);
+DIP_API DipModelTimes dip_model_times(const DipModel *model);
 
 // The description belongs to the model and is valid until the model is destroyed. dip_scene_create
 // copies what it needs.
-const DipSceneDef *dip_model_scene_def(const DipModel *model);
+DIP_API const DipSceneDef *dip_model_scene_def(const DipModel *model);
 
 #ifdef __cplusplus
 }

@@ -17,6 +17,7 @@
 #ifndef DIP_ASSETS_PICTURE_H
 #define DIP_ASSETS_PICTURE_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/texture.h"
 
@@ -42,41 +43,42 @@ typedef struct DipPicture {
 
 // Returns the texels of a level, and its size: half of the size of the level before, rounded down,
 // but at least 1. level: 0..level_count - 1.
-const uint8_t *dip_picture_level(const DipPicture *picture, int level, int *width, int *height);
+DIP_API const uint8_t *dip_picture_level(const DipPicture *picture, int level, int *width,
+                                         int *height);
 
 // Describes every level of the picture as a texture that repeats. `levels` has room for
 // level_count items; DIP_MAX_LEVELS are always enough. They point to the picture's texels and to
 // the name. Returns level_count.
-int dip_picture_levels(const DipPicture *picture, const char *name, DipEncoding encoding,
-                       DipTextureDef *levels);
+DIP_API int dip_picture_levels(const DipPicture *picture, const char *name, DipEncoding encoding,
+                               DipTextureDef *levels);
 
 // Decodes the bytes of a picture file. Messages call the file `name`. Codes: FORMAT, TRUNCATED,
 // RANGE (size), UNSUPPORTED (a variant of DDS or PCX), MEMORY.
-bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
-                        DipPicture *picture, DipError *err);
+DIP_API bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
+                                DipPicture *picture, DipError *err);
 
 // Reads and decodes a file. Code MISSING: there is no such file. Other codes (IO, OVERSIZED, MEMORY
 // and those of dip_picture_decode): the file exists, but it cannot be used.
-bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err);
+DIP_API bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err);
 
 // Copies texels that are stored as b, g, r, a. Codes: RANGE (size), MEMORY.
-bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height, const char *name,
-                           DipPicture *picture, DipError *err);
+DIP_API bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height,
+                                   const char *name, DipPicture *picture, DipError *err);
 
 // Copies the texels of textures, which are the levels of one picture. Codes: FORMAT (the sizes are
 // not those of levels), MEMORY.
-bool dip_picture_copy(const DipTextureDef *levels, int level_count, DipPicture *picture,
-                      DipError *err);
+DIP_API bool dip_picture_copy(const DipTextureDef *levels, int level_count, DipPicture *picture,
+                              DipError *err);
 
 // Makes a new picture from the colours of one picture (NULL: white) and the opacity of another. The
 // opacity is the alpha channel of the opacity picture if it has one, otherwise its brightness. If
 // the sizes differ, the nearest texel of the opacity picture is used. Returns false when memory
 // runs out.
-bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture *opacity,
-                              DipPicture *picture);
+DIP_API bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture *opacity,
+                                      DipPicture *picture);
 
 // Frees the texels and zeroes the picture. Accepts a zeroed picture.
-void dip_picture_free(DipPicture *picture);
+DIP_API void dip_picture_free(DipPicture *picture);
 
 #ifdef __cplusplus
 }

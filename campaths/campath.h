@@ -37,6 +37,7 @@
 #ifndef DIP_CAMPATHS_CAMPATH_H
 #define DIP_CAMPATHS_CAMPATH_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/pose.h"
 
@@ -84,36 +85,36 @@ typedef struct DipCamPathInfo {
 // Creates a path from keys, which must follow the rules of the text format. The keys are copied.
 // The caller owns *path and destroys it with dip_campath_destroy. On failure *path is NULL. Codes:
 // RANGE (count, period or a number), MEMORY.
-bool dip_campath_create(const DipCamKey *keys, size_t key_count, int64_t period_ns,
-                        DipCamPath **path, DipError *err);
+DIP_API bool dip_campath_create(const DipCamKey *keys, size_t key_count, int64_t period_ns,
+                                DipCamPath **path, DipError *err);
 
 // Destroys the path and sets the pointer to NULL. Accepts NULL and a pointer to NULL.
-void dip_campath_destroy(DipCamPath **path);
+DIP_API void dip_campath_destroy(DipCamPath **path);
 
 // Loads either format; the file's content decides which, not its name. The caller owns *path. On
 // failure *path is NULL and *err names the file, the line (text) or byte (binary, in the message),
 // the key, and what is accepted. Codes: IO, FORMAT (not a path file, another version, a malformed
 // line), TYPE (not a number), RANGE, MISSING (header, period or keys), CONFLICT (a second period),
 // TRUNCATED, OVERSIZED, MEMORY.
-bool dip_campath_load(const char *file, DipCamPath **path, DipError *err);
+DIP_API bool dip_campath_load(const char *file, DipCamPath **path, DipError *err);
 
 // Like dip_campath_load, but reads the file's bytes from memory. Messages call the file `name`.
-bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, DipCamPath **path,
-                       DipError *err);
+DIP_API bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name,
+                               DipCamPath **path, DipError *err);
 
 // Each function saves the path in one format and replaces an existing file. If it fails (IO), it
 // removes what it has written.
-bool dip_campath_save_pth(const DipCamPath *path, const char *file, DipError *err);
-bool dip_campath_save_bth(const DipCamPath *path, const char *file, DipError *err);
+DIP_API bool dip_campath_save_pth(const DipCamPath *path, const char *file, DipError *err);
+DIP_API bool dip_campath_save_bth(const DipCamPath *path, const char *file, DipError *err);
 
 // Examines every key. dip_campath_span_ns tells the duration at once.
-DipCamPathInfo dip_campath_info(const DipCamPath *path);
-DipCamKey dip_campath_key(const DipCamPath *path, size_t index); // index < key_count
+DIP_API DipCamPathInfo dip_campath_info(const DipCamPath *path);
+DIP_API DipCamKey dip_campath_key(const DipCamPath *path, size_t index); // index < key_count
 
 // Sets the pose's position and orientation to the path's at a given time. Leaves fov_y_deg
 // unchanged. The time may be negative. It is an integer and is taken modulo the duration, so times
 // one duration apart give the same bits.
-void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose);
+DIP_API void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose);
 
 // What happens at the end of a path, as X(name, "what it means", for the help). A path that is not
 // meant as a loop jumps from its last key to its first within one period; `once` and `back` do not
@@ -130,15 +131,16 @@ typedef enum DipCamPathEnd {
         DIP_CAMPATH_END_COUNT
 } DipCamPathEnd;
 
-extern const char *const dip_campath_end_names[DIP_CAMPATH_END_COUNT]; // "loop", "once", "back"
+// The ends by name: "loop", "once", "back".
+extern DIP_API const char *const dip_campath_end_names[DIP_CAMPATH_END_COUNT];
 
 // Returns the time from 0 to the last key, or to the path's duration for a loop, at which the path
 // has the pose that it shows at time_ns. `once` shows the first key at negative times.
-int64_t dip_campath_time_at_end(const DipCamPath *path, DipCamPathEnd end, int64_t time_ns);
+DIP_API int64_t dip_campath_time_at_end(const DipCamPath *path, DipCamPathEnd end, int64_t time_ns);
 
 // Returns how long the path takes until it repeats itself, or until it stops. A path with a single
 // key that does not loop takes no time.
-int64_t dip_campath_span_ns(const DipCamPath *path, DipCamPathEnd end);
+DIP_API int64_t dip_campath_span_ns(const DipCamPath *path, DipCamPathEnd end);
 
 // An orbit about a model's bounding box: one full turn at constant speed, from +Z over +X. The
 // camera looks at the middle of the box from 15 degrees above the horizon, from the shortest
@@ -153,11 +155,11 @@ typedef struct DipCamOrbitDef {
 
 // Returns an orbit of 20 s about a unit cube at the origin, with a field of view of 50 degrees and
 // an aspect of 4:3.
-DipCamOrbitDef dip_campath_default_orbit(void);
+DIP_API DipCamOrbitDef dip_campath_default_orbit(void);
 
 // Creates the path of an orbit, which the caller owns. On failure *path is NULL. Codes: RANGE (box,
 // fov, aspect or period), MEMORY.
-bool dip_campath_orbit(const DipCamOrbitDef *def, DipCamPath **path, DipError *err);
+DIP_API bool dip_campath_orbit(const DipCamOrbitDef *def, DipCamPath **path, DipError *err);
 
 #ifdef __cplusplus
 }

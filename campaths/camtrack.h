@@ -7,6 +7,7 @@
 #ifndef DIP_CAMPATHS_CAMTRACK_H
 #define DIP_CAMPATHS_CAMTRACK_H
 
+#include "renderer/base/api.h"
 #include "campaths/campath.h"
 #include "renderer/scene/pose.h"
 
@@ -38,39 +39,40 @@ typedef struct DipCamTrack {
 
 // Returns a track without paths. Category 0 is active, the time on the path is the play time, and
 // paths are loops.
-DipCamTrack dip_camtrack_make(bool reset_on_switch);
+DIP_API DipCamTrack dip_camtrack_make(bool reset_on_switch);
 
 // Sets the path and field of view of a category. Categories that play the same path must share the
 // pointer, so that a change between them counts as no change of path.
-void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, double fov_y_deg);
+DIP_API void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path,
+                              double fov_y_deg);
 
 // Does the same for a path that has a name of its own, such as a camera of a model. The name must
 // live as long as the track.
-void dip_camtrack_set_named(DipCamTrack *track, int category, const DipCamPath *path,
-                            double fov_y_deg, const char *name);
+DIP_API void dip_camtrack_set_named(DipCamTrack *track, int category, const DipCamPath *path,
+                                    double fov_y_deg, const char *name);
 
 // Sets what paths do at their end.
-void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end);
+DIP_API void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end);
 
 // Makes a category active at a play time. If this changes the path and reset_on_switch is set, the
 // new path starts at its beginning. Otherwise it continues at the time that the old path had
 // reached, so that a change to another path and back does not affect the time.
-void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns);
+DIP_API void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns);
 
 // Returns the active path to its beginning.
-void dip_camtrack_restart(DipCamTrack *track, int64_t play_ns);
+DIP_API void dip_camtrack_restart(DipCamTrack *track, int64_t play_ns);
 
 // Returns the time on the active path at a play time. It may be negative or beyond the path's
 // duration.
-int64_t dip_camtrack_time(const DipCamTrack *track, int64_t play_ns);
+DIP_API int64_t dip_camtrack_time(const DipCamTrack *track, int64_t play_ns);
 
 // Returns the same time as a time from 0 to the path's end (dip_campath_time_at_end), which is what
 // to show to a user. Without a path, returns 0.
-int64_t dip_camtrack_path_time(const DipCamTrack *track, int64_t play_ns);
+DIP_API int64_t dip_camtrack_path_time(const DipCamTrack *track, int64_t play_ns);
 
 // Fills the whole pose, its field of view included. Returns false and leaves the pose unchanged if
 // neither the active category nor category 0 has a path.
-bool dip_camtrack_pose(const DipCamTrack *track, int64_t play_ns, DipPose *pose);
+DIP_API bool dip_camtrack_pose(const DipCamTrack *track, int64_t play_ns, DipPose *pose);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,4 @@
-# How the renderer's libraries are built and installed.
+# How the libraries for other programs are built and installed.
 #
 # Every library is built twice from the same objects: dip_<name>, static, which the program links,
 # and dip_<name>_shared, which exports only what the public headers mark with DIP_API. A library
@@ -8,10 +8,13 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(DIP_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/diptych)
 
-# dip_add_library(<name> SOURCES <files> [LINKS <names of dip libraries>] [PRIVATE <targets>])
-# makes dip_<name>, dip_<name>_shared and the objects dip_<name>_objects behind both.
+# dip_add_library(<name> SOURCES <files> [LINKS <names of dip libraries>] [PRIVATE <targets>]
+#     [PKG_CONFIG <packages>] [HEADERS <files>])
+# makes dip_<name>, dip_<name>_shared and the objects dip_<name>_objects behind both. PKG_CONFIG:
+# the packages of the PRIVATE targets that pkg_check_modules has made. HEADERS: the public headers;
+# all headers of the folder unless they are given.
 function(dip_add_library name)
-    cmake_parse_arguments(L "" "" "SOURCES;LINKS;PRIVATE" ${ARGN})
+    cmake_parse_arguments(L "" "" "SOURCES;LINKS;PRIVATE;PKG_CONFIG;HEADERS" ${ARGN})
     set(objects dip_${name}_objects)
     add_library(${objects} OBJECT ${L_SOURCES})
     target_link_libraries(${objects} PUBLIC dip_options ${L_PRIVATE})
@@ -20,7 +23,7 @@ function(dip_add_library name)
     foreach(kind "" "_shared")
         set(target dip_${name}${kind})
         target_include_directories(${target} PUBLIC
-            $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${DIP_INCLUDE_DIR}>)
+            $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
         target_link_libraries(${target} PUBLIC $<BUILD_INTERFACE:dip_options> PRIVATE ${L_PRIVATE} m)
         foreach(link IN LISTS L_LINKS)
             target_link_libraries(${target} PUBLIC dip_${link}${kind})
@@ -37,8 +40,34 @@ function(dip_add_library name)
     add_dependencies(installed dip_${name} dip_${name}_shared)
     set_property(TARGET installed APPEND PROPERTY DIP_FILES
         $<TARGET_FILE:dip_${name}> $<TARGET_FILE:dip_${name}_shared>)
-    set_property(GLOBAL APPEND PROPERTY DIP_LIBRARIES ${name})
-    set_property(GLOBAL PROPERTY DIP_LINKS_${name} ${L_LINKS})
+
+    if(NOT L_HEADERS)
+        file(GLOB L_HEADERS CONFIGURE_DEPENDS *.h)
+    endif()
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_SOURCE_DIR}
+        OUTPUT_VARIABLE folder)
+    dip_install_sources(development ${DIP_INCLUDE_DIR}/${folder} ${L_HEADERS})
+    foreach(header IN LISTS L_HEADERS)
+        cmake_path(GET header FILENAME header)
+        set_property(GLOBAL APPEND PROPERTY DIP_HEADERS ${folder}/${header})
+    endforeach()
+    install(TARGETS dip_${name} dip_${name}_shared EXPORT diptych COMPONENT development)
+    dip_install_pkg_config(${name} "-L\${libdir} -ldiptych-${name}" "${L_LINKS}" "${L_PKG_CONFIG}")
+endfunction()
+
+# dip_add_collection(<name> <names of dip libraries>): makes dip_<name> and dip_<name>_shared, which
+# stand for several libraries.
+function(dip_add_collection name)
+    foreach(kind "" "_shared")
+        set(links ${ARGN})
+        list(TRANSFORM links PREPEND dip_)
+        list(TRANSFORM links APPEND "${kind}")
+        add_library(dip_${name}${kind} INTERFACE)
+        target_link_libraries(dip_${name}${kind} INTERFACE ${links})
+        set_target_properties(dip_${name}${kind} PROPERTIES EXPORT_NAME ${name}${kind})
+        install(TARGETS dip_${name}${kind} EXPORT diptych COMPONENT development)
+    endforeach()
+    dip_install_pkg_config(${name} "" "${ARGN}" "")
 endfunction()
 
 # dip_add_objects(<name> <object target>): adds further objects to both forms of dip_<name>.
@@ -47,28 +76,68 @@ function(dip_add_objects name objects)
     target_sources(dip_${name}_shared PRIVATE $<TARGET_OBJECTS:${objects}>)
 endfunction()
 
-# dip_install_libraries(): installs headers, libraries, a CMake package and pkg-config files.
-function(dip_install_libraries)
-    get_property(names GLOBAL PROPERTY DIP_LIBRARIES)
-    # pkg-config files find the other files from their own place, so that an installed copy can be
-    # moved and --prefix may choose its folder.
+# dip_install_sources(<component> <folder> <files>): installs sources. In this tree, a header is
+# included as "renderer/base/error.h". An installed copy includes the installed header
+# <diptych/renderer/base/error.h>, so that it cannot meet a folder renderer/ of another program.
+function(dip_install_sources component folder)
+    install(FILES ${ARGN} DESTINATION ${folder} COMPONENT ${component})
+    set(names "")
+    foreach(file IN LISTS ARGN)
+        cmake_path(GET file FILENAME name)
+        list(APPEND names ${name})
+    endforeach()
+    install(CODE "
+        set(folder [[${folder}]])
+        cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY \"\${CMAKE_INSTALL_PREFIX}\")
+        foreach(name IN ITEMS ${names})
+            set(file \"\$ENV{DESTDIR}\${folder}/\${name}\")
+            file(READ \"\${file}\" text)
+            string(REGEX REPLACE
+                [[#include \"((renderer|campaths|assets|app/files|app/measure)/[^\"]*)\"]]
+                [[#include <diptych/\\1>]] text \"\${text}\")
+            file(WRITE \"\${file}\" \"\${text}\")
+        endforeach()" COMPONENT ${component})
+endfunction()
+
+# dip_install_pkg_config(<name> <linker flags> <names of dip libraries> <packages>): installs the
+# file for pkg-config. It finds the other files from its own place, so that an installed copy can be
+# moved and --prefix may choose its folder.
+function(dip_install_pkg_config name DIP_PC_LIBS links packages)
     file(RELATIVE_PATH DIP_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
     string(REGEX REPLACE "/$" "" DIP_PC_PREFIX ${DIP_PC_PREFIX})
-    foreach(name IN LISTS names)
-        install(TARGETS dip_${name} dip_${name}_shared EXPORT diptych
-            COMPONENT development)
-        file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/renderer/${name}/*.h)
-        install(FILES ${headers} DESTINATION ${DIP_INCLUDE_DIR}/renderer/${name}
-            COMPONENT development)
-        get_property(links GLOBAL PROPERTY DIP_LINKS_${name})
-        list(TRANSFORM links PREPEND diptych- OUTPUT_VARIABLE DIP_PC_REQUIRES)
-        string(REPLACE ";" " " DIP_PC_REQUIRES "${DIP_PC_REQUIRES}")
-        set(DIP_PC_NAME ${name})
-        configure_file(${CMAKE_SOURCE_DIR}/renderer/diptych.pc.in
-            ${CMAKE_BINARY_DIR}/diptych-${name}.pc @ONLY)
-        install(FILES ${CMAKE_BINARY_DIR}/diptych-${name}.pc
-            DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
-    endforeach()
+    list(TRANSFORM links PREPEND diptych-)
+    list(JOIN links " " DIP_PC_REQUIRES)
+    list(JOIN packages " " DIP_PC_REQUIRES_PRIVATE)
+    set(DIP_PC_NAME ${name})
+    configure_file(${CMAKE_SOURCE_DIR}/renderer/diptych.pc.in
+        ${CMAKE_BINARY_DIR}/diptych-${name}.pc @ONLY)
+    install(FILES ${CMAKE_BINARY_DIR}/diptych-${name}.pc
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endfunction()
+
+# dip_install_flat_header(): makes and installs diptych.cdef, which has the declarations of all
+# public headers (flat_header.cmake).
+function(dip_install_flat_header)
+    get_property(headers GLOBAL PROPERTY DIP_HEADERS)
+    list(REMOVE_ITEM headers renderer/base/fp_mode.h) # It only has inline functions.
+    list(TRANSFORM headers PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE files)
+    list(JOIN headers "," headers)
+    set(flat ${CMAKE_BINARY_DIR}/diptych.cdef)
+    set(script ${CMAKE_SOURCE_DIR}/renderer/flat_header.cmake)
+    add_custom_command(OUTPUT ${flat}
+        COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_C_COMPILER} -DSOURCE_DIR=${CMAKE_SOURCE_DIR}
+            -DHEADERS=${headers} -DFOLDER=${CMAKE_BINARY_DIR}/flat_header -DOUTPUT=${flat}
+            -P ${script}
+        DEPENDS ${files} ${script}
+        VERBATIM)
+    add_custom_target(flat_header DEPENDS ${flat})
+    add_dependencies(installed flat_header)
+    set_property(TARGET installed APPEND PROPERTY DIP_FILES ${flat})
+    install(FILES ${flat} DESTINATION ${DIP_INCLUDE_DIR} COMPONENT development)
+endfunction()
+
+# dip_install_package(): installs the CMake package of all libraries.
+function(dip_install_package)
     install(EXPORT diptych NAMESPACE Diptych::
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Diptych COMPONENT development)
     configure_package_config_file(${CMAKE_SOURCE_DIR}/renderer/DiptychConfig.cmake.in

@@ -2,8 +2,13 @@
 #ifndef DIP_APP_FILES_PICTURES_H
 #define DIP_APP_FILES_PICTURES_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/frame.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // A text in a PNG file: what it is, such as "Software", and its content.
 typedef struct DipPngText {
@@ -13,34 +18,39 @@ typedef struct DipPngText {
 
 // Encodes 8-bit RGBA pixels, the top row first, as an RGB PNG in memory; alpha is left out. The
 // caller frees *bytes. Returns false when memory runs out. Thread-safe.
-bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
-                    unsigned char **bytes, size_t *size_bytes);
+DIP_API bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
+                            unsigned char **bytes, size_t *size_bytes);
 
 // Encodes 8-bit indices into a palette of 256 sRGB colours, 3 bytes each, as a PNG in memory. The
 // rows of indices are packed, the top row first. The caller frees *bytes. Returns false when memory
 // runs out. Thread-safe.
-bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int width, int height,
-                            unsigned char **bytes, size_t *size_bytes);
+DIP_API bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int width,
+                                    int height, unsigned char **bytes, size_t *size_bytes);
 
 // Encodes 8-bit RGBA pixels, the top row first, as a JPEG in memory; alpha is left out. `quality`
 // is 1..100; above 90, colour has the full resolution. The caller frees *bytes. Returns false when
 // memory runs out. Thread-safe.
-bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
-                     unsigned char **bytes, size_t *size_bytes);
+DIP_API bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
+                             int quality, unsigned char **bytes, size_t *size_bytes);
 
 // Writes a frame to a file, whole or not at all (whole_file.h). Fails with DIP_ERROR_IO or
 // DIP_ERROR_MEMORY.
-bool dip_png_write(const char *file, const DipFrame *frame, DipError *err);
+DIP_API bool dip_png_write(const char *file, const DipFrame *frame, DipError *err);
 
 // Does the same and inserts texts into the file, before its picture.
-bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const DipPngText *texts,
-                              int count, DipError *err);
+DIP_API bool dip_png_write_with_texts(const char *file, const DipFrame *frame,
+                                      const DipPngText *texts, int count, DipError *err);
 
 // Writes 32-bit floating-point values without loss as PFM ("portable float map"), the whole file or
 // none. `rgb` holds three floats per pixel in packed rows, the top row
 // first. The file has the type PF, the scale -1 (little-endian) and, as the format demands, its
 // rows from the bottom up. Fails with DIP_ERROR_IO or DIP_ERROR_MEMORY. Thread-safe for different
 // files.
-bool dip_pfm_write(const char *file, const float *rgb, int width, int height, DipError *err);
+DIP_API bool dip_pfm_write(const char *file, const float *rgb, int width, int height,
+                           DipError *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

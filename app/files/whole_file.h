@@ -2,23 +2,33 @@
 #ifndef DIP_APP_FILES_WHOLE_FILE_H
 #define DIP_APP_FILES_WHOLE_FILE_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 
 #include <stddef.h>
 #include <stdio.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // Writes to a temporary file beside `file` and renames it, so that a half-written file never has
 // the final name. On failure, *err has DIP_ERROR_IO, the file's name and the system's reason, and
 // no temporary file is left. Thread-safe for different files.
-bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes, DipError *err);
+DIP_API bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes,
+                                  DipError *err);
 
 // Writes to the file what `print` prints, whole or not at all. Fails as dip_whole_file_write does,
 // and with DIP_ERROR_MEMORY if memory runs out or `print` returns false.
-bool dip_whole_file_print(const char *file, bool (*print)(const void *context, FILE *out),
-                          const void *context, DipError *err);
+DIP_API bool dip_whole_file_print(const char *file, bool (*print)(const void *context, FILE *out),
+                                  const void *context, DipError *err);
 
 // Makes the folder and its missing parents. Fails with DIP_ERROR_OVERSIZED or DIP_ERROR_IO;
 // `option` names the option at fault in the message. Thread-safe.
-bool dip_folder_make(const char *folder, const char *option, DipError *err);
+DIP_API bool dip_folder_make(const char *folder, const char *option, DipError *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

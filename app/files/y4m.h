@@ -9,8 +9,14 @@
 #ifndef DIP_APP_FILES_Y4M_H
 #define DIP_APP_FILES_Y4M_H
 
+#include "renderer/base/api.h"
+
 #include <stddef.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // A frame rate as an exact ratio: `frames` frames in `seconds` seconds, both at least 1.
 typedef struct DipFrameRate {
@@ -19,16 +25,21 @@ typedef struct DipFrameRate {
 } DipFrameRate;
 
 // Returns the same rate with the smallest numbers.
-DipFrameRate dip_frame_rate_reduce(DipFrameRate rate);
+DIP_API DipFrameRate dip_frame_rate_reduce(DipFrameRate rate);
 
 enum { DIP_Y4M_HEADER_SIZE = 160 }; // Bytes that dip_y4m_header writes at most.
 
 // Writes the stream's header with its line feed and a final 0. Returns its length without the 0.
-size_t dip_y4m_header(int width, int height, DipFrameRate rate, char header[DIP_Y4M_HEADER_SIZE]);
+DIP_API size_t dip_y4m_header(int width, int height, DipFrameRate rate,
+                              char header[DIP_Y4M_HEADER_SIZE]);
 
 // Converts packed RGB pixels of 3 bytes each to the planes Y, Cb and Cr, `count` bytes each, one
 // plane after the other. Every value is the exact result rounded to the nearest integer; a half is
 // rounded up. Thread-safe.
-void dip_y4m_planes(const uint8_t *rgb, size_t count, uint8_t *planes);
+DIP_API void dip_y4m_planes(const uint8_t *rgb, size_t count, uint8_t *planes);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

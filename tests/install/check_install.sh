@@ -1,34 +1,25 @@
 #!/bin/sh
 # Installs a build into a new folder and uses the installed copy from outside this tree. The
-# installed program must draw. The examples must build by the documented commands, linked
-# dynamically and statically. Every installed header must compile alone, every function that a
-# header declares must be exported, and every link of an installed page must lead to a file.
+# installed program must draw. The installed examples, the program in docs/pipeline.md and a program
+# in C++ must build by the documented commands, linked dynamically and statically, and every link of
+# an installed page must lead to a file.
 #
 # Usage: check_install.sh SOURCE_DIR BUILD_DIR COMPILER CXX_COMPILER
 set -eu
 source=$1 build=$2 compiler=$3 cxx=$4
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-prefix=$folder/prefix
+. "$source/tests/install/installed.sh"
+examples=$prefix/share/doc/diptych/renderer/example
+warnings="-Wall -Wextra -Wpedantic -Werror"
 
-fail() {
-    echo "$*"
-    exit 1
-}
 draws() { # PROGRAM FRAGMENTS
     [ "$("$1" "$folder/picture.ppm")" = "$2 fragments shaded" ] || fail "$1 draws something else"
 }
-# documented PAGE START: prints the line of a page that begins with START, for this installed copy.
-documented() {
-    line=$(grep -F -- "$2" "$source/docs/$1" | grep "^$2" | head -1)
-    [ -n "$line" ] || fail "docs/$1 has no line that begins with: $2"
-    echo "$line" | sed "s|build/release|$build|g; s|\<DIR\>|$prefix|g"
+# build_project FOLDER: builds a CMake project against the installed copy.
+build_project() {
+    run_quietly "the project $1 cannot be configured" cmake -S "$1" -B "$1/build" \
+        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$compiler" -DCMAKE_CXX_COMPILER="$cxx"
+    run_quietly "the project $1 does not build" cmake --build "$1/build"
 }
-
-# The files move after they are installed: nothing in them may name the folder.
-eval "$(documented install.md 'cmake --install')" >"$folder/log" || { cat "$folder/log"; exit 1; }
-mv "$prefix" "$folder/moved"
-prefix=$folder/moved
 
 # The program must draw. The files that its help and its messages name must be installed.
 "$prefix/bin/diptych" dump --hash --frames 0:1 | grep -q '^0000 current ' ||
@@ -39,11 +30,8 @@ for file in share/doc/diptych/README.md share/doc/diptych/docs/config.md \
 done
 
 # The CMake package. The examples' folder is a project of its own.
-cp -r "$source/renderer/example" "$folder/example"
-cmake -S "$folder/example" -B "$folder/example/build" -DCMAKE_PREFIX_PATH="$prefix" \
-    -DCMAKE_C_COMPILER="$compiler" >"$folder/log" 2>&1 &&
-    cmake --build "$folder/example/build" >>"$folder/log" 2>&1 ||
-    { cat "$folder/log"; fail "the examples do not build with the CMake package"; }
+cp -r "$examples" "$folder/example"
+build_project "$folder/example"
 draws "$folder/example/build/dip_example_triangle" 23224
 draws "$folder/example/build/dip_example_textured" 49148
 [ "$("$folder/example/build/dip_example_compare" aa=none aa=4,af=16 "$folder/picture.ppm")" = \
@@ -51,7 +39,7 @@ draws "$folder/example/build/dip_example_textured" 49148
 
 # The documented lines of CMake.
 mkdir "$folder/cmake"
-cp "$source/renderer/example/triangle.c" "$folder/cmake"
+cp "$examples/triangle.c" "$folder/cmake"
 {
     echo 'cmake_minimum_required(VERSION 3.25)'
     echo 'project(documented LANGUAGES C)'
@@ -59,20 +47,41 @@ cp "$source/renderer/example/triangle.c" "$folder/cmake"
     echo 'add_executable(my_program triangle.c)'
     documented libraries.md 'target_link_libraries(my_program'
 } >"$folder/cmake/CMakeLists.txt"
-cmake -S "$folder/cmake" -B "$folder/cmake/build" -DCMAKE_PREFIX_PATH="$prefix" \
-    -DCMAKE_C_COMPILER="$compiler" >"$folder/log" 2>&1 &&
-    cmake --build "$folder/cmake/build" >>"$folder/log" 2>&1 ||
-    { cat "$folder/log"; fail "the documented lines of CMake do not work"; }
+build_project "$folder/cmake"
 draws "$folder/cmake/build/my_program" 23224
 sed -i 's/COMPONENTS pipeline/COMPONENTS pipelines/' "$folder/cmake/CMakeLists.txt"
 ! cmake -S "$folder/cmake" -B "$folder/cmake/wrong" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$compiler" >"$folder/log" 2>&1 || fail "an unknown component is accepted"
 
+# A program in C++ with models, camera paths, scenes and metrics: static, then shared. The measuring
+# example: static.
+mkdir "$folder/model"
+cp "$source/tests/install/model.cpp" "$prefix/share/doc/diptych/app/measure/example/two_ways.c" \
+    "$folder/model"
+cat >"$folder/model/CMakeLists.txt" <<'TEXT'
+cmake_minimum_required(VERSION 3.25)
+project(model LANGUAGES C CXX)
+find_package(Diptych REQUIRED COMPONENTS assets campaths measure)
+foreach(kind "" "_shared")
+    add_executable(model${kind} model.cpp)
+    target_compile_features(model${kind} PRIVATE cxx_std_17)
+    target_link_libraries(model${kind} PRIVATE
+        Diptych::assets${kind} Diptych::campaths${kind} Diptych::measure${kind})
+endforeach()
+add_executable(two_ways two_ways.c)
+target_link_libraries(two_ways PRIVATE Diptych::measure m)
+TEXT
+build_project "$folder/model"
+for program in model model_shared; do
+    "$folder/model/build/$program" "$prefix/share/diptych" || fail "$program fails"
+done
+"$folder/model/build/two_ways" >"$folder/log" || fail "two_ways fails"
+
 # The documented commands for pkg-config: shared, then static. `cc` is the compiler of this build.
 mkdir "$folder/pkg" "$folder/bin"
-printf '#!/bin/sh\nexec "%s" "$@"\n' "$compiler" >"$folder/bin/cc"
+printf '#!/bin/sh\nexec "%s" "$@"\n' "$(command -v "$compiler")" >"$folder/bin/cc"
 chmod +x "$folder/bin/cc"
-cp "$source/renderer/example/triangle.c" "$folder/pkg"
+cp "$examples/triangle.c" "$folder/pkg"
 (
     cd "$folder/pkg"
     PATH=$folder/bin:$PATH
@@ -85,7 +94,7 @@ cp "$source/renderer/example/triangle.c" "$folder/pkg"
         fail "the shared library's name lacks its minor version"
     # Libraries of other minor versions do not replace these, and a program can tell its library's.
     cat >version.c <<'TEXT'
-#include "renderer/base/version.h"
+#include <diptych/renderer/base/version.h>
 #include <stdio.h>
 int main(void) {
     puts(dip_version());
@@ -96,33 +105,34 @@ TEXT
     [ "$(./version)" = "$(pkg-config --modversion diptych-base)" ] ||
         fail "dip_version and pkg-config differ"
     # C++.
-    "$cxx" -std=c++17 -Wall -Wextra -Werror "$source/tests/install/scene.cpp" -o scene \
+    "$cxx" -std=c++17 $warnings "$source/tests/install/scene.cpp" -o scene \
         $(pkg-config --cflags --libs diptych-scene)
     ./scene
+    # Models, camera paths and metrics.
+    "$cxx" -std=c++17 $warnings "$source/tests/install/model.cpp" -o model \
+        $(pkg-config --cflags --libs diptych-assets diptych-campaths diptych-measure)
+    ./model "$prefix/share/diptych"
+
+    # The first block of C in the guide is a whole program. It must also build beside folders whose
+    # headers have the same names as those of this tree.
+    awk '/^```c$/ { inside = 1; next } /^```$/ && inside { exit } inside' \
+        "$prefix/share/doc/diptych/docs/pipeline.md" >first.c
+    mkdir -p renderer/base renderer/pipeline
+    echo '#error "This is the header of another program."' >renderer/base/error.h
+    cp renderer/base/error.h renderer/pipeline/pipeline.h
+    cc -std=c17 $warnings -I. -c first.c -o first.o $(pkg-config --cflags diptych-pipeline)
+    eval "$(documented pipeline.md 'cc first.c')" >first.txt
+    [ "$(cat first.txt)" = "37015 fragments shaded" ] || fail "the guide's first program: $(cat first.txt)"
+    [ "$(od -A n -t x1 -N 24 first.png | tr -d ' \n')" = \
+        89504e470d0a1a0a0000000d4948445200000140000000f0 ] ||
+        fail "the guide's first program writes no PNG of 320x240 pixels"
+
+    # The gallery's sources build against the installed headers and need only exported functions.
+    gallery=$prefix/share/doc/diptych/app/gallery
+    cc -std=c17 -D_POSIX_C_SOURCE=200809L $warnings -shared -fPIC -Wl,-z,defs -o gallery.so \
+        -I"$prefix/share/doc/diptych" "$gallery"/*.c "$gallery"/*/*.c \
+        $(pkg-config --cflags --libs diptych-assets diptych-scene diptych-shapes) -lm
 )
-
-# Each header alone: in strict C without any definition, and in C++ with assertions.
-include=$prefix/include/diptych
-(cd "$include" && find . -name '*.h' | sed 's|^\./||' | sort) >"$folder/headers"
-[ "$(wc -l <"$folder/headers")" -gt 30 ] || fail "there are few headers"
-while read -r header; do
-    printf "#include \"%s\"\nextern int unused;\n" "$header" >"$folder/header.c"
-    cp "$folder/header.c" "$folder/header.cpp"
-    "$compiler" -std=c17 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$include" \
-        "$folder/header.c" || fail "$header does not compile in C17"
-    "$cxx" -std=c++17 -Wall -Wextra -Wpedantic -Werror -DDIP_ASSERTS=1 -fsyntax-only \
-        -I"$include" "$folder/header.cpp" || fail "$header does not compile in C++ with assertions"
-done <"$folder/headers"
-
-# Every function that a header declares is exported by a shared library.
-nm -D --defined-only "$prefix"/lib*/libdiptych-*.so "$prefix"/lib/*/libdiptych-*.so 2>/dev/null |
-    awk 'NF == 3 { print $3 }' | sort -u >"$folder/exported"
-(cd "$include" && xargs cat <"$folder/headers") | grep -E '^[A-Za-z].*\<dip_[a-z0-9_]+\(' |
-    grep -vE '^(static|typedef|VEC_INLINE)' | sed -E 's/.*\<(dip_[a-z0-9_]+)\(.*/\1/' | sort -u \
-    >"$folder/declared"
-[ "$(wc -l <"$folder/declared")" -gt 100 ] || fail "few functions were found in the headers"
-hidden=$(comm -13 "$folder/exported" "$folder/declared")
-[ -z "$hidden" ] || fail "these functions are declared but not exported: $hidden"
 
 # Links of installed pages.
 pages=$prefix/share/doc/diptych
@@ -133,3 +143,8 @@ pages=$prefix/share/doc/diptych
     done || true
 done >"$folder/dead"
 [ ! -s "$folder/dead" ] || { cat "$folder/dead"; fail "these links of installed pages are dead"; }
+
+# Every command of the libraries' page was run.
+awk '/^```/ { inside = $0 == "```" && !inside; next } inside' "$source/docs/libraries.md" |
+    grep -vxF -f "$folder/documented" | grep -v '^python3 ' >"$folder/left" || true
+[ ! -s "$folder/left" ] || { cat "$folder/left"; fail "these lines of docs/libraries.md were not run"; }

@@ -1,6 +1,6 @@
 // Draws a scene of one triangle from C++ with the installed libraries, with two settings.
-#include "renderer/scene/renderer.h"
-#include "renderer/scene/scene.h"
+#include <diptych/renderer/scene/renderer.h>
+#include <diptych/renderer/scene/scene.h>
 
 #include <cstdio>
 

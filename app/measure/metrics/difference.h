@@ -9,18 +9,25 @@
 #ifndef DIP_APP_MEASURE_METRICS_DIFFERENCE_H
 #define DIP_APP_MEASURE_METRICS_DIFFERENCE_H
 
+#include "renderer/base/api.h"
 #include "app/measure/metrics/picture.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // Writes test - truth in linear light, 3 values per pixel in -1..1. truth_lin has 3 values per
 // pixel in 0..1.
-void dip_difference_lin(const DipSrgbPicture *test, const float *truth_lin, float *error_lin);
+DIP_API void dip_difference_lin(const DipSrgbPicture *test, const float *truth_lin,
+                                float *error_lin);
 
 // Writes for each pixel the mean of the squared linear differences of its three channels. `map` may
 // be the same array as `error_lin`.
-void dip_difference_squared_map(const float *error_lin, size_t pixel_count, float *map);
+DIP_API void dip_difference_squared_map(const float *error_lin, size_t pixel_count, float *map);
 
 // Writes for each pixel the mean of the squared code differences of its three channels, 0..65025.
-void dip_difference_codes_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map);
+DIP_API void dip_difference_codes_map(const DipSrgbPicture *test, const DipSrgbPicture *truth,
+                                      float *map);
 
 // The sum of a map over some pixels, and the number of these pixels. Sums of several pictures can
 // be added; the mean of the total is the mean over all their pixels.
@@ -32,10 +39,15 @@ typedef struct DipMapSum {
 // Adds the next pixels of a map that `mask` selects to a sum, with the same result as if all pixels
 // were added at once. Values that are not a number (SSIM near the border) are skipped and not
 // counted.
-void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count, DipPixelMask mask);
+DIP_API void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count,
+                             DipPixelMask mask);
 
 // Returns the peak signal-to-noise ratio in decibels: 10 log10(255^2 / mean_squared_codes). It is
 // infinite if mean_squared_codes is 0.
-double dip_psnr_db(double mean_squared_codes);
+DIP_API double dip_psnr_db(double mean_squared_codes);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -9,8 +9,14 @@
 #ifndef DIP_APP_MEASURE_METRICS_FLICKER_H
 #define DIP_APP_MEASURE_METRICS_FLICKER_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
 #include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // Running sums over a burst of successive frames. Owns its arrays. Use one per thread.
 typedef struct DipFlicker {
@@ -26,15 +32,15 @@ typedef struct DipFlicker {
 
 // value_count is the number of pixels times the number of channels. Returns false when memory runs
 // out; *flicker then owns nothing.
-bool dip_flicker_init(DipFlicker *flicker, size_t value_count);
-void dip_flicker_free(DipFlicker *flicker);
+DIP_API bool dip_flicker_init(DipFlicker *flicker, size_t value_count);
+DIP_API void dip_flicker_free(DipFlicker *flicker);
 
 // Begins a new burst.
-void dip_flicker_restart(DipFlicker *flicker);
+DIP_API void dip_flicker_restart(DipFlicker *flicker);
 
 // Adds the next values of a frame, as dip_difference_lin writes them. A frame may come in parts; it
 // ends with its value number value_count.
-void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count);
+DIP_API void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count);
 
 // Mean squares over all values of the burst. A single frame has no previous frame, so its
 // squared_step and squared_two_mean are 0.
@@ -46,6 +52,10 @@ typedef struct DipFlickerResult {
     double squared_two_mean;
 } DipFlickerResult;
 
-DipFlickerResult dip_flicker_result(const DipFlicker *flicker);
+DIP_API DipFlickerResult dip_flicker_result(const DipFlicker *flicker);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -9,9 +9,14 @@
 #ifndef DIP_APP_MEASURE_METRICS_FLIP_H
 #define DIP_APP_MEASURE_METRICS_FLIP_H
 
+#include "renderer/base/api.h"
 #include "app/measure/metrics/picture.h"
 
 #include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // The default is for a screen that is 0.7 m and 3840 pixels wide, seen from a distance of 0.7 m.
 #define DIP_FLIP_PIXELS_PER_DEGREE     67.0206451
@@ -38,26 +43,31 @@ typedef struct DipFlipAnalysis {
 
 // pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions
 // return false when memory runs out. Even then, the caller must free the object.
-bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree);
-bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
-void dip_flip_free(DipFlip *flip);
-void dip_flip_analysis_free(DipFlipAnalysis *analysis);
+DIP_API bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree);
+DIP_API bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
+DIP_API void dip_flip_free(DipFlip *flip);
+DIP_API void dip_flip_analysis_free(DipFlipAnalysis *analysis);
 
 // Analyses a picture, which must have the size that dip_flip_init received, or a block of it.
-void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnalysis *analysis);
-void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
-                            DipFlipAnalysis *analysis);
+DIP_API void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture,
+                              DipFlipAnalysis *analysis);
+DIP_API void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                                    DipFlipAnalysis *analysis);
 
 // Compares a picture, or a block of it, with a picture that was analysed. Writes the FLIP value of
 // each pixel to `map`, which has width * height values; the value is 0 where the pictures look the
 // same. Exchanging the pictures does not change the values.
-void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFlipAnalysis *with,
-                      float *map);
-void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
-                            const DipFlipAnalysis *with, float *map);
+DIP_API void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture,
+                              const DipFlipAnalysis *with, float *map);
+DIP_API void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
+                                    const DipFlipAnalysis *with, float *map);
 
 // Writes the sRGB colour in which maps show a FLIP value in 0..1: from black over purple and orange
 // to light yellow. Values outside 0..1 are clamped. Thread-safe.
-void dip_magma(float error, uint8_t rgb[3]);
+DIP_API void dip_magma(float error, uint8_t rgb[3]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -4,8 +4,14 @@
 #ifndef DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
 #define DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // Side of the blocks among which the worst one is found, in pixels.
 enum { DIP_FLIP_TAIL_BLOCK = 32 };
@@ -36,19 +42,23 @@ typedef struct DipFlipTailMeter {
 } DipFlipTailMeter;
 
 // Returns false when memory runs out. Even then, the caller must free the meter.
-bool dip_flip_tail_init(DipFlipTailMeter *meter);
-void dip_flip_tail_free(DipFlipTailMeter *meter);
+DIP_API bool dip_flip_tail_init(DipFlipTailMeter *meter);
+DIP_API void dip_flip_tail_free(DipFlipTailMeter *meter);
 
 // Begins a burst.
-void dip_flip_tail_restart(DipFlipTailMeter *meter);
+DIP_API void dip_flip_tail_restart(DipFlipTailMeter *meter);
 
 // Adds a picture: width * height FLIP values in 0..1. The picture is divided into blocks of 32 x 32
 // pixels from the top left on. The last block of a row or a column ends at the edge of the picture,
 // so it may overlap with the one before. A picture that is smaller than a block is one block.
-void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int height);
+DIP_API void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int height);
 
 // Returns the distribution of everything added since the burst began, and the worst block. Of equal
 // blocks, it returns the first one.
-DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter);
+DIP_API DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -4,11 +4,16 @@
 #ifndef DIP_APP_MEASURE_METRICS_METER_H
 #define DIP_APP_MEASURE_METRICS_METER_H
 
+#include "renderer/base/api.h"
 #include "app/measure/metrics/difference.h"
 #include "app/measure/metrics/flicker.h"
 #include "app/measure/metrics/flip.h"
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // Says how far stepwise work has come.
 typedef enum DipStep {
@@ -58,32 +63,36 @@ typedef struct DipMeter {
 } DipMeter;
 
 // Returns false when memory runs out; *meter then owns nothing.
-bool dip_meter_init(DipMeter *meter, DipMeterKind kind, int width, int height,
-                    double pixels_per_degree);
-void dip_meter_free(DipMeter *meter);
+DIP_API bool dip_meter_init(DipMeter *meter, DipMeterKind kind, int width, int height,
+                            double pixels_per_degree);
+DIP_API void dip_meter_free(DipMeter *meter);
 
 // Begins a burst, a series of successive frames (flicker.h). A new meter has begun its first burst.
-void dip_meter_begin_burst(DipMeter *meter);
+DIP_API void dip_meter_begin_burst(DipMeter *meter);
 
 // Sets the standard of the next pictures. A standard that the meter has to analyse is analysed
 // once, with the first of these pictures.
-void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard);
+DIP_API void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard);
 
 // Begins the next picture of the burst. Forgets a picture whose last step was not taken. If the
 // caller has more precise values than the 8-bit codes of `test`, test_lin is the picture in linear
 // light; otherwise it is NULL. Picture and standard are borrowed until the last step.
-void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin);
+DIP_API void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin);
 
 // Measures a block or a band of the picture. The values are to the bit those of the whole picture.
 // Returns DONE after the last one, and FAILED when memory runs out.
-DipStep dip_meter_step(DipMeter *meter);
+DIP_API DipStep dip_meter_step(DipMeter *meter);
 
 // Sets the standard, begins a picture, steps to its end and adds its sums to *sums. Returns false
 // when memory runs out.
-bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
-                   const DipMeterStandard *standard, DipMetricSums *sums);
+DIP_API bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
+                           const DipMeterStandard *standard, DipMetricSums *sums);
 
 // Ends the burst and adds its flicker to *sums. A single picture is a burst of one frame.
-void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums);
+DIP_API void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -6,13 +6,19 @@
 #ifndef DIP_APP_MEASURE_METRICS_METRICS_H
 #define DIP_APP_MEASURE_METRICS_METRICS_H
 
+#include "renderer/base/api.h"
 #include "renderer/reference/seen.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // Region 0 is the whole picture. Region 1 + c holds the pixels of class c (DipSeen: what a pixel
 // shows).
 enum { DIP_METRIC_REGION_COUNT = 1 + DIP_SEEN_COUNT };
 
-extern const char *const dip_metric_region_names[DIP_METRIC_REGION_COUNT]; // "all", "edges", ...
+// The regions by name: "all", "edges", ...
+extern DIP_API const char *const dip_metric_region_names[DIP_METRIC_REGION_COUNT];
 
 // Sums over the pixels of one region. A squared difference is a mean over the three channels.
 typedef struct DipMetricRegionSums {
@@ -39,7 +45,7 @@ typedef struct DipMetricSums {
 
 enum { DIP_METRIC_SUM_COUNT = sizeof(DipMetricSums) / sizeof(double) };
 
-void dip_metric_sums_add(DipMetricSums *to, const DipMetricSums *sums);
+DIP_API void dip_metric_sums_add(DipMetricSums *to, const DipMetricSums *sums);
 
 // Metrics of one region. A region without pixels has rmse_lin 0, flip 0, ssim 1 and an infinite
 // psnr_db.
@@ -50,7 +56,7 @@ typedef struct DipMetrics {
     double flip;     // Mean FLIP, 0..1.
 } DipMetrics;
 
-DipMetrics dip_metrics_of(const DipMetricSums *sums, int region);
+DIP_API DipMetrics dip_metrics_of(const DipMetricSums *sums, int region);
 
 // Flicker metrics: root mean squares in linear light over all bursts; see flicker.h.
 typedef struct DipFlickerMetrics {
@@ -60,6 +66,10 @@ typedef struct DipFlickerMetrics {
     double two_mean; // Error of the mean of two successive frames.
 } DipFlickerMetrics;
 
-DipFlickerMetrics dip_flicker_metrics_of(const DipMetricSums *sums);
+DIP_API DipFlickerMetrics dip_flicker_metrics_of(const DipMetricSums *sums);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

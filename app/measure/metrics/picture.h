@@ -3,8 +3,14 @@
 #ifndef DIP_APP_MEASURE_METRICS_PICTURE_H
 #define DIP_APP_MEASURE_METRICS_PICTURE_H
 
+#include "renderer/base/api.h"
+
 #include <stddef.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // A view of a picture in 8-bit sRGB. A code is the 8-bit value of one channel. A pixel has four
 // bytes: the codes of red, green and blue, and a fourth byte that no metric reads. The top row
@@ -28,14 +34,14 @@ typedef struct DipPixelRect {
 // row by row. The picture's border cuts off the last block of a row and of a column.
 enum { DIP_PICTURE_BLOCK = 96 }; // Side, pixels.
 
-int dip_picture_block_count(int width, int height);
-DipPixelRect dip_picture_block(int width, int height, int block);
+DIP_API int dip_picture_block_count(int width, int height);
+DIP_API DipPixelRect dip_picture_block(int width, int height, int block);
 
 // Returns the block and the pixels around it up to a distance of margin_px, within the picture.
-DipPixelRect dip_picture_block_with_margin(int width, int height, int block, int margin_px);
+DIP_API DipPixelRect dip_picture_block_with_margin(int width, int height, int block, int margin_px);
 
 // Returns the part of a picture that lies within a rectangle.
-DipSrgbPicture dip_picture_part(const DipSrgbPicture *picture, const DipPixelRect *rect);
+DIP_API DipSrgbPicture dip_picture_part(const DipSrgbPicture *picture, const DipPixelRect *rect);
 
 // Selects the pixels whose class equals `wanted`, or all pixels if `classes` is NULL. `classes`
 // holds one byte per pixel, rows packed, and is borrowed.
@@ -43,5 +49,9 @@ typedef struct DipPixelMask {
     const uint8_t *classes;
     uint8_t wanted;
 } DipPixelMask;
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

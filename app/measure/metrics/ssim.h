@@ -7,15 +7,24 @@
 #ifndef DIP_APP_MEASURE_METRICS_SSIM_H
 #define DIP_APP_MEASURE_METRICS_SSIM_H
 
+#include "renderer/base/api.h"
 #include "app/measure/metrics/picture.h"
 
 #include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum { DIP_SSIM_RADIUS = 5 }; // Pixels.
 
 // Writes for each pixel the similarity of two windows around the pixel, one in each picture. A
 // similarity is at most 1. Pixels within DIP_SSIM_RADIUS of the border get not-a-number. Both
 // pictures must have the same size. Returns false when memory runs out. Thread-safe.
-bool dip_ssim_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map);
+DIP_API bool dip_ssim_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -7,6 +7,7 @@
 #ifndef DIP_APP_MEASURE_METRICS_TRUTH_H
 #define DIP_APP_MEASURE_METRICS_TRUTH_H
 
+#include "renderer/base/api.h"
 #include "app/measure/metrics/meter.h"
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
@@ -14,6 +15,10 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 struct DipReference; // renderer/reference/reference.h
 
@@ -68,49 +73,53 @@ typedef struct DipTruthJob DipTruthJob;
 // takes a few milliseconds. It goes on if the truth cannot be written, and does not write it if the
 // folder is full (holds truths of more than 1 GiB). Other jobs draw many tiles per step on the
 // pool; if `pool` is NULL, the calling thread draws alone.
-DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, DipPool *pool,
-                                  bool live, DipError *err);
-void dip_truth_job_destroy(DipTruthJob **job);
+DIP_API DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, DipPool *pool,
+                                          bool live, DipError *err);
+DIP_API void dip_truth_job_destroy(DipTruthJob **job);
 
 // Returns RESULT when a truth is complete, and DONE after the last one, which is then in the cache.
 // Fails with MEMORY, with what the def's function fails with, or with IO if the file cannot be
 // written.
-DipStep dip_truth_job_step(DipTruthJob *job, DipError *err);
+DIP_API DipStep dip_truth_job_step(DipTruthJob *job, DipError *err);
 
 // Returns the finest complete truth. Returns NULL if there is none, or if the last step has begun
 // to put the next one together. Only the truth of the last level has a floor of all metrics and
 // regions; the floors of the others have only the squared differences of the whole picture. The
 // truth is valid until the next step.
-const DipTruth *dip_truth_job_truth(const DipTruthJob *job);
+DIP_API const DipTruth *dip_truth_job_truth(const DipTruthJob *job);
 
 // Returns how much of the next truth is drawn, from 0 to 1. *samples: its samples per pixel, both
 // halves together; 0 if no other follows.
-double dip_truth_job_drawn(const DipTruthJob *job, int *samples);
+DIP_API double dip_truth_job_drawn(const DipTruthJob *job, int *samples);
 
 // Receives how much of the picture is done, 0..1. Returns false to stop the work.
 typedef bool DipTruthProgress(void *context, double done);
 
 // Runs a job that is not live to its end. Fails as its steps do, and with RUNTIME if `progress`
 // stopped the work; *truth is then empty. progress may be NULL.
-bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, DipPool *pool,
-                   DipTruthProgress *progress, void *context, DipError *err);
-void dip_truth_free(DipTruth *truth);
+DIP_API bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache,
+                           DipPool *pool, DipTruthProgress *progress, void *context, DipError *err);
+DIP_API void dip_truth_free(DipTruth *truth);
 
 // Returns the truth as a standard for a meter, without an analysis.
-DipMeterStandard dip_truth_standard(const DipTruth *truth);
+DIP_API DipMeterStandard dip_truth_standard(const DipTruth *truth);
 
 // Returns the truth's own error: half of the root mean square difference of its halves, in linear
 // light. For the error of several truths, pass the sum of their floors.
-double dip_truth_floor_rmse(const DipMetricSums *floor, int region);
+DIP_API double dip_truth_floor_rmse(const DipMetricSums *floor, int region);
 
 // Returns whether the error of pictures is below three times the error of their truths. Such an
 // error is "at floor": it cannot be told from the truths' noise. floor: the sum of the truths'
 // floors. sums: those of the pictures.
-bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums);
+DIP_API bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums);
 
 // Writes the name of the default cache folder: $XDG_CACHE_HOME/diptych, or $HOME/.cache/diptych if
 // XDG_CACHE_HOME is not set. Does not create the folder. Returns false if neither variable is set
 // or if the name does not fit.
-bool dip_truth_default_folder(char *folder, size_t size_bytes);
+DIP_API bool dip_truth_default_folder(char *folder, size_t size_bytes);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

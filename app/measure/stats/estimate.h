@@ -3,7 +3,13 @@
 #ifndef DIP_APP_MEASURE_STATS_ESTIMATE_H
 #define DIP_APP_MEASURE_STATS_ESTIMATE_H
 
+#include "renderer/base/api.h"
+
 #include <string.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // Ends that are not known are NAN. No function returns an interval of length 0: a value about whose
 // error nothing is known has no interval.
@@ -16,30 +22,31 @@ typedef struct DipEstimate {
 } DipEstimate;
 
 // Returns a value whose error is not known.
-DipEstimate dip_estimate_unknown(double value);
+DIP_API DipEstimate dip_estimate_unknown(double value);
 
 // Returns the value with the interval value exp(+-t log_error), where t is the 97.5 % quantile of
 // Student's t for the degrees of freedom (1 or more; INFINITY for a normal distribution). An error
 // that is NAN, infinite or 0 gives dip_estimate_unknown.
-DipEstimate dip_estimate_make(double value, double log_error, double degrees);
+DIP_API DipEstimate dip_estimate_make(double value, double log_error, double degrees);
 
 // Returns the estimate with another error of its logarithm added in quadrature, for example an
 // error that several estimates share. The degrees of freedom stay.
-DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error);
+DIP_API DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error);
 
 // Returns the probability that the true value is at most `limit`: Student's t of the logarithm.
 // `common_error` is added to the estimate's own in quadrature. Returns NAN if the estimate's error
 // is not known.
-double dip_estimate_chance_below(const DipEstimate *estimate, double limit, double common_error);
+DIP_API double dip_estimate_chance_below(const DipEstimate *estimate, double limit,
+                                         double common_error);
 
 // Returns the value that a variable with Student's t distribution and this number of degrees of
 // freedom (1 or more; INFINITY for a normal distribution) does not exceed with the given
 // probability (.5 to .9999).
-double dip_student_quantile(double probability, double degrees);
+DIP_API double dip_student_quantile(double probability, double degrees);
 
 // Returns the value below which the given share (0 to 1) of count >= 1 values lies, linear between
 // order statistics. Sorts the values.
-double dip_percentile(double *values, int count, double share);
+DIP_API double dip_percentile(double *values, int count, double share);
 
 // The same of values that stay in their order; scratch has room for them.
 static inline double dip_percentile_of(const double *values, int count, double share,
@@ -50,6 +57,10 @@ static inline double dip_percentile_of(const double *values, int count, double s
 
 // Returns the median of count >= 1 values. Reorders the values. Takes linear time (Hoare's
 // selection).
-double dip_median(double *values, int count);
+DIP_API double dip_median(double *values, int count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -4,6 +4,10 @@
 
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // Returns the upper 31 bits of the new state of Knuth's 64-bit linear congruential generator
 // (MMIX).
 static inline uint32_t dip_random_next(uint64_t *state) {
@@ -25,5 +29,9 @@ static inline void dip_random_shuffle(uint64_t *state, int *values, int count) {
         values[other] = swap;
     }
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

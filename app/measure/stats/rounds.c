@@ -1,5 +1,5 @@
 // Deals frames to rounds, and makes the estimates of a fit.
-#include "app/measure/stats/rounds_fit.h"
+#include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/random.h"
 #include "renderer/base/assert.h"

@@ -12,11 +12,16 @@
 #ifndef DIP_APP_MEASURE_STATS_ROUNDS_H
 #define DIP_APP_MEASURE_STATS_ROUNDS_H
 
+#include "renderer/base/api.h"
 #include "app/measure/stats/estimate.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum { DIP_TIMED_PARTS = 4, DIP_TIMED_MOST_STARTS = 64 };
 
@@ -34,8 +39,8 @@ enum { DIP_TIMED_PARTS = 4, DIP_TIMED_MOST_STARTS = 64 };
 // rounds of one frame's copies are distinct. In each copy, a round has frames / rounds frames or
 // one more, one in each stretch of `rounds` successive frames. dip_times_fit wants 3 copies. Fails
 // with DIP_ERROR_MEMORY.
-bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *round_of,
-                     DipError *err);
+DIP_API bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *round_of,
+                             DipError *err);
 
 // --- the log -------------------------------------------------------------------------------------
 
@@ -76,26 +81,26 @@ typedef struct DipTimes { // Borrowed.
 typedef struct DipTimesFit DipTimesFit;
 
 // Fails with DIP_ERROR_MEMORY.
-DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err);
+DIP_API DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err);
 
 // The same, but takes as a subject's time that of its base plus what one part takes longer, as if
 // the two differed in this part only.
-DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err);
+DIP_API DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err);
 
-void dip_times_fit_free(DipTimesFit **fit);
+DIP_API void dip_times_fit_free(DipTimesFit **fit);
 
 // Returns the ratio of the mean time of a subject's frames to that of its base. Unknown (NAN) if
 // the subject has no time beside its base. Without a second start or round it has no interval.
-DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject);
+DIP_API DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject);
 
 // The same of two subjects that share a base; `other` may be the base.
-DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other);
+DIP_API DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other);
 
 // Returns how far a subject's ratio differs from visit to visit: 1.4826 times the median distance
 // of the visits' log ratios from their median, after what changes along the path was taken off. For
 // a subject that draws what its base draws (A/A), this tells how noisy the machine is. NAN for
 // fewer than two visits.
-double dip_times_spread(const DipTimesFit *fit, int subject);
+DIP_API double dip_times_spread(const DipTimesFit *fit, int subject);
 
 // A subject's times along the path, in milliseconds at the machine's usual speed in this log.
 typedef struct DipAlong {
@@ -109,13 +114,17 @@ typedef struct DipAlong {
     int kept;  // Number of those that were not disturbed.
 } DipAlong;
 
-DipAlong dip_times_along(const DipTimesFit *fit, int subject);
+DIP_API DipAlong dip_times_along(const DipTimesFit *fit, int subject);
 
 // Returns the shares of the subject's parts in its time, [DIP_TIMED_PARTS], borrowed; all 0 if the
 // log has no parts.
-const double *dip_times_shares(const DipTimesFit *fit, int subject);
+DIP_API const double *dip_times_shares(const DipTimesFit *fit, int subject);
 
 // Returns the times from which dip_times_along makes its values: [frame], borrowed.
-const double *dip_times_frames(const DipTimesFit *fit, int subject);
+DIP_API const double *dip_times_frames(const DipTimesFit *fit, int subject);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

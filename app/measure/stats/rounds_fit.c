@@ -1,5 +1,6 @@
-// Fits subjects beside their bases, from all units and with each unit left out (rounds_fit.h).
-#include "app/measure/stats/rounds_fit.h"
+// Fits subjects beside their bases, from all units and with each unit left out
+// (rounds_fit_private.h).
+#include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/estimate.h"
 #include "renderer/base/assert.h"

@@ -1,5 +1,5 @@
 // Fits the levels of a base: how long each of its frames takes at the machine's usual speed.
-#include "app/measure/stats/rounds_fit.h"
+#include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/estimate.h"
 

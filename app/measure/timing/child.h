@@ -8,8 +8,13 @@
 #ifndef DIP_APP_MEASURE_TIMING_CHILD_H
 #define DIP_APP_MEASURE_TIMING_CHILD_H
 
+#include "renderer/base/api.h"
 #include "app/measure/timing/sample.h"
 #include "renderer/base/error.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct DipChild DipChild;
 
@@ -26,26 +31,30 @@ typedef struct DipChildDef {
 
 // Starts a program and its watch. Fails if the program cannot be started or does not send the
 // expected greeting.
-DipChild *dip_child_start(const DipChildDef *def, DipError *err);
+DIP_API DipChild *dip_child_start(const DipChildDef *def, DipError *err);
 
 // Returns the number of the child's threads; 0 if the machine does not tell.
-int dip_child_thread_count(const DipChild *child);
+DIP_API int dip_child_thread_count(const DipChild *child);
 
 // Closes the child's standard input and waits until the child has ended. at_once: sends the child a
 // signal to end first. Its answer is then no longer read, so it must not complain that it cannot
 // write one.
-void dip_child_stop(DipChild **child, bool at_once);
+DIP_API void dip_child_stop(DipChild **child, bool at_once);
 
 // Asks for a frame. Writes the frame's time, the parts of this time, and how long the child's
 // threads waited (NAN if the machine does not tell).
-bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample, DipTimed *timed,
-                    DipError *err);
+DIP_API bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample,
+                            DipTimed *timed, DipError *err);
 
 // Runs in the child: answers requests on standard input until standard input is closed. `draw` gets
 // the line of a request.
-bool dip_child_serve(const char *what, int count, int frames,
-                     bool (*draw)(void *context, const char *request, DipBenchSample *sample,
-                                  DipError *err),
-                     void *context, DipError *err);
+DIP_API bool dip_child_serve(const char *what, int count, int frames,
+                             bool (*draw)(void *context, const char *request,
+                                          DipBenchSample *sample, DipError *err),
+                             void *context, DipError *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

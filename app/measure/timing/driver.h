@@ -26,12 +26,17 @@
 #ifndef DIP_APP_MEASURE_TIMING_DRIVER_H
 #define DIP_APP_MEASURE_TIMING_DRIVER_H
 
+#include "renderer/base/api.h"
 #include "app/measure/stats/rounds.h"
 #include "app/measure/timing/thread_use.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct DipDriverDef {
     int subjects;
@@ -105,22 +110,23 @@ typedef enum DipDriverStep {
 
 // Makes a driver. Call it after the threads that draw exist: it watches how long they wait. Fails
 // with DIP_ERROR_MEMORY.
-DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCalls *calls, DipError *err);
-void dip_driver_destroy(DipDriver **driver);
+DIP_API DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCalls *calls,
+                                     DipError *err);
+DIP_API void dip_driver_destroy(DipDriver **driver);
 
 // Takes the frames that `keep` received from a driver with the same definition, in the same order,
 // before the first step. Returns false from the first round on that is not a round of this
 // definition, which is drawn like all later ones, or if memory runs out.
-bool dip_driver_resume(DipDriver *driver, const DipTimed *known, int count);
+DIP_API bool dip_driver_resume(DipDriver *driver, const DipTimed *known, int count);
 
 // Draws at most one frame. Fails with DIP_ERROR_MEMORY and as the caller's functions do.
-DipDriverStep dip_driver_step(DipDriver *driver, DipError *err);
+DIP_API DipDriverStep dip_driver_step(DipDriver *driver, DipError *err);
 
 // Forgets the frames of the incomplete round, which is drawn anew from its beginning.
-void dip_driver_drop_round(DipDriver *driver);
+DIP_API void dip_driver_drop_round(DipDriver *driver);
 
 // Returns the frames of all complete rounds. Borrowed until the next step.
-DipTimes dip_driver_times(const DipDriver *driver);
+DIP_API DipTimes dip_driver_times(const DipDriver *driver);
 
 typedef struct DipDriverProgress {
     int64_t drawn; // Frames of starts and rounds so far, without those that were resumed.
@@ -130,7 +136,7 @@ typedef struct DipDriverProgress {
     int all_rounds;
 } DipDriverProgress;
 
-DipDriverProgress dip_driver_progress(const DipDriver *driver);
+DIP_API DipDriverProgress dip_driver_progress(const DipDriver *driver);
 
 // What the measurement tells about the machine.
 typedef struct DipDriverMachine {
@@ -142,6 +148,10 @@ typedef struct DipDriverMachine {
 } DipDriverMachine;
 
 // `threads` is the number of threads that a frame keeps busy.
-DipDriverMachine dip_driver_machine(const DipDriver *driver, int threads);
+DIP_API DipDriverMachine dip_driver_machine(const DipDriver *driver, int threads);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

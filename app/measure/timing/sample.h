@@ -3,10 +3,15 @@
 #ifndef DIP_APP_MEASURE_TIMING_SAMPLE_H
 #define DIP_APP_MEASURE_TIMING_SAMPLE_H
 
+#include "renderer/base/api.h"
 #include "app/measure/stats/rounds.h"
 #include "renderer/scene/frame.h"
 
 #include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // Indices of a frame's times: the renderer's stages, then the total.
 typedef enum DipBenchStage {
@@ -24,7 +29,7 @@ enum {
         DIP_COUNTER_COUNT
 };
 
-extern const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
+extern DIP_API const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
 
 // The measurements of one drawing of a frame.
 typedef struct DipBenchSample {
@@ -33,10 +38,10 @@ typedef struct DipBenchSample {
     char hash[33]; // Hash of the pixels, or "" if no hash was requested.
 } DipBenchSample;
 
-void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
+DIP_API void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
 
 // Writes the sample's time, and those of its stages as the parts of the time.
-void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed);
+DIP_API void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed);
 
 // Adds a frame's counters to sums in the order of DIP_COUNTER_LIST. All sums are whole numbers, so
 // the order in which frames are added does not change them.
@@ -45,5 +50,9 @@ static inline void dip_counters_add(const DipCounters *counters, double sums[DIP
     DIP_COUNTER_LIST(DIP_COUNTER_ADD)
 #undef DIP_COUNTER_ADD
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -8,8 +8,14 @@
 #ifndef DIP_APP_MEASURE_TIMING_THREAD_USE_H
 #define DIP_APP_MEASURE_TIMING_THREAD_USE_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // Sums over all threads since the process began.
 typedef struct DipThreadUse {
@@ -26,17 +32,21 @@ typedef struct DipThreadWatch DipThreadWatch;
 // Opens a watch. Threads that are started later are not seen, so open it after the thread pool.
 // Threads with less priority than the calling one are not watched: they work in the background.
 // Returns NULL if the machine does not tell or memory runs out; dip_thread_watch_read accepts NULL.
-DipThreadWatch *dip_thread_watch_open(void);
-void dip_thread_watch_close(DipThreadWatch **watch);
+DIP_API DipThreadWatch *dip_thread_watch_open(void);
+DIP_API void dip_thread_watch_close(DipThreadWatch **watch);
 
 // Opens a watch of another process of the same user.
-DipThreadWatch *dip_thread_watch_open_process(long pid);
+DIP_API DipThreadWatch *dip_thread_watch_open_process(long pid);
 
 // Returns the number of threads that are watched; 0 without a watch.
-int dip_thread_watch_count(const DipThreadWatch *watch);
+DIP_API int dip_thread_watch_count(const DipThreadWatch *watch);
 
 // Reads the sums. Takes a few microseconds per thread. `switches` always counts those of this
 // process. Without a watch, only this number and this process' time on a core are known.
-DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
+DIP_API DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

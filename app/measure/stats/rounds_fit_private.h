@@ -2,8 +2,8 @@
 //
 // A unit is a start of the program, or a round if there is one start. Estimates are made anew with
 // each unit left out; how far they move shows how well they are known (the jackknife).
-#ifndef DIP_APP_MEASURE_STATS_ROUNDS_FIT_H
-#define DIP_APP_MEASURE_STATS_ROUNDS_FIT_H
+#ifndef DIP_APP_MEASURE_STATS_ROUNDS_FIT_PRIVATE_H
+#define DIP_APP_MEASURE_STATS_ROUNDS_FIT_PRIVATE_H
 
 #include "app/measure/stats/rounds.h"
 
