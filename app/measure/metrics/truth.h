@@ -59,7 +59,7 @@ typedef struct DipTruthDef {
 // A truth that a user waits for is refined in levels: coarser truths come before it. The last level
 // has DIP_TRUTH_SAMPLES samples per pixel of a half, unless the user asks for another number.
 enum { DIP_TRUTH_SAMPLES = 64, DIP_TRUTH_LEVELS = 3 };
-extern const int dip_truth_level_samples[DIP_TRUTH_LEVELS]; // Samples per pixel of a half.
+extern DIP_API const int dip_truth_level_samples[DIP_TRUTH_LEVELS]; // Samples per pixel of a half.
 
 // A truth that is drawn in steps.
 typedef struct DipTruthJob DipTruthJob;
