@@ -22,7 +22,7 @@ static const char enter_sequence[] = "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[0m\x1b[2J
 static const char leave_sequence[] = "\x1b[?2026l\x1b[?1006l\x1b[?1002l\x1b[?1000l"
                                      "\x1b[0m\x1b[2J\x1b[H\x1b[?7h\x1b[?25h\x1b[?1049l";
 
-// The signals that the mode takes over. `asks` is what a signal asks for (terminal_mode.h).
+// The signals that the mode takes over. `asks` is what a signal asks for (terminal_private.h).
 static const struct {
     int number;
     unsigned asks; // 0: the signal ends the process, as a crash does.
