@@ -96,8 +96,8 @@ bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *
     }
     if (fstat(STDIN_FILENO, &status) == 0 && S_ISSOCK(status.st_mode) &&
         fstat(wire->out, &status) == 0 && S_ISSOCK(status.st_mode)) {
-        // The parent made one socket for both, with socketpair. It is read through its duplicate,
-        // too.
+        // The parent made one socket for both, with socketpair. Reading uses the same duplicate of
+        // the socket (open_output) as writing.
         wire->in = wire->out;
         wire->socket = true;
     }

@@ -1,5 +1,6 @@
-// Lists combinations of settings, and composes the counters of a combination from those of the base
-// and of one combination for each group of settings.
+// Lists combinations of settings, and composes the counters of a combination that was not counted.
+// It composes them from counters of a base combination, and of combinations that differ from the
+// base only in some groups of settings.
 #include "app/report/combinations.h"
 
 #include <math.h>
@@ -51,7 +52,7 @@ DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with
 
 // --- composed work -------------------------------------------------------------------------------
 
-// The groups of settings. The first group is the settings of samples.
+// The groups of settings. The first group decides which samples and fragments are drawn.
 static const unsigned groups[] = {
     1u << DIP_SETTING_AA | 1u << DIP_SETTING_TAA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
     1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
@@ -76,8 +77,8 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
     return dip_quality_equal(&rest, base) ? count : -1;
 }
 
-// Multiplies each counter by the factor from the base's counter to that of a combination (`of`).
-// Where the base's counter is 0, there is no factor, and the combination's own counter is taken.
+// Multiplies each counter by the ratio of a combination's counter (`of`) to the base's counter.
+// Where the base's counter is 0, there is no ratio, and the combination's own counter is taken.
 // Returns false if the combination was not counted.
 static bool apply(const double *of, const double *base, double *counters) {
     for (int c = 0; of && c < DIP_COST_COUNTER_COUNT; c++) {

@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-// All combinations that were timed there count this many times as much as all rows of the report.
-// Any value from 3 to 100 does about as well: it was tried with 6 combinations of the courtyard, at
-// two sizes and on three other paths, which predicted the others.
+// All combinations that were timed elsewhere ("there", fit.h) together count this many times as
+// much as all rows of the report. Any value from 3 to 100 does about as well. In the trial, 6 timed
+// combinations of the courtyard predicted its others at two sizes and on three other paths.
 static const double there_weight = 30.0;
 
 // Without a ridge, rows that do not tell two terms of FLIP apart would give them great prices of
@@ -87,8 +87,8 @@ static void enlarge_scale(const Sample *sample, int part, double scale[DIP_COST_
     }
 }
 
-// Starts the equations of a part with the greatest amount of each term. The amounts of FLIP's terms
-// are at most 1.
+// Starts the equations of a part, in which the greatest amount of each term is that term's scale.
+// The amounts of FLIP's terms are at most 1.
 static void begin_part(Equations *equations, const DipCostReport *report, const int *rows,
                        int count, int part) {
     double scale[DIP_COST_MAX_TERMS];
@@ -106,7 +106,8 @@ static void begin_part(Equations *equations, const DipCostReport *report, const 
     dip_normal_equations_begin(&equations->parts[part], dip_cost_term_count(part), scale);
 }
 
-// Makes the equations of some rows. Those of times also get the combinations at a smaller size.
+// Makes the equations of some rows. The equations of times also get the combinations that
+// were timed at a smaller size.
 static void begin(Equations *equations, const DipCostReport *report, DipCostModelled what,
                   const int *rows, int count) {
     const bool is_time = what == DIP_COST_TIME;
@@ -227,8 +228,8 @@ int dip_cost_fit_rows(const DipCostReport *report, int rows[DIP_COST_MAX_ROWS]) 
     return count < 2 * dip_cost_term_count(DIP_COST_STAGE_raster) ? 0 : count;
 }
 
-// Computes R2 and the misses. R2 compares the fit with a constant, the one time that fits all rows
-// best, by their relative errors.
+// Computes R2 and the misses. R2 says how much smaller the squared relative errors of the fit are
+// than those of the best constant, which predicts one time for all rows.
 static void judge_fit(const DipCostReport *report, const DipCostModel *model, const int *rows,
                       DipCostFit *fit) {
     double misses[DIP_COST_MAX_ROWS];

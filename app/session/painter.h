@@ -1,6 +1,6 @@
-// A painter draws one pane of a session: with a scene renderer if the session shows models, or with
-// a pane of the gallery (app/gallery) if it shows a gallery scene. Both take the same settings and
-// give the same kind of frame.
+// A painter draws one pane of a session. If the session shows models, the painter uses a scene
+// renderer; if the session shows a gallery scene, it uses a DipGalleryPane (app/gallery). Both take
+// the same settings and give the same kind of frame.
 #ifndef DIP_APP_SESSION_PAINTER_H
 #define DIP_APP_SESSION_PAINTER_H
 

@@ -1,9 +1,9 @@
-// Predicting the times of a report's combinations at another size, on another camera path, with
-// another number of threads or another instruction set ("there").
+// Predicts the times of a report's combinations at another place, called "there": at another size,
+// on another camera path, with another number of threads or another instruction set.
 //
 // A combination is a set of quality settings on the camera path. The report's model of times
-// (fit.h) knows the price of each kind of work. The work of each combination is counted there, and
-// the sum of work times price is the prediction from the report "as it is". If some combinations
+// (fit.h) knows the price of each kind of work. The work of each combination is counted there. The
+// sum of work times price is the prediction from the report alone (as_is_ms). If some combinations
 // are timed there, prices are fitted anew to them and to the report, and predict all others.
 #ifndef DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 #define DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
@@ -38,12 +38,12 @@ typedef struct DipCostPredictedThere {
     int timed;        // Index in the prediction's `timed`; -1 if it was not timed there.
 } DipCostPredictedThere;
 
-// All times are milliseconds of the report, whatever the machine's speed is today, because each
-// combination is timed beside the report's baseline.
+// All times are on the scale of the report's times. Each combination is timed beside the report's
+// baseline, so the machine's speed today does not matter.
 typedef struct DipCostElsewherePrediction {
     DipCostReport report;
     DipCostReport there;         // Size, path and threads; no rows.
-    DipCostMisses fit;           // Each row of the report predicted from all others.
+    DipCostMisses fit;           // Misses of the report's rows, each predicted from the other rows.
     DipCostPredictedThere *list; // Owned; `count` of them, in the order of the report.
     int count;
     DipCostElsewhere timed[2 * DIP_COST_MOST_TIMED];
@@ -51,8 +51,8 @@ typedef struct DipCostElsewherePrediction {
     int checked_count; // The others are only compared with their predictions.
     double factor;     // Median of time / as_is_ms of those to which prices are fitted; 1 if none.
     DipCostMisses timed_as_is;    // How far as_is_ms misses those to which prices are fitted,
-    DipCostMisses timed_left_out; // and how far prices fitted to the others miss each.
-    DipCostMisses checked_as_is;  // How far as_is_ms misses the others,
+    DipCostMisses timed_left_out; // and how far the fit misses each when it leaves that one out.
+    DipCostMisses checked_as_is;  // How far as_is_ms misses the checked combinations,
     DipCostMisses checked_fitted; // and how far ms does.
     double wait; // Share of their time that threads waited for a core while times were taken.
 } DipCostElsewherePrediction;
@@ -66,7 +66,7 @@ bool dip_cost_predict_there(DipCostElsewherePrediction *prediction, const DipSes
 void dip_cost_predict_there_free(DipCostElsewherePrediction *prediction);
 
 // Predicts all combinations from the report and from what was timed there, and computes all misses.
-// Needs the report's rows, the counters of `there`, the list and the timed combinations.
+// Needs the report's rows, the counters in there.predicted, the list and the timed combinations.
 void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *prediction);
 
 // Prints the prediction for a terminal.

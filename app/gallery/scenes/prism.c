@@ -1,4 +1,5 @@
-// The gallery scene "prism": the tessellated and twisted prism of seed 001 (gallery.h).
+// Draws the gallery scene "prism": a tessellated and twisted prism. It comes from seed 001;
+// gallery.h says what a seed is.
 //
 // The sides and bases of a plain prism are patches. Tessellation divides them, and the domain
 // function turns each new vertex about the axis by an angle that grows with its height. The factor
@@ -104,7 +105,7 @@ static bool prepare_mesh(const DipGalleryView *view, DipError *err) {
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// The seed colours corner i of n by i / n in red and blue.
+// Colours corner i of a base with n corners by i / n in red and blue, as seed 001 does.
 static void shade(DipFragmentBatch *batch) {
     static const DipKitLight lights[2] = {{.kind = DIP_KIT_DIRECTIONAL,
                                            .direction = {-0.36f, -0.48f, -0.80f},

@@ -36,9 +36,9 @@ typedef struct DipMapSum {
     double pixel_count;
 } DipMapSum;
 
-// Adds the next pixels of a map that `mask` selects to a sum, with the same result as if all pixels
-// were added at once. Values that are not a number (SSIM near the border) are skipped and not
-// counted.
+// Adds to a sum those of the next pixel_count pixels of a map that `mask` selects. A map that is
+// added in parts gives the same result as a map that is added at once. Values that are not a number
+// (SSIM near the border) are skipped and not counted.
 DIP_API void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count,
                              DipPixelMask mask);
 

@@ -24,7 +24,7 @@ typedef struct DipFlicker {
     double *deviation; // Sum of squared deviations of e from its mean, per value.
     float *last;       // e of the previous frame.
     size_t value_count;
-    size_t added; // Values of the last frame so far.
+    size_t added; // Number of values that the unfinished frame has so far.
     int frame_count;
     double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.
     double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and pairs of frames.

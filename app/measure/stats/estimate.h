@@ -1,5 +1,5 @@
-// Estimates, which are values with how well they are known; the median and the percentile. All
-// functions are thread-safe.
+// Computes estimates, the median and percentiles. An estimate is a value and how well it is known.
+// All functions are thread-safe.
 #ifndef DIP_APP_MEASURE_STATS_ESTIMATE_H
 #define DIP_APP_MEASURE_STATS_ESTIMATE_H
 
@@ -11,8 +11,8 @@
 extern "C" {
 #endif
 
-// Ends that are not known are NAN. No function returns an interval of length 0: a value about whose
-// error nothing is known has no interval.
+// `low` and `high` are NAN if they are not known. No function returns an interval of length 0: a
+// value about whose error nothing is known has no interval.
 typedef struct DipEstimate {
     double value;
     double low;       // The interval from low to high holds the true value with a probability of
@@ -24,9 +24,9 @@ typedef struct DipEstimate {
 // Returns a value whose error is not known.
 DIP_API DipEstimate dip_estimate_unknown(double value);
 
-// Returns the value with the interval value exp(+-t log_error), where t is the 97.5 % quantile of
-// Student's t for the degrees of freedom (1 or more; INFINITY for a normal distribution). An error
-// that is NAN, infinite or 0 gives dip_estimate_unknown.
+// Returns an estimate with low = value * exp(-t * log_error) and high = value * exp(t * log_error).
+// Here t is the 97.5 % quantile of Student's t for the degrees of freedom (1 or more; INFINITY for
+// a normal distribution). An error that is NAN, infinite or 0 gives dip_estimate_unknown.
 DIP_API DipEstimate dip_estimate_make(double value, double log_error, double degrees);
 
 // Returns the estimate with another error of its logarithm added in quadrature, for example an
@@ -48,7 +48,8 @@ DIP_API double dip_student_quantile(double probability, double degrees);
 // order statistics. Sorts the values.
 DIP_API double dip_percentile(double *values, int count, double share);
 
-// The same of values that stay in their order; scratch has room for them.
+// Returns what dip_percentile returns, but leaves the values in their order. `scratch` has room for
+// `count` values.
 static inline double dip_percentile_of(const double *values, int count, double share,
                                        double *scratch) {
     memcpy(scratch, values, (size_t)count * sizeof *values);

@@ -31,7 +31,8 @@ typedef struct DipThreadWatch DipThreadWatch;
 
 // Opens a watch. Threads that are started later are not seen, so open it after the thread pool.
 // Threads with less priority than the calling one are not watched: they work in the background.
-// Returns NULL if the machine does not tell or memory runs out; dip_thread_watch_read accepts NULL.
+// Returns NULL if the machine does not tell the threads' times, or if memory runs out.
+// dip_thread_watch_read accepts NULL.
 DIP_API DipThreadWatch *dip_thread_watch_open(void);
 DIP_API void dip_thread_watch_close(DipThreadWatch **watch);
 

@@ -1,5 +1,5 @@
-// Draws the truth (the converged picture) in steps, and judges both panes' pictures at each of its
-// levels.
+// Draws the truth (the converged picture) in steps. The truth passes through levels, each with more
+// samples per pixel than the level before. At each level, the job judges both panes' pictures.
 #include "app/preview/live/error_job.h"
 
 #include <stdlib.h>
@@ -107,7 +107,8 @@ bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err)
 
 // --- the errors --------------------------------------------------------------------------------
 
-// Returns the pane whose picture a pane shows: if both are the same, the current pane.
+// Returns the pane that holds the picture of `pane`. If both panes show the same picture, only the
+// current pane holds it.
 static int shown_pane(const DipErrorJob *job, int pane) {
     return job->still.rgba8[pane] ? pane : DIP_PANE_CURRENT;
 }

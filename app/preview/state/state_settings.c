@@ -97,8 +97,8 @@ static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     return false;
 }
 
-// Gives the panes new settings if they differ from the old ones. `step` names the step that the
-// setting has then.
+// Gives the panes new settings if they differ from the old ones. `step` is the name of the new step
+// of `setting`.
 static void take_settings(DipPreviewState *state, const DipQuality wanted[DIP_PANE_COUNT],
                           DipSetting setting, const char *step, int64_t now_ns) {
     if (memcmp(wanted, state->quality, sizeof state->quality) != 0) {

@@ -1,4 +1,5 @@
-// What the tools need besides the window, and the versions of the pictures that they make.
+// Declares what the preview's tools (loupe, comparison, maps and strip) need besides DipWindow, and
+// the versions of the pictures that the tools make.
 #ifndef DIP_APP_PREVIEW_TOOLS_TOOLS_INPUT_H
 #define DIP_APP_PREVIEW_TOOLS_TOOLS_INPUT_H
 
@@ -17,8 +18,9 @@ typedef struct DipToolsInput {
     bool still;  // Camera and scene stand still.
 } DipToolsInput;
 
-// Versions of the tools' pictures in the draw list. Frames count from 0, so no frame has these
-// numbers, and each tool counts in a range of its own.
+// The versions of the tools' pictures begin at these numbers. Equal versions mean equal pixels
+// (draw_list.h). The versions of frames begin at 0 and never grow up to these ranges. Each tool
+// counts in a range of its own.
 #define DIP_LOUPE_VERSION       (UINT64_C(1) << 62)
 #define DIP_MAP_TRUTH_VERSION   (UINT64_C(0x4d) << 56)
 #define DIP_MAP_PICTURE_VERSION (UINT64_C(0x4e) << 56)

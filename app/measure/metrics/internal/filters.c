@@ -1,4 +1,5 @@
-// Convolves planes, and samples the eye's contrast sensitivity and the detectors of features.
+// Convolves planes with kernels, and fills the kernels of FLIP: the eye's contrast sensitivity, and
+// the detectors of edges and points.
 #include "app/measure/metrics/internal/filters.h"
 
 #include <math.h>
@@ -62,7 +63,7 @@ void dip_convolve_columns(const DipKernel1D *kernel, const float *in, int width,
 static const double pi = 3.14159265358979323846;
 
 // Fills a kernel with factor * exp(-pi^2 x^2 / b), x in degrees: the spatial form of a Gaussian
-// contrast sensitivity. The paper's a * sqrt(pi / b) is part of `factor`.
+// contrast sensitivity. `factor` includes the a * sqrt(pi / b) of FLIP's paper (flip.h).
 static void fill_gaussian(DipKernel1D *kernel, int radius, double ppd, double factor, double b) {
     kernel->radius = radius;
     for (int i = -radius; i <= radius; i++) {
@@ -89,9 +90,9 @@ static void make_sensitivity(DipFlipKernels *kernels, double ppd) {
                   luma_b);
     fill_gaussian(&kernels->red_green, radius, ppd,
                   1.0 / sum_gaussian(radius, ppd, 1.0, red_green_b), red_green_b);
-    // The filter of Cz is the sum of two Gaussians in two dimensions. Each Gaussian is separable,
-    // so its weights add up to the square of a one-dimensional sum. The weights of both together
-    // are scaled to add up to 1.
+    // The filter of Cz, the blue-yellow channel, is the sum of two Gaussians in two dimensions.
+    // Each Gaussian is separable, so its weights add up to the square of a one-dimensional sum. The
+    // weights of both together are scaled to add up to 1.
     double factors[2], squares = 0.0;
     for (int i = 0; i < 2; i++) {
         factors[i] = sqrt(blue_a[i] * sqrt(pi / blue_b[i]));
