@@ -23,10 +23,10 @@ typedef struct View {
     DipCamPathEnd end;    // what the path does at its end
     double fov_y_deg;
     int triangles; // number of triangles given to --grid; 0 for the session's scene
-    double aspect; // width / height of the picture that a grid fills; 0 for the session's scene
+    double aspect; // width / height of the picture if --grid replaces the scene; otherwise 0
 } View;
 
-// A drawer draws one combination.
+// A drawer draws with one combination of values on the plan's axes (settings, size, threads, ...).
 typedef struct Drawer {
     DipGallery *gallery; // NULL unless the session shows the gallery
     DipPainter *painter;

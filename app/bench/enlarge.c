@@ -24,7 +24,7 @@ static int scaled(int size, double scale) {
 
 void dip_enlarger_source_size(int width, int height, double scale, int *to_width, int *to_height) {
     const int steps =
-        divisor(width, height); // Number of sizes of the same shape that are at most as large.
+        divisor(width, height); // Number of sizes up to width x height with this aspect ratio.
     const int step = scaled(steps, scale);
     *to_width = width / steps * step;
     *to_height = height / steps * step;
@@ -53,8 +53,9 @@ struct DipEnlarger {
     DipSrgbEncodeTable codes;
 };
 
-// Pixel i of the destination lies at ((2 i + 1) from - to) / (2 to) in the source. This is computed
-// in whole numbers until the last division.
+// Finds the places for enlarging `from` pixels to `to` pixels. Pixel i of the destination lies at
+// ((2 * i + 1) * from - to) / (2 * to) in the source. This is computed in whole numbers until the
+// last division.
 static void find_places(int from, int to, Place *places) {
     for (int i = 0; i < to; i++) {
         const int64_t numerator = (2 * (int64_t)i + 1) * from - to;

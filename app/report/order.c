@@ -16,7 +16,7 @@ typedef struct Theory {
     Trend work;         // Trend of `counter`; a step with equal work also follows the trend.
     int counter;
     const char *why;  // The likely reason if a step does not follow the trend.
-    const char *idle; // What the path does not show if all steps draw the same pictures.
+    const char *idle; // What the path lacks if all steps draw equal pictures; NULL: they always do.
 } Theory;
 
 #define FEW_VIEWPOINTS                                                                             \
@@ -115,7 +115,8 @@ bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep,
                  theory->idle);
         return true;
     }
-    const bool counted = theory->work != FREE && report->rounds > 0; // Timing counts the work.
+    // A report without times has no counters.
+    const bool counted = theory->work != FREE && report->rounds > 0;
     const int by_work =
         counted ? first_departure(report, sweep, theory, true, &judged) : sweep->row_count;
     const char *error = theory->of_two_frames ? "the error of the mean of two frames" : "FLIP";

@@ -13,7 +13,8 @@
 
 typedef struct DipDrawList DipDrawList;
 
-// The point of a line of text that lies at the coordinate x: its left end, right end or centre.
+// Says which point of a line of text dip_draw_list_text puts at its x: the line's left end, right
+// end or centre.
 typedef enum DipAlign { DIP_ALIGN_LEFT, DIP_ALIGN_RIGHT, DIP_ALIGN_CENTRE } DipAlign;
 
 enum { DIP_MAX_DAMAGE = 8 };

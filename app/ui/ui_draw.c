@@ -1,4 +1,4 @@
-// Draws the shapes and texts of controls and the tip of a control, and ends a pass, which moves the
+// Draws the shapes, texts and tips of controls. At the end of a pass (ui.h), lets the keys move the
 // focus.
 #include "app/ui/style.h"
 #include "app/ui/ui_private.h"
@@ -169,8 +169,8 @@ static bool place_beside(const DipUi *ui, DipRect off, DipRect *box) {
     return false;
 }
 
-// Draws the tip. It must not cover the rows around its control (dip_ui_keep_tips_off) or, if the
-// window has no room beside them, at least not the control itself.
+// Draws the tip. If the pointer is in the rectangle of dip_ui_keep_tips_off and the window has room
+// beside this rectangle, the tip stands there. Otherwise it stands beside its control.
 static void draw_tip(DipUi *ui) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
     const int count = break_lines(
@@ -243,7 +243,8 @@ static void move_focus_towards(DipUi *ui, int dx, int dy) {
     ui->focus = best ? best->id : ui->focus;
 }
 
-// Moves the focus if the event is Tab or an arrow key that no control took. Returns whether it is.
+// Moves the focus by an event that no control took. Returns true if the event is Tab, or an arrow
+// key while the focus shows.
 static bool move_focus_by_key(DipUi *ui, const DipEvent *event) {
     const bool plain = !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
     if (event->kind != DIP_EVENT_KEY_DOWN || !plain) {

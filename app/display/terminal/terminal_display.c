@@ -215,8 +215,10 @@ static void queue_signals(Terminal *terminal) {
     }
 }
 
-// Returns the earliest of these times: until_ns, when a held key counts as released, and when the
-// bytes so far count as a sequence that broke off.
+// Returns the earliest of these times:
+// - until_ns,
+// - the time at which a held key counts as released,
+// - the time at which the bytes so far count as a sequence that broke off.
 static int64_t next_deadline_ns(const Terminal *terminal, int64_t until_ns) {
     if (terminal->byte_count > 0 && terminal->byte_ns + escape_wait_ns < until_ns) {
         until_ns = terminal->byte_ns + escape_wait_ns;
@@ -282,7 +284,7 @@ static void set_text(void *context, const DipTextCell *cells, int columns, int r
     }
 }
 
-// Ignores the damage: the writer compares the colours that the terminal shows.
+// Ignores the damage: the writer compares every cell with what the terminal shows.
 static bool present(void *context, const DipPixels *picture, const DipRect *damage, int count,
                     DipError *err) {
     Terminal *terminal = context;

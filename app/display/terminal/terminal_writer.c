@@ -48,8 +48,8 @@ static bool holds_one_of(const char *text, const char *const *parts, size_t coun
 DipTerminalColours dip_terminal_best_colours(const DipTerminalEnvironment *environment) {
     static const char *const true_colours[] = {"direct",  "kitty",   "alacritty", "foot",
                                                "wezterm", "ghostty", "contour"};
-    // These names are older than terminals with 256 colours, but today's terminals of these names
-    // have them. The Linux console turns the 256 colours into its own 16.
+    // Some of these names are older than terminals with 256 colours, but today's terminals with
+    // such a name show 256 colours. The Linux console turns the 256 colours into its own 16.
     static const char *const many_colours[] = {"256color", "xterm", "screen", "tmux", "rxvt",
                                                "konsole",  "linux", "putty",  "vte"};
     const char *term = is_set(environment->term) ? environment->term : "dumb";
@@ -141,8 +141,8 @@ static int square(int value) {
     return value * value;
 }
 
-// Returns the palette's nearest colour: of the cube (16 to 231), or of the greys 8, 18, ..., 238
-// (232 to 255).
+// Returns the index of the palette's colour that is nearest to the given one. The palette has the
+// cube at the indices 16 to 231 and the greys 8, 18, ..., 238 at the indices 232 to 255.
 static uint32_t palette_index(int red, int green, int blue) {
     const int r = cube_index(red), g = cube_index(green), b = cube_index(blue);
     const int sum = red + green + blue;
@@ -312,8 +312,8 @@ static void put_pen(DipTerminalWriter *writer, uint32_t ink, uint32_t paper) {
     put_text(writer, "m");
 }
 
-// Shows a half block by the character that needs the fewest new colours: the upper half block, or
-// the lower one with ink and paper exchanged.
+// Shows two colours in one cell. Of two characters, it takes the one that needs fewer new colours:
+// the upper half block, or the lower half block with ink and paper exchanged.
 static void put_halves(DipTerminalWriter *writer, uint32_t upper, uint32_t lower) {
     const DipTerminalCell pen = writer->pen;
     const int changes = (pen.ink != upper) + (pen.paper != lower);

@@ -20,7 +20,7 @@ typedef struct DipControllers {
     } slots[DIP_MAX_CONTROLLERS];
 } DipControllers;
 
-// Returns whether the event is one of a controller.
+// Returns whether the event comes from a controller.
 bool dip_controllers_concern(const DipEvent *event);
 
 // Handles an event of a controller. Shows a notice when a controller is connected or disconnected.

@@ -66,7 +66,8 @@ static bool check(const unsigned char *bytes, size_t size_bytes, const char *fil
 bool dip_poses_append(const char *file, const DipPose *pose, size_t *count, DipError *err) {
     unsigned char *bytes = NULL;
     size_t size_bytes = 0;
-    // The binary format ends after its keys, so a line behind them makes the file invalid.
+    // A path file in the binary format ends after its keys. With a line appended, check() refuses
+    // it, so the file stays as it is.
     const bool saved = read_poses(file, &bytes, &size_bytes, err) &&
                        append_line(pose, &bytes, &size_bytes, file, err) &&
                        check(bytes, size_bytes, file, count, err) &&

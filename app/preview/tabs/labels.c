@@ -11,7 +11,8 @@
 
 // --- a pane's time -------------------------------------------------------------------------------
 
-// Returns the price of a pane's settings that was measured at rest, or one that is unknown.
+// Returns the live price of a pane's settings. It is unknown while the camera or the scene moves,
+// or if a report gives the prices.
 static DipPriceSum measured_here(const DipWindow *window, int pane) {
     const DipPriceSum nothing = {.state = DIP_PRICE_UNKNOWN};
     const bool here = window->still && window->prices && dip_prices_are_rough(window->prices);
@@ -113,8 +114,9 @@ static int height_below(const DipUi *ui, int room, const char *text, int above, 
     return 3 * (above + height) > pane_height ? 0 : height;
 }
 
-// Draws a label of one line. What does not fit goes to lines of its own: first the settings, then
-// the time, since a warning that stands there must not be cut.
+// Draws a label, in one line if it fits. Otherwise, the settings go to lines of their own. If the
+// time still does not fit, it goes to lines of its own too, above the settings, because it may be a
+// warning, which must not be cut.
 static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const DipRect rect = dip_compare_visible(window, pane);
     const bool edited = window->state->edited[pane];
@@ -127,7 +129,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
                                         window->figures[pane].fps > 0 ? "88.8 ms  60 fps"
                                                                       : DIP_ROUGH_MARK "88.8 ms");
     const int own = dip_ui_text_width(ui, LABEL_SIZE, label.time);
-    const int time_width = dip_max(own, usual) + pad; // The settings stand still as time changes.
+    const int time_width = dip_max(own, usual) + pad; // Changing digits do not move the settings.
     int width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
     if (width > room) {
         dip_preview_describe(&window->state->quality[pane], true, label.settings,

@@ -4,7 +4,7 @@
 #include "app/preview/state/pilot.h"
 #include "app/ui/style.h"
 
-enum { WAY_BACK = 100 }; // Number of a control, beside those of the bar.
+enum { WAY_BACK = 100 }; // Number of the button "Show the panel", above all of the bar's.
 
 // Declares one pane as a control: a click chooses the pane, a double click shows it alone.
 static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
@@ -41,7 +41,7 @@ static void declare_tab(DipUi *ui, DipWindow *window, DipRect body) {
     tabs[window->state->tools.tab](ui, window, body);
 }
 
-// Declares the sheet that covers the window. A click anywhere closes it.
+// Declares a sheet that covers the window: the help or the costs. A click anywhere closes it.
 static void declare_sheet(DipUi *ui, DipWindow *window) {
     DipPreviewState *state = window->state;
     const DipUiInput input = dip_ui_control(
@@ -59,8 +59,8 @@ static void declare_sheet(DipUi *ui, DipWindow *window) {
     }
 }
 
-// Declares the button that ends the mode without a panel. It shows while the pointer is near it and
-// at the mode's begin, when a notice says so.
+// Declares the button that ends the mode without a panel. It shows while the pointer is in the
+// lower half of the window, and while a notice shows, as when the mode begins.
 static void declare_way_back(DipUi *ui, DipWindow *window) {
     static const char text[] = "Show the panel  (/)";
     const DipLayout *layout = window->layout;

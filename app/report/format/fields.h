@@ -35,9 +35,9 @@ enum {
 
 // How people read a field.
 enum {
-    DIP_SHOW_SIGN = 1,    // It is a change, which has its sign.
+    DIP_SHOW_SIGN = 1,    // It is a change, and is written with '+' or '-'.
     DIP_SHOW_FIGURES = 2, // `digits` are significant figures.
-    DIP_SHOW_CODE = 4     // People copy the text.
+    DIP_SHOW_CODE = 4     // It is code that people copy. Pages mark it as code.
 };
 
 // The struct whose field is wanted, called an item.
@@ -65,8 +65,8 @@ typedef struct DipRecord {
     const char *means; // A sentence for the documentation.
     const struct DipField *fields;
     int count;
-    // Bytes from item to item. 0: each item is the struct that owns all of them and holds their
-    // values in arrays, from which DipField.stride and DipFieldAt.index choose.
+    // Bytes from item to item. With 0, the items are no structs of their own: their owner holds the
+    // values of each field in an array, where item i lies i * DipField.stride bytes from the start.
     size_t size;
     // Returns whether the facts of an item fit together. It is called when all of them have been
     // read. NULL: they always fit.
@@ -75,20 +75,21 @@ typedef struct DipRecord {
 
 // A list that an item has. `at` is the item that owns the list.
 typedef struct DipFieldList {
-    const DipRecord *record;        // Kind of the list's items; NULL if each is a single value,
-    const struct DipField *element; // whose kind, range and stride this field has. It has no name.
+    const DipRecord *record; // Kind of the list's items; NULL if each item is a single value.
+    // If `record` is NULL: a nameless field that has the kind, range and stride of the values.
+    const struct DipField *element;
     int (*count)(const DipFieldAt *at);
-    // Returns the item; it may be made up in *scratch. Items are written in order, and *scratch
-    // still has what was made up for the item before.
+    // Returns the item; it may be made up in *scratch. Items are written in order, and at each call
+    // *scratch still holds what the previous call left there.
     const void *(*item)(const DipFieldAt *at, int index, DipFieldScratch *scratch);
     // Makes room for items that are read. Returns DIP_ERROR_NONE, DIP_ERROR_FORMAT (so many are
     // impossible) or DIP_ERROR_MEMORY.
     DipErrorCode (*open)(const DipFieldAt *at, int count);
-    // Stores an item that was read. NULL: items are read where they lie.
+    // Stores an item that was read. NULL: each item is read into its final place.
     bool (*put)(const DipFieldAt *at, int index, const void *item);
     // In place of functions that are NULL, the list works on an array that is a member of the
     // owner:
-    size_t items;    // Offset of the array; 0 with a record of size 0: the owner itself.
+    size_t items;    // Offset of the array; 0 if the record's size is 0.
     bool points;     // The member is a pointer to the array, which is allocated on reading.
     size_t counted;  // Offset of the number of items, an int.
     int least, most; // Range of the number of items that are read.
@@ -103,7 +104,7 @@ typedef struct DipField {
     unsigned where;     // DIP_FIELD_JSON and others, added.
     unsigned show;      // DIP_SHOW_SIGN and others, added.
     int digits;         // Digits after the point, for people.
-    double scale;       // People read the value times this; 0: the value. `unit` is what they read.
+    double scale;       // People read the value times this, in `unit`; 0 means 1.
     double least, most; // Range of a fact.
     size_t offset, size;
     size_t stride; // Bytes from the value of an item to that of the next if both lie in one array.
@@ -148,7 +149,7 @@ void dip_field_find(const DipRecord *record, const DipFieldAt *at, const char *p
 // Prints an item as a JSON object.
 void dip_fields_print_json(const DipRecord *record, const DipFieldAt *at, FILE *out);
 
-// Writes an item, which is the context of its fields, to a JSON file, whole or not at all.
+// Writes an item to a JSON file, whole or not at all. The item is also DipFieldAt.context.
 bool dip_fields_write_json(const DipRecord *record, const void *item, const char *file,
                            DipError *err);
 
@@ -185,7 +186,7 @@ void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
                              char text[DIP_CELL_BYTES]);
 
 // A table of items of one record. Terminals and pages print the same columns. They leave out
-// columns of which no line knows anything, and the numbers of an object that are the same in all
+// columns whose values are all unknown, and the numbers of an object that are the same in all
 // lines. A value has its field's digits, its unit in the head, and, if it is a change, its sign; a
 // change whose interval holds 0 is marked with '?'. An estimate has a second column for its
 // interval. A flag that is true has its title as text. What is not known, and a flag that is false,
@@ -199,10 +200,11 @@ typedef struct DipTable {
     const void *items;
     int count;
     bool (*shows)(const DipFieldAt *at); // NULL: all items are shown.
-    // Points to the member of the first item that says which row of the report the item shows; -1:
-    // none. The other items have this member at the same place. NULL: no item shows a row.
+    // Points to a member of the first item: the index of the report's row that the item shows, or
+    // -1 if the item shows none. The other items have this member at the same place. NULL: no item
+    // shows a row.
     const int *row;
-    const char *set; // Set of pictures of the rows; NULL: none.
+    const char *set; // Name of the set of pictures that show the rows in the page; NULL: none.
 } DipTable;
 
 // Prints a table without its caption for a terminal, each line after two blanks.

@@ -1,5 +1,5 @@
-// The style and the scripts of the page. The build makes these strings from the files of the same
-// names in this folder (embed.cmake).
+// Declares the style sheets and scripts of a report's page. The build makes these strings from the
+// files of the same names in this folder (embed.cmake).
 #ifndef DIP_APP_REPORT_PAGE_WEB_EMBEDDED_H
 #define DIP_APP_REPORT_PAGE_WEB_EMBEDDED_H
 
