@@ -6,23 +6,24 @@
 #include <math.h>
 
 enum {
-    MOST_MISSES = 32, // Number of rows that are predicted to see how far predictions miss.
+    MOST_MISSES = 32, // Greatest number of rows that are predicted to see how far predictions miss.
     LEAST_JUDGED = 16 // Least number of rows with errors for a model of errors.
 };
 
-// The 90th percentile of the size of a standard normal variable.
+// The 90th percentile of the absolute value of a standard normal variable.
 static const double normal_p90 = 1.6449;
 
-// No predicted time's logarithm has a smaller standard error, since the misses of a few rows may
-// all happen to be tiny.
+// The least standard error of a predicted time's logarithm. The misses of a few rows may all happen
+// to be tiny.
 static const double least_error = 0.002;
 
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses) {
     return dip_estimate_make(ms, fmax(log1p(misses->p90) / normal_p90, least_error), misses->rows);
 }
 
-// Returns the counters of a row of path 0 for dip_work_compose. The row differs from the base in
-// one group at most, so that no row is composed from itself.
+// Returns the counters of the row with these settings on path 0, for dip_work_compose. Returns NULL
+// if there is none, or if the settings differ from the base in two groups or more, so that no row
+// is composed from itself.
 static const double *find_counters(const void *context, const DipQuality *quality) {
     const DipPriceView *view = context;
     const bool plain = dip_work_count_groups(&view->base, quality) <= 1;
@@ -44,8 +45,9 @@ static bool are_alike(const DipQuality *a, const DipQuality *b) {
     return dip_quality_equal(&other, b);
 }
 
-// Predicts a row from the rows that are not like it, as if the combination was never run. Returns
-// the miss, or a negative value if the row's work cannot be composed.
+// Predicts a row as if its combination had never been run, from the rows that are not like it
+// (are_alike). Returns the miss, or a negative value if the row's work cannot be composed from that
+// of other rows.
 static double miss_of(const DipPriceView *view, const int *rows, int count, int row) {
     const DipCostRow *left_out = &view->report->rows[row];
     const DipQuality normal = dip_price_normal(&view->base, &left_out->quality);
@@ -66,8 +68,9 @@ static double miss_of(const DipPriceView *view, const int *rows, int count, int 
                 1.0);
 }
 
-// Predicts up to MOST_MISSES rows that differ from the base in two groups or more. Without such
-// rows, predicts each row from its own counters.
+// Predicts up to MOST_MISSES rows that differ from the base in two groups of settings or more
+// (combinations.h), and summarises the misses. If there are no such rows, predicts each row from
+// its own counters.
 static DipCostMisses find_misses(const DipPriceView *view, const int *rows, int count) {
     double misses[MOST_MISSES];
     int known = 0;

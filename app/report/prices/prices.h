@@ -1,12 +1,13 @@
 // Tells what each step of each setting costs in time and gains in accuracy, and how long whole
-// combinations of settings take. A price is a view of a report. It does not matter whether the
-// report was read from a file or is being filled by the preview (dip_cost_is_view).
+// combinations of settings take. All prices are computed from a report. It does not matter whether
+// the report was read from a file or is being filled by the preview (dip_cost_is_view).
 //
-// A step's price is the difference between the step and the base, on a path on which both were
-// measured. The base has the settings of the report's baseline. A setting that has no effect alone
-// is priced beside its company: the settings that it needs, which both the base and the step get
-// (view.h). AF and advanced AF are also priced beside the antialiasing of the pane, so that prices
-// add up. If that price is not known, the price beside the same AA without adaptive AA stands for
+// The base is the combination with the settings of the report's baseline. The price of a step is
+// the difference that the step makes to the base, on a path on which both were measured. A setting
+// that has no effect alone is priced together with its company: the settings that it needs, which
+// are then set both with the step and without it (view.h). AF and advanced AF are also priced
+// together with the antialiasing of the pane (one of the preview's two pictures), so that prices
+// add up. If that price is not known, the price with the same AA but without adaptive AA stands for
 // it, or else the price without antialiasing.
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
@@ -22,7 +23,7 @@ typedef enum DipPriceState {
     DIP_PRICE_UNKNOWN,   // The time was not measured, at least not yet.
     DIP_PRICE_BASE,      // The step is the base: ms and flip are its own time and error.
     DIP_PRICE_MEASURED,  // Measured along a path.
-    DIP_PRICE_PREDICTED, // From a report's model (docs/cost.md): the combination was not timed.
+    DIP_PRICE_PREDICTED, // Not timed, but predicted by a report's model (fit.h).
     DIP_PRICE_ROUGH      // Measured with a few frames of one picture, or the sum of prices.
 } DipPriceState;
 
@@ -38,39 +39,41 @@ typedef enum DipPriceTrust {
 } DipPriceTrust;
 
 // One step's price. `state` tells about the time: an UNKNOWN price can have an error, because a
-// report can have errors without times, and the other way round. Intervals hold 95 %.
+// report can have errors without times, and the other way round. Intervals are 95 % intervals.
 typedef struct DipPrice {
     DipPriceState state;
-    double ms; // Milliseconds that the step adds to the base; of the base itself: the whole time.
+    double ms; // Milliseconds that the step adds to the base; for the base itself, its whole time.
     double ms_low;
     double ms_high;
-    double without_ms; // The whole time without the step; 0 for the base.
-    bool has_flip;     // The error is known. (The preview has times before it has errors.)
-    double flip;       // What the step adds to the base's FLIP; of the base itself: its FLIP.
-    bool flip_at_floor;
-    bool needs_company; // The step does nothing with the quality that the price was asked for;
-                        // `needs` says what it needs, such as "AF".
+    double without_ms;  // The whole time without the step; 0 for the base.
+    bool has_flip;      // The error is known. (The preview has times before it has errors.)
+    double flip;        // What the step adds to the base's FLIP; for the base itself, its FLIP.
+    bool flip_at_floor; // The error with the step cannot be told from the truth's own noise.
+    bool needs_company; // The step has no effect with the settings of the pane. `needs` then says
+                        // what it needs, such as "AF".
     char needs[24];
-    char beside[48]; // The company of the step and of the base: "aa=8,aaa=on"; "" if none.
-    char path[32];   // The path that the price was measured on: "DEFAULT"; "" for one picture.
+    char beside[48]; // The company: "aa=8,aaa=on"; "" if there is none.
+    char path[32];   // Name of the path on which the price was measured, such as "DEFAULT"; "" if
+                     // the report is of one picture.
     // The machine was too busy for the report's times to be believed (its verdict is red).
     bool doubtful;
 } DipPrice;
 
-// The whole time of one combination of settings, and its parts: base_ms + the sum of parts_ms +
-// together_ms is ms, exactly.
+// The whole time of one combination of settings, and its parts. The sum of base_ms, all parts_ms
+// and together_ms is exactly ms.
 typedef struct DipPriceSum {
-    DipPriceState state; // MEASURED or, from one picture, ROUGH if this very combination was timed;
-                         // otherwise PREDICTED, or ROUGH if it is the sum of the parts. UNKNOWN:
-                         // the price of a part is not known, and ms lacks it.
+    // MEASURED if this very combination was timed along a path, and ROUGH if it was timed in one
+    // picture. Otherwise PREDICTED, or ROUGH if ms is the sum of the parts. UNKNOWN if the price of
+    // a part is not known; ms then lacks this part.
+    DipPriceState state;
     double ms;
     double ms_low;
     double ms_high;
     bool has_flip;
     double flip;
     double base_ms;
-    // Each setting's own price at its step. The group size (asd) has no part of its own: its price
-    // is in the part of adaptive AA.
+    // The price of each setting's step. The group size (asd) has no part of its own: its price is
+    // in the part of adaptive AA.
     double parts_ms[DIP_SETTING_COUNT];
     DipPriceTrust parts_trust[DIP_SETTING_COUNT];
     double together_ms; // By how much ms exceeds the base and the parts; it may be negative.
@@ -80,22 +83,25 @@ typedef struct DipPriceSum {
 DipPriceTrust dip_price_trust(const DipPrice *price);
 DipPriceTrust dip_price_sum_trust(const DipPriceSum *sum);
 
-// Finds a report's rows by their settings, and holds the models that predict the others.
+// A view finds the rows of a report by their settings, and holds the models that predict other
+// combinations.
 typedef struct DipPriceView DipPriceView;
 
-// The report is borrowed until the view is destroyed. Fails with MEMORY.
+// The report is borrowed until the view is destroyed. Fails with DIP_ERROR_MEMORY.
 DipPriceView *dip_price_view_create(const DipCostReport *report, DipError *err);
 void dip_price_view_destroy(DipPriceView **view); // *view may be NULL.
 
-// Follows a report whose rows, times or errors have changed. Fails with MEMORY.
+// Updates the view. Call it after the rows, times or errors of its report have changed. Fails with
+// DIP_ERROR_MEMORY.
 bool dip_price_view_update(DipPriceView *view, DipError *err);
 
 const DipCostReport *dip_price_view_report(const DipPriceView *view);
 
-// The settings that prices start from: those of the report's baseline.
+// Returns the settings of the base, which are those of the report's baseline.
 DipQuality dip_price_base(const DipPriceView *view);
 
-// Returns the row with these settings on path 0, or the row that draws the same pictures, or -1.
+// Returns the row with these settings on path 0, or a row that draws the same pictures, or -1 if
+// there is neither.
 int dip_price_row(const DipPriceView *view, const DipQuality *quality);
 
 // Returns whether all times are doubtful, because the machine was too busy while they were taken.
@@ -114,20 +120,20 @@ typedef enum DipPricesKnown {
     DIP_PRICES_KNOWN
 } DipPricesKnown;
 
-// Lists what can be chosen from a report that has not measured combinations along a path: the
-// combinations of aa, aaa, af, aaf, opt and miplod, measured or predicted, with the other settings
-// of the base. The list is NULL, and the result is not KNOWN, until all steps are known that the
-// combination `like` could take, since settings that need others, such as adaptive AA, are priced
-// beside them. The caller frees candidates->list. Takes some milliseconds. When memory runs out,
-// the result is NO_TIMES.
+// Lists the candidates for a choice from a report that has not measured combinations along a path.
+// They are the combinations of aa, aaa, af, aaf, opt and miplod, measured or predicted, with the
+// other settings of the base. The prices of all steps of these settings, for a pane with the
+// settings `like`, must be known first. Until then, the list is NULL and the result is not
+// DIP_PRICES_KNOWN. The caller frees candidates->list. Takes some milliseconds. When memory runs
+// out, the result is DIP_PRICES_NO_TIMES.
 DipPricesKnown dip_price_candidates(const DipPriceView *view, const DipQuality *like,
                                     DipCandidates *candidates);
 
 // Lists the combinations that must be timed so that every step has a price, and so that the whole
 // times of both panes and of every combination one step away from the requested pane are known. The
-// base and the panes come first, then the steps in the order of their distance from those of the
-// requested pane, and at the end the steps of filtering without antialiasing. Writes at most `room`
-// combinations; returns their number.
+// base and the panes come first, then the combinations for the steps, ordered by their distance
+// from the requested pane's steps. Those for AF and advanced AF without antialiasing come last.
+// Writes at most `room` combinations; returns their number.
 enum { DIP_PRICE_MAX_WANTED = 96 };
 int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
                           const DipQuality *requested, DipQuality *list, int room);

@@ -1,4 +1,5 @@
-// Finds the company of each setting, and lists the combinations that prices are made of.
+// Finds the two combinations whose difference is a price, and lists the combinations that must be
+// timed. The company of a setting is the other settings that it is priced with (view.h).
 #include "app/report/prices/view.h"
 
 #include "app/report/combinations.h"
@@ -25,7 +26,8 @@ static void need(DipPriceQuestion *question, const char *what) {
     snprintf(question->needs, sizeof question->needs, "%s", what);
 }
 
-// Gives both combinations the pane's step of `company`, or `otherwise` if the pane has it off.
+// Gives both combinations the pane's step of the setting `company`. If the pane has this setting
+// off, gives them the step `otherwise`, and notes that the pane lacks `name`.
 static void keep_company(DipPriceQuestion *question, DipSetting company, uint8_t otherwise,
                          const DipQuality *quality, const char *name) {
     uint8_t step = quality->step[company];
@@ -36,7 +38,7 @@ static void keep_company(DipPriceQuestion *question, DipSetting company, uint8_t
     question->with.step[company] = question->without.step[company] = step;
 }
 
-// Asks for the difference between the step and another step of the same setting.
+// Sets the question to the difference between a step and another step of the same setting.
 static void ask_alone(DipPriceQuestion *question, DipSetting setting, int step, uint8_t other) {
     question->with.step[setting] = (uint8_t)step;
     question->without.step[setting] = other;
@@ -139,7 +141,8 @@ static void want(Wanted *wanted, const DipQuality *quality) {
     }
 }
 
-// Adds the combinations of a setting's steps that lie `distance` steps from the pane's own.
+// Adds the combinations for the prices of a setting's steps that lie `distance` steps from the
+// pane's own step.
 static void want_steps_of(Wanted *wanted, const DipQuality *pane, DipSetting setting,
                           int distance) {
     for (int step = 0; step < dip_setting_info(setting)->step_count; step++) {
@@ -151,8 +154,8 @@ static void want_steps_of(Wanted *wanted, const DipQuality *pane, DipSetting set
     }
 }
 
-// Adds the combinations of filtering without antialiasing, from which the times of other
-// combinations are guessed.
+// Adds the combinations for the prices of AF and advanced AF without antialiasing, from which the
+// prices with antialiasing are guessed.
 static void want_filtering_alone(Wanted *wanted, const DipQuality *pane) {
     const DipQuality plain = dip_cost_take_settings(pane, wanted->base, DIP_PRICE_ANTIALIASING);
     for (int distance = 0; distance < DIP_MAX_STEPS; distance++) {

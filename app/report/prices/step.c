@@ -1,4 +1,4 @@
-// Finds the price of a step: the difference of two rows of one path, or of two whole times.
+// Finds the price of a step from the difference of two rows of one path, or of two whole times.
 #include "app/report/prices/prices.h"
 
 #include "app/report/combinations.h"
@@ -87,7 +87,7 @@ static void fill_base(DipPrice *price, const DipPriceWhole *whole) {
     price->flip_at_floor = whole->flip_at_floor;
 }
 
-// Makes a price of two rows of one path. Its time is the difference of the rows' times. The
+// Makes a price from two rows of one path. Its time is the difference of the rows' times. The
 // interval comes from the ratio of the two rows, because both share the machine's speed in this
 // run.
 static void fill_step(DipPrice *price, const DipCostReport *report, int row, int without) {
@@ -97,7 +97,7 @@ static void fill_step(DipPrice *price, const DipCostReport *report, int row, int
         const double base_ms = dip_cost_ms(report, without);
         price->state = dip_cost_is_view(report) ? DIP_PRICE_ROUGH : DIP_PRICE_MEASURED;
         price->ms = dip_cost_ms(report, row) - base_ms;
-        if (row != without) { // The same row stands for both: they differ by nothing.
+        if (row != without) { // If one row stands for both, low and high stay 0.
             price->ms_low = price->ms - (ratio.value - ratio.low) * base_ms;
             price->ms_high = price->ms + (ratio.high - ratio.value) * base_ms;
         }
@@ -110,7 +110,8 @@ static void fill_step(DipPrice *price, const DipCostReport *report, int row, int
     }
 }
 
-// Returns the price of the step from one row to another (fill_step), from memory if it is there.
+// Returns the price that fill_step makes from two rows. Computes it only if the view does not
+// remember it.
 static const DipPrice *price_of_rows(const DipPriceView *view, int row, int without) {
     DipPriceMemory *memory =
         &view->kept->memories[(row * DIP_COST_MAX_ROWS + without) % DIP_PRICE_MEMORIES];
@@ -121,7 +122,7 @@ static const DipPrice *price_of_rows(const DipPriceView *view, int row, int with
     return &memory->price;
 }
 
-// Makes a price of two whole times, at least one of which is predicted. Their errors count as
+// Makes a price from two whole times, at least one of which is predicted. Their errors count as
 // independent.
 static void fill_difference(DipPrice *price, const DipPriceWhole *with,
                             const DipPriceWhole *without) {
@@ -168,14 +169,14 @@ static DipPrice answer(const DipPriceView *view, DipSetting setting, const DipQu
 
 // --- companies -----------------------------------------------------------------------------------
 
-// AF and advanced AF are priced beside three companies in turn: that of the pane, the same without
-// adaptive AA, and the same without antialiasing. These settings are left out of each.
+// The settings that are left out of the company. AF and advanced AF are priced with up to three
+// companies in turn: the pane's antialiasing, the same without adaptive AA, and no antialiasing.
 static const unsigned left_out[] = {0, 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
                                     DIP_PRICE_ANTIALIASING};
 enum { COMPANIES = sizeof left_out / sizeof *left_out };
 
-// Returns how much is known of a price: 0 for nothing, 1 for its error alone, then a predicted
-// time, and a measured time.
+// How much is known of a price (the results of knowledge). 0 means that nothing is known, and 1
+// that only the error is.
 enum { PREDICTED = 2, MEASURED };
 
 static int knowledge(const DipPrice *price) {

@@ -1,4 +1,5 @@
-// Finds whole times of combinations: as measured, as predicted, or as the sum of prices.
+// Finds whole times of combinations, as measured, as predicted, or as the sum of prices. Lists the
+// candidates for a choice from these times.
 #include "app/report/prices/prices.h"
 
 #include "app/report/report.h"
@@ -9,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The prices of the settings in which a combination differs from the base. They are added to a
-// whole time.
+// The prices of the settings in which a combination differs from the base.
 typedef struct Parts {
     DipPrice prices[DIP_SETTING_COUNT];
     bool is_part[DIP_SETTING_COUNT];
@@ -27,7 +27,7 @@ static Parts list_parts(const DipPriceView *view, const DipQuality *normal) {
     return parts;
 }
 
-// Adds the parts that the combination `from` lacks to its whole time.
+// Returns `whole`, the time and error of the combination `from`, plus the parts that `from` lacks.
 static DipPriceWhole add_parts(const DipPriceView *view, const DipPriceWhole *whole,
                                const DipQuality *from, const Parts *parts) {
     DipPriceWhole sum = *whole;
@@ -53,8 +53,8 @@ static DipPriceWhole add_parts(const DipPriceView *view, const DipPriceWhole *wh
     return sum;
 }
 
-// Returns the combination without the settings whose price was measured on another path than path
-// 0: these get their step in the base.
+// Returns the combination with some settings put back to their step in the base: those whose price
+// was measured on another path than path 0.
 static DipQuality without_other_paths(const DipPriceView *view, const DipQuality *normal,
                                       const Parts *parts) {
     DipQuality rest = *normal;
@@ -110,7 +110,7 @@ DipPriceSum dip_price_sum(const DipPriceView *view, const DipQuality *quality) {
         known_ms += sum.parts_ms[s];
     }
     sum.together_ms = whole.time.value - known_ms;
-    sum.ms = known_ms + sum.together_ms; // Rounded as a reader who adds the parts rounds it.
+    sum.ms = known_ms + sum.together_ms; // So the parts add up to ms to the last bit.
     return sum;
 }
 
@@ -122,8 +122,9 @@ static const unsigned settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA |
                                  1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF |
                                  1u << DIP_SETTING_OPT | 1u << DIP_SETTING_MIPLOD;
 
-// Returns how much is known of the steps that a combination could take. Steps of filtering must
-// have a price without antialiasing, from which the price beside any antialiasing can be guessed.
+// Returns how much is known of the prices of all steps for a pane with the settings `like`. For
+// steps of AF and advanced AF, the price without antialiasing suffices, since the price with any
+// antialiasing can be guessed from it.
 static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like) {
     DipQuality plain = *like;
     plain.step[DIP_SETTING_AA] = view->base.step[DIP_SETTING_AA];

@@ -8,25 +8,26 @@
 
 // A combination on a path, with its row in the report or with one of the report's predictions.
 typedef struct DipPriceEntry {
-    uint64_t settings; // A number for the settings of dip_price_normal.
+    uint64_t settings; // The settings in normal form (dip_price_normal), as one number.
     int path;
-    int row;        // -1: none.
-    int prediction; // If there is no row.
-    int rank;       // Of entries with the same settings and path, the least one counts.
+    int row;        // Index of the row; -1 if there is none.
+    int prediction; // Index of the prediction; valid if there is no row.
+    int rank;       // Of several entries with the same settings and path, the one of least rank
+                    // counts.
 } DipPriceEntry;
 
-// A price of one row minus another that was computed before.
+// Remembers a price that was computed from two rows.
 typedef struct DipPriceMemory {
     bool is_known;
-    int row;     // The row with the step,
-    int without; // and the row without it.
+    int row;     // Index of the row with the step.
+    int without; // Index of the row without the step.
     DipPrice price;
 } DipPriceMemory;
 
 enum { DIP_PRICE_MEMORIES = 1021 };
 
-// What was computed from the report and is kept until it changes, since it takes a while. The
-// models are made when a prediction first needs them.
+// Values that take a while to compute. They are kept until the report changes. The models are made
+// when a prediction first needs them.
 typedef struct DipPriceKept {
     bool has_models;
     DipCostModel times;   // times.rows is 0 if the report has too few times.
@@ -45,7 +46,7 @@ struct DipPriceView {
 
 // The whole time and error of a combination.
 typedef struct DipPriceWhole {
-    DipPriceState state; // UNKNOWN: only the error is known.
+    DipPriceState state; // UNKNOWN if the time is not known; the error may be known.
     DipEstimate time;
     bool has_flip;
     double flip;
@@ -55,22 +56,22 @@ typedef struct DipPriceWhole {
 // Returns the entry of a combination on a path, or NULL. `normal` is a result of dip_price_normal.
 const DipPriceEntry *dip_price_find(const DipPriceView *view, int path, const DipQuality *normal);
 
-// Returns what is known of an entry, which may be NULL.
+// Returns the time and error of an entry. If `entry` is NULL, neither is known.
 DipPriceWhole dip_price_known(const DipPriceView *view, const DipPriceEntry *entry);
 
 // Predicts a combination by the models. `normal` is a result of dip_price_normal. Returns false if
 // the report does not tell enough.
 bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPriceWhole *whole);
 
-// Returns a predicted time with the error that the misses of other predictions of this kind tell.
-// The error has the standard deviation of a normal distribution with the 90th percentile of the
-// misses, and as many degrees of freedom as there are misses. Without misses it is not known.
+// Returns a predicted time with an error that follows from the misses of similar predictions. The
+// standard error is that of a normal distribution, 90 % of which lies as close to 0 as 90 % of the
+// misses. It has as many degrees of freedom as there are misses. Without misses it is not known.
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 
 // --- questions -----------------------------------------------------------------------------------
 
-// The two combinations of settings whose difference is the price of a step: one with the step and
-// one without.
+// A price asks for the difference between two combinations of settings: one with the step and one
+// without.
 //
 // A setting that does nothing alone is priced beside its company: other settings, which both
 // combinations have. Temporal AA and adaptive AA are priced beside the AA of the pane, advanced AF
@@ -79,16 +80,16 @@ DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 //
 // AF and advanced AF also have the antialiasing of the pane as company. They cost more where
 // antialiasing shades more fragments, so their prices without it would not add up to the time of
-// the whole combination: the courtyard in 8x AA with adaptive AA and AF 16x takes 11 % more than
-// that sum.
+// the whole combination. For example, the courtyard scene with AA 8x, adaptive AA and AF 16x takes
+// 11 % more than that sum.
 typedef struct DipPriceQuestion {
-    DipQuality with;    // The base, the company and the step.
-    DipQuality without; // The base and the company.
+    DipQuality with;    // The base with the company and the step.
+    DipQuality without; // The base with the company.
     bool is_base;       // The step is that of the base, so both combinations are equal.
     char needs[24];     // What the pane lacks for the step to do anything: "AF", or "".
 } DipPriceQuestion;
 
-// The settings of antialiasing, which AF and advanced AF have as company (bit s: setting s).
+// The settings of antialiasing, which AF and advanced AF have as company (bit s for setting s).
 enum { DIP_PRICE_ANTIALIASING = 1 << DIP_SETTING_AA | 1 << DIP_SETTING_AAA | 1 << DIP_SETTING_ASD };
 
 // Returns whether the setting is AF or advanced AF.
@@ -96,14 +97,15 @@ static inline bool dip_price_filters(DipSetting setting) {
     return setting == DIP_SETTING_AF || setting == DIP_SETTING_AAF;
 }
 
-// base: the settings that prices start from. quality: the other settings of the pane. If the pane
-// lacks the company, the question has company that makes the step do something.
+// Returns the question for a step of a setting. `base` has the settings of the base, and `quality`
+// those of the pane. If the pane lacks settings that the step needs, the question takes company
+// with which the step has an effect.
 DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, int step,
                                     const DipQuality *quality);
 
-// Returns settings that draw the same picture. Settings that have no effect get their step in
-// `base`: advanced AF without AF, temporal AA without samples, adaptive AA with one group of
-// samples, and group sizes without adaptive AA. Mip colours get it too, because they have no price.
+// Returns the normal form of settings, by which combinations are found. Settings that have no
+// effect are turned off (dip_quality_effective), so combinations that differ only in these are the
+// same. Mip colours get their step in `base`, because they have no price.
 DipQuality dip_price_normal(const DipQuality *base, const DipQuality *quality);
 
 #endif
