@@ -16,12 +16,12 @@ static DipCostReport *report_of(const DipFieldAt *at) {
     return at->context;
 }
 
-// Returns the index of the row that is the item.
+// Returns the index of the row that at->item points to.
 static int row_of(const DipFieldAt *at) {
     return (int)((const DipCostRow *)at->item - report_of(at)->rows);
 }
 
-// Members of a DipField that is an object in JSON, though its values are members of the item
+// Initialisers of a DipField that is an object in JSON, but whose fields are members of the item
 // itself.
 #define PART .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON
 
@@ -72,8 +72,8 @@ typedef struct Region {
     DipMetrics metrics;
 } Region;
 
-// Derives the share that a class of pixels has in all pixels. The class belongs to Figures, whose
-// first region is the whole picture.
+// Derives the share that a class of pixels has in all pixels. The owner of the class is a Figures,
+// whose first region is the whole picture.
 static const void *derive_share(const DipFieldAt *at, DipFieldScratch *scratch) {
     const Region *all = at->owner->item;
     scratch->numbers[0] = ((const Region *)at->item)->pixels / fmax(all->pixels, 1.0);
@@ -116,7 +116,7 @@ static const DipField figures_fields[] = {REGION_FIELD(0, "all", "the whole pict
 static const DipRecord figures_record =
     DIP_RECORD("figures", "Metrics of each class of pixels.", figures_fields, Figures, NULL);
 
-// Adds up the errors of a row at all viewpoints that were judged. Returns whether there is any.
+// Adds up the errors of a row at all judged viewpoints. Returns false if none was judged.
 static bool sums_of(const DipFieldAt *at, DipMetricSums *sums) {
     int viewpoints;
     *sums = dip_cost_row_sums(report_of(at), row_of(at), &viewpoints);
@@ -168,7 +168,7 @@ static const DipCostSweep *sweep_of(const DipFieldAt *at) {
     return at->item;
 }
 
-// X(METRIC, name, title, unit, digits)
+// Calls X(METRIC, name, title, unit, digits) for each metric that has an interval.
 #define METRIC_LIST(X)                                                                             \
     X(RMSE, "rmse_lin", "RMSE", "linear", 5)                                                       \
     X(PSNR, "psnr_db", "PSNR", "dB", 2)                                                            \
@@ -176,8 +176,8 @@ static const DipCostSweep *sweep_of(const DipFieldAt *at) {
     X(FLIP, "flip", "FLIP", NULL, 4)                                                               \
     X(FLICKER, "flicker_rms_lin", "flicker", "linear", 5)
 
-// Derives a metric of a row with its interval over the viewpoints, and the change of the metric
-// from the base of a sweep.
+// Defines two functions for a metric. One derives a row's metric with its interval over the
+// viewpoints. The other derives the change of the metric from the base of a sweep to a step.
 #define METRIC_FUNCTIONS(METRIC, ...)                                                              \
     DIP_DERIVE(derive_##METRIC,                                                                    \
                is_judged(at) ? DIP_MADE(DipEstimate, dip_cost_metric(report_of(at), row_of(at),    \
@@ -244,8 +244,8 @@ static const void *derive_tail(const DipFieldAt *at, DipFieldScratch *scratch) {
     return tail->viewpoints > 0 ? tail : NULL;
 }
 
-// A judged viewpoint of a row. The tail comes first, as in DipCostTail, so that tail_fields fit
-// both.
+// A judged viewpoint of a row. The distribution of FLIP comes first, as in DipCostTail, so that the
+// offsets in tail_fields hold for both.
 typedef struct Viewpoint {
     DipFlipTail tail;
     int place;
@@ -274,8 +274,8 @@ static const DipField viewpoint_fields[] = {
      DIP_FACT(RECORD, Viewpoint, tail), .record = &viewpoint_tail_record, .known = has_tail},
 };
 
-// Returns whether a sum over a number of pixels or bursts is possible: their number is 0 or at
-// least 1, and the mean of the sum over them lies within its limit.
+// Returns whether a sum over `count` pixels or bursts (series of successive frames) is possible:
+// the count is 0 or at least 1, and the mean lies within its limit.
 static bool is_sum(double sum, double count) {
     return (count == 0.0 || count >= 1.0) && fabs(sum) <= DIP_COST_MOST_MEAN * count;
 }
@@ -416,11 +416,13 @@ static DipErrorCode open_rows(const DipFieldAt *at, int count) {
 
 // --- visits --------------------------------------------------------------------------------------
 
-// A frame of a row is timed at most this many times, on average over all rows. Advice times a frame
-// a few times, and a baseline's frame is timed in every block.
+// The greatest number of times that a file may have for each frame of each row, on average over all
+// rows. Real reports have fewer. They have several times per frame where rows were timed again for
+// advice, and for a baseline, whose frames are timed in every block (app/measure/timing/driver.h).
 enum { MOST_TIMES = 64 };
 
-// A visit: successive frames of the log, which have the same row, start, round and block.
+// A visit (app/measure/timing/driver.h): successive frames of the log that have the same row,
+// start, round and block.
 typedef struct Visit {
     int row;
     int start;
@@ -445,7 +447,7 @@ static int count_visits(const DipFieldAt *at) {
     return count;
 }
 
-// Makes a visit from the log. It begins where the visit before ends, which *scratch still has.
+// Makes a visit from the log. It begins where the previous visit ends, which *scratch still holds.
 static const void *get_visit(const DipFieldAt *at, int index, DipFieldScratch *scratch) {
     const DipCostReport *report = report_of(at);
     Visit *visit = (Visit *)scratch;
@@ -463,8 +465,8 @@ static const void *get_visit(const DipFieldAt *at, int index, DipFieldScratch *s
     return visit;
 }
 
-// Refuses visits of a report without starts. No visits are fine, since older files have pairs of
-// times instead (cost_json.c).
+// Refuses visits if the number of starts is missing or does not divide the number of rounds.
+// Accepts an empty list, since older files have pairs of times instead (cost_json.c).
 static DipErrorCode open_visits(const DipFieldAt *at, int count) {
     const DipCostReport *report = report_of(at);
     return count == 0 || (report->starts > 0 && report->rounds % report->starts == 0)
@@ -552,7 +554,7 @@ static const DipRecord visit_record = DIP_RECORD(
 
 // --- paths and their truths ----------------------------------------------------------------------
 
-// Checks the name of a path, which is that of a category or the value of an option.
+// Checks that the name of a path has only letters, digits, '_' and '-'.
 static bool check_path(const DipFieldAt *at) {
     const char *name = report_of(at)->paths[at->index];
     return *name && strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
@@ -826,7 +828,7 @@ DIP_OF_ITEM(int, count_interactions,
 
 DIP_GET_ITEM(get_interaction, &report_of(at)->analysis->interactions[index])
 
-// The kinds of work whose prices are known are the terms of the fit.
+// Each price belongs to a term of the fit, which is a kind of work in a stage.
 DIP_DERIVE(derive_stage, ((const DipCostFit *)at->item)->stages[at->index])
 DIP_DERIVE(derive_work, ((const DipCostFit *)at->item)->names[at->index])
 static const DipField price_fields[] = {
@@ -880,7 +882,8 @@ DIP_DERIVE(derive_chosen,
 DIP_DERIVE(derive_next,
            DIP_MADE(int, has_next(at) ? candidate_of(at, advice_of(at)->next)->row : -1))
 
-// Derives the chosen time. Its interval includes the error that all candidates share.
+// Derives the time of the chosen candidate. Its interval includes the error that all candidates
+// share.
 static const void *derive_chosen_ms(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCandidate *chosen = dip_cost_chosen(report_of(at), at->index);
     return chosen ? DIP_MADE(DipEstimate, dip_estimate_widen(&chosen->time, chosen->common_error))

@@ -1,5 +1,5 @@
-// Lists the fields of cost.json: of a report, its rows, sweeps and advice. For all of them,
-// DipFieldAt.context is the DipCostReport.
+// Declares the lists of the fields of cost.json (fields.h), and macros that make such lists. In all
+// lists of this file, DipFieldAt.context is the DipCostReport.
 #ifndef DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 #define DIP_APP_REPORT_FORMAT_COST_FIELDS_H
 
@@ -15,8 +15,9 @@
 #define DIP_COST_MOST_COUNT 1e15
 #define DIP_COST_MOST_MEAN  1e6
 
-// Members of a DipField: a fact that is a member of a struct, a member that is computed from facts,
-// a value that a function computes, and such a value that only people read.
+// Initialisers of a DipField. DIP_FACT makes a fact. The others make derived fields: DIP_COMPUTED
+// one that is a member of the struct, DIP_DERIVED one whose value a function computes, and
+// DIP_SHOWN such a field that JSON does not have.
 #define DIP_MEMBER(KIND, WHERE, TYPE, member)                                                      \
     .kind = DIP_FIELD_##KIND, .where = WHERE, .offset = offsetof(TYPE, member),                    \
     .size = sizeof(((TYPE *)0)->member)
@@ -27,8 +28,9 @@
     .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_JSON | DIP_FIELD_DERIVED, .derive = function
 #define DIP_SHOWN(KIND, function)                                                                  \
     .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_DERIVED, .derive = function
-// A field that is a list, of facts or of derived values. The arguments are members of its
-// DipFieldList; DIP_ARRAY gives those of a list that lies in an array of its owner.
+// Initialisers of a DipField that is a list, of facts (DIP_LIST) or of derived values
+// (DIP_DERIVED_LIST). The arguments are the initialisers of its DipFieldList. DIP_ARRAY gives those
+// of a list whose items lie in an array that is a member of the owner.
 #define DIP_LIST_OF(WHERE, ...)                                                                    \
     .kind = DIP_FIELD_LIST, .where = WHERE, .list = &(const DipFieldList) {                        \
         __VA_ARGS__                                                                                \
@@ -37,7 +39,8 @@
 #define DIP_DERIVED_LIST(...) DIP_LIST_OF(DIP_FIELD_JSON | DIP_FIELD_DERIVED, __VA_ARGS__)
 #define DIP_ARRAY(OWNER, MEMBER, COUNTED)                                                          \
     .items = offsetof(OWNER, MEMBER), .counted = offsetof(OWNER, COUNTED)
-// Defines a function that derives a field, and one that gets an item of a list.
+// Define a function that derives a field (DipFieldDerive), and one that gets an item of a list
+// (DipFieldList.item).
 #define DIP_DERIVE(name, value)                                                                    \
     static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
         (void)at;                                                                                  \
@@ -58,10 +61,12 @@
         (void)at;                                                                                  \
         return value;                                                                              \
     }
-// Values for DIP_DERIVE: one that is stored in the scratch memory, and a text that a call writes to
-// scratch->text.
+// Values for DIP_DERIVE. DIP_MADE stores a value in *scratch. DIP_WRITTEN calls a function that
+// writes a text to scratch->text.
 #define DIP_MADE(TYPE, value) (*(TYPE *)scratch = (value), scratch)
 #define DIP_WRITTEN(call)     ((call), scratch->text)
+// Initialisers of a DipRecord. The items of DIP_RECORD are structs of the type TYPE; those of
+// DIP_RECORD_OF_ARRAYS are no structs of their own (DipRecord.size).
 #define DIP_RECORD(NAME, MEANS, fields, TYPE, CHECK)                                               \
     { NAME, MEANS, fields, DIP_FIELD_COUNT_OF(fields), sizeof(TYPE), CHECK }
 #define DIP_RECORD_OF_ARRAYS(NAME, MEANS, fields, CHECK)                                           \
@@ -75,12 +80,12 @@ extern const DipRecord dip_cost_metrics_record;              // DipMetrics
 extern const DipRecord dip_cost_prediction_of_report_record; // DipCostPrediction
 extern const DipRecord dip_cost_misses_record;               // DipCostMisses
 extern const DipRecord dip_cost_interaction_record;          // DipCostInteraction
-extern const DipRecord dip_cost_price_record;     // DipCostFit, whose prices are the items
+extern const DipRecord dip_cost_price_record;     // DipCostFit; item i is the fit's term i
 extern const DipRecord dip_cost_same_record;      // DipCostSame
 extern const DipRecord dip_cost_elsewhere_record; // DipCostElsewhere
 
-// The number of the format of every cost.json that is written. It grows when a program that reads
-// the format before would misread the new one.
+// The format number that every new cost.json has. It grows when a program that reads the previous
+// format would misread the new one.
 enum { DIP_COST_JSON_FORMAT = 3 };
 DipFieldDerive dip_cost_derive_format;
 

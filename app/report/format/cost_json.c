@@ -32,7 +32,8 @@ static void add_missing(cJSON *object, const char *name,
     }
 }
 
-// Replaces an interval whose ends are the same by null: it was not known.
+// Replaces the ends of an interval by null if they are equal. In format 2, such an interval was not
+// known.
 static void forget_no_interval(cJSON *object) {
     static const char *const names[] = {"ms_low", "ms_high"};
     const cJSON *low = cJSON_GetObjectItemCaseSensitive(object, "ms_low");
@@ -76,8 +77,8 @@ static void upgrade(cJSON *root) {
 // --- memory --------------------------------------------------------------------------------------
 
 // Most functions of cJSON do not say that memory ran out: an object then merely lacks a part. So
-// cJSON gets another allocator while a file is read. This holds for the whole process, so only one
-// thread may read a report at a time.
+// while a file is read, cJSON uses an allocator that notes in ran_out that memory ran out. This
+// changes the whole process, so only one thread may read a report at a time.
 static bool ran_out;
 
 static void *allocate(size_t size_bytes) {
@@ -93,8 +94,9 @@ static double number_of(const cJSON *root, const char *name) {
     return cJSON_IsNumber(item) ? item->valuedouble : 0.0;
 }
 
-// Returns whether a file of this size can hold the times of all rows. Each number of them has at
-// least two characters. If it cannot, memory for the times would be out of proportion to the file.
+// Returns whether a file of this size can hold the times of all rows. A time has at least
+// TIMED_NUMBERS numbers, and each number takes at least two characters. This check keeps a small
+// file from asking for much memory.
 static bool times_fit(const cJSON *root, size_t size_bytes) {
     const int rows = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(root, "rows"));
     return rows * number_of(root, "rounds") * number_of(root, "timed_frames") * TIMED_NUMBERS *
@@ -112,9 +114,9 @@ static bool next_number(const cJSON **item, double least, double most, double *v
     return known;
 }
 
-// Adds the times of a row to the log. Older files have them as pairs: an array of the times of the
-// row's frames, and one of the times of the baseline's same frames. Frame f of a path belongs to
-// round f % rounds.
+// Adds the times of a row to the log. Older files have them as pairs: there is an array of the
+// times of the row's frames, and one of the times of the baseline's same frames. Two more arrays
+// have the waiting times. Frame f of a path belongs to round f % rounds.
 static bool add_pairs(const cJSON *pairs, DipCostReport *report, int row, DipTimed *log) {
     static const char *const names[] = {"base_ms", "ms", "base_wait", "wait"};
     const int base = report->base_rows[report->rows[row].path];
@@ -147,7 +149,7 @@ static bool add_pairs(const cJSON *pairs, DipCostReport *report, int row, DipTim
     return !items[0] && !items[1];
 }
 
-// Makes the log of a report that has pairs of times.
+// Makes the log of a report whose file has pairs of times (add_pairs).
 static bool read_pairs(const cJSON *root, DipCostReport *report, const char *file, DipError *err) {
     const size_t values = (size_t)report->row_count * (size_t)dip_cost_frame_count(report);
     const cJSON *row = cJSON_GetObjectItemCaseSensitive(root, "rows")->child;
@@ -205,7 +207,7 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) 
         (ran_out ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
                  : dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file"));
     bool read = parsed && read_report(root, size_bytes, report, file, err);
-    if (ran_out && parsed) { // A member that was to be added may be missing.
+    if (ran_out && parsed) { // upgrade() may have failed to add a member.
         read = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
     cJSON_Delete(root);

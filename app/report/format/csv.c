@@ -1,5 +1,5 @@
-// Writes a report as comma-separated values: a line per step of each sweep, and one per
-// combination.
+// Writes a report as comma-separated values. There is a line for each A/A row, for each step of
+// each sweep (all steps of one setting), and for each combination, measured or only predicted.
 #include "app/files/whole_file.h"
 #include "app/report/format/formats.h"
 #include "app/report/format/lines.h"

@@ -1,4 +1,4 @@
-// Finds fields and their values for all forms.
+// Finds fields and their values, for JSON, CSV and tables.
 #include "app/report/format/fields.h"
 
 #include "renderer/base/assert.h"
@@ -33,7 +33,7 @@ bool dip_field_has_interval(const DipEstimate *estimate) {
     return isfinite(estimate->low) && isfinite(estimate->high) && estimate->low < estimate->high;
 }
 
-// Returns the field with a name of this length.
+// Returns the field with this name, whose length is given because a path may follow it.
 static const DipField *field_of(const DipRecord *record, const char *name, size_t length) {
     for (int f = 0; f < record->count; f++) {
         const DipField *field = &record->fields[f];

@@ -1,9 +1,9 @@
-// Lists of the fields of structs, from which all forms of a report come: JSON (written and read),
-// CSV, tables for terminals and pages, and the documentation of the formats.
+// Declares lists of the fields of structs. From these lists come JSON (written and read), CSV,
+// tables for terminals and pages, and the documentation of the formats.
 //
-// A fact is a member of the struct, and is read back. A derived field is computed from facts; it is
-// written and never read, so that a file cannot contradict its own measurements. An estimate x is
-// written as x, x_low and x_high in every form, all three always.
+// A fact is a field that is written and read back; it is a member of the struct. A derived field is
+// computed from facts; it is written and never read, so that a file cannot contradict its own
+// measurements. JSON and CSV always have an estimate x as the three values x, x_low and x_high.
 #ifndef DIP_APP_REPORT_FORMAT_FIELDS_H
 #define DIP_APP_REPORT_FORMAT_FIELDS_H
 
@@ -18,11 +18,12 @@ typedef enum DipFieldKind {
     DIP_FIELD_TEXT,     // char[size].
     DIP_FIELD_WHOLE,    // int in least..most.
     DIP_FIELD_FLAG,     // bool.
-    DIP_FIELD_NUMBER,   // double in least..most; not finite: not known.
+    DIP_FIELD_NUMBER,   // double in least..most; it is not known if it is not finite.
     DIP_FIELD_ESTIMATE, // DipEstimate; low and high are known if low < high.
     DIP_FIELD_SETTINGS, // DipQuality: "aa=4,taa=off,...".
     DIP_FIELD_NAMED,    // int: an index of `names`.
-    DIP_FIELD_NUMBERS,  // double[size / sizeof(double)]: an object if they have names, or an array.
+    DIP_FIELD_NUMBERS,  // double[size / sizeof(double)]; an object in JSON if `names` is not NULL,
+                        // otherwise an array.
     DIP_FIELD_RECORD,   // A struct that has fields itself.
     DIP_FIELD_LIST      // Any number of structs or values.
 } DipFieldKind;
@@ -30,7 +31,7 @@ typedef enum DipFieldKind {
 // How a field is written.
 enum {
     DIP_FIELD_JSON = 1,   // It is a member of the object in JSON.
-    DIP_FIELD_DERIVED = 2 // It is computed, and not read.
+    DIP_FIELD_DERIVED = 2 // It is a derived field, which is never read.
 };
 
 // How people read a field.
@@ -40,10 +41,10 @@ enum {
     DIP_SHOW_CODE = 4     // It is code that people copy. Pages mark it as code.
 };
 
-// The struct whose field is wanted, called an item.
+// An item is a struct that has fields. This says of which item a field is wanted.
 typedef struct DipFieldAt {
     void *context;                  // What all items belong to, for example the report.
-    const void *item;               // NULL: not known, so none of its fields is.
+    const void *item;               // NULL if the item, and so each of its fields, is not known.
     int index;                      // Index of the item in its list.
     const struct DipFieldAt *owner; // The item that has this item; NULL for the outermost one.
 } DipFieldAt;
@@ -65,61 +66,62 @@ typedef struct DipRecord {
     const char *means; // A sentence for the documentation.
     const struct DipField *fields;
     int count;
-    // Bytes from item to item. With 0, the items are no structs of their own: their owner holds the
-    // values of each field in an array, where item i lies i * DipField.stride bytes from the start.
+    // Bytes from item to item. If it is 0, the items are no structs of their own. Their owner then
+    // holds each field in an array, in which item i lies i * DipField.stride bytes from the start.
     size_t size;
     // Returns whether the facts of an item fit together. It is called when all of them have been
-    // read. NULL: they always fit.
+    // read. NULL if they always fit.
     bool (*check)(const DipFieldAt *at);
 } DipRecord;
 
 // A list that an item has. `at` is the item that owns the list.
 typedef struct DipFieldList {
     const DipRecord *record; // Kind of the list's items; NULL if each item is a single value.
-    // If `record` is NULL: a nameless field that has the kind, range and stride of the values.
+    // If `record` is NULL, a nameless field with the kind, range and stride of the values.
     const struct DipField *element;
     int (*count)(const DipFieldAt *at);
     // Returns the item; it may be made up in *scratch. Items are written in order, and at each call
     // *scratch still holds what the previous call left there.
     const void *(*item)(const DipFieldAt *at, int index, DipFieldScratch *scratch);
-    // Makes room for items that are read. Returns DIP_ERROR_NONE, DIP_ERROR_FORMAT (so many are
-    // impossible) or DIP_ERROR_MEMORY.
+    // Makes room for `count` items that are read. Returns DIP_ERROR_NONE, DIP_ERROR_FORMAT if this
+    // number is impossible, or DIP_ERROR_MEMORY.
     DipErrorCode (*open)(const DipFieldAt *at, int count);
-    // Stores an item that was read. NULL: each item is read into its final place.
+    // Stores an item that was read. NULL if each item is read into its final place.
     bool (*put)(const DipFieldAt *at, int index, const void *item);
-    // In place of functions that are NULL, the list works on an array that is a member of the
-    // owner:
+    // In place of each function above that is NULL, the following members are used. They describe
+    // an array that is a member of the owner.
     size_t items;    // Offset of the array; 0 if the record's size is 0.
-    bool points;     // The member is a pointer to the array, which is allocated on reading.
+    bool points;     // True if the member is a pointer to the array, which reading allocates.
     size_t counted;  // Offset of the number of items, an int.
     int least, most; // Range of the number of items that are read.
 } DipFieldList;
 
 typedef struct DipField {
     const char *name;  // Key in JSON, and column in CSV: "p95_ms".
-    const char *title; // Title of the column in tables for people: "p95"; NULL: the name.
+    const char *title; // Title of the column in tables for people: "p95"; NULL if it is the name.
     const char *unit;  // "ms", or NULL.
     const char *means; // A sentence for the documentation and the page's glossary.
     DipFieldKind kind;
-    unsigned where;     // DIP_FIELD_JSON and others, added.
-    unsigned show;      // DIP_SHOW_SIGN and others, added.
+    unsigned where;     // Sum of DIP_FIELD_JSON and others.
+    unsigned show;      // Sum of DIP_SHOW_SIGN and others.
     int digits;         // Digits after the point, for people.
-    double scale;       // People read the value times this, in `unit`; 0 means 1.
+    double scale;       // Tables for people show the value times this, in `unit`; 0 means 1.
     double least, most; // Range of a fact.
     size_t offset, size;
     size_t stride; // Bytes from the value of an item to that of the next if both lie in one array.
-    const char *const *names;
-    int name_count;
+    const char *const *names; // Names of the values of DIP_FIELD_NAMED or of DIP_FIELD_NUMBERS.
+    int name_count;           // Number of names that DIP_FIELD_NAMED accepts on reading.
     const DipRecord *record;
     const DipFieldList *list;
-    DipFieldDerive *derive;              // NULL: the value is the member at `offset`.
-    bool (*known)(const DipFieldAt *at); // NULL: always. A value that is not known is null.
+    DipFieldDerive *derive; // NULL if the value is the member at `offset`.
+    // Returns whether the value is known; JSON has null for one that is not. NULL if it always is.
+    bool (*known)(const DipFieldAt *at);
 } DipField;
 
 // Returns where a field's value lies, or NULL if it is not known.
 const void *dip_field_value(const DipField *field, const DipFieldAt *at, DipFieldScratch *scratch);
 
-// Returns where the member lies that holds the value of a field without `derive`.
+// Returns the address of a field's value. The field must be a member of its struct (no `derive`).
 void *dip_field_member(const DipField *field, const DipFieldAt *at);
 
 // Returns the text of a value that is a text, a name or settings, or NULL for other kinds. The text
@@ -135,16 +137,16 @@ bool dip_field_has_interval(const DipEstimate *estimate);
 enum { DIP_FIELD_DEPTH = 4 };
 typedef struct DipFieldFound {
     DipField field;
-    const void *value; // NULL: not known.
+    const void *value; // NULL if it is not known.
     DipFieldScratch scratch[DIP_FIELD_DEPTH];
 } DipFieldFound;
 
-// Finds the field with a path such as "errors.flip". With ".value" at the end of the path, an
-// estimate is found as a number. `at->item` may be NULL. Asserts that there is such a field.
+// Finds the field with a path such as "errors.flip". If the path of an estimate ends with ".value",
+// finds only the estimate's number. `at->item` may be NULL. Asserts that there is such a field.
 void dip_field_find(const DipRecord *record, const DipFieldAt *at, const char *path,
                     DipFieldFound *found);
 
-// --- forms ---------------------------------------------------------------------------------------
+// --- JSON and CSV --------------------------------------------------------------------------------
 
 // Prints an item as a JSON object.
 void dip_fields_print_json(const DipRecord *record, const DipFieldAt *at, FILE *out);
@@ -153,16 +155,17 @@ void dip_fields_print_json(const DipRecord *record, const DipFieldAt *at, FILE *
 bool dip_fields_write_json(const DipRecord *record, const void *item, const char *file,
                            DipError *err);
 
-// Reads the facts of an item from a JSON object. Fails with DIP_ERROR_FORMAT, whose key is the path
-// of the field that is missing or impossible, or with DIP_ERROR_MEMORY.
+// Reads the facts of an item from a JSON object. Fails with DIP_ERROR_FORMAT, where err->key is the
+// path of the field that is missing or impossible, or with DIP_ERROR_MEMORY.
 struct cJSON;
 bool dip_fields_read_json(const DipRecord *record, const DipFieldAt *at, const struct cJSON *object,
                           const char *file, DipError *err);
 
-// The columns of a table are listed in a text such as "settings; row.ms=time; row.counters=": the
-// paths of fields, each with '=' and the title that the column has in this table. Without '=', the
-// title is the path with '_' for '.' in CSV, and the field's own title for people. An object of
-// numbers has a column for each number, named after the title and the number.
+// The columns of a table are listed in a text such as "settings; row.ms=time; row.counters=". It
+// has the paths of fields. After a path, there may be '=' and the title that the column has in this
+// table. Without '=', the title in CSV is the path with '_' in place of '.', and the title for
+// people is the field's own. An object of numbers has a column for each number. CSV names it after
+// the title and the number, and tables for people name it after the number alone.
 typedef struct DipColumn {
     char path[64];
     char title[64];
@@ -187,24 +190,25 @@ void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
 
 // A table of items of one record. Terminals and pages print the same columns. They leave out
 // columns whose values are all unknown, and the numbers of an object that are the same in all
-// lines. A value has its field's digits, its unit in the head, and, if it is a change, its sign; a
-// change whose interval holds 0 is marked with '?'. An estimate has a second column for its
-// interval. A flag that is true has its title as text. What is not known, and a flag that is false,
-// is empty. All members are borrowed.
+// lines. A value has its field's digits, its unit in the head, and, if it is a change, its sign. An
+// estimated change whose interval holds 0 is marked with '?'. An estimate has a second column for
+// its interval. A flag that is true is shown as its title. The cell of a value that is not known,
+// or of a flag that is false, is empty; terminals show '-' for an unknown number. All members are
+// borrowed.
 typedef struct DipTable {
     const char *id; // Id of the table in a page, and the name of the file that its CSV is saved to.
-    const char *caption; // NULL or "": none.
+    const char *caption; // NULL or "" if there is none.
     const DipRecord *record;
     const char *columns;
     void *context;
     const void *items;
     int count;
-    bool (*shows)(const DipFieldAt *at); // NULL: all items are shown.
-    // Points to a member of the first item: the index of the report's row that the item shows, or
-    // -1 if the item shows none. The other items have this member at the same place. NULL: no item
-    // shows a row.
+    bool (*shows)(const DipFieldAt *at); // Returns whether to show an item; NULL shows all items.
+    // Points to the member of the first item that holds the index of the report's row that the item
+    // shows, or -1 if it shows none. The other items have this member at the same offset. NULL if
+    // no item shows a row.
     const int *row;
-    const char *set; // Name of the set of pictures that show the rows in the page; NULL: none.
+    const char *set; // Name of the page's set of pictures of these rows; NULL if there is none.
 } DipTable;
 
 // Prints a table without its caption for a terminal, each line after two blanks.

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-// Writes the names of a column's cells: the column's name with '_' for '.', and an ending such as
-// "_low".
+// Writes the names of a column's cells. A cell's name is the column's name with '_' in place of
+// '.', and an ending such as "_low" if the column has several cells.
 static void put_names(const DipColumn *column, const DipField *field, FILE *out) {
     static const char *const of_estimate[] = {"", "low", "high"};
     const char *name = column->has_title ? column->title : column->path;

@@ -88,7 +88,7 @@ static void print_list(const DipFieldList *list, const DipFieldAt *at, FILE *out
     fputc(']', out);
 }
 
-// Prints a value. NULL: it is not known.
+// Prints a value. NULL means that it is not known.
 static void print_value(const DipField *field, const DipFieldAt *at, const void *value, FILE *out) {
     char settings[DIP_SETTINGS_BYTES];
     const char *text = value ? dip_field_as_text(field, value, settings) : NULL;
@@ -129,7 +129,7 @@ void dip_fields_print_json(const DipRecord *record, const DipFieldAt *at, FILE *
     fputc('}', out);
 }
 
-// An item that is written to a file of its own.
+// An item that is written as a whole file.
 typedef struct Whole {
     const DipRecord *record;
     DipFieldAt at;
@@ -154,8 +154,8 @@ typedef struct Reader {
     DipErrorCode code;
 } Reader;
 
-// Puts a name before the path of the field at fault. The functions that read call this one after
-// another while they return, from the innermost to the outermost, so the path grows at its front.
+// Puts a name before the path of the field at fault, and returns false. Each function that reads
+// calls this when it fails, from the innermost to the outermost, so the path grows at its front.
 static bool fail(Reader *reader, DipErrorCode code, const char *name) {
     char rest[PATH_ROOM];
     reader->code = code;

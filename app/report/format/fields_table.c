@@ -13,14 +13,14 @@ enum { MOST_CELLS = 64 };
 // A cell of a table's line or head.
 typedef struct Cell {
     char text[DIP_CELL_BYTES];
-    const char *unit; // Unit of a cell of the head; NULL: none.
+    const char *unit; // Unit of a cell of the head; NULL if there is none.
     DipFieldKind kind;
     unsigned show;
     bool is_known;
-    bool is_text; // The cell is set to the left; numbers are set to the right.
+    bool is_text; // True if the cell is set to the left, false if it is set to the right.
 } Cell;
 
-// The head of a table, which of its cells are shown, and how many characters they have at most.
+// The head of a table, which of its columns are shown, and their widths in characters.
 typedef struct Layout {
     Cell head[MOST_CELLS];
     int count;
@@ -87,7 +87,7 @@ static void format_value(const DipField *field, const void *value, char text[DIP
 
 // --- lines ---------------------------------------------------------------------------------------
 
-// Returns the item of the line with this index; for the head (-1) it is not known.
+// Returns the item of the line with this index. The index of the head is -1, and its item is NULL.
 static DipFieldAt item_of(const DipTable *table, int line) {
     const char *items = table->items;
     return (DipFieldAt){table->context,
@@ -236,7 +236,7 @@ void dip_table_print_text(const DipTable *table, FILE *out) {
 
 // --- pages ---------------------------------------------------------------------------------------
 
-// Settings get blanks, at which browsers may break the line.
+// Writes the text of a cell. Settings get blanks, at which browsers may break the line.
 static void write_text(const Cell *cell, FILE *out) {
     const bool breaks = cell->kind == DIP_FIELD_SETTINGS;
     for (const char *text = cell->text; breaks && *text; text++) {
@@ -260,7 +260,7 @@ static void write_head(const Layout *layout, FILE *out) {
     }
 }
 
-// Begins a line, whose first cell names it.
+// Begins a line of the table with its first cell, which is the line's heading.
 static void begin_line(const DipTable *table, int line, const Cell *first, FILE *out) {
     const int row =
         table->row ? *(const int *)((const char *)table->row + (size_t)line * table->record->size)

@@ -20,7 +20,7 @@ static void print_wrapped(FILE *out, const char *text, int indent) {
     int column = indent;
     while (*text) {
         int length = (int)strcspn(text, " ");
-        while (strncmp(text + length, " %", 2) == 0) { // A number keeps its unit.
+        while (strncmp(text + length, " %", 2) == 0) { // Keeps a number and its '%' together.
             length += 1 + (int)strcspn(text + length + 1, " ");
         }
         if (column > indent && column + 1 + length > LINE_WIDTH) {

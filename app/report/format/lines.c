@@ -17,7 +17,7 @@ static const DipCostLine *line_of(const DipFieldAt *at) {
 DIP_OF_ITEM(bool, has_times,
             line_of(at)->row >= 0 && dip_cost_is_timed(report_of(at), line_of(at)->row))
 
-// Returns how much longer the line's candidate takes than that of the line before.
+// Returns how much longer the line's candidate takes than the previous candidate on the front.
 static double change_ms(const DipCostLine *line) {
     return line->candidate->time.value - line->before->time.value;
 }
@@ -102,8 +102,8 @@ static const void *derive_time(const DipFieldAt *at, DipFieldScratch *scratch) {
                      : NULL;
 }
 
-// Derives the change of FLIP. Viewpoints differ from each other more than settings do, so its
-// interval comes from the changes at the single viewpoints.
+// Derives the change of FLIP from the previous candidate on the front. Viewpoints differ from each
+// other more than settings do, so the interval comes from the changes at the single viewpoints.
 static const void *derive_change_flip(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCostLine *line = at->item;
     return line->before

@@ -29,7 +29,8 @@ void dip_section_ties(DipForm *form, const DipCandidates *candidates, const DipA
     }
 }
 
-// Writes what the next better settings cost, in the kind of time (such as p95) of the budget.
+// Writes what the next better settings cost, in the kind of time (such as p95) that the budget
+// limits.
 static void write_next(DipForm *form, const DipCandidates *candidates, const DipAdvice *advice) {
     char text[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES];
     if (advice->next < 0) {
