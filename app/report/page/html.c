@@ -114,7 +114,8 @@ static void write_work(DipForm *form, const DipCostReport *report) {
     dip_section_fit(form, report);
 }
 
-// Explains the words of the page: the truth, the mark '?', and fields by their own sentences.
+// Explains the words of the page: "truth", the mark '?', and the fields of rows. The sentences
+// about fields come from the fields' lists (DipField.means).
 static void write_words(const DipCostReport *report, FILE *out) {
     static const char *const paths[] = {"ratio",
                                         "ms",
@@ -217,7 +218,7 @@ static void write_left_out(const DipCostReport *report, const DipCostPictures *p
 // What the page shows.
 typedef struct Page {
     const DipCostReport *report;
-    const DipCostPictures *pictures; // NULL: none.
+    const DipCostPictures *pictures; // NULL if there are none.
 } Page;
 
 // Writes the page. Returns false when memory runs out.

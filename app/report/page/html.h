@@ -1,5 +1,6 @@
 // Writes the report as one HTML page that needs no other file. Scripts in the page sort and filter
-// its tables and show pictures beside the truth; without scripts it is complete.
+// its tables and show pictures beside the truth (the converged picture). The page is complete
+// without its scripts.
 #ifndef DIP_APP_REPORT_PAGE_HTML_H
 #define DIP_APP_REPORT_PAGE_HTML_H
 

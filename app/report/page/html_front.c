@@ -1,5 +1,5 @@
-// Writes time against error into the page: the plot of all combinations, and the tables of those
-// that were measured and of those that were predicted.
+// Writes the section on time against error into the page: a plot of all combinations, a table of
+// the measured ones, and a table of the predicted ones.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
@@ -24,8 +24,8 @@ typedef struct Points {
     const char *title_list[DIP_COST_MAX_ROWS];
 } Points;
 
-// Adds a point, and returns room for its title. The axes are logarithmic, so a FLIP of 0 is plotted
-// as a tiny one.
+// Adds a point, and returns the memory for its title (DIP_HTML_TITLE_BYTES). The axes are
+// logarithmic, so a FLIP of 0 is plotted as a tiny one.
 static char *add_point(Points *points, int row, const DipCandidate *candidate) {
     static const double least_flip = 1e-7;
     const int i = points->count++;
@@ -53,7 +53,7 @@ static DipPlotSeries series_of(const Points *points, const char *name, const cha
 
 // The series of the plot, and the predictions that the page lists.
 typedef struct Parts {
-    Points front;     // The thinned Pareto front of the measured combinations.
+    Points front;     // The Pareto front of the measured combinations.
     Points others;    // All other measured combinations.
     Points predicted; // Combinations that were only predicted.
     DipCandidates listed;

@@ -24,15 +24,18 @@ void dip_html_pictures(const DipCostReport *report, const DipCostPictureSet *set
 
 // --- sections ----------------------------------------------------------------------------------
 
-// Writes time against error: the plot, the Pareto front, all combinations, the pictures of the
-// front if `pictures` is not NULL, and predictions. Returns false when memory runs out.
+// Writes the section on time against error: the plot, the Pareto front, all combinations, the
+// pictures of the front if `pictures` is not NULL, and predictions. Returns false when memory runs
+// out.
 bool dip_html_front(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures);
 
-// Writes time and error along the default path, of the baseline and of the advised combinations.
-// Writes nothing without times or combinations. Returns false when memory runs out.
+// Writes plots of time and error along the default path, for the baseline and the advised
+// combinations. Writes nothing if the report has no times or no combinations. Returns false when
+// memory runs out.
 bool dip_html_path(DipForm *form, const DipCostReport *report);
 
-// Writes each sweep: bars of time and error, a table and, if `pictures` is not NULL, pictures.
+// Writes each sweep (all steps of one setting): bars of time and error, a table and, if `pictures`
+// is not NULL, pictures.
 void dip_html_sweeps(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures);
 
 #endif

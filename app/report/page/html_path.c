@@ -1,5 +1,5 @@
-// Writes time and error along the default path into the HTML page: those of the baseline and of the
-// advised combinations, frame by frame and viewpoint by viewpoint.
+// Writes plots of time and error along the default path into the HTML page, for the baseline and
+// the advised combinations. Times are plotted at frames, and errors at viewpoints.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
@@ -13,7 +13,7 @@ enum {
     MOST_POINTS = DIP_COST_MAX_PLACES // Points are viewpoints, or at most MOST_FRAMES frames.
 };
 
-// The lines of the plot that is written: of the times at frames, or of the errors at viewpoints.
+// The lines of a plot, either of times at frames or of errors at viewpoints.
 typedef struct Lines {
     const DipCostReport *report;
     int rows[MOST_LINES];
@@ -42,8 +42,8 @@ static void add_line(Lines *lines, int row, const char *prefix) {
     }
 }
 
-// Lists the baseline and then the advised combinations. Without advice, the knee of the front
-// follows instead.
+// Lists the baseline and then the advised combinations. Without advice, lists the knee of the
+// Pareto front (app/report/choice.h) instead of them.
 static void list_lines(Lines *lines) {
     const DipCostReport *report = lines->report;
     add_line(lines, report->base_rows[0], "baseline: ");
@@ -74,7 +74,7 @@ static void list_times(Lines *lines) {
     }
 }
 
-// Lists the FLIP at the viewpoints that all lines have.
+// Lists the FLIP at the viewpoints that were judged for all lines.
 static void list_errors(Lines *lines) {
     const DipCostReport *report = lines->report;
     const int viewpoints = report->options.places;

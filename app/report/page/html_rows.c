@@ -1,5 +1,5 @@
-// Writes what the page says about a row of the report: a line of text for plots and scripts, and
-// pictures.
+// Writes the texts and pictures of the report's rows into the HTML page: a line of text for plots,
+// data for the scripts, and sets of pictures.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
@@ -74,7 +74,7 @@ typedef struct Shown {
     const DipCostReport *report;
     const DipCostPictureSet *set;
     const char *name;          // Value of the attribute data-set.
-    const DipCostSweep *sweep; // Names the steps; NULL: pictures have the names of settings.
+    const DipCostSweep *sweep; // Captions are the names of its steps; if NULL, they are settings.
 } Shown;
 
 // Returns the caption of a picture.

@@ -1,4 +1,5 @@
-// Writes each setting into the page: bars of time and error, a table of its steps, and pictures.
+// Writes each sweep (all steps of one setting) into the page: bars of time and error, a table of
+// the steps, and pictures.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
@@ -48,7 +49,7 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
     }
     const double room = BAR_ROOM - 60.0;
     const DipEstimate ratio = sweep->ratios[index];
-    // The step with which the others are compared has no interval.
+    // The ratio of the step with which the others are compared has no interval (NAN).
     const double end = BAR_LEFT + room * fmax(ratio.value, ratio.high) / most;
     write_bar(out, BAR_LEFT, y, room * ratio.value / most, "bar-time");
     if (!isnan(ratio.low)) {

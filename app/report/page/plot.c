@@ -59,7 +59,8 @@ static void widen(Axis *axis, double value) {
     axis->most = fmax(axis->most, scaled(axis, value));
 }
 
-// Adds a margin on both sides of the values. A range of a single value gets a width above 0.
+// Adds a margin on both sides of the values, so that even a single value gets a range. If from_zero
+// is true, a linear axis begins at 0.
 static void add_margin(Axis *axis, bool from_zero) {
     double room = 0.06 * (axis->most - axis->least);
     if (!(room > 0.0)) {
@@ -202,7 +203,7 @@ static const char *dash_of(int index) {
     return index < COLOUR_COUNT ? "none" : "7 4";
 }
 
-// Begins the group of a series' line and marks, or of its entry in the legend.
+// Begins the <g> element of a series' line and marks, or of its entry in the legend.
 static void begin_group(FILE *out, const DipPlotSeries *series, int index) {
     const char *colour = colours[index % COLOUR_COUNT];
     if (series->style) {

@@ -20,13 +20,12 @@ typedef struct DipPlotSeries {
     const double *low; // Lower ends of the bars; NULL for none.
     const double *high;
     int count;
-    bool marks_only;           // True: no line connects the points.
+    bool marks_only;           // True if no line connects the points.
     const char *const *labels; // Texts below and left of the points; NULL for none.
-    // Numbers that a page's script finds in the attribute data-row of the points (-1: the point has
-    // none), and titles that browsers show beside the pointer. NULL for none.
-    const int *rows;
-    const char *const *titles;
-    const char *style; // CSS class of the line; NULL: series-0, series-1, ...
+    const int *rows;           // Values of the points' attribute data-row, by which a page's script
+                               // finds rows; -1 for a point without a row. NULL for none.
+    const char *const *titles; // Texts that browsers show beside the pointer; NULL for none.
+    const char *style;         // CSS class of the line; NULL means series-0, series-1, ...
 } DipPlotSeries;
 
 // All texts are borrowed. Values on a logarithmic axis must be above 0. A linear y axis begins at
@@ -41,7 +40,7 @@ typedef struct DipPlot {
     // Only the first DIP_PLOT_MAX_SERIES are drawn; the legend says how many are left out.
     const DipPlotSeries *series;
     int series_count; // At least 1. At least one series has a point.
-    const char *set;  // Attribute data-set of the <svg> element; NULL: it is empty.
+    const char *set;  // Attribute data-set of the <svg> element; NULL means that it is empty.
 } DipPlot;
 
 // Prints only the <svg> element, for use in an HTML page.

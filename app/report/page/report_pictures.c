@@ -1,6 +1,6 @@
-// Compares the frames of a set's rows at one viewpoint, finds the crop (the part of the picture) in
-// which the rows differ most, and cuts this crop out. Chooses which rows the page shows, and fits
-// their pictures into the page.
+// Compares the frames of a set's rows at one viewpoint (report_pictures.h), finds the crop (the
+// part of the picture) in which the rows differ most, and cuts this crop out. Chooses the rows of
+// each set, and fits their pictures into the page.
 #include "app/report/page/report_pictures.h"
 
 #include "app/cli/progress.h"
@@ -16,11 +16,11 @@ typedef struct Cutter {
     const DipCostReport *report;      // Borrowed.
     const DipCostFrameSource *source; // Borrowed.
     DipFlip flip;
-    DipFlipAnalysis truth_side;
-    uint8_t *truth;  // The truth's pixels, rgba8.
-    uint8_t *frames; // Frames, [picture of the set][pixel], rgba8.
-    uint8_t *maps;   // FLIP maps in 1/255, [picture of the set][pixel].
-    float *map;      // FLIP map of one frame.
+    DipFlipAnalysis truth_side; // What FLIP computes from the truth alone.
+    uint8_t *truth;             // The truth's pixels, rgba8.
+    uint8_t *frames;            // Frames, [picture of the set][pixel], rgba8.
+    uint8_t *maps;              // FLIP maps in 1/255, [picture of the set][pixel].
+    float *map;                 // FLIP map of one frame.
     uint8_t crop[DIP_COST_CROP_WIDTH * DIP_COST_CROP_HEIGHT]; // Crop of a FLIP map.
 } Cutter;
 
@@ -29,7 +29,7 @@ enum {
     SKIP = 2,  // Every second pixel of a column and of a row is read to judge a crop.
     SET_COUNT = DIP_COST_MAX_SWEEPS + 1,
     TEXT_BYTES = 400000,  // Room for the style, the scripts and the texts of a page.
-    ROW_TEXT_BYTES = 1500 // Room for what the tables and plots have about a row.
+    ROW_TEXT_BYTES = 1500 // Room for the texts about one row in the tables and plots.
 };
 
 static bool out_of_memory(DipError *err) {
@@ -53,7 +53,8 @@ static void close_cutter(Cutter *cutter) {
     free(cutter->map);
 }
 
-// `most_rows` is the greatest number of rows in a set. On failure the cutter is closed.
+// Allocates the memory of a cutter. `most_rows` is the greatest number of rows in a set. On failure
+// the cutter is closed.
 static bool open_cutter(Cutter *c, const DipCostReport *report, const DipCostFrameSource *source,
                         int most_rows, DipError *err) {
     *c = (Cutter){.report = report, .source = source};
@@ -105,7 +106,8 @@ static bool read_frame(Cutter *c, const DipCostPictureSet *set, int index, DipEr
 
 // --- choosing the crop ---------------------------------------------------------------------------
 
-// Returns the sum over the crop's pixels of the greatest error of any row minus the least.
+// Returns how much the rows differ in a crop: the sum, over some of its pixels (SKIP), of the
+// greatest error of any row minus the least.
 static int64_t judge_crop(const Cutter *c, const DipCostPictureSet *set, int x0, int y0) {
     const size_t width = (size_t)c->report->width;
     int64_t sum = 0;
@@ -215,7 +217,8 @@ static char *cut_map(Cutter *c, const DipCostPictureSet *set, const uint8_t *map
     return take_uri(made, "image/png", bytes, size_bytes);
 }
 
-// Cuts out what a picture shows of a frame. Returns false when memory runs out.
+// Encodes the crop of a frame and, if `whole` is true, the whole frame. Returns false when memory
+// runs out.
 static bool cut_picture(const Cutter *c, const DipCostPictureSet *set, const uint8_t *rgba8,
                         bool whole, DipCostPicture *picture) {
     picture->crop = cut_crop(c, set, rgba8);
@@ -250,9 +253,9 @@ static void free_set(DipCostPictureSet *set) {
     *set = (DipCostPictureSet){0};
 }
 
-// Gets the rows' frames from the source and cuts their pictures out. The caller fills in set->path,
-// set->viewpoint, set->count and the rows of set->pictures. `whole` asks for whole frames, too. On
-// failure the set is empty.
+// Gets the rows' frames from the source and makes the pictures. The caller fills in set->path,
+// set->viewpoint, set->count and the rows of set->pictures before. If `whole` is true, keeps whole
+// frames, too. On failure the set is empty.
 static bool make_set(DipCostPictureSet *set, Cutter *cutter, bool whole, DipError *err) {
     set->truth.row = -1;
     bool made = read_truth(cutter, set, err);
@@ -290,8 +293,10 @@ static bool has_crops(const DipCostPictureSet *set) {
     return false;
 }
 
-// Frees the crops of a set that do not fit in `room` bytes, or replaces crops by whole frames where
-// these fit. The truth's picture counts with the first row. Returns the bytes that are left.
+// Frees the pictures of a set that do not fit in `room` bytes, and adds the number of their rows to
+// *left_out. If `frames` is false, frees the crops that do not fit. If it is true, whole frames
+// that fit take the place of crops, and the other frames are freed. The first row that fits also
+// takes the room of the truth's picture. Returns the bytes that are left.
 static double fit_set(DipCostPictureSet *set, bool frames, double room, int *left_out) {
     char **truth = frames ? &set->truth.frame : &set->truth.crop;
     double with_first = size_of(*truth);
@@ -364,8 +369,8 @@ static void sort_by_time(const DipCostReport *report, DipCostPictureSet *set) {
     }
 }
 
-// Chooses the rows of the set of combinations. Advised rows come first, since a set has room for
-// few.
+// Chooses the rows of the set of the Pareto front. Advised rows come first, since a set has room
+// for DIP_COST_SET_ROWS rows only.
 static void plan_front(const DipCostReport *report, DipCostPictureSet *set) {
     const DipCostChoice *choice = &report->choice;
     for (int i = 0; i < choice->advice_count; i++) {

@@ -1,7 +1,7 @@
-// Makes the pictures of the HTML page: a set for each sweep (all steps of one setting), and a set
-// for the combinations in the Pareto front of time and error. A set shows several rows of a report
-// at one viewpoint, beside the truth (the converged picture). A row is one combination of settings
-// on a camera path.
+// Makes the pictures of the HTML page. There is a set for each sweep (all steps of one setting),
+// and a set for the combinations on the Pareto front of time and error. A set shows several rows of
+// a report at one viewpoint, beside the truth (the converged picture). A row is one combination of
+// settings on a camera path.
 #ifndef DIP_APP_REPORT_PAGE_REPORT_PICTURES_H
 #define DIP_APP_REPORT_PAGE_REPORT_PICTURES_H
 
@@ -18,7 +18,7 @@ enum {
 
 // The pictures of one row as data URIs; NULL for a picture that the page lacks. All are owned.
 typedef struct DipCostPicture {
-    int row;     // Row of the report; -1: the truth.
+    int row;     // Row of the report; -1 for the truth.
     char *crop;  // Part of the picture, PNG.
     char *map;   // FLIP map of the same part against the truth, PNG; the truth has none.
     char *frame; // Whole frame, JPEG.
@@ -28,19 +28,20 @@ typedef struct DipCostPicture {
 typedef struct DipCostPictureSet {
     DipCostPicture truth;
     DipCostPicture pictures[DIP_COST_SET_ROWS];
-    int count; // Number of rows; 0 if the set has no pictures at all.
-    int path;
-    int viewpoint;
-    int x; // Upper left corner of the crops, in pixels.
-    int y;
+    int count;      // Number of rows; 0 if the set has no pictures at all.
+    int path;       // Index of the camera path in the report.
+    int viewpoint;  // Index of the viewpoint on the path.
+    int x;          // Left edge of the crops, in pixels.
+    int y;          // Top edge of the crops, in pixels.
     int crop_width; // Pixels.
     int crop_height;
 } DipCostPictureSet;
 
-// Draws the frames of the sets.
+// Provides the frames of the sets.
 typedef struct DipCostFrameSource {
     void *context;
-    // Writes the packed rgba8 pixels of a row's frame, or those of the truth if `row` is -1.
+    // Writes the packed rgba8 pixels of a row's frame, or of the truth if `row` is -1, at the
+    // viewpoint of the set. Fills *err if it returns false.
     bool (*read)(void *context, const DipCostPictureSet *set, int row, uint8_t *rgba8,
                  DipError *err);
 } DipCostFrameSource;
@@ -55,16 +56,16 @@ typedef struct DipCostPictures {
 // The greatest size of a page, in bytes.
 #define DIP_COST_PAGE_BYTES 10000000.0
 
-// Gets a frame of every row of the sweeps and of the front, at the run's middle viewpoint. Cuts out
-// the crops and, with --pictures full, keeps whole frames. Leaves out what does not fit in a page.
-// With --pictures none, there are no pictures.
+// Gets a frame of every row of the sweeps and of the front, at the middle one of the run's
+// viewpoints. Cuts out the crops and, with --pictures full, also keeps whole frames. Leaves out
+// pictures that do not fit in a page. With --pictures none, makes no pictures.
 bool dip_cost_pictures_make(DipCostPictures *pictures, const DipCostReport *report,
                             const DipCostFrameSource *source, DipError *err);
 void dip_cost_pictures_free(DipCostPictures *pictures);
 
-// Frees the pictures that do not fit in `room` bytes, and counts their rows. First each row gets
-// its crop, those of the sweeps before those of the front. Then whole frames take the place of
-// crops, those of the front before those of the sweeps.
+// Frees the pictures that do not fit in `room` bytes, and counts their rows. First keeps as many
+// crops as fit, beginning with the sweeps. Then lets whole frames take the place of crops as far as
+// they fit, beginning with the front.
 void dip_cost_pictures_fit(DipCostPictures *pictures, double room);
 
 // Returns "data:TYPE;base64,..." for a file's bytes (RFC 4648). The caller frees it. Returns NULL
