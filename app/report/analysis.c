@@ -4,8 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Adds the context of a combination in which both settings have their first steps. The settings of
-// the combination with both may be refused or idle, and then there is no row to find.
+// Adds one combination of the other settings to the sums of an interaction. `neither` is the
+// combination with the first steps of a and b. Adds nothing if one of the four combinations has no
+// row, for example because the renderer refuses it or a setting in it has no effect.
 static void add_context(const DipCostReport *report, const DipQuality *neither,
                         DipCostInteraction *to) {
     enum { NEITHER, A, B, BOTH };

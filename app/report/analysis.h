@@ -1,6 +1,6 @@
-// What is computed from a whole report for its readers, once, before it is written: how times
-// follow from work, which settings do more or less together than alone, and whether error and work
-// follow theory from step to step. Forms only read the results.
+// Analyses a whole report before it is written: how times follow from work, which settings do more
+// or less together than alone, and whether error and work follow theory from step to step. The
+// functions that write the report (app/report/format/, app/report/page/) only read the results.
 #ifndef DIP_APP_REPORT_ANALYSIS_H
 #define DIP_APP_REPORT_ANALYSIS_H
 
@@ -10,25 +10,25 @@
 
 enum { DIP_COST_MAX_INTERACTIONS = DIP_SETTING_COUNT * (DIP_SETTING_COUNT - 1) / 2 };
 
-// The interaction of the largest effective steps of two settings, as a mean over all combinations
-// of the other settings in which all four pictures were measured: with neither, with a, with b and
-// with both.
+// How the last steps of two settings act together. This is a mean over the combinations of the
+// other settings for which four combinations were measured: with neither step, with that of a, with
+// that of b, and with both. Both settings are at their first step where they are not at their last.
 typedef struct DipCostInteraction {
     DipSetting a;
     DipSetting b;
     int contexts; // Number of combinations of the other settings.
-    // Mean of FLIP(both) - FLIP(a) - FLIP(b) + FLIP(neither). Above 0: together they lower FLIP by
-    // less than the sum of what each lowers it alone.
+    // Mean of FLIP(both) - FLIP(a) - FLIP(b) + FLIP(neither). A value above 0 means that together
+    // they lower FLIP by less than the sum of what each lowers it alone.
     double flip;
-    // Geometric mean of time(both) time(neither) / (time(a) time(b)). Above 1: together they cost
-    // more than the product of their ratios. 0 if the report has no times.
+    // Geometric mean of time(both) * time(neither) / (time(a) * time(b)). A value above 1 means
+    // that together they cost more than the product of their ratios. 0 if the report has no times.
     double time;
 } DipCostInteraction;
 
 typedef struct DipCostAnalysis {
     DipCostFit fit;
-    // Of all pairs of combined settings. There are none if combinations were predicted: only good
-    // combinations are then measured, so means over them mislead.
+    // The interactions of all pairs of combined settings. If combinations were predicted, there are
+    // none: only good combinations are then measured, and means over them would mislead.
     DipCostInteraction interactions[DIP_COST_MAX_INTERACTIONS];
     int interaction_count;
 } DipCostAnalysis;

@@ -1,16 +1,15 @@
-// Lists the candidates of a report: combinations with a time and an error. Then makes the choice
-// that the report derives from its measurements.
+// Lists the candidates of a report, which are combinations with a time and an error, and makes the
+// report's choice among them.
 #include "app/report/report.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// No time's logarithm has a smaller standard error, since two runs on a quiet machine differ by as
-// much.
+// The least standard error of a time's logarithm. Two runs on a quiet machine differ by as much.
 static const double least_error = 0.002;
 
-// Returns a time without the error of the level that all rows share. A time whose error is not
-// known keeps no interval.
+// Returns a row's time of this kind. Its error leaves out time->level_error, which all rows share.
+// A time whose error is not known has no interval.
 static DipEstimate time_of_kind(const DipPathEstimate *time, DipTimeKind kind, int rounds) {
     const DipEstimate whole = kind == DIP_TIME_P95    ? time->p95_ms
                               : kind == DIP_TIME_MEAN ? time->mean_ms

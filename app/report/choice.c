@@ -84,8 +84,8 @@ static bool contains(const Alike *alike, int index) {
            dip_candidate_fits(c, alike->budget_ms) >= DIP_SURELY_FITS;
 }
 
-// Sets most_loss to 1 % above the least loss of what surely fits. Returns the fastest of the alike
-// candidates, or -1.
+// Sets most_loss to 1 % above the least loss of the candidates that surely fit. Returns the fastest
+// of the alike candidates, or -1 if there is none.
 static int find_alike(Alike *alike) {
     int fastest = -1;
     for (int i = 0; i < alike->all->count; i++) {

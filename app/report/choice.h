@@ -1,6 +1,6 @@
-// Chooses settings by their time and error, with the only Pareto front and the only advice of the
-// program. The functions know numbers alone, so the same figures give the same choice wherever they
-// come from: a report, several reports, or prices that are measured live.
+// Chooses settings by their time and error. The whole program takes its Pareto fronts and its
+// advice from here. The functions work on numbers alone, so equal numbers lead to the same choice,
+// whether they come from a report, from several reports, or from prices that the preview measures.
 #ifndef DIP_APP_REPORT_CHOICE_H
 #define DIP_APP_REPORT_CHOICE_H
 
@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-// The time of a path's frames that must be within a budget.
+// Which time of a path's frames must be within a budget.
 typedef enum DipTimeKind {
     DIP_TIME_P95,  // The 95th percentile over the frames.
     DIP_TIME_MEAN, // The mean over the frames.
@@ -26,14 +26,14 @@ typedef struct DipCandidate {
     double common_error; // Standard error of the time's logarithm that all candidates share.
     double loss;         // FLIP for ranking: at least the FLIP that the noise of the truth makes.
     double flip;         // FLIP as it was measured.
-    int row;             // Where the caller keeps the combination.
-    int report;          // With several reports: the one that the time comes from.
+    int row;             // Index by which the caller finds the combination again.
+    int report;          // With several reports, index of the one that the time comes from.
 } DipCandidate;
 
 typedef struct DipCandidates {
     DipCandidate *list;
     int count;
-    DipTimeKind kind; // The kind of all times in the list, and so of their differences.
+    DipTimeKind kind; // The kind of all times in the list.
     bool disturbed;   // The machine was so busy that the times are wrong. Nothing is advised.
 } DipCandidates;
 
@@ -44,44 +44,47 @@ typedef struct DipCandidates {
 // A candidate is advised if it keeps within the budget with this probability.
 #define DIP_SURELY_FITS 0.95
 
-// Returns the probability that a candidate's time is within the budget; NAN if nothing is known of
-// the error of its time.
+// Returns the probability that a candidate's time is within the budget; NAN if the error of its
+// time is not known.
 double dip_candidate_fits(const DipCandidate *candidate, double budget_ms);
 
 // Returns the fastest candidate whose loss is below `loss` by at least the share `step`. Returns -1
 // if there is none.
 int dip_next_better(const DipCandidates *candidates, double loss, double step);
 
-// Lists the Pareto front in order of time: the fastest candidate, and after each candidate the next
-// better one (dip_next_better). `list` has room for all candidates. Returns the number of those
-// listed.
+// Writes the indices of the candidates on the Pareto front to `list`, in order of time: first the
+// fastest candidate, and after each candidate the next better one (dip_next_better). `list` must
+// have room for all candidates. Returns the number of indices.
 int dip_front(const DipCandidates *candidates, double step, int *list);
 
 // Returns the index in `front` (in order of time) of the front's knee: the candidate beyond which
 // more time buys least. In a plot of log time against log loss, the knee is the point farthest
-// below the line from the first to the last candidate (Satopaa et al. 2011). Returns -1 for fewer
-// than three.
+// below the line from the first to the last candidate (Satopaa et al. 2011). Returns -1 if there
+// are fewer than three candidates or if none lies below the line.
 int dip_front_knee(const DipCandidates *candidates, const int *front, int count);
 
 enum { DIP_ADVICE_TIES = 8 };
 
-// What to choose for a time budget. Candidates are indices in the list.
+// What to choose for a time budget. `chosen`, `ties` and `next` are indices of candidates.
 typedef struct DipAdvice {
     double budget_ms;
-    int chosen;  // -1: nothing fits surely.
+    int chosen;  // -1 if no candidate surely fits (DIP_SURELY_FITS).
     double fits; // Probability that the chosen one fits the budget.
-    // Others that surely fit and whose loss is within 1 % of the least, the fastest first.
+    // The other candidates that surely fit and whose loss is at most 1 % above the least loss of
+    // those that surely fit, the fastest first.
     int ties[DIP_ADVICE_TIES];
     int tie_count;  // Number of all ties; the list has the first DIP_ADVICE_TIES.
-    int next;       // The next better than the chosen one, or the fastest if none is chosen; or -1.
-    double next_ms; // How much longer `next` takes than the chosen one, or than the budget.
+    int next;       // The next better candidate than the chosen one (dip_next_better), or the
+                    // fastest one if none is chosen; -1 if there is none.
+    double next_ms; // How much longer `next` takes than the chosen one, or than the budget if none
+                    // is chosen.
     double next_fits; // Probability that `next` fits this budget.
 } DipAdvice;
 
-// Chooses among the candidates that surely fit and whose loss is within 1 % of the least such loss.
-// The times of some of these cannot be told from the time of the fastest, since their intervals
-// overlap. The chosen one of them has the fewest settings off their defaults. If the times are
-// disturbed, nothing is chosen, and nothing is next.
+// Chooses among the candidates that surely fit and whose loss is at most 1 % above the least loss
+// of those that surely fit. Of these, it compares the fastest one with those whose times cannot be
+// told from it, since the intervals overlap, and chooses the one with the fewest settings off their
+// defaults. If the times are disturbed, `chosen` and `next` are -1.
 DipAdvice dip_advise(const DipCandidates *candidates, double budget_ms);
 
 #endif

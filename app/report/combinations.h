@@ -1,49 +1,50 @@
-// Combinations of the steps of several settings (--combine), and the work of a combination that
-// nobody counted, composed from combinations that were counted.
+// Lists the combinations of the steps of several settings (--combine). Composes the work of a
+// combination whose work was not counted from the work of combinations that were counted.
 #ifndef DIP_APP_REPORT_COMBINATIONS_H
 #define DIP_APP_REPORT_COMBINATIONS_H
 
 #include "app/report/report.h"
 
-// Lists every combination of the steps of the settings in the mask `settings` (bit s: setting s).
-// All other settings are those of the baseline. Leaves out combinations that the renderer refuses,
-// and those in which an enabled setting has no effect, since another combination draws the same
-// picture: advanced AF without AF, temporal AA without samples, and adaptive AA with a single group
-// of samples. Returns the number of combinations; the list has the first `room` of them.
+// Lists every combination of the steps of the settings in the mask `settings` (bit s for setting
+// s). All other settings are those of the baseline. Leaves out combinations that the renderer
+// refuses, and those in which an enabled setting has no effect, since another combination draws the
+// same picture: advanced AF without AF, temporal AA without samples, and adaptive AA with a single
+// group of samples. Returns the number of combinations; the list has the first `room` of them.
 int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, DipQuality *list,
                                int room);
 
-// Returns `from` with the settings of `mask` (bit s: setting s) taken from `with`.
+// Returns `from` with the settings of `mask` (bit s for setting s) taken from `with`.
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask);
 
-// Temporal AA does nothing without AA, and advanced AF nothing without AF. Where the other setting
-// is off, reports and prices measure them beside these steps of it.
+// Temporal AA does nothing without AA, and advanced AF does nothing without AF. If AA or AF is off,
+// reports and prices measure temporal AA together with this step of AA, and advanced AF together
+// with this step of AF.
 enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4 };
 
 // --- composed work -------------------------------------------------------------------------------
 
 // Groups of settings change the work nearly independently of each other: the settings of samples
 // (antialiasing, temporal AA, adaptive AA and its groups), anisotropic filtering with advanced AF,
-// texture optimisation, mip detail, and instancing. The composed counters are those of the base,
-// times the factor by which each group alone changes each counter.
+// texture optimisation, mip detail, and instancing. A composed counter is the base combination's
+// counter, times the factors by which each group alone changes it.
 
-// Returns the settings of samples, which decide which samples and fragments are drawn (bit s:
-// setting s). All other settings decide how textures are read.
+// Returns the mask of the settings of samples (bit s for setting s). They decide which samples and
+// fragments are drawn.
 unsigned dip_cost_sampling_settings(void);
 
-// Returns the counters [DIP_COST_COUNTER_COUNT] of a combination that was counted, or NULL. They
-// are borrowed until dip_work_compose returns.
+// Returns the counters [DIP_COST_COUNTER_COUNT] of a combination, or NULL if it was not counted.
+// They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
-// Composes the counters of a combination. Takes the filtering settings together where the
-// combination that has only these was counted, otherwise group by group. Returns false if the base
-// or a group alone was not counted, or if the combination differs from the base in a setting of no
-// group.
+// Composes the counters of a combination. All groups but the settings of samples are taken together
+// if the base with only their settings was counted; otherwise each group is taken alone. Returns
+// false if a combination that is needed was not counted, or if the combination differs from the
+// base in a setting that belongs to no group.
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
                       const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]);
 
 // Returns the number of groups in which a combination differs from the base, or -1 if it differs in
-// a setting of no group.
+// a setting that belongs to no group.
 int dip_work_count_groups(const DipQuality *base, const DipQuality *quality);
 
 #endif

@@ -98,8 +98,8 @@ void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimesFit 
     divide_into_stages(fit, subject, row->ms.value, row->stage_ms);
 }
 
-// Returns the part of an estimate's error that does not come from the error of the level; 0 if
-// there is none.
+// Returns the part of an estimate's error that does not come from the error of the baseline's mean
+// time (DipPathEstimate.level_error); 0 if there is no such part.
 static double without_level(DipEstimate estimate, double level_error) {
     const double own = estimate.log_error * estimate.log_error - level_error * level_error;
     return own > 0.0 ? sqrt(own) : 0.0;

@@ -6,16 +6,16 @@
 
 #include <math.h>
 
-// All combinations that were timed elsewhere ("there", fit.h) together count this many times as
-// much as all rows of the report. Any value from 3 to 100 does about as well. In the trial, 6 timed
-// combinations of the courtyard predicted its others at two sizes and on three other paths.
+// All combinations `there` (dip_cost_model_fit_there) together count this many times as much as all
+// rows of the report. Any value from 3 to 100 does about as well. This was tried in the scene
+// "courtyard", where 6 timed combinations predicted the others at two sizes and on three paths.
 static const double there_weight = 30.0;
 
-// Without a ridge, rows that do not tell two terms of FLIP apart would give them great prices of
-// opposite sign.
+// The ridge of the fit of FLIP, as a share of the summed weight of the rows. Without a ridge, two
+// terms that the rows do not tell apart would get great prices of opposite sign.
 static const double flip_ridge = 1e-5;
 
-// What a row, or a combination that was timed elsewhere, tells about prices.
+// A measurement to which prices are fitted: a row, or a combination that was timed elsewhere.
 typedef struct Sample {
     const double *counters;
     const double *stage_ms;
@@ -23,7 +23,7 @@ typedef struct Sample {
     double whole; // The time of the frame, or its FLIP; 0 if it is not known.
 } Sample;
 
-// The equations of the parts that make up the time or FLIP.
+// The least-squares equations of the parts that are fitted: all stages, or FLIP.
 typedef struct Equations {
     DipCostModelled what;
     int first, end; // The parts from `first` to end - 1.
@@ -46,7 +46,7 @@ static Sample sample_of(const DipCostReport *report, DipCostModelled what, int r
     return (Sample){r->counters, r->stage_ms, &r->quality, whole};
 }
 
-// Returns the sample of rows[index]; without `rows`, that of the row with this index.
+// Returns the sample of the row rows[index], or of the row `index` if `rows` is NULL.
 static Sample sample_at(const DipCostReport *report, DipCostModelled what, const int *rows,
                         int index) {
     return sample_of(report, what, rows ? rows[index] : index);
@@ -56,7 +56,8 @@ static Sample elsewhere_sample(const DipCostElsewhere *row) {
     return (Sample){row->counters, row->stage_ms, &row->quality, sum_stages(row->stage_ms)};
 }
 
-// Adds a sample `weight` times, if its value is known. A weight of -1 takes it away.
+// Adds a sample `weight` times. A weight of -1 takes it away. Returns false if its value is not
+// known.
 static bool add(Equations *equations, const Sample *sample, double weight) {
     double amounts[DIP_COST_MAX_TERMS];
     if (!(sample->whole > 0.0)) {
@@ -87,8 +88,8 @@ static void enlarge_scale(const Sample *sample, int part, double scale[DIP_COST_
     }
 }
 
-// Starts the equations of a part, in which the greatest amount of each term is that term's scale.
-// The amounts of FLIP's terms are at most 1.
+// Starts the equations of a part. Each term is scaled by its greatest amount. The scale of FLIP's
+// terms is 1, because their amounts are at most 1.
 static void begin_part(Equations *equations, const DipCostReport *report, const int *rows,
                        int count, int part) {
     double scale[DIP_COST_MAX_TERMS];

@@ -1,4 +1,4 @@
-// Two models of a combination of settings: of the mean time of a frame, and of FLIP. Both are sums
+// Models the mean time of a frame and the FLIP of a combination of settings. Both models are sums
 // of terms. A term is an amount times a price, and the prices are fitted to measured rows. (A row
 // is one combination of settings on a camera path, report.h.) The models explain how time follows
 // from work, and predict combinations that were not measured.
@@ -9,7 +9,8 @@
 
 // --- terms ---------------------------------------------------------------------------------------
 
-// What is modelled: the time of each stage of a frame (DipCostStage), and FLIP after them.
+// A part is a value that has its own terms. It is the time of a stage of a frame (the part's index
+// is the DipCostStage) or FLIP (DIP_COST_PART_FLIP).
 //
 // A term of a stage is one kind of work. Its amount comes from the exact counters of a frame and
 // from the settings. No counter tells which reads miss the processor's caches. Reads that miss them
@@ -39,57 +40,57 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
 // --- models --------------------------------------------------------------------------------------
 
 typedef enum DipCostModelled {
-    DIP_COST_TIME, // In milliseconds: the sum of the stages' times, each a sum of its terms.
+    DIP_COST_TIME, // In milliseconds: the sum of the terms of all stages.
     DIP_COST_FLIP_ERROR
 } DipCostModelled;
 
 typedef struct DipCostModel {
     DipCostModelled what;
-    double prices[DIP_COST_PART_COUNT][DIP_COST_MAX_TERMS]; // Of time: never negative.
+    double prices[DIP_COST_PART_COUNT][DIP_COST_MAX_TERMS]; // Prices of time are never negative.
     int rows; // Number of rows that the prices come from; 0 if there are none.
 } DipCostModel;
 
-// Fits prices to the rows whose value is known (for a time: with its stages), by least squares of
-// deviations relative to the row's whole value, so that slow rows have no more weight than fast
-// ones. Prices of work are also fitted to the combinations that the report has timed at half its
-// size. Here and below, `rows` may be NULL for rows 0 to count - 1.
+// Fits prices to the rows whose value is known. (A time is known if the times of the stages are.)
+// Minimises the squares of deviations relative to each row's time or FLIP, so that slow rows have
+// no more weight than fast ones. Prices of time are also fitted to the combinations at half the
+// size (report->smaller). Here and below, `rows` may be NULL, which means the rows 0 to count - 1.
 DipCostModel dip_cost_model_fit(const DipCostReport *report, DipCostModelled what, const int *rows,
                                 int count);
 
-// Fits prices of work also to combinations that were timed at another size, on another camera path
-// or with other threads ("there"). The prices are to hold there: all these combinations together
-// count 30 times as much as all rows of the report. The rows decide only what the combinations
-// leave open.
+// Fits prices of time that are meant for another size, another camera path or another number of
+// threads than the report's. `there` holds a few combinations that were timed under these other
+// conditions. Together they count 30 times as much as all rows of the report, so the rows decide
+// only what these combinations leave open.
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
                                       const DipCostElsewhere *there, int there_count);
 
-// Returns the mean time of a frame with these counters and settings, or FLIP, which is never
-// negative and does not depend on the counters.
+// Returns the mean time of a frame with these counters and settings, in milliseconds, or its FLIP.
+// FLIP is never negative and does not depend on the counters.
 double dip_cost_model_value(const DipCostModel *model,
                             const double counters[DIP_COST_COUNTER_COUNT],
                             const DipQuality *quality);
 
-// A miss is |predicted / measured - 1|. Summarises misses, and sorts them.
+// Summarises misses; a miss is |predicted / measured - 1|. Sorts the array `misses`.
 DipCostMisses dip_cost_misses_of(double *misses, int count);
 
-// Predicts each of the rows from all others (leave one out), and returns the misses.
+// Predicts each of the rows from all others (leave one out), and summarises the misses.
 DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, DipCostModelled what,
                                            const int *rows, int count);
 
 // --- the fit of a whole report -------------------------------------------------------------------
 
-// The model of the times of all rows of a report, in the form in which the report shows it.
+// DipCostFit is the model of the times of all rows of a report, as the report shows it.
 enum { DIP_COST_FIT_MAX_TERMS = DIP_COST_STAGE_COUNT * DIP_COST_MAX_TERMS };
 
 typedef struct DipCostFit {
     const char *stages[DIP_COST_FIT_MAX_TERMS]; // The stage of each term.
     const char *names[DIP_COST_FIT_MAX_TERMS];  // The kind of work; the first of each stage is
                                                 // "frame", the constant term.
-    double ns[DIP_COST_FIT_MAX_TERMS];          // Time per unit of each term; never negative.
+    double ns[DIP_COST_FIT_MAX_TERMS];          // Nanoseconds per unit of work; never negative.
     int count;                                  // Number of terms.
     double r2;            // Share of the relative variance of the times that the fit explains.
     double median_miss;   // Median of |fitted / measured - 1|.
-    DipCostMisses others; // Each row predicted from all others.
+    DipCostMisses others; // Misses of the rows, each predicted from all others.
     int rows;             // Number of rows fitted; 0 if there are too few.
 } DipCostFit;
 

@@ -12,11 +12,12 @@ typedef enum Trend { FREE, FALLS, RISES, STAYS } Trend;
 typedef struct Theory {
     DipSetting setting;
     Trend error;
-    bool of_two_frames; // true: the error is the RMSE of the mean of two frames; false: it is FLIP.
+    bool of_two_frames; // True if the error is the RMSE of the mean of two frames; otherwise FLIP.
     Trend work;         // Trend of `counter`; a step with equal work also follows the trend.
     int counter;
     const char *why;  // The likely reason if a step does not follow the trend.
-    const char *idle; // What the path lacks if all steps draw equal pictures; NULL: they always do.
+    const char *idle; // What the path lacks if all steps draw equal pictures; NULL if they always
+                      // draw equal pictures.
 } Theory;
 
 #define FEW_VIEWPOINTS                                                                             \
@@ -70,7 +71,9 @@ static double error_of(const DipCostReport *report, const Theory *theory, int ro
                                  : dip_metrics_of(&sums, 0).flip;
 }
 
-// Returns the first step that does not follow theory, or sweep->row_count if all steps do.
+// Returns the index of the first step that does not follow theory, or sweep->row_count if all steps
+// do. Checks the work if `by_work` is true, otherwise the error. Sets *judged to false if the
+// errors of a step are not known.
 static int first_departure(const DipCostReport *report, const DipCostSweep *sweep,
                            const Theory *theory, bool by_work, bool *judged) {
     for (int i = 1; i < sweep->row_count; i++) {

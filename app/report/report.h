@@ -1,7 +1,8 @@
-// Declares a cost report: its measurements, and the values that are computed from them. Errors are
-// measured against truths (converged pictures, app/measure/metrics/truth.h), at a few viewpoints of
-// each camera path. Times are measured along each path, each beside a time of the path's baseline
-// (app/measure/timing/driver.h).
+// Declares a cost report: its measurements, and the values that are computed from them. A row of
+// the report is one combination of quality settings, measured on one camera path. Its errors are
+// measured against truths (converged pictures, app/measure/metrics/truth.h) at a few viewpoints of
+// the path. Its times are measured along the path, each beside a time of the path's baseline
+// (app/measure/timing/driver.h, which also explains rounds and starts).
 #ifndef DIP_APP_REPORT_REPORT_H
 #define DIP_APP_REPORT_REPORT_H
 
@@ -45,23 +46,25 @@ enum {
     DIP_COST_MAX_REFUSED = 24,
     DIP_COST_MAX_ROWS = 4096,
     DIP_COST_MAX_SMALLER = 4,
-    DIP_COST_MOST_COUNTED = 256, // The work of so many combinations is counted one by one.
+    // With more predicted combinations than this, the work of some is composed (combinations.h).
+    DIP_COST_MOST_COUNTED = 256,
     DIP_COST_TEXT = 160,
     DIP_COST_REASON = 512
 };
 
-// A row's times along its path. Intervals include the doubt of an amber verdict.
+// A row's times along its path. All intervals are widened by DipCostReport.doubt.
 typedef struct DipPathEstimate {
-    DipEstimate ratio;    // The row's time over its baseline's, for all frames.
+    DipEstimate ratio;    // The row's time for all frames, divided by its baseline's time.
     DipEstimate mean_ms;  // Mean over the frames.
     DipEstimate p95_ms;   // 95th percentile over the frames.
     DipEstimate worst_ms; // The slowest frame.
-    // Standard errors of the logarithms of ratio, p95 and worst, without that of the baseline's
-    // level, which all rows of a path share.
+    // Standard errors of the logarithms of ratio, p95_ms and worst_ms. They leave out level_error,
+    // which all rows of a path share.
     double ratio_error;
     double p95_error;
     double worst_error;
-    double level_error; // Standard error of the logarithm of that level; NAN if it is not known.
+    double level_error; // Standard error of the logarithm of the baseline's mean time along the
+                        // path; NAN if it is not known.
     int used;           // Number of frames that were not disturbed.
 } DipPathEstimate;
 
@@ -71,14 +74,15 @@ typedef struct DipCostRow {
     int path;                  // Index of the camera path in the report.
     DipMetricSums *viewpoints; // Errors per viewpoint of the path. Owned.
     DipFlipTail *tails;        // [viewpoint]: distribution of FLIP; all 0 if not known. Owned.
-    bool *judged;              // [viewpoint]: its errors are known. Owned.
+    bool *judged;              // [viewpoint]: true if the row's errors there are known. Owned.
     char (*pictures)[33];      // [viewpoint]: hash of the row's pictures and truths, or "". Owned.
     double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
     DipPathEstimate time;                    // Computed from the log.
     double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of time.mean_ms; they add up to it.
 } DipCostRow;
 
-// A combination that draws the same pictures as a row of fewer settings off their defaults.
+// A combination without a row, because another row draws the same pictures
+// (dip_cost_join_same_pictures).
 typedef struct DipCostSame {
     DipQuality quality;
     int row; // The row that stands for it.
@@ -88,28 +92,30 @@ typedef struct DipCostSame {
 typedef struct DipCostSweep {
     DipSetting setting;
     int path;
-    int base; // Row of the step that the baseline has, with which the other steps are compared.
+    int base; // Index of the row with which all steps are compared. It has the baseline's step.
     int rows[DIP_COST_MAX_SWEEP_ROWS];
-    DipEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Times of the rows over that of the base.
+    DipEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Each row's time over the base row's time.
     int row_count;
 } DipCostSweep;
 
-// What is chosen from the measurements (app/report/choice.h), by the kind of time that budgets are
-// meant for.
+// Holds what is chosen from the measurements (app/report/choice.h). All times are of the kind that
+// budgets limit (options.budget_of).
 typedef struct DipCostChoice {
     DipCandidates
-        candidates; // Combinations with a time and an error; `row` is the report's. Owned.
-    // The thinned front (DIP_CLEARLY_BETTER) in order of time: indices of candidates. Owned.
+        candidates; // Combinations with a time and an error; `row` is an index in `rows`. Owned.
+    // Indices of the candidates on the Pareto front of time and error, in order of time. Each one
+    // is clearly better than the one before (DIP_CLEARLY_BETTER). Owned.
     int *front;
     int front_count;
-    int knee;                               // Index in the front, or -1.
+    int knee;                               // Index of the knee in `front`; -1 if there is none.
     DipAdvice advice[DIP_COST_MAX_BUDGETS]; // One for each of options.budgets_ms.
     int advice_count;                       // Number of budgets, or 0 without candidates.
 } DipCostChoice;
 
-// A combination that was timed elsewhere than the rows: at another size, on another camera path or
-// with another number of threads. Each frame was timed beside a frame of path 0's baseline, so the
-// times are milliseconds of this report.
+// A combination that was timed under other conditions than the rows: at another size, on another
+// camera path or with another number of threads. Each of its frames was timed beside a frame of
+// path 0's baseline. Its time is the ratio to the baseline, times the baseline's time in this
+// report, so it can be compared with the rows' times.
 typedef struct DipCostElsewhere {
     DipQuality quality;
     double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
@@ -135,18 +141,18 @@ typedef struct DipCostPrediction {
     double ms;     // Mean time of a frame.
     double p95_ms; // 95th percentile of the frames along the path.
     double flip;   // Mean FLIP of the viewpoints.
-    int row;       // The row that measured the combination later, or -1.
+    int row;       // The row that measured the combination later; -1 if there is none.
 } DipCostPrediction;
 
-// All combinations that --predict ranks, and how well it did.
+// All combinations that --predict ranks, and how far the predictions lie from measurements.
 typedef struct DipCostPredictions {
     DipCostPrediction *list; // Owned; NULL if nothing was predicted.
     int count;
     int trained; // Number of rows that were measured to predict all others.
-    // Misses of these rows, each predicted from the others: of mean times, and of FLIP.
+    // Misses of the mean times and of the FLIP of these rows, each predicted from the others.
     DipCostMisses times_left_out;
     DipCostMisses errors_left_out;
-    // Misses of rows that were measured after they had been predicted.
+    // Misses of the mean times and of the FLIP of rows that were measured after their prediction.
     DipCostMisses times;
     DipCostMisses errors;
 } DipCostPredictions;
@@ -179,34 +185,38 @@ typedef struct DipCostReport {
     int path_count;
     DipCostRow *rows; // Owned. Row 0 is the baseline on path 0.
     int row_count;
-    // Rows with the baseline's settings, per path: the row with which all others of the path are
-    // timed, and the A/A row, which is timed beside it as if it were another setting.
+    // Two rows of each path with the baseline's settings. All other rows of the path are timed
+    // beside the base row. One of them is the A/A row (same_rows), which is timed as if it were
+    // another setting; its ratio shows how noisy the machine is.
     int base_rows[DIP_COST_MAX_PATHS];
     int same_rows[DIP_COST_MAX_PATHS];
     int combined_first; // Rows from this index on are the combinations, on path 0.
-    DipCostSame *same;  // Combinations that another row stands for, with the same pictures. Owned.
+    DipCostSame *same;  // Combinations for which a row with the same pictures stands. Owned.
     int same_count;
     DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];
     int sweep_count;
-    char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps that were left out, with reasons.
+    char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps left out of sweeps, with reasons.
     int refused_count;
     int rounds;               // Number of rounds timed; 0 if the report has no times.
     DipDriverMachine machine; // What the timing tells about the machine.
-    DipTimed *log; // Every timed frame; a frame's subject is its row. Owned; NULL without times.
+    DipTimed *log; // Every timed frame; its `subject` is a row. Owned; NULL without times.
     int log_count;
-    int starts;             // Number of processes that timed the log, each rounds / starts rounds.
+    int starts;             // Number of processes that timed frames, each for rounds / starts
+                            // rounds.
     DipTimesFit *fit;       // Computed from the log. Owned; NULL without times.
-    double doubt;           // What an amber verdict adds to the error of each time's logarithm.
+    double doubt;           // Standard error that an amber verdict adds to each time's logarithm;
+                            // 0 if the verdict is not amber.
     DipCostVerdict verdict; // Valid if the report has times.
     char verdict_reason[DIP_COST_REASON];
-    // Noise floors of the truths, [path * options.places + viewpoint]. Both arrays are owned.
+    // Noise floors of the truths: the errors of a truth's first half against its second half
+    // (truth.h), [path * options.places + viewpoint]. Both arrays are owned.
     DipMetricSums *floors;
     bool *has_floor;              // True if the floor with this index is known.
     DipCostChoice choice;         // Empty without times.
     DipCostPredictions predicted; // Empty without --predict.
-    // A few combinations on path 0, drawn at about half the width and height. They tell the price
-    // of work that grows with the picture from the price of work that does not, which the model of
-    // times (fit.h) needs to predict other sizes.
+    // A few combinations on path 0, drawn at about half the width and height. They show which work
+    // grows with the picture and which does not. The model of times (fit.h) needs to know this to
+    // predict the times of other sizes.
     DipCostElsewhere smaller[DIP_COST_MAX_SMALLER];
     int smaller_count; // 0 if they were not timed.
     int smaller_width; // Pixels.
@@ -229,17 +239,18 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
                             DipError *err);
 void dip_cost_report_free(DipCostReport *report);
 
-// Returns the first row from `first` on with these settings on a path, or -1.
+// Returns the first row from `first` on with these settings on a path, or -1 if there is none.
 int dip_report_find(const DipCostReport *report, const DipQuality *quality, int path, int first);
 
-// Returns the first row from `first` on with these settings on path 0, otherwise the row that
-// stands for them because it draws the same pictures, or -1.
+// Returns the first row from `first` on with these settings on path 0. If there is none, returns
+// the row that stands for them because it draws the same pictures (report->same), or -1.
 int dip_report_find_same(const DipCostReport *report, const DipQuality *quality, int first);
 
-// Returns the index of the prediction of these settings, or -1.
+// Returns the index of the prediction of these settings, or -1 if there is none.
 int dip_report_find_predicted(const DipCostPredictions *predicted, const DipQuality *quality);
 
-// Writes a sentence that says what the report's milliseconds and ratios hold for.
+// Writes sentences that say by how much the milliseconds of another run may all be higher or lower
+// than the report's, that ratios do not share this, and whether intervals were widened.
 void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]);
 
 void dip_cost_row_free(DipCostRow *row);
@@ -256,7 +267,7 @@ static inline const char *dip_cost_plural(int count) {
     return count == 1 ? "" : "s";
 }
 
-// Writes the sweep's setting, and the other settings that are off their defaults in its base:
+// Writes the sweep's setting, and the other settings that are off their defaults in its base row:
 // "Adaptive AA with aa=4".
 void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep,
                           char text[DIP_COST_TEXT]);
@@ -275,7 +286,8 @@ DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewp
 // Returns whether a row's errors are known at any viewpoint.
 bool dip_cost_is_judged(const DipCostReport *report, int row);
 
-// Returns the metrics of a row over all judged viewpoints, in one region (0: the whole picture).
+// Returns the metrics of a row over all judged viewpoints, in one region. Region 0 is the whole
+// picture (app/measure/metrics/metrics.h).
 DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
 
 // Metrics of the whole picture.
@@ -288,16 +300,18 @@ typedef enum DipCostMetric {
     DIP_COST_METRIC_COUNT
 } DipCostMetric;
 
-// Returns a row's metric over all judged viewpoints, with the 95 % interval of the metric over all
-// viewpoints that the path could be cut into. For FLIP and SSIM the interval is Student's t of the
-// viewpoints' own means. The other metrics come from a mean of squares, which is positive and
-// skewed: Student's t of its logarithm, whose standard error is that of the mean over the mean.
-// With a single viewpoint there is no interval, and low and high are NAN.
+// Returns a row's metric over all judged viewpoints. Its 95 % interval is for the metric over all
+// possible viewpoints of the path. For FLIP and SSIM, it is a Student's t interval of the values at
+// the viewpoints. The other metrics come from a mean of squares, which is positive and skewed, so
+// they use a Student's t interval of its logarithm. The standard error of this logarithm is the
+// standard error of the mean, divided by the mean. With a single viewpoint there is no interval,
+// and low and high are NAN.
 DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric);
 
-// Returns the mean of a row's metric at the viewpoints minus that of another row of the same path,
-// with Student's interval. It is far narrower than that of a row, since viewpoints differ more than
-// settings do. Only viewpoints that both rows have count.
+// Returns by how much a row's metric exceeds the metric of `base`, another row of the same path:
+// the mean of the differences at the viewpoints, with a Student's t interval. This interval is far
+// narrower than the interval of either row's metric, since viewpoints differ more than settings do.
+// Only viewpoints that were judged for both rows count.
 DipEstimate dip_cost_metric_change(const DipCostReport *report, int row, int base,
                                    DipCostMetric metric);
 
@@ -360,7 +374,7 @@ static inline int dip_cost_frame_count(const DipCostReport *report) {
 }
 
 // Adds timed frames to the report's log, which must have as many rounds and starts as `times`.
-// rows[subject] is the row of a subject. Fails with DIP_ERROR_MEMORY.
+// rows[s] is the report's row for subject s of `times`. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_log_add(DipCostReport *report, const DipTimes *times, const int *rows, DipError *err);
 void dip_cost_log_clear(DipCostReport *report);
 
@@ -378,8 +392,9 @@ static inline double dip_cost_ms(const DipCostReport *report, int row) {
     return report->rows[row].time.mean_ms.value;
 }
 
-// Computes the time of a combination that was timed elsewhere, as a subject beside the baseline of
-// path 0, and its stages. The report's times must be estimated.
+// Computes row->ms and row->stage_ms of a combination that was timed elsewhere (DipCostElsewhere).
+// `fit` holds its times as those of `subject`, whose base is the baseline of path 0. Call
+// dip_cost_estimate_times before.
 void dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimesFit *fit, int subject,
                                  DipCostElsewhere *row);
 
@@ -388,18 +403,21 @@ DipEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 
 // --- choosing ------------------------------------------------------------------------------------
 
-// Returns the candidate of a measured row, with its time of a kind; `row` is the report's row.
+// Returns a measured row as a candidate, with its time of this kind. The candidate's `row` is the
+// index of the row in the report.
 DipCandidate dip_candidate_of_row(const DipCostReport *report, int row, DipTimeKind kind);
 
-// Lists report->predicted; `row` is the index there. measured: a combination that was measured
-// later has its measured time and error; otherwise those that were predicted. The caller frees the
-// list even after a failure. Fails with DIP_ERROR_MEMORY.
+// Lists report->predicted as candidates, whose `row` is the index of the prediction. If `measured`
+// is true, combinations that were measured later have their measured times and errors. Otherwise
+// all have the predicted ones. The caller frees the list even after a failure. Fails with
+// DIP_ERROR_MEMORY.
 bool dip_candidates_of_predictions(const DipCostReport *report, DipTimeKind kind, bool measured,
                                    DipCandidates *candidates, DipError *err);
 
-// Lists the predictions that a page shows, in order of time: all, or if there are too many those
-// that were measured later and the front of what was predicted. `row` is the index of the
-// prediction. The caller frees the list even after a failure. Returns false when memory runs out.
+// Lists the predictions that a page shows, in order of predicted time. If there are more than
+// DIP_CANDIDATES_LISTED, lists only those that were measured later and those on the Pareto front of
+// predicted times and errors. A candidate's `row` is the index of the prediction. The caller frees
+// the list even after a failure. Returns false when memory runs out.
 enum { DIP_CANDIDATES_LISTED = 500 };
 bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *listed);
 void dip_candidates_free(DipCandidates *candidates);
@@ -409,7 +427,7 @@ void dip_candidates_free(DipCandidates *candidates);
 bool dip_cost_choose(DipCostReport *report, DipError *err);
 void dip_cost_choice_free(DipCostChoice *choice);
 
-// Returns the candidate that is advised for the budget with this index, or NULL.
+// Returns the candidate that is advised for the budget with this index, or NULL if there is none.
 const DipCandidate *dip_cost_chosen(const DipCostReport *report, int budget);
 
 #endif

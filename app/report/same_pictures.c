@@ -15,8 +15,8 @@ bool dip_cost_same_pictures(const DipCostReport *report, int a, int b) {
     return same;
 }
 
-// Returns the combination that stands for this one: of all with the same pictures, the one with the
-// fewest settings off their defaults, and of several the first.
+// Returns the row that stands for this one. Of all combinations with the same pictures, it is the
+// one with the fewest settings off their defaults. If there are several of these, it is the first.
 static int representative(const DipCostReport *report, int row) {
     int best = row;
     int least = dip_quality_count_changes(&report->rows[row].quality);
@@ -31,8 +31,9 @@ static int representative(const DipCostReport *report, int row) {
     return best;
 }
 
-// Gives the rows in the predictions and in the log their new numbers. A prediction gets the row
-// that stands for its own. The log loses the frames of rows that are gone.
+// Changes the indices of rows in the predictions and in the log to the new ones. A prediction gets
+// the row that stands for its old row. The frames of rows that are gone are taken out of the log.
+// stands[i] is the row that stands for row combined_first + i, and now[i] is this row's new index.
 static void renumber(DipCostReport *report, const int *stands, const int *now) {
     const int first = report->combined_first;
     for (int i = 0; i < report->predicted.count; i++) {
@@ -54,8 +55,8 @@ static void renumber(DipCostReport *report, const int *stands, const int *now) {
 bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
     const int first = report->combined_first;
     const int count = report->row_count - first;
-    int *stands = malloc(((size_t)count + 1) * sizeof *stands); // The row that stands for each.
-    int *now = malloc(((size_t)count + 1) * sizeof *now);       // The row's index afterwards.
+    int *stands = malloc(((size_t)count + 1) * sizeof *stands); // As in renumber.
+    int *now = malloc(((size_t)count + 1) * sizeof *now);
     free(report->same);
     report->same = calloc((size_t)count + 1, sizeof *report->same);
     report->same_count = 0;

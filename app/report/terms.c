@@ -5,23 +5,24 @@
 
 #include <math.h>
 
-// The values that the formulas of terms use. For yes or no, they are 1 or 0.
+// The values that the formulas of terms use. A value that says whether something is so is 1 or 0.
 typedef struct Work {
     const double *counters;
-    double samples;  // Per pixel.
-    double several;  // Several samples per pixel.
-    double groups;   // Sample groups per pixel, each with its own test of alpha-clipped surfaces.
-    double adaptive; // Adaptive AA.
-    double probes;   // Greatest number of probes of one texture read.
-    double anisotropic; // Anisotropic filtering.
-    double exact;       // Advanced AF.
-    double full_levels; // The finest mip levels are read.
-    double raw;         // Colour textures are not compressed.
-    double compressed;  // opt=standard or opt=advanced.
-    double advanced;    // opt=advanced.
-    double biased[3];   // miplod is quality or coarser, performance or coarser, high-performance.
-    double temporal;    // Temporal AA.
-    double coloured;    // Mip levels are shown as colours.
+    double samples;     // Number of samples per pixel.
+    double several;     // 1 if a pixel has several samples.
+    double groups;      // Number of sample groups per pixel, each with its own alpha-clip test.
+    double adaptive;    // 1 with adaptive AA.
+    double probes;      // Greatest number of probes of one texture read.
+    double anisotropic; // 1 with anisotropic filtering.
+    double exact;       // 1 with advanced AF.
+    double full_levels; // 1 if the finest mip levels are read.
+    double raw;         // 1 if colour textures are not compressed.
+    double compressed;  // 1 with opt=standard or opt=advanced.
+    double advanced;    // 1 with opt=advanced.
+    double biased[3];   // 1 if miplod is at least as coarse as quality (the first value), as
+                        // performance (the second) and as high-performance (the third).
+    double temporal;    // 1 with temporal AA.
+    double coloured;    // 1 if mip levels are shown as colours.
 } Work;
 
 #define C(name) (w->counters[DIP_COST_COUNTER_##name])
@@ -77,9 +78,9 @@ typedef struct Work {
     X("pass", C(passes))                                                                           \
     X("tile", C(tiles_drawn))
 
-// The first terms are of edges, then those of the edges of alpha-clipped surfaces, of textures, and
-// of the other settings. The last ones are products of two terms, since one error hides a part of
-// another error in the same place.
+// The first terms stand for the errors of edges, and the next ones for those of the edges of
+// alpha-clipped surfaces, of textures and of the other settings. The last ones are products of two
+// terms, since one error hides a part of another error in the same place.
 #define FLIP_TERMS(X)                                                                              \
     X("picture", 1.0)                                                                              \
     X("one sample", 1.0 - w->several)                                                              \
@@ -109,7 +110,7 @@ typedef struct Work {
     X("compressed textures, miplod=quality", w->compressed * w->biased[0])                         \
     X("compressed textures, miplod=high-performance", w->compressed * w->biased[2])
 
-// All parts that are modelled: X(index of the part, its list of terms).
+// Calls X(index of the part, list of its terms) for all parts that are modelled.
 #define PARTS(X)                                                                                   \
     X(DIP_COST_STAGE_geometry, GEOMETRY_TERMS)                                                     \
     X(DIP_COST_STAGE_raster, RASTER_TERMS)                                                         \

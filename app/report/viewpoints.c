@@ -1,4 +1,4 @@
-// Computes metrics with intervals over the viewpoints of a path.
+// Computes metrics over the viewpoints of a path, with intervals.
 #include "app/report/report.h"
 
 #include "app/measure/metrics/difference.h"
@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-// True if the metric is computed from a mean of squares.
+// Returns whether the metric is computed from a mean of squares.
 static bool is_of_squares(DipCostMetric metric) {
     return metric == DIP_COST_RMSE || metric == DIP_COST_PSNR || metric == DIP_COST_FLICKER;
 }
@@ -28,7 +28,7 @@ static double mean_of(const DipMetricSums *sums, DipCostMetric metric) {
     }
 }
 
-// Returns the metric for the mean that it is computed from.
+// Computes a metric from its mean (mean_of).
 static double metric_of(double mean, DipCostMetric metric) {
     if (metric == DIP_COST_PSNR) {
         return dip_psnr_db(mean);
@@ -62,7 +62,8 @@ static Spread spread_of(const double *values, int count) {
 
 // --- estimates -----------------------------------------------------------------------------------
 
-// An interval without width tells nothing: the viewpoints agree to the last bit.
+// Makes an estimate with this interval. An interval without width is left out: it only means that
+// the viewpoints agree to the last bit.
 static DipEstimate between(double value, double low, double high) {
     DipEstimate estimate = dip_estimate_unknown(value);
     if (low < high) {

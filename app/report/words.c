@@ -36,7 +36,7 @@ void dip_budget_text(double budget_ms, char text[DIP_BUDGET_BYTES]) {
     char ms[DIP_NUMBER_BYTES];
     dip_budget_ms_text(budget_ms, ms);
     for (size_t i = 0; i < sizeof rates_hz / sizeof *rates_hz; i++) {
-        if (fabs(1000.0 / budget_ms / rates_hz[i] - 1.0) < 0.003) { // 16.7 ms is 59.9 Hz.
+        if (fabs(1000.0 / budget_ms / rates_hz[i] - 1.0) < 0.003) { // 16.7 ms (59.9 Hz) means 60.
             snprintf(text, DIP_BUDGET_BYTES, "At %d frames a second (%s ms)", rates_hz[i], ms);
             return;
         }

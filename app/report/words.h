@@ -1,4 +1,5 @@
-// Writes numbers of a choice as people read them, in a terminal, a page or the panel.
+// Writes numbers, time budgets and probabilities for people, in a terminal, in a page or in the
+// preview's panel.
 #ifndef DIP_APP_REPORT_WORDS_H
 #define DIP_APP_REPORT_WORDS_H
 
@@ -6,15 +7,14 @@
 
 enum { DIP_NUMBER_BYTES = 24, DIP_BUDGET_BYTES = 64 };
 
-// Writes a value with this number of decimals. A change has a sign even if it is positive. A value
-// that rounds to 0 has no sign, so "-0" never shows. `minus` is the sign of negative values: "-",
-// or U+2212 for the panel. Values beyond 9,999,999 are cut to that number.
+// Writes a value with this number of decimals. If `change` is true, positive values have a sign,
+// too. A value that rounds to 0 has no sign, so "-0" never shows. `minus` is the sign of negative
+// values: "-", or U+2212 for the panel. Values beyond 9,999,999 are cut to that number.
 void dip_number_text(double value, int decimals, bool change, const char *minus,
                      char text[DIP_NUMBER_BYTES]);
 
-// Writes a FLIP error, or a change of one, with four decimals and without the zero before the
-// point:
-// ".0354", "+.0010".
+// Writes a FLIP error, or a change of FLIP, with four decimals and without the zero before the
+// point: ".0354", "+.0010".
 void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_NUMBER_BYTES]);
 
 // Writes a time budget in three digits: "16.7", "8", "33.3".
@@ -24,8 +24,8 @@ void dip_budget_ms_text(double budget_ms, char text[DIP_NUMBER_BYTES]);
 // rates of displays, otherwise "Within 8 ms a frame".
 void dip_budget_text(double budget_ms, char text[DIP_BUDGET_BYTES]);
 
-// Writes the probability that something fits a budget: "99 %", "unknown". Only a probability that
-// is certain in three digits is written as 100 % or 0 %.
+// Writes the probability that something fits a budget: "99 %", or "unknown" for NAN. Writes 100 %
+// only for 99.95 % and more, and 0 % only for 0.05 % and less.
 void dip_fits_text(double fits, char text[DIP_NUMBER_BYTES]);
 
 #endif
