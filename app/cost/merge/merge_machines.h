@@ -19,7 +19,7 @@ typedef struct DipCostMachine {
     DipEstimate ratios[DIP_COST_MACHINE_ROWS];
 } DipCostMachine;
 
-// The machines in the order of the parts. Zero-initialise it; it owns nothing.
+// The machines in the order of the parts. Zero-initialise the struct; it owns nothing.
 typedef struct DipCostMachines {
     DipCostMachine list[DIP_COST_MAX_PARTS];
     int count;
