@@ -14,7 +14,7 @@
 
 // --- truths --------------------------------------------------------------------------------------
 
-enum { STEPS_PER_TRUTH = 1000 }; // Steps of the progress display.
+enum { STEPS_PER_TRUTH = 1000 }; // Steps of the progress display for each truth.
 
 typedef struct TruthProgress {
     DipProgress progress;

@@ -60,8 +60,9 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
 
 // The counters of report->predicted come from a few frames, the counters of rows from all timed
-// frames. Scales each counter of the combinations without a row by the ratio of these two that the
-// combinations with a row show. Gives combinations with a row the counters of that row.
+// frames. Scales each counter of the combinations without a row by the ratio of the two. This ratio
+// comes from the combinations with a row, which have both counters. Then gives the combinations
+// with a row the counters of that row.
 void dip_cost_scale_counters(DipCostReport *report);
 
 // Returns how many combinations are measured to predict `count` combinations of these settings.
@@ -91,8 +92,9 @@ int dip_cost_list_promising(const DipCostReport *report, int most, int *list, Di
 // or with another number of threads. `cost` is the context of the report, and `there` is a context
 // without truths for the other size, path or number of threads.
 
-// Makes *there a report without rows for this size and the camera path of this category. It times
-// as many frames as `report`. The caller frees the predicted combinations that it adds to *there.
+// Makes *there a report without rows for this size and the camera path of this category. The number
+// of timed frames is that of `report`. The caller frees the predicted combinations that it adds to
+// *there.
 void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report, int width,
                               int height, const char *path);
 

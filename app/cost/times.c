@@ -201,8 +201,8 @@ static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
 }
 
 typedef enum Where {
-    KEPT,     // The report's processes draw; the journal and the log keep the times.
-    HERE,     // The report's processes draw; the log keeps the times.
+    KEPT,     // The report's processes draw; the journal and the report's log keep the times.
+    HERE,     // The report's processes draw; only the report's log keeps the times.
     ELSEWHERE // This process draws; t->fit gets the times.
 } Where;
 

@@ -1,8 +1,8 @@
 // Opens a session, which is everything that a command needs to draw: the settings of the ini file,
 // the scene, the camera track and the painters (painter.h) of both panes. The scene consists of
 // models, or it is a scene of the gallery (app/gallery), which is written in code. The track has
-// the camera paths of all categories. A category is a kind of path that the ini names, such as
-// "AA" for the path that shows antialiasing.
+// the camera paths of all categories. A category is a group of settings, such as "AA", for which
+// the ini can name a camera path.
 #ifndef DIP_APP_SESSION_SESSION_H
 #define DIP_APP_SESSION_SESSION_H
 

@@ -1,4 +1,4 @@
-// Prints common advice for a terminal, and writes it as JSON.
+// Prints common advice (common_advice.h) for a terminal, and writes it as JSON.
 #include "app/cost/advise/common_advice.h"
 
 #include "app/files/whole_file.h"
@@ -52,9 +52,9 @@ static int count_reports(const DipFieldAt *at) {
 // of the times include the error that all combinations of the report share.
 typedef struct Line {
     DipCandidate chosen;
-    DipCandidate alone; // What this report alone would choose.
+    DipCandidate alone; // The settings that this report alone would choose.
     bool has_alone;
-    bool same; // The report alone would choose the same.
+    bool same; // The report alone would choose the same row.
     double loss;
 } Line;
 

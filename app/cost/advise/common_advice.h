@@ -21,11 +21,12 @@ typedef struct DipCostCommon {
 
 // What to choose for one time budget.
 typedef struct DipCostCommonAdvice {
-    DipAdvice all;                          // The common choice, among common->candidates.
-    int alone[DIP_COST_MAX_COMMON_REPORTS]; // The row that each report alone would choose, or -1.
+    DipAdvice all; // The common choice, among common->candidates.
+    // [report]: the row that this report alone would choose, or -1 if it would choose none.
+    int alone[DIP_COST_MAX_COMMON_REPORTS];
 } DipCostCommonAdvice;
 
-// Reads reports: files, or folders that have a cost.json. `files` is borrowed as the names.
+// Reads reports: files, or folders that have a cost.json. Borrows the strings of `files` as names.
 // `budget_of` is the time that must be within the budget. Fails if a report cannot be read, has no
 // combinations with times and errors, comes from a machine that was too busy (DIP_ERROR_BUSY) or
 // from another build of the program, or if no combination is in all reports. Free *common even
@@ -52,7 +53,8 @@ void dip_cost_common_advise(const DipCostCommon *common, double budget_ms,
 
 // Returns the share by which the chosen combination's FLIP in one report is above the FLIP of the
 // row that this report alone would choose. A FLIP below the noise floor of the report's truths
-// counts as the floor (dip_cost_ranking_flip). Returns NAN if there is no common choice or no row.
+// counts as the floor (dip_cost_ranking_flip). Returns NAN if there is no common choice, or if this
+// report alone would choose none.
 double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                                   int report);
 

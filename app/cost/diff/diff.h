@@ -84,7 +84,7 @@ typedef struct DipCostDiffRow {
     bool is_base;                                   // Reports only: the baseline of its path.
     double ms[2];                                   // Mean time of a frame.
     DipEstimate ratios[2];                          // Reports only: time / the baseline's time.
-    DipEstimate change;  // How many times as long B takes, with its 95 % interval.
+    DipEstimate change;  // How many times as long B takes as A, with its 95 % interval.
     double surely_above; // The change is surely greater than this; see dip_cost_diff_mark.
     double surely_below; // The change is surely less than this.
     // Programs only, for each stage of a frame: 1 + (B's time in the stage - A's time in it) / A's
@@ -116,7 +116,7 @@ typedef struct DipCostDiff {
     char notes[DIP_COST_DIFF_MAX_NOTES][DIP_COST_DIFF_NOTE];
     int note_count;
     char cause[512];   // The likely cause of a slowdown; "" if nothing is sure.
-    double limit;      // A row is slower if it surely takes more than this many times as long.
+    double limit;      // A row is slower if B surely takes more than this many times as long.
     double fail_over;  // The limit beyond which times and errors fail; 0 if nothing fails.
     int slower;        // Number of rows that are marked as slower.
     int faster;        // Number of rows that are marked as faster.
@@ -139,7 +139,7 @@ const char *dip_cost_diff_title(int quantity);
 // Returns whether a row's quantity is known on both sides and differs.
 bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
 
-// Returns by what share an error grew from A to B (0.1: B's error is 10 % greater), or 0 if it is
+// Returns by what share an error grew from A to B (0.1 if B's error is 10 % greater), or 0 if it is
 // not known. PSNR and SSIM are turned into errors that grow when the picture gets worse: the root
 // mean square difference that PSNR stands for, and 1 - SSIM. For other quantities, returns the
 // growth of the value.
@@ -195,7 +195,7 @@ typedef struct DipCauseData {
 typedef struct DipCause {
     int kind;     // The kind of work that explains the additional times best; -1 if none is sure.
     double price; // Additional time per unit of this work.
-    double share; // Share of the sum of squares of the additional times that it explains.
+    double share; // Share of the sum of squares of the additional times that this work explains.
 } DipCause;
 
 // Fits the additional times y of the rows by y = price * work, for each kind of work by itself,

@@ -54,7 +54,8 @@ static DipCause best_fit(const DipCauseData *data, const double *times) {
     return best;
 }
 
-// Computes the mean of each row over the drawn starts. Returns false if a row has no time in them.
+// Computes the mean additional time of each row over the drawn starts. Returns false if a row has
+// no time in any of them.
 static bool mean_times(const DipCauseData *data, const int *drawn, double *times) {
     for (int r = 0; r < data->rows; r++) {
         double sum = 0.0;

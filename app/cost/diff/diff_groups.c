@@ -13,7 +13,7 @@ enum { NOT_DEFAULT = -1, MOST_TERMS = 2 };
 // A condition on rows: on their path, and on their steps of some settings.
 typedef struct Condition {
     const char *path; // NULL if rows on any path meet the condition.
-    int count;        // Number of settings.
+    int count;        // Number of settings that the condition names.
     int settings[MOST_TERMS];
     int steps[MOST_TERMS]; // NOT_DEFAULT stands for any step but the default.
 } Condition;

@@ -1,9 +1,9 @@
 // Compares two programs that take turns at every frame, and measures the rows of a report again
 // with a program.
 //
-// For both, it times pairs of subjects. A subject is a set of settings that one program draws. The
-// two subjects of a pair, called sides, take turns at every frame. The programs are started several
-// times, because each start is by chance a little faster or slower than another.
+// In both cases, it times pairs of subjects. A subject is a set of settings that one program draws.
+// The two subjects of a pair, called sides, take turns at every frame. The programs are started
+// several times, because each start is by chance a little faster or slower than another.
 //
 // The programs run as `PROGRAM bench ... --serve` (app/measure/timing/child.h). With two programs,
 // both sides of pair p draw set p, each in its own program. With one program, the sides draw set 0
@@ -376,7 +376,7 @@ static void add_quality(Duel *duel, const DipQuality *quality) {
     add_set(duel, text);
 }
 
-// Fills in options that were not given as the report was measured.
+// Fills in the options that were not given, with the values that the report was measured with.
 static DipCostDiffArguments options_of_report(const DipCostDiffArguments *arguments,
                                               const DipCostReport *report) {
     DipCostDiffArguments all = *arguments;

@@ -10,9 +10,9 @@
 // single start cannot measure it.
 static const double start_error = 0.006;
 
-enum { NAMED_ROWS = 4 }; // Rows that a note names; the others are counted.
+enum { NAMED_ROWS = 4 }; // Greatest number of rows that a note names.
 
-// Which parts of two reports may be compared.
+// Says which parts of two reports may be compared.
 typedef struct Comparable {
     bool pictures;                   // Scene and size are the same.
     bool errors;                     // Pictures, converged pictures and viewpoints are the same.
@@ -245,8 +245,8 @@ static void compare_times(const DipCostReport *const reports[2], const int rows[
                                    hypot(error, shows_starts ? 0.0 : start_error), degrees);
 }
 
-// Computes bounds of the changes that are so wide that all of them together hold with 95 %. Of a
-// hundred intervals of 95 % each, five would miss (Bonferroni's correction).
+// Computes bounds of the changes that are so wide that all of them together hold with a probability
+// of 95 % (Bonferroni's correction). Of a hundred intervals of 95 % each, five would miss.
 static void widen_bounds(DipCostDiff *diff) {
     int count = 0;
     for (int r = 0; r < diff->row_count; r++) {

@@ -1,5 +1,5 @@
-// Runs the command `diptych cost merge`: joins reports of which each has the errors at some of the
-// viewpoints into one report.
+// Runs the command `diptych cost merge`: joins several reports into one. Each of them has the
+// errors at some of the viewpoints.
 #include "app/cost/command.h"
 #include "app/cost/context.h"
 #include "app/cost/options.h"

@@ -2,9 +2,10 @@
 // on another camera path, with another number of threads or another instruction set.
 //
 // A combination is a set of quality settings on the camera path. The report's model of times
-// (fit.h) knows the price of each kind of work. The work of each combination is counted there. The
-// sum of work times price is the prediction from the report alone (as_is_ms). If some combinations
-// are timed there, prices are fitted anew to them and to the report, and predict all others.
+// (fit.h) knows the price of each kind of work: the milliseconds that a unit of it takes. The work
+// of each combination is counted there. The sum of work times price is the prediction from the
+// report alone (as_is_ms). If some combinations are timed there, prices are fitted anew to them and
+// to the report, and predict all others.
 #ifndef DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 #define DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 
