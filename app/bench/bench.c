@@ -336,9 +336,9 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     return done;
 }
 
-// Tells the session to make no renderers, because the bench makes its own, and to load the scene
-// only if this process draws it: --grid replaces the scene, and with --vs each started program
-// loads the scene itself.
+// Tells the session to make no renderers, because the bench makes its own. Tells it to load the
+// scene only if this process draws it: --grid replaces the scene, and with --vs each started
+// program loads the scene itself.
 static void describe_session(const void *all_arguments, DipSessionDef *def) {
     const DipBenchArguments *arguments = all_arguments;
     const DipBenchOptions *bench = &arguments->bench;

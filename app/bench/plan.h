@@ -38,7 +38,7 @@ void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
 int dip_bench_fewest_threads(const DipBenchPlan *plan, int combination);
 
 // Returns the combination with the first instruction set and number of threads and otherwise the
-// same values. Its pictures have the same bits.
+// same values. The pictures of both combinations are the same to the bit.
 int dip_bench_same_pictures(const DipBenchPlan *plan, int combination);
 
 // The values of a combination.

@@ -1,4 +1,4 @@
-// Declares the options that the commands that time frames share.
+// Declares the options for timing frames, which several commands share.
 #ifndef DIP_APP_CLI_MEASURE_OPTIONS_H
 #define DIP_APP_CLI_MEASURE_OPTIONS_H
 

@@ -1,5 +1,5 @@
-// Shows on standard error how much of its work a long command has done, and lets Ctrl-C end the
-// command after the frame or measurement that it has begun.
+// Shows on standard error how much of its work a long command has done. Lets Ctrl-C end the command
+// once the current frame or measurement is done.
 #ifndef DIP_APP_CLI_PROGRESS_H
 #define DIP_APP_CLI_PROGRESS_H
 
