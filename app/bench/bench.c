@@ -1,5 +1,5 @@
-// `diptych bench`: makes the pools, scenes and renderers of a plan, and measures this program, or
-// two programs in turn.
+// Runs the command `diptych bench`: makes the pools, scenes and renderers that the plan (plan.h)
+// needs, and measures this program, or two programs in turn.
 #include "app/bench/enlarge.h"
 #include "app/bench/measure.h"
 #include "app/bench/plots.h"
@@ -18,8 +18,8 @@
 typedef struct View {
     const DipScene *scene;
     const DipCamPath *path;
-    DipScene *own_scene;  // `scene` if the view owns it; NULL if the session does
-    DipCamPath *own_path; // `path` if the view owns it; NULL if the session does
+    DipScene *own_scene;  // equal to `scene` if the view owns it; NULL if the session owns it
+    DipCamPath *own_path; // equal to `path` if the view owns it; NULL if the session owns it
     DipCamPathEnd end;    // what the path does at its end
     double fov_y_deg;
     int triangles; // number of triangles given to --grid; 0 for the session's scene
@@ -178,7 +178,8 @@ static Context *create_context(const DipBenchPlan *plan, const DipSession *sessi
     return bench;
 }
 
-// The enlarging is part of the frame's total time, and of none of its stages.
+// Enlarges the picture to its full size (--scale). Adds the time to the frame's total time, but to
+// no stage.
 static void enlarge(DipEnlarger *enlarger, DipOptionSize size, DipFrame *picture) {
     const int64_t begin_ns = dip_clock_ns();
     picture->rgba8 = dip_enlarger_run(enlarger, picture->rgba8, picture->stride_bytes);
@@ -253,8 +254,8 @@ static bool draw_there(void *context, int combination, int frame, bool hash, Dip
     return dip_child_draw(context, request, sample, &timed, err);
 }
 
-// The programs that are measured: this process, or with --vs two child processes, so that neither
-// program has an advantage.
+// The programs that are measured. Without --vs, this process is the only one. With --vs, both
+// programs run as child processes, so that neither has an advantage.
 typedef struct Programs {
     Context *here;
     DipChild *children[2];
@@ -335,9 +336,9 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     return done;
 }
 
-// Tells the session to make no renderers, because the bench makes its own, and to load the scene
-// only if this process draws it: --grid replaces the scene, and with --vs each started program
-// loads the scene itself.
+// Tells the session to make no renderers, because the bench makes its own. Tells it to load the
+// scene only if this process draws it: --grid replaces the scene, and with --vs each started
+// program loads the scene itself.
 static void describe_session(const void *all_arguments, DipSessionDef *def) {
     const DipBenchArguments *arguments = all_arguments;
     const DipBenchOptions *bench = &arguments->bench;

@@ -23,8 +23,8 @@ static int scaled(int size, double scale) {
 }
 
 void dip_enlarger_source_size(int width, int height, double scale, int *to_width, int *to_height) {
-    const int steps =
-        divisor(width, height); // Number of sizes up to width x height with this aspect ratio.
+    // The number of sizes up to width x height that have exactly this aspect ratio.
+    const int steps = divisor(width, height);
     const int step = scaled(steps, scale);
     *to_width = width / steps * step;
     *to_height = height / steps * step;
@@ -38,7 +38,7 @@ void dip_enlarger_source_size(int width, int height, double scale, int *to_width
 typedef struct Place {
     int first;
     int next;
-    float weight; // Of `next`, 0..1.
+    float weight; // Weight of pixel `next`, 0..1. Pixel `first` has the rest.
 } Place;
 
 struct DipEnlarger {
@@ -53,9 +53,9 @@ struct DipEnlarger {
     DipSrgbEncodeTable codes;
 };
 
-// Finds the places for enlarging `from` pixels to `to` pixels. Pixel i of the destination lies at
-// ((2 * i + 1) * from - to) / (2 * to) in the source. This is computed in whole numbers until the
-// last division.
+// Fills in the places of `to` destination pixels in a row or column of `from` source pixels. Pixel
+// i of the destination lies at ((2 * i + 1) * from - to) / (2 * to) in the source. All but the last
+// division is computed in whole numbers.
 static void find_places(int from, int to, Place *places) {
     for (int i = 0; i < to; i++) {
         const int64_t numerator = (2 * (int64_t)i + 1) * from - to;
@@ -134,8 +134,8 @@ static void blend_rows(const DipEnlarger *e, const float *a, const float *b, flo
     }
 }
 
-// Neighbouring rows of the destination mostly need the same two rows of the source. An even row of
-// the source is kept in slot 0, an odd one in slot 1.
+// Enlarges BAND_ROWS rows. Neighbouring rows of the destination mostly need the same two rows of
+// the source, so the last two widened rows are kept: an even row in slot 0, an odd one in slot 1.
 static void enlarge_band(void *context, int band, int worker) {
     DipEnlarger *e = context;
     const size_t width = (size_t)e->def.to_width;

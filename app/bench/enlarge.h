@@ -4,9 +4,9 @@
 // The centre of pixel x of the result lies at (x + 1/2) * source width / result width - 1/2 in the
 // source, counted in pixels from the centre of its first pixel. Its value is interpolated between
 // the two nearest pixels, first along x, then along y; beyond the outermost centres the picture is
-// constant. sRGB codes are decoded before this and encoded after it, rounded to the nearest code;
-// alpha is not decoded. The result has the same bits on every machine and with any number of
-// threads.
+// constant. sRGB codes are decoded before the interpolation and encoded after it, rounded to the
+// nearest code; alpha is interpolated as it is. The result is the same to the bit on every machine
+// and with any number of threads.
 #ifndef DIP_APP_BENCH_ENLARGE_H
 #define DIP_APP_BENCH_ENLARGE_H
 
@@ -16,9 +16,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Writes the size at which a picture is drawn at a render scale of at most 1. This is the nearest
-// size of exactly the same shape, so that enlarging does not stretch the picture. If that size's
-// width is more than 2 % away from scale * width, the scaled width and height are rounded instead.
+// Writes the size at which a picture of width x height pixels is drawn if the render scale is
+// `scale`, at most 1. This is the nearest size with exactly the same aspect ratio, so that
+// enlarging does not stretch the picture. If its width is more than 2 % away from scale * width,
+// the size is scale * width and scale * height, rounded.
 void dip_enlarger_source_size(int width, int height, double scale, int *to_width, int *to_height);
 
 typedef struct DipEnlarger DipEnlarger;
@@ -28,7 +29,7 @@ typedef struct DipEnlargerDef {
     int from_height;
     int to_width; // Pixels, at least from_width.
     int to_height;
-    DipPool *pool; // Borrowed; must outlive the enlarger. NULL: the calling thread works alone.
+    DipPool *pool; // Borrowed; must outlive the enlarger. NULL if the calling thread works alone.
 } DipEnlargerDef;
 
 // Makes an enlarger. Fails with DIP_ERROR_MEMORY.
@@ -36,8 +37,8 @@ DipEnlarger *dip_enlarger_create(const DipEnlargerDef *def, DipError *err);
 // *enlarger may be NULL and becomes NULL.
 void dip_enlarger_destroy(DipEnlarger **enlarger);
 
-// Enlarges a picture of 8-bit sRGB pixels with alpha, the top row first. Returns the enlarged
-// picture, rows packed. The enlarger owns it until the next call.
+// Enlarges a picture of from_width x from_height 8-bit sRGB pixels with alpha, the top row first.
+// Returns the enlarged picture, rows packed. The enlarger owns it, and the next call overwrites it.
 const uint8_t *dip_enlarger_run(DipEnlarger *enlarger, const uint8_t *rgba8, size_t stride_bytes);
 
 #endif

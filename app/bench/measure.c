@@ -1,4 +1,5 @@
-// Stores and averages the bench's samples, and measures the combinations and programs in turn.
+// Measures the plan's combinations, of one program or of two in turn, and stores the times and
+// counters of every frame.
 #include "app/bench/measure.h"
 
 #include "app/cli/drive.h"
@@ -80,11 +81,11 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 
 // --- measuring -----------------------------------------------------------------------------------
 
-enum { BLOCK_SUBJECTS = 4 }; // As many as `diptych cost` uses.
+enum { BLOCK_SUBJECTS = 4 }; // Subjects per block (driver.h), as many as `diptych cost` has.
 
-// The driver's subject i is combination i / source_count of source i % source_count. If there are
-// two sources, the first one is the base of the second; otherwise the plan's base is the base of
-// all combinations.
+// The driver's subject i (driver.h) is combination i / source_count of source i % source_count. If
+// there are two sources, each combination of the second is compared with the same combination of
+// the first, its base. Otherwise all combinations are compared with the plan's base.
 typedef struct BenchTiming {
     const DipBenchPlan *plan;
     const DipBenchSource *sources;
@@ -92,9 +93,9 @@ typedef struct BenchTiming {
     DipBenchResult *results;
 } BenchTiming;
 
-// Fails unless a picture equals that of the first instruction set and number of threads: pictures
-// must depend on neither. The driver's warm-up draws the combinations in order, so that picture is
-// there already.
+// Fails unless a picture equals the picture of the first instruction set and number of threads,
+// because pictures must depend on neither. The driver's warm-up draws the combinations in order, so
+// the picture to compare with has been drawn already.
 static bool check_picture(const BenchTiming *t, int combination, int frame, const char *hash,
                           DipError *err) {
     const int like = dip_bench_same_pictures(t->plan, combination);
@@ -130,7 +131,8 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
-// A base is drawn in every block of a round. Its times of the last block are kept.
+// Stores the times in the results. A base is drawn in every block of a round; the times of the last
+// block are kept.
 static void keep_times(const BenchTiming *t, const DipTimes *times) {
     for (int i = 0; i < times->count; i++) {
         const DipTimed *timed = &times->list[i];

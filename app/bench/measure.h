@@ -25,21 +25,23 @@ typedef struct DipBenchResult {
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
 void dip_bench_result_free(DipBenchResult *result);
 
-// Stores the times of a frame of a round.
+// Stores the times of one drawing of a combination: of frame timed->frame in round timed->round.
 void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed);
 
-// Returns the times of a stage: rounds * frames values, [round * frames + frame].
+// Returns the times of a combination in a stage, in milliseconds: rounds * frames values,
+// [round * frames + frame].
 const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
                                   DipBenchStage stage);
 
-// Returns the quantile of these times with this share, 0..1.
+// Returns a quantile of the times of a combination in a stage. `share` is 0 for the least time, 0.5
+// for the median and 1 for the greatest time.
 double dip_bench_result_quantile(const DipBenchResult *result, int combination, DipBenchStage stage,
                                  double share);
 
 // Returns the sample of a frame's first drawing, which has the hash and the counters.
 DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination, int frame);
 
-// Writes the means of the counters over the frames.
+// Writes the means of a combination's work counters over the frames.
 void dip_bench_result_work(const DipBenchResult *result, int combination,
                            double means[DIP_COUNTER_COUNT]);
 
@@ -55,15 +57,15 @@ typedef struct DipBenchSource {
 // Fills one result for each source. There are 1 or 2 sources. The results must be initialised
 // before the call.
 //
-// Every combination is timed beside the plan's base. With two sources, each combination of the
-// second is timed beside that of the first. Ratios and speed-ups come from these pairs
-// (app/measure/stats/rounds.h).
+// With one source, every combination is timed beside the plan's base. With two sources, each
+// combination of the second is timed beside the same combination of the first. Ratios and speed-ups
+// come from these pairs (app/measure/stats/rounds.h).
 //
 // Before any time is taken, the warm-up draws each frame once. Its samples, with hashes and
 // counters, become the results' `first` samples. Two sources take turns at every frame. A rest of
-// one millisecond before each run lets the other source's threads go to sleep. Progress goes to
-// standard error. Fails with DIP_ERROR_RUNTIME if the first source's pictures differ between
-// instruction sets or numbers of threads.
+// one millisecond before each timed frame lets the other source's threads go to sleep. Progress
+// goes to standard error. Fails with DIP_ERROR_RUNTIME if the first source's pictures differ
+// between instruction sets or numbers of threads.
 bool dip_bench_measure(const DipBenchPlan *plan, const DipBenchSource *sources, int source_count,
                        DipBenchResult *results, DipError *err);
 

@@ -1,6 +1,6 @@
-// Options of `diptych bench`. An axis is a property that can vary: settings, threads, instruction
-// set, size, render scale, grid. Each axis has a list of values, and the bench measures every
-// combination of them.
+// Declares the options of `diptych bench`. An axis is a property that can vary: settings, threads,
+// instruction set, size, render scale, grid. Each axis has a list of values. The bench measures
+// every combination of the axes' values.
 #ifndef DIP_APP_BENCH_OPTIONS_H
 #define DIP_APP_BENCH_OPTIONS_H
 
@@ -17,7 +17,7 @@ enum {
     DIP_BENCH_MAX_VALUES = 32, // Values of one axis.
     DIP_BENCH_MAX_COMBINATIONS = 512,
     DIP_BENCH_MAX_FRAMES = 10000,
-    DIP_BENCH_MAX_ROUNDS = 1000 // Making the estimates takes a time that grows with their cube.
+    DIP_BENCH_MAX_ROUNDS = 1000 // The time to compute estimates grows with the cube of the rounds.
 };
 
 typedef struct DipBenchSet {
@@ -31,7 +31,7 @@ typedef struct DipBenchSet {
 typedef struct DipBenchOptions {
     DipBenchSet sets[DIP_BENCH_MAX_VALUES];
     int set_count;
-    int threads[DIP_BENCH_MAX_VALUES]; // 0: all processors.
+    int threads[DIP_BENCH_MAX_VALUES]; // 0 stands for all processors.
     int threads_count;
     DipIsa isas[DIP_BENCH_MAX_VALUES];
     int isa_count;
@@ -43,7 +43,7 @@ typedef struct DipBenchOptions {
     int grid_count;
     bool grid_out_of_view;
     int frames;
-    DipMeasureOptions measure; // Its seed is filled in by the plan.
+    DipMeasureOptions measure; // If no seed is given, the plan (plan.h) chooses one.
     const char *csv;
     const char *svg;
     const char *vs;

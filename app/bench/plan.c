@@ -1,4 +1,5 @@
-// Makes every combination of the values of all axes, and writes their labels.
+// Makes every combination of the values of all axes (plan.h), and writes the labels of
+// combinations.
 #include "app/bench/plan.h"
 
 #include "app/bench/enlarge.h"
@@ -125,7 +126,8 @@ void dip_bench_value_name(const DipBenchPlan *plan, int combination, DipBenchAxi
     }
 }
 
-// Writes the values on the axes that vary, or on those that do not, but never that on `without`.
+// Writes a combination's values on the axes that vary if `varies` is true, otherwise its values on
+// the axes that do not vary. Leaves out the axis `without`.
 static void write_label(const DipBenchPlan *plan, int combination, bool varies,
                         DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
     *label = '\0';

@@ -1,12 +1,13 @@
-// The plan of a bench. An axis is a property that can vary, such as the picture's size (options.h).
-// The plan has the values on each axis, and every combination of these values with its label.
+// Makes the plan of a bench. An axis is a property that can vary, such as the picture's size
+// (options.h). The plan has the values on each axis, and every combination of these values with its
+// label.
 #ifndef DIP_APP_BENCH_PLAN_H
 #define DIP_APP_BENCH_PLAN_H
 
 #include "app/bench/options.h"
 #include "app/session/session.h"
 
-// From row to row of the printed table, the last axis changes fastest.
+// The axes. From row to row of the printed table, the last axis changes fastest.
 typedef enum DipBenchAxis {
     DIP_BENCH_AXIS_GRID,
     DIP_BENCH_AXIS_SIZE,
@@ -18,8 +19,8 @@ typedef enum DipBenchAxis {
 } DipBenchAxis;
 
 typedef struct DipBenchPlan {
-    DipBenchOptions options;          // With defaults filled in; the list of grids may be empty.
-    int counts[DIP_BENCH_AXIS_COUNT]; // Values per axis, at least 1.
+    DipBenchOptions options; // All lists have at least one value, except the list of grids.
+    int counts[DIP_BENCH_AXIS_COUNT]; // Number of values per axis, at least 1.
     // [combination][axis]: the index of the combination's value on the axis.
     int at[DIP_BENCH_MAX_COMBINATIONS][DIP_BENCH_AXIS_COUNT];
     int count; // Number of combinations.
@@ -37,12 +38,12 @@ void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
 int dip_bench_fewest_threads(const DipBenchPlan *plan, int combination);
 
 // Returns the combination with the first instruction set and number of threads and otherwise the
-// same values. Its pictures have the same bits.
+// same values. The pictures of both combinations are the same to the bit.
 int dip_bench_same_pictures(const DipBenchPlan *plan, int combination);
 
 // The values of a combination.
 typedef struct DipBenchValues {
-    int triangles; // Of the grid; 0 for the session's scene.
+    int triangles; // Number of triangles of the grid; 0 for the session's scene.
     DipOptionSize size;
     double scale;
     DipOptionSize drawn; // The size at which the picture is drawn, before it is enlarged to `size`.

@@ -1,4 +1,4 @@
-// Makes the five plots. Each line of a plot is a series.
+// Makes the five plots of time (plots.h). Each line of a plot is a series of points.
 #include "app/bench/plots.h"
 
 #include "app/cli/machine.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const struct Kind {
-    const char *name; // "pixels": the file is time_pixels.svg, the title "Time against pixels".
+    const char *name; // "pixels" makes the file time_pixels.svg, titled "Time against pixels".
     const char *x_title;
     DipBenchAxis axis;
 } kinds[] = {
@@ -31,11 +31,11 @@ static double value_of(const DipBenchPlan *plan, int combination, DipBenchAxis a
                                           : v.threads;
 }
 
-// The points of one series. All combinations of a series have the values of its first one, except
-// on the plot's axis.
+// The points of one series, one for each of its combinations. All of these have the same values
+// except on the plot's axis.
 typedef struct Series {
     char name[DIP_BENCH_LABEL_SIZE];
-    int first; // Combination.
+    int first; // Index of the first combination.
     double x[DIP_BENCH_MAX_VALUES];
     double y[DIP_BENCH_MAX_VALUES];
     double low[DIP_BENCH_MAX_VALUES];
@@ -80,8 +80,8 @@ static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Serie
     }
 }
 
-// Adds a combination's point and keeps x ascending. Ignores the point if its x is already there,
-// for example for two sizes of equal area.
+// Adds a combination's point to the series, whose points are in ascending order of x. Ignores the
+// point if the series has a point at this x, for example for two sizes of equal area.
 static void add_point(Series *series, double x, const DipBenchResult *result, int combination) {
     static const double shares[] = {0.5, 0.05, 0.95};
     double *const columns[] = {series->x, series->y, series->low, series->high};

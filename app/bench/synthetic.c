@@ -1,4 +1,4 @@
-// Makes scenes of one mesh, one material and one texture, and the mesh of the relief.
+// Makes scenes of one mesh, one material and one texture, and the wavy mesh of the relief.
 #include "app/bench/synthetic.h"
 
 #include "renderer/base/trig.h"
@@ -9,7 +9,7 @@
 
 enum { TEXTURE_SIZE = 1024 };
 
-// A hash of two numbers, the same on every machine.
+// Returns a hash of two numbers, which is the same on every machine.
 static uint32_t hash(uint32_t x, uint32_t y) {
     uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u;
     h = (h ^ h >> 15) * 0x2c1b3c6du;

@@ -1,5 +1,5 @@
-// Scenes that are computed by formulas and may have very many small triangles. The renderer was not
-// optimised for them.
+// Makes scenes that are computed by formulas and may have very many small triangles. The renderer
+// is not optimised for such scenes.
 #ifndef DIP_APP_BENCH_SYNTHETIC_H
 #define DIP_APP_BENCH_SYNTHETIC_H
 
@@ -30,10 +30,11 @@ typedef struct DipSynthetic {
 // with DIP_ERROR_MEMORY.
 DipSynthetic *dip_synthetic_create(uint32_t vertex_count, uint32_t index_count, DipError *err);
 
-// Makes a relief: a wavy surface under the fixed light. It has about triangle_count
-// (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles of equal size. It nearly fills the picture and stays
-// wholly in view while the camera sways a little. turn_deg turns the camera to the left about the
-// vertical, so that less of the relief is in view.
+// Makes a relief: a wavy surface in the renderer's fixed light. It has about triangle_count
+// (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles of equal size. It nearly fills a picture of this
+// vertical field of view and aspect ratio, and stays wholly in view while the camera sways a
+// little. turn_deg turns the camera to the left about the vertical, so that less of the relief is
+// in view.
 DipSynthetic *dip_synthetic_relief(int triangle_count, double fov_y_deg, double aspect,
                                    double turn_deg, DipError *err);
 

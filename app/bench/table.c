@@ -1,4 +1,4 @@
-// Prints the bench's tables and writes CSV.
+// Prints the bench's results as tables, and writes them as CSV.
 #include "app/bench/table.h"
 
 #include "app/files/whole_file.h"
@@ -63,7 +63,7 @@ static int label_width(const DipBenchPlan *plan) {
     return width;
 }
 
-// Prints a value and its interval, or `unknown` where that is not known.
+// Prints a value and its interval. Prints `unknown` instead of an interval that is not known.
 static void print_estimate(const DipEstimate *estimate, const char *unknown, FILE *out) {
     char interval[48];
     snprintf(interval, sizeof interval, "%s", unknown);

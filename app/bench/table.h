@@ -10,15 +10,16 @@
 // rounds, seed.
 void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session, FILE *out);
 
-// Prints the median, 95th percentile and minimum of the milliseconds of each combination, by stage,
-// with the ratio of its time to that of the plan's base, and its speed-up if threads vary.
+// Prints the median, 95th percentile and minimum time of each combination in each stage, in
+// milliseconds. Also prints the ratio of its time to the time of the plan's base, and if the number
+// of threads varies its speed-up over the fewest threads.
 void dip_bench_print_times(const DipBenchResult *result, FILE *out);
 
 // Prints the means of the work counters over the frames.
 void dip_bench_print_work(const DipBenchResult *result, FILE *out);
 
-// Prints for each combination the ratio of the mean time of the program of --vs to this one's, the
-// 95 % interval of this ratio, and whether the pictures are the same.
+// Prints for each combination the ratio of the mean time of the program of --vs to the mean time of
+// this program, the 95 % interval of this ratio, and whether the pictures are the same.
 void dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out);
 
 // Writes a CSV line for each program, combination, round and frame. `count` is the number of

@@ -22,7 +22,7 @@ extern const DipOptionTable dip_program_option_table;
 typedef struct DipOperands {
     size_t field; // Offset of the array in the command's struct of options.
     size_t count; // Offset of the int that holds the number of operands.
-    int most;     // Greatest number of operands; 0: the command takes none.
+    int most;     // Greatest number of operands; 0 if the command takes none.
 } DipOperands;
 
 // An example in the help of a command.
@@ -44,24 +44,26 @@ typedef struct DipCommand {
     size_t options_size; // Bytes of the command's struct of options.
 
     // Fills in the default of every option. The struct is zero before the call. argv is the whole
-    // command line. NULL: zero is the default of every option.
+    // command line. The function may be NULL if zero is the default of every option.
     void (*set_defaults)(void *options, int argc, char *const *argv);
 
     // Returns false and fills *err if options contradict each other or a necessary option is
-    // missing. NULL: any options may be combined.
+    // missing. The function may be NULL if any options may be combined.
     bool (*check)(const void *options, DipError *err);
 
-    // Fills in *def with what the session must load. NULL: the command runs without a session.
+    // Says in *def what the session must load. The function is NULL if the command runs without a
+    // session.
     void (*describe_session)(const void *options, DipSessionDef *def);
 
-    // Does the command's work. The session is NULL if describe_session is NULL.
+    // Does the command's work. Returns false and fills *err if it fails. The session is NULL if
+    // describe_session is NULL.
     bool (*run)(DipSession *session, const void *options, DipError *err);
 } DipCommand;
 
 // A former command, whose name has two words. Typing it is an error that says what to type now.
 typedef struct DipMovedCommand {
     const char *name;
-    const char *instead;
+    const char *instead; // What to type now.
 } DipMovedCommand;
 
 // The commands of a program. The first one runs if the command line names none. Hidden commands run

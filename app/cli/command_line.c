@@ -54,8 +54,8 @@ static bool unknown_command(const DipCommandList *list, const char *word, DipErr
                                   word);
 }
 
-// Reports an error: there are commands of two words that begin with `first`, but `second` is not
-// the second word of any of them. A NULL `second` means that the second word is missing.
+// Fails because `second` is not the second word of any of the two-word commands that begin with
+// `first`. `second` is NULL if the second word is missing.
 static bool unknown_second_word(const DipCommandList *list, const char *first, const char *second,
                                 DipError *err) {
     char known[256] = "";
@@ -72,8 +72,9 @@ static bool unknown_second_word(const DipCommandList *list, const char *first, c
                                   "nothing to do; give one of %s", known);
 }
 
-// Finds the command that argv names. A two-word command has precedence over a one-word command.
-// Sets *used to the number of words in the command's name, or to 0 if no command is named.
+// Finds the command that argv names, and sets line->command or line->group. A two-word command has
+// precedence over a one-word command. Sets *used to the number of words in the command's name, or
+// to 0 if no command is named.
 static bool find_command(const DipCommandList *list, int argc, char *const *argv,
                          DipCommandLine *line, int *used, DipError *err) {
     const char *first = argc > 1 ? argv[1] : "-";

@@ -1,19 +1,20 @@
-// Reads the command line: finds the command and reads its options.
+// Reads the command line: finds the command (command.h), and reads its options and operands.
 #ifndef DIP_APP_CLI_COMMAND_LINE_H
 #define DIP_APP_CLI_COMMAND_LINE_H
 
 #include "app/cli/command.h"
 
 typedef struct DipCommandLine {
-    const DipCommand *command; // The named command; if none is named, the list's first.
+    const DipCommand *command; // The named command, or the list's first if none is named.
     bool named;                // The command line names a command.
-    // After `diptych path --help`: "path", the first word that several commands share. Otherwise
-    // NULL.
+    // The word "path" of `diptych path --help`, with which the names of several commands begin, so
+    // that the help shows all of these. NULL if the command line is not of this form.
     const char *group;
     void *options; // The command's struct of options, which begins with DipProgramOptions.
 } DipCommandLine;
 
-// Reads argv[1..]. Free the result with dip_command_line_free, also after a failure.
+// Reads argv[1..argc - 1]. Returns false and fills *err if the command line is wrong or memory runs
+// out. Free *line with dip_command_line_free even after a failure.
 bool dip_command_line_parse(const DipCommandList *list, int argc, char *const *argv,
                             DipCommandLine *line, DipError *err);
 void dip_command_line_free(DipCommandLine *line);

@@ -1,4 +1,4 @@
-// Steps a timing driver, shows its progress, and looks for Ctrl-C.
+// Steps a timing driver (driver.h), shows its progress, and stops after Ctrl-C.
 #include "app/cli/drive.h"
 
 #include "app/cli/progress.h"
@@ -8,7 +8,7 @@ bool dip_drive(DipDriver *driver, const char *things, const char *command, const
     DipDriverProgress now = dip_driver_progress(driver);
     DipProgress progress = dip_progress_begin(things, now.total);
     DipDriverStep step = DIP_DRIVER_WORKING;
-    bool searches = false; // The driver looks for disturbed frames, with a progress of its own.
+    bool searches = false; // The driver looks for disturbed frames. A second display shows this.
     while (step < DIP_DRIVER_DONE && !dip_interrupted()) {
         step = dip_driver_step(driver, err);
         now = dip_driver_progress(driver);

@@ -1,13 +1,14 @@
-// Times frames in a command: steps a timing driver until it is done, shows the progress and obeys
-// Ctrl-C.
+// Times frames in a command: steps a timing driver (app/measure/timing/driver.h) until it is done,
+// shows the progress and stops after Ctrl-C.
 #ifndef DIP_APP_CLI_DRIVE_H
 #define DIP_APP_CLI_DRIVE_H
 
 #include "app/measure/timing/driver.h"
 
-// Steps until the driver is done, and shows on standard error how many frames are timed. `things`
-// is the word for them: "frames". Fails as the driver does. Once the user has pressed Ctrl-C
-// (progress.h), fails with DIP_ERROR_RUNTIME, the key `command` and the message `interrupted`.
+// Steps the driver until it is done, and shows on standard error how many frames have been drawn.
+// `things` is what the display calls them, such as "frames". Fails as the driver does. Once the
+// user has pressed Ctrl-C (progress.h), fails with DIP_ERROR_RUNTIME, the key `command` and the
+// message `interrupted`.
 bool dip_drive(DipDriver *driver, const char *things, const char *command, const char *interrupted,
                DipError *err);
 

@@ -1,4 +1,4 @@
-// Prints the help in lines of at most 80 columns.
+// Prints the help of a command, of a group of commands or of the program.
 #include "app/cli/help.h"
 
 #include "renderer/scene/quality.h"
@@ -7,7 +7,7 @@
 
 enum { COLUMNS = 80, OPTION_INDENT = 6, EXAMPLE_INDENT = 6 };
 
-// Prints paragraphs, separated by "\n\n", in lines of at most 80 columns.
+// Prints paragraphs, which are separated by "\n\n", in indented lines of at most COLUMNS columns.
 static void print_wrapped(const char *text, int indent, FILE *out) {
     int column = 0;
     while (*text) {
@@ -36,7 +36,7 @@ static void print_summary(const DipCommand *command, FILE *out) {
     fprintf(out, "  %-14s %s\n", command->name, command->summary);
 }
 
-// Prints all options. Successive tables with the same title share one heading.
+// Prints all options of a command. Successive tables with the same title share one heading.
 static void print_options(const DipOptionParts *parts, FILE *out) {
     const char *title = "";
     for (size_t p = 0; p < parts->count; p++) {

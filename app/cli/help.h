@@ -7,7 +7,8 @@
 
 #include <stdio.h>
 
-// Prints the help of the command that was named, of a group such as `path`, or of all commands.
+// Prints the help of the command that the command line names, of a group of commands such as
+// `path`, or of the program if neither is named.
 void dip_help_print(const DipCommandList *list, const DipCommandLine *line, FILE *out);
 
 // Prints the manual page in the man macros of roff.

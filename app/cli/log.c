@@ -59,7 +59,7 @@ void dip_log_errors(const DipErrorList *list) {
 }
 
 bool dip_output_finish(DipError *err) {
-    // An earlier print may have failed, and its errno is lost. The flush can succeed all the same.
+    // An earlier print may have failed, even if the flush succeeds. Its errno is lost.
     const bool lost = ferror(stdout) != 0;
     errno = 0;
     if (fflush(stdout) == 0 && !lost) {

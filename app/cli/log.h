@@ -7,7 +7,9 @@
 
 #include <stdbool.h>
 
-// From now on, also appends every line to this file. Fails with DIP_ERROR_IO.
+// From now on, also appends every line that the functions below print to this file. Fails with
+// DIP_ERROR_IO if the file cannot be opened, or with DIP_ERROR_RUNTIME if the machine is the cause,
+// for example because too many files are open.
 bool dip_log_open(const char *file, DipError *err);
 void dip_log_close(void);
 
@@ -19,7 +21,7 @@ void dip_log_errors(const DipErrorList *list);
 void dip_log_note(const char *format, ...) DIP_PRINTF(1, 2);
 
 // Flushes standard output, which may be a file on a full disk. Fails with DIP_ERROR_IO if anything
-// that the program printed was lost. Call it once, at the end of the program.
+// that the program printed was lost. Call this function once, at the end of the program.
 bool dip_output_finish(DipError *err);
 
 #endif

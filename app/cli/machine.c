@@ -1,4 +1,4 @@
-// Reads /proc/cpuinfo and the resource usage of the process.
+// Reads the machine's properties from Linux, and hashes the program's file.
 #include "app/cli/machine.h"
 
 #include "renderer/base/hash.h"

@@ -1,4 +1,4 @@
-// Finds out the properties of the machine that a measurement reports.
+// Finds out the properties of the machine and of the program that a measurement reports.
 #ifndef DIP_APP_CLI_MACHINE_H
 #define DIP_APP_CLI_MACHINE_H
 

@@ -1,4 +1,4 @@
-// Describes the options --rounds, --seed, --starts, --serve and --json.
+// Describes the options --rounds, --seed, --starts, --serve and --json in tables (options.h).
 #include "app/cli/measure_options.h"
 
 #include "renderer/base/assert.h"

@@ -1,4 +1,4 @@
-// Declares the options that all commands share that time frames.
+// Declares the options for timing frames, which several commands share.
 #ifndef DIP_APP_CLI_MEASURE_OPTIONS_H
 #define DIP_APP_CLI_MEASURE_OPTIONS_H
 
@@ -7,25 +7,25 @@
 enum { DIP_MEASURE_MOST_ROUNDS = 10000, DIP_MEASURE_MOST_STARTS = 100 };
 
 typedef struct DipMeasureOptions {
-    int rounds; // Number of rounds of each start; 0: the command chooses.
-    int starts; // How often programs are started.
+    int rounds; // Number of rounds of each start (driver.h); 0 if the command chooses.
+    int starts; // How often the programs that draw are started.
     bool has_seed;
     int seed;
 } DipMeasureOptions;
 
 // Options of a command that starts its own program again, to draw in another process.
 typedef struct DipServeOptions {
-    bool serve; // This process was started to draw for another one.
-    int argc;   // The whole command line.
-    char *const *argv;
+    bool serve;        // True if another process has started this one to draw for it.
+    int argc;          // Number of elements of argv.
+    char *const *argv; // The whole command line. Borrowed.
 } DipServeOptions;
 
-extern const DipOptionTable dip_measure_option_table; // --rounds --seed
-extern const DipOptionTable dip_starts_option_table;  // --starts
-extern const DipOptionTable dip_serve_option_table;   // --serve, of DipServeOptions
-extern const DipOptionTable dip_json_option_table;    // --json, for the file's name
+extern const DipOptionTable dip_measure_option_table; // --rounds --seed; fills DipMeasureOptions.
+extern const DipOptionTable dip_starts_option_table;  // --starts; fills DipMeasureOptions.
+extern const DipOptionTable dip_serve_option_table;   // --serve; fills DipServeOptions.
+extern const DipOptionTable dip_json_option_table;    // --json; fills a `const char *`.
 
-// Returns the seed that was given, or one from the clock.
+// Returns the seed that was given, or a seed from the clock if none was given.
 int dip_measure_seed(const DipMeasureOptions *options);
 
 #endif

@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum {
-    MAX_ROWS = 64, // Options of one command.
-    MAX_VALUE = 80 // Bytes of one value in a list, with its terminator.
+    MAX_ROWS = 64, // Greatest number of options of one command.
+    MAX_VALUE = 80 // Most bytes of one value in a list, with its terminator.
 };
 
 // --- reading values ------------------------------------------------------------------------------
@@ -196,7 +196,7 @@ const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *nam
     return NULL;
 }
 
-// Fails, and suggests the most similar option of this command.
+// Fails, and suggests an option of this command if one is similar enough.
 static bool unknown_option(const DipOptionParts *parts, const char *command, const char *name,
                            DipError *err) {
     const char *names[MAX_ROWS];

@@ -1,5 +1,5 @@
-// Reads the options of a command line, which tables describe. Each command has its own tables
-// (command.h). The help and the manual page use the same tables.
+// Reads the options of a command line. Tables describe the options: a row is one option, and each
+// command has a list of tables (command.h). The help and the manual page use the same tables.
 #ifndef DIP_APP_CLI_OPTIONS_H
 #define DIP_APP_CLI_OPTIONS_H
 
@@ -17,9 +17,9 @@ typedef enum DipOptionKind {
     DIP_OPTION_NUMBER,   // double in least..most
     DIP_OPTION_SIZE,     // DipOptionSize
     DIP_OPTION_SETTINGS, // DipQuality
-    DIP_OPTION_CHOICE,   // int: the index of a name
-    DIP_OPTION_LIST,     // at most `room` values: an array of `item`, or `read` stores each
-    DIP_OPTION_CUSTOM    // `read` stores the value
+    DIP_OPTION_CHOICE,   // int; the index in `names` of the name that was typed
+    DIP_OPTION_LIST,     // array of at most `room` values of kind `item`, or `read` stores each
+    DIP_OPTION_CUSTOM    // any type; the function `read` stores the value
 } DipOptionKind;
 
 typedef struct DipOptionSize {
@@ -39,23 +39,23 @@ struct DipOptionRow {
     const char *name;     // "--size"
     const char *argument; // "WxH", for the help; NULL for a FLAG
     DipOptionKind kind;
-    size_t field; // Offset of the field that holds the value; of a LIST, the array.
-    size_t given; // Offset of a bool that becomes true when the option is given; 0: there is none.
+    size_t field; // Offset of the field that holds the value. A LIST holds its values in an array.
+    size_t given; // Offset of a bool that becomes true if the option is given; 0 if there is none.
     size_t count; // TEXTS and LIST: offset of an int that holds the number of values.
-    int room;     // TEXTS and LIST: most values.
+    int room;     // TEXTS and LIST: greatest number of values.
     DipOptionKind item; // LIST without `read`: the kind of each value, INTEGER, NUMBER or SIZE.
     double least;       // INTEGER and NUMBER: the least value.
     double most;        // INTEGER and NUMBER: the greatest value. CHOICE: number of names.
     const char *const *names; // CHOICE: the names of the values.
-    // What a value must be. The message is "'VALUE' is not " and this text. NULL: the kind of the
-    // option decides the message.
+    // What a value must be. The error message is "'VALUE' is not " and this text. NULL if the kind
+    // of the option decides the message.
     const char *accepted;
-    char separator;        // LIST, and CUSTOM with several values: the character between two.
+    char separator;        // LIST, and CUSTOM with several values: what separates the values.
     DipOptionReader *read; // LIST and CUSTOM: the function that stores a value.
     const char *text;      // Whole sentences for the help and the manual page.
 };
 
-// A group of options. Their fields are in one struct.
+// A group of options. All of them store their values in one struct.
 typedef struct DipOptionTable {
     const char *title; // Heading of these options in the help: "Scene and camera".
     const DipOptionRow *rows;
@@ -66,7 +66,7 @@ typedef struct DipOptionTable {
 #define DIP_OPTION_TABLE(title, rows)                                                              \
     { title, rows, sizeof(rows) / sizeof *(rows) }
 
-// A table of options as a part of a command's options. Several commands can share a table.
+// A table as a part of a command's options. Several commands can share a table.
 typedef struct DipOptionPart {
     const DipOptionTable *table;
     size_t offset; // Offset of the table's struct in the command's struct of options.
@@ -79,12 +79,14 @@ typedef struct DipOptionParts {
 } DipOptionParts;
 
 // Reads the option argv[*index] and stores its value in `options`, the command's struct of options.
-// The value may be in argv[*index + 1]. Leaves *index at the last argument read. `command` is the
-// command's name, for messages.
+// The value may be in argv[*index + 1]. Sets *index to the index of the last argument that was
+// read. `command` is the command's name, for messages. Returns false and fills *err if the option
+// or its value is wrong.
 bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc, char *const *argv,
                       int *index, void *options, DipError *err);
 
-// Stores an option's value in `fields`, the struct of its table. Leaves the bool of `given` alone.
+// Stores an option's value in `fields`, the struct of its table. Does not set the bool of `given`.
+// Returns false and fills *err if the value is wrong.
 bool dip_option_store(const DipOptionRow *row, const char *value, void *fields, DipError *err);
 
 // Finds a row by its name, and sets *part to the part that has the row. Returns NULL if no part has

@@ -1,4 +1,5 @@
-// Prints progress with an estimate of the time left, and catches SIGINT and SIGTERM.
+// Prints the progress of a command with an estimate of the time left, and catches SIGINT and
+// SIGTERM.
 #include "app/cli/progress.h"
 
 #include "renderer/base/clock.h"

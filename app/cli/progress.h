@@ -1,5 +1,5 @@
-// Shows on standard error how much of its work a long command has done, and lets Ctrl-C end the
-// command after the frame or measurement that it has begun.
+// Shows on standard error how much of its work a long command has done. Lets Ctrl-C end the command
+// once the current frame or measurement is done.
 #ifndef DIP_APP_CLI_PROGRESS_H
 #define DIP_APP_CLI_PROGRESS_H
 
@@ -7,11 +7,11 @@
 #include <stdint.h>
 
 typedef struct DipProgress {
-    const char *things; // What is counted: "frames". Borrowed.
-    int64_t total;
-    int64_t begin_ns;
-    int64_t shown_ns; // When the progress was last shown.
-    bool terminal;    // Standard error is a terminal.
+    const char *things; // What is counted, such as "frames". Borrowed.
+    int64_t total;      // Number of things when the work is done.
+    int64_t begin_ns;   // When the work began, by dip_clock_ns.
+    int64_t shown_ns;   // When the progress was last shown, by dip_clock_ns.
+    bool terminal;      // Standard error is a terminal.
 } DipProgress;
 
 DipProgress dip_progress_begin(const char *things, int64_t total);
@@ -21,14 +21,15 @@ DipProgress dip_progress_begin(const char *things, int64_t total);
 // command prints nothing.
 void dip_progress_show(DipProgress *progress, int64_t done);
 
-// Shows the last state and ends the line. Prints nothing if standard error is not a terminal.
+// Shows that `done` of the things are done and ends the line. Prints nothing if standard error is
+// not a terminal.
 void dip_progress_end(DipProgress *progress, int64_t done);
 
 // From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second one ends the
 // program at once.
 void dip_interrupt_watch(void);
 
-// Returns whether the first signal has come.
+// Returns whether the first of these signals has come.
 bool dip_interrupted(void);
 
 #endif

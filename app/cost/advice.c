@@ -10,15 +10,16 @@
 
 enum { MOST_AGAIN = 8, MOST_RACES = 6 };
 
-// A candidate that fits with a probability between 1 - DIP_SURELY_FITS and DIP_SURELY_FITS is
-// undecided.
+// True if it is unclear whether the candidate fits the budget: if the probability that it fits lies
+// between 1 - DIP_SURELY_FITS and DIP_SURELY_FITS.
 static bool is_undecided(const DipCandidate *candidate, double budget_ms) {
     const double fits = dip_candidate_fits(candidate, budget_ms);
     return fits > 1.0 - DIP_SURELY_FITS && fits < DIP_SURELY_FITS;
 }
 
-// Lists the undecided rows whose FLIP is at least 1 % below that of the row advised so far. The
-// rows of least FLIP come first, and there are at most MOST_AGAIN. Returns their number.
+// Lists the undecided rows (is_undecided) whose FLIP is at least 1 % below that of the row advised
+// so far. The rows of least FLIP come first, and there are at most MOST_AGAIN. Returns their
+// number.
 static int list_undecided(const DipCostReport *report, int budget, int rows[MOST_AGAIN]) {
     const DipCandidates *candidates = &report->choice.candidates;
     const DipCandidate *chosen = dip_cost_chosen(report, budget);
@@ -43,7 +44,7 @@ static int list_undecided(const DipCostReport *report, int budget, int rows[MOST
     return count;
 }
 
-// Times the undecided rows of a budget again until there are none.
+// Times the undecided rows of a budget again until there are none, but at most MOST_RACES times.
 static bool race(DipCostContext *cost, int budget, DipError *err) {
     for (int i = 1; i <= MOST_RACES; i++) {
         int rows[MOST_AGAIN];

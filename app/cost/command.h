@@ -1,4 +1,4 @@
-// The command `diptych cost` and the commands whose names begin with it.
+// Declares the command `diptych cost` and its subcommands, such as `diptych cost merge`.
 #ifndef DIP_APP_COST_COMMAND_H
 #define DIP_APP_COST_COMMAND_H
 

@@ -23,8 +23,8 @@ static bool prepare_textures(const DipCostContext *cost, DipError *err) {
            dip_scene_compress_textures(cost->session->scene, cost->session->pool, err);
 }
 
-// Opens what the pictures are drawn from: the gallery, or the reference renderer, which draws the
-// truths of models.
+// Opens the gallery if the session shows it. Otherwise, if there are truths (converged pictures),
+// opens the reference renderer, which draws the truths of models.
 static bool open_source(DipCostContext *cost, bool judges, DipError *err) {
     const DipSession *session = cost->session;
     if (session->shows_gallery) {
@@ -133,7 +133,8 @@ DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost) {
 
 // --- truths --------------------------------------------------------------------------------------
 
-// Returns how many times wider and higher the truth of a gallery scene is drawn.
+// Returns the factor by which a gallery scene is drawn wider and higher, before its pixels are
+// averaged to a truth.
 static int scale_of(const DipTruthDef *def) {
     const int longer = def->width > def->height ? def->width : def->height;
     int scale = 2;
@@ -143,7 +144,7 @@ static int scale_of(const DipTruthDef *def) {
     return scale * longer <= DIP_MAX_FRAME_SIZE ? scale : 1;
 }
 
-// Averages blocks of scale x scale pixels.
+// Averages blocks of scale x scale pixels in linear light.
 static void average(const DipFrame *frame, int scale, int width, int height, double *rgb_lin) {
     DipSrgbDecodeTable table;
     dip_srgb_decode_table(&table);
@@ -159,11 +160,12 @@ static void average(const DipFrame *frame, int scale, int width, int height, dou
     }
 }
 
-// Draws one half of the truth of a gallery scene, which the reference renderer cannot draw.
-// Instead, the pipeline draws the scene several times as wide and high, with the best settings, and
-// the pixels are averaged in linear light. Such a truth shows what more samples would give: at
-// least def->samples for each pixel, as far as the greatest size of a frame allows. It cannot show
-// a fault that the pipeline has at every size. The two halves have different sample patterns.
+// Draws one half of the truth of a gallery scene, which the reference renderer cannot draw. (A
+// truth is the mean of two halves.) Instead, the pipeline draws the scene several times as wide and
+// high, with the best settings, and the pixels are averaged in linear light. Such a truth has at
+// least def->samples samples for each pixel, unless the frame would be larger than
+// DIP_MAX_FRAME_SIZE. It cannot show a fault that the pipeline has at every size. The two halves
+// have different sample patterns.
 static bool draw_gallery_truth(const DipTruthDef *def, int half, double *rgb_lin, DipError *err) {
     const DipCostContext *cost = def->context;
     const int scale = scale_of(def);

@@ -24,16 +24,16 @@ typedef struct DipCostContext {
     DipReference *reference; // NULL for scenes of the gallery, and without truths.
     DipGallery *gallery;     // NULL for models.
     // Renderer [0] draws the rows with gi=off (without instancing) and keeps the copies of meshes
-    // that these rows need. Renderer [1] draws all other rows, so that they are all drawn in the
-    // same memory.
+    // that these rows need. Renderer [1] draws all other rows, so that they all use the same
+    // memory.
     DipPainter *renderers[2];
-    // The command line with which the program starts itself to time frames in another process;
-    // NULL: frames are timed in this process.
+    // The command line with which the program starts itself to time frames in another process.
+    // NULL if frames are timed in this process.
     const DipServeOptions *start;
 } DipCostContext;
 
-// Opens the context of a report, without a journal, a cache and `start`, which the caller may set.
-// Without `judges`, the context has no truths: it draws and times only.
+// Opens the context of a report. Leaves `journal`, `cache` and `start` NULL; the caller may set
+// them. If `judges` is false, the context has no reference renderer: it draws and times only.
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
                            bool judges, DipError *err);
 void dip_cost_context_close(DipCostContext *cost);
@@ -47,7 +47,8 @@ bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int pa
 bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int index,
                              uint8_t *rgba8, char hash[33], DipError *err);
 
-// Returns the source of the pictures in the page, which draws them in the context. Borrows it.
+// Returns the source of the pictures in the page, which draws them in the context. Borrows the
+// context.
 DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost);
 
 // Gets the truth of one frame of the burst at a viewpoint of a path. `progress` may be NULL; the
@@ -65,14 +66,14 @@ bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err
 bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
                            const char *folder, DipError *err);
 
-// The message of a command that was interrupted.
+// Error message of a command that the user interrupted with Ctrl-C.
 #define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
 
 // Returns true and fills *err if the user has pressed Ctrl-C. All measurements made before remain
 // in the journal (journal.h).
 bool dip_cost_interrupted(DipError *err);
 
-// Writes the times of a frame's stages as the parts of a timed frame.
+// Copies the time of each pipeline stage of a frame to the parts of a DipTimed (rounds.h).
 static inline void dip_cost_stage_parts(const DipFrame *frame, double parts_ms[DIP_TIMED_PARTS]) {
 #define WRITE_STAGE(name, text) *parts_ms++ = frame->stages.name##_ms;
     DIP_STAGE_LIST(WRITE_STAGE)

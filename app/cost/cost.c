@@ -1,5 +1,5 @@
-// The command `diptych cost`: draws the truths (converged pictures), measures errors and times, and
-// writes the report.
+// Runs the command `diptych cost`: draws the truths (converged pictures), measures errors and
+// times, and writes the report.
 #include "app/report/analysis.h"
 #include "app/report/format/formats.h"
 #include "app/report/page/html.h"
@@ -56,7 +56,7 @@ static bool measure(DipCostContext *cost, DipError *err) {
              dip_cost_advise(cost, err)));
 }
 
-// Writes the time of day into the report.
+// Writes the current date and time into the report.
 static void set_date(DipCostReport *report) {
     const time_t now = time(NULL);
     struct tm utc;

@@ -14,7 +14,7 @@
 
 // --- truths --------------------------------------------------------------------------------------
 
-enum { STEPS_PER_TRUTH = 1000 }; // Steps of the progress display.
+enum { STEPS_PER_TRUTH = 1000 }; // Steps of the progress display for each truth.
 
 typedef struct TruthProgress {
     DipProgress progress;
@@ -84,9 +84,9 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
 typedef struct Burst {
     uint8_t *rgba8; // One frame after another, without padding between lines. Borrowed.
     int row;
-    char key[33];     // Hash of the pictures and of their truths.
-    char journal[33]; // Hash of the key and of the program's file, since another build may judge
-                      // differently.
+    char key[33];     // Hash of the pictures, their truths and the pixels per degree.
+    char journal[33]; // Hash of the key and of the program's file, since another build may measure
+                      // other errors.
     DipCostBurstErrors errors;
     bool failed;
 } Burst;
@@ -99,8 +99,8 @@ typedef struct Judge {
     DipFlipAnalysis analyses[DIP_COST_MAX_BURST];
     DipMeter *meters; // One per thread.
     int meter_count;
-    Burst *bursts;     // Those that are judged together.
-    uint8_t *pictures; // Of all bursts.
+    Burst *bursts;     // Drawn bursts that wait to be judged together.
+    uint8_t *pictures; // Memory of the pictures of all bursts.
     int burst_room;    // Greatest number of bursts: two per thread.
     int burst_count;
     DipProgress progress;
@@ -222,8 +222,8 @@ static bool draw_burst(Judge *j, int row, Burst *drawn, DipError *err) {
     return true;
 }
 
-// Judges all rows of the path at the viewpoint whose errors are not known yet. Errors that the
-// journal has are taken from there.
+// Judges all rows of path j->path whose errors at viewpoint j->viewpoint are not known yet. Takes
+// errors from the journal if it has them.
 static bool judge_rows(Judge *j, DipError *err) {
     DipCostReport *report = j->cost->report;
     bool judged = true;
@@ -244,7 +244,8 @@ static bool judge_rows(Judge *j, DipError *err) {
     return judged && judge_bursts(j, err);
 }
 
-// Gets the truths of the viewpoint, and judges the rows against them.
+// Gets the truths of viewpoint j->viewpoint on path j->path, and judges the path's rows against
+// them.
 static bool judge_viewpoint(Judge *j, DipError *err) {
     const int burst = j->cost->report->options.burst;
     int got = 0;

@@ -16,9 +16,10 @@
 #include <unistd.h>
 
 enum {
-    CHECK = DIP_HASH_HEX_SIZE, // Number of letters of " CHECK".
+    CHECK = DIP_HASH_HEX_SIZE, // Length of the checksum and of the space before it.
     ERROR_VALUES = DIP_METRIC_SUM_COUNT + DIP_FLIP_TAIL_COUNT,
-    TIMED_VALUES = 10 + DIP_TIMED_PARTS // Numbers of each frame. They follow the seed of the round.
+    TIMED_VALUES = 10 + DIP_TIMED_PARTS // Numbers per frame. A round's line has its seed first,
+                                        // then the numbers of each frame.
 };
 
 struct DipCostJournal {
@@ -190,7 +191,8 @@ _Static_assert(offsetof(DipTimed, parts_ms) == offsetof(DipTimed, ms) + 4 * size
                "the times follow one another");
 enum { TIMES_SIZE = (TIMED_VALUES - 6) * sizeof(double) };
 
-// Returns -1 for a number that is no index. A frame with such an index fits no round.
+// Converts a stored number to an index, or to -1 if it cannot be one. No round accepts a frame with
+// the index -1.
 static int read_index(double value) {
     return value >= 0.0 && value <= INT_MAX ? (int)value : -1;
 }

@@ -14,7 +14,7 @@
 
 #include <stdbool.h>
 
-// The errors of a burst. Holds doubles only.
+// The errors of a burst. All members are doubles, since the journal stores them as an array.
 typedef struct DipCostBurstErrors {
     DipMetricSums sums;
     DipFlipTail tail;
@@ -42,8 +42,9 @@ bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
 // Sets *seed to the seed of the first of these rounds, if there are any. `seed` may be NULL.
 int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed);
 
-// Returns the frames of one of these rounds, in the order in which they were stored. *count is 0 if
-// the round had another seed. The caller frees the frames. Returns NULL when memory runs out.
+// Returns the frames of round 0..dip_cost_journal_round_count - 1, in the order in which they were
+// stored. Sets *count to their number, or to 0 if the round had another seed. The caller frees the
+// frames. Returns NULL when memory runs out.
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count);
 
 // Stores a round with the journal's plan hash for the next run.

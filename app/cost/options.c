@@ -84,11 +84,11 @@ void dip_cost_default_budgets(DipCostOptions *options) {
     }
 }
 
-// Reads a way of viewing. Its pixels per degree are the viewer's distance times the tangent of a
-// degree, divided by the width of a pixel. A phone has 1170 pixels on 65 mm and is seen from 0.3 m;
-// a monitor has 1920 pixels on 531 mm (24 inches) and is seen from 0.6 m; UHD is 3840 pixels on 0.7
-// m, seen from 0.7 m. The value of a headset is what the makers of headsets with 2000 pixels per
-// eye stated in 2023.
+// Reads --viewing, which names a display and a distance. The pixels per degree are the distance
+// times the tangent of a degree, over a pixel's width. A phone has 1170 pixels on 65 mm and is seen
+// from 0.3 m. A monitor has 1920 pixels on 531 mm (24 inches) and is seen from 0.6 m. UHD is 3840
+// pixels on 0.7 m, seen from 0.7 m. The value of a headset is what the makers of headsets with 2000
+// pixels per eye stated in 2023.
 static bool read_viewing(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     static const struct {
         const char *name;
@@ -247,8 +247,8 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
         .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
         .timed_frames = 4,
     };
-    // --quick sets defaults, so it is looked for before the options are read. Otherwise its place
-    // among them would matter.
+    // --quick sets defaults, so it is looked for before the options are read. Otherwise it would
+    // override options that stand before it.
     for (int i = 0; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0) {
             all->measure = (DipMeasureOptions){.rounds = 3, .starts = 2};
@@ -264,7 +264,8 @@ bool dip_cost_check_out(const char *out, DipError *err) {
                                 "there is no folder for the report; give one with --out DIR");
 }
 
-// Fails for fewer than two rounds of all starts together, since such times have no interval.
+// Fails if all starts together have fewer than two rounds, since times then have no interval, or
+// too many rounds.
 static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
     const int rounds = measure->rounds * measure->starts;
     return (rounds >= 2 && rounds <= DIP_MEASURE_MOST_ROUNDS) ||

@@ -14,20 +14,20 @@ typedef struct DipCostArguments {
     DipProgramOptions program;
     DipSessionOptions session;
     const char *out;     // Folder of the report.
-    bool quick;          // Other options have the defaults of a quick answer.
-    DipCostOptions cost; // All but rounds, starts and seed, which `measure` has.
+    bool quick;          // --quick: other options default to values for a fast, less exact report.
+    DipCostOptions cost; // Its rounds, starts and seed are not set here: `measure` has them.
     DipMeasureOptions measure;
     DipServeOptions serve; // Whether another process has started this one to draw frames for it.
 } DipCostArguments;
 
 extern const DipOptionParts dip_cost_option_parts;
-extern const DipOptionTable dip_out_option_table;     // For the folder's name, a text.
-extern const DipOptionTable dip_picture_option_table; // Of DipCostOptions: the kind of pictures.
-extern const DipOptionTable dip_viewing_option_table; // For the pixels per degree, a double.
-extern const DipOptionTable dip_cache_option_table;   // For the folder's name, a text.
-extern const DipOptionTable dip_cost_budget_option_table; // Of DipCostOptions: the budgets.
+extern const DipOptionTable dip_out_option_table;         // --out; fills a `const char *`.
+extern const DipOptionTable dip_picture_option_table;     // --pictures; fills a DipCostOptions.
+extern const DipOptionTable dip_viewing_option_table;     // Pixels per degree; fills a double.
+extern const DipOptionTable dip_cache_option_table;       // --cache; fills a `const char *`.
+extern const DipOptionTable dip_cost_budget_option_table; // Budgets; fills a DipCostOptions.
 
-// Gives options without budgets those of 60 and 30 frames a second.
+// If the options have no budgets, adds the budgets of 60 and 30 frames a second.
 void dip_cost_default_budgets(DipCostOptions *options);
 
 // Fails if no folder was given with --out.

@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The camera path that was made for each setting.
+// The category of the camera path that was made for each setting. Settings that are not listed have
+// DIP_CATEGORY_DEFAULT.
 static const DipCategory categories[DIP_SETTING_COUNT] = {
     [DIP_SETTING_AA] = DIP_CATEGORY_AA,   [DIP_SETTING_TAA] = DIP_CATEGORY_TAA,
     [DIP_SETTING_AAA] = DIP_CATEGORY_AAA, [DIP_SETTING_AF] = DIP_CATEGORY_AF,
@@ -69,8 +70,8 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 
 // --- rows ----------------------------------------------------------------------------------------
 
-// Finds the row of these settings on this path, or adds it. The sweeps have far fewer rows than
-// there is room for.
+// Finds the row of these settings on this path, or adds it. There is always room, since the sweeps
+// need far fewer than DIP_COST_MAX_ROWS rows.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
     const int known = dip_report_find(report, quality, path, 0);
     if (known >= 0) {
@@ -153,9 +154,9 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     }
 }
 
-// Adds two rows with the baseline's settings on each path. The path's rows are timed beside the
-// first, which a sweep may have added already. The second is the A/A row: it is timed as if it were
-// another setting.
+// Adds two rows with the baseline's settings on each path. All other rows of the path are timed
+// beside the first, which a sweep may have added already. The second is the A/A row: it is timed as
+// if it had other settings, and so shows how far equal settings seem to differ.
 static void add_base_rows(DipCostReport *report) {
     for (int path = 0; path < report->path_count; path++) {
         report->base_rows[path] = add_row(report, &report->options.baseline, path);
@@ -213,7 +214,7 @@ void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]) {
 void dip_cost_describe(DipCostReport *report, const DipSession *session) {
     dip_cost_scene_name(session, report->scene);
     dip_machine_build(report->build);
-    if (session->shows_gallery) { // A scene of the gallery is code of this build.
+    if (session->shows_gallery) { // A gallery scene is code, so the build's hash identifies it.
         DipHash hash = dip_hash_begin(0);
         dip_hash_text(&hash, report->scene);
         dip_hash_text(&hash, report->build);
@@ -230,8 +231,8 @@ void dip_cost_describe(DipCostReport *report, const DipSession *session) {
 }
 
 // Returns the settings that are combined by default. A plot of the Pareto front needs two settings.
-// Advice for budgets of the user's own needs three more, which are worth choosing in any scene. A
-// prediction (--predict) has all settings that change the error of a single picture.
+// If the user gives budgets, three more that are worth choosing in any scene are combined for the
+// advice. A prediction (--predict) combines all settings that change the error of a single picture.
 static unsigned default_combined(const DipCostOptions *options) {
     const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
     const unsigned five =

@@ -9,8 +9,8 @@
 #include "app/session/session.h"
 
 // Fills in the rows and sweeps of an empty report and allocates its memory. (A sweep is all steps
-// of one setting.) Steps that the renderer refuses are left out and listed with the reason. Free
-// the report even after a failure.
+// of one setting.) Steps that the renderer refuses are left out; report->refused lists them with
+// the reason. Free the report even after a failure.
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
                    DipError *err);
 
@@ -18,7 +18,8 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
 void dip_cost_describe(DipCostReport *report, const DipSession *session);
 
 // Writes a hash of a scene's content as 32 hexadecimal digits. It depends on everything that
-// affects how the scene looks. The cache of truths (converged pictures) knows a scene by this hash.
+// affects how the scene looks. The cache of truths (converged pictures) uses it to identify a
+// scene.
 void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflection, char hex[33]);
 
 // Writes the scene's name: the file name of the first model without its folder, or the name of the

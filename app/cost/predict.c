@@ -16,7 +16,9 @@
 enum {
     COUNTED_FRAMES = 8, // Frames of path 0, spread evenly, whose work is counted.
     DESIGN_TERMS = DIP_LEAST_SQUARES_MAX_TERMS,
-    MOST_PROMISING = 24, // Combinations that are measured in one go after the first ones.
+    // After the first combinations, those that are predicted to be best are measured, in at most
+    // MOST_GOES goes of at most MOST_PROMISING combinations.
+    MOST_PROMISING = 24,
     MOST_GOES = 3,
     PER_BUDGET = 6 // Combinations of least FLIP that are measured for each budget.
 };
@@ -42,16 +44,17 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
     return true;
 }
 
-// Returns the counters of a listed combination for dip_work_compose.
+// Returns the counters of a combination in the list, or NULL. dip_work_compose calls it.
 static const double *find(const void *context, const DipQuality *quality) {
     const DipCostPredictions *predicted = context;
     const int found = dip_report_find_predicted(predicted, quality);
     return found >= 0 ? predicted->list[found].counters : NULL;
 }
 
-// True if the combination is composed rather than drawn: if there are many combinations, and this
-// one has neither the baseline's antialiasing nor its filtering. A list from which combinations
-// with the same pictures were joined can lack those that a combination is composed of.
+// True if the combination's counters are composed from those of other combinations instead of
+// counted: if there are many combinations, and this one has neither the baseline's antialiasing nor
+// the baseline's filtering. The others may be missing from the list, because combinations with the
+// same pictures are listed once; then the combination is drawn.
 static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
     const DipQuality *baseline = &report->options.baseline;
     const unsigned settings = dip_cost_sampling_settings();
@@ -120,7 +123,8 @@ int dip_cost_training_count(unsigned settings, int count) {
     return training < count ? training : count;
 }
 
-// Writes the terms of all stages and of FLIP; their constant terms are one. Returns their number.
+// Writes the terms of the model (fit.h) for all stages and for FLIP. One constant term, 1, stands
+// for the constant terms of all of them. Returns the number of terms.
 static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN_TERMS]) {
     int count = 0;
     terms[count++] = 1.0;
@@ -169,8 +173,8 @@ static int list_rows(const DipCostPredictions *predicted, int rows[DIP_COST_MAX_
     return count;
 }
 
-// Returns by how much the 95th percentile of the frames' times usually exceeds their mean, as a
-// factor: the median over some rows of path 0.
+// Returns the usual ratio of the 95th percentile of the frames' times to their mean: the median
+// over some rows of path 0.
 static double usual_p95(const DipCostReport *report, const int *rows, int count) {
     double ratios[DIP_COST_MAX_ROWS];
     for (int i = 0; i < count; i++) {
@@ -236,7 +240,7 @@ int dip_cost_list_promising(const DipCostReport *report, int most, int *list, Di
     }
     qsort(all.list, (size_t)all.count, sizeof *all.list, compare_losses);
     for (int b = 0; b < options->budget_count; b++) {
-        // PER_BUDGET of the candidates that may be within the budget: those of least FLIP.
+        // Adds the PER_BUDGET candidates of least FLIP among those that may be within the budget.
         for (int i = 0, seen = 0; i < all.count && seen < PER_BUDGET; i++) {
             if (all.list[i].time.value <= 1.08 * options->budgets_ms[b]) {
                 add_promising(&promising, all.list[i].row);

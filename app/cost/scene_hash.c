@@ -9,7 +9,7 @@ static void hash_textures(const DipSceneDef *def, DipHash *hash) {
         dip_hash_integer(hash, texture->width);
         dip_hash_integer(hash, texture->height);
         dip_hash_integer(hash, texture->encoding);
-        // This formula gives textures that repeat or clamp the hash that older reports hold.
+        // For textures that repeat or clamp, this formula gives the same hash as in older reports.
         dip_hash_integer(hash, (texture->wrap_u & 1) * 2 + (texture->wrap_v & 1) +
                                    (texture->wrap_u & 2) * 4 + (texture->wrap_v & 2) * 2);
         if (texture->wrap_u == DIP_WRAP_BORDER || texture->wrap_v == DIP_WRAP_BORDER) {

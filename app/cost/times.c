@@ -1,5 +1,6 @@
-// Times rows beside the baseline of their paths, here or elsewhere, and counts their work. Counters
-// are the same in every run of a frame, so each frame is counted once.
+// Times rows beside the baseline of their paths, times combinations at other sizes or on other
+// paths, and counts their work. The counters are the same whenever a frame is drawn, so the work of
+// each frame is counted once.
 //
 // With --starts, the program starts itself several times with --serve, one process after another,
 // and asks each for the frames to time. Times differ from process to process, since chance decides
@@ -16,24 +17,27 @@
 #include <string.h>
 
 enum {
-    BASE_COPIES = 3, // Rounds in which each frame of the baseline is drawn, to tell slow frames
-                     // from slow moments.
-    BLOCK_ROWS = 4, // Rows that are timed beside one drawing of the baseline. With one for all rows
-                    // of a round, ratios would deviate twice as much.
+    BASE_COPIES = 3, // Number of rounds in which each frame of the baseline is drawn, to tell slow
+                     // frames from slow moments.
+    BLOCK_ROWS = 4,  // Rows that are timed beside one drawing of the baseline. If all rows of a
+                     // round shared one drawing, ratios would deviate twice as much.
     LEAST_SIDE = 64, // Pixels. Smaller pictures are not timed at half their size.
     REQUEST_SIZE = 256,
-    SEED_SALT = 0x517 // Gives measurements elsewhere another order than that of the report's rows.
+    SEED_SALT = 0x517 // Mixed into the seed of dip_cost_time_elsewhere, for another order of
+                      // frames than that of the report's rows.
 };
 
-// If a process takes more than this share of the time of its rounds to start, only two are started.
+// If starting a process takes longer than this share of its rounds' time, only two processes are
+// started.
 static const double most_start = 0.1;
 
-// What is timed: settings on a camera path of a context's report.
+// A subject of the driver (driver.h): settings on a camera path of a context's report.
 typedef struct Subject {
     DipCostContext *cost;
     const DipQuality *quality;
     int path;
-    double *counters; // Sums over the frames, at the end means; NULL if they are known already.
+    double *counters; // Sums over the frames, and means at the end. NULL if they are not counted,
+                      // because they are known already.
 } Subject;
 
 // A measurement. Each subject is timed beside another subject, its base.
@@ -41,12 +45,12 @@ typedef struct Timing {
     DipCostContext *cost;
     int count;
     Subject *subjects;
-    int *rows;     // [subject]: its row in the report's log.
-    int *base_of;  // [subject]: its base.
+    int *rows;     // [subject]: index of its row in the report.
+    int *base_of;  // [subject]: index of the subject that is its base.
     bool *counted; // [subject * frames + frame]: whether the frame's counters are in the sums.
     DipDriverMachine machine;
-    DipTimesFit *fit; // Times of subjects elsewhere.
-    DipChild *child;  // The process that draws; NULL: this one.
+    DipTimesFit *fit; // Times of the subjects of dip_cost_time_elsewhere, otherwise NULL.
+    DipChild *child;  // The process that draws; NULL if this process draws.
 } Timing;
 
 static void close_timing(Timing *t) {
@@ -57,8 +61,8 @@ static void close_timing(Timing *t) {
     free(t->counted);
 }
 
-// Begins a measurement. For now, all subjects are the baseline of path 0, and subject 0 is the base
-// of all.
+// Begins a measurement. All subjects are the baseline of path 0 until the caller changes them, and
+// subject 0 is the base of all.
 static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *err) {
     const DipCostReport *report = cost->report;
     const size_t size = (size_t)count, values = size * (size_t)dip_cost_frame_count(report);
@@ -78,7 +82,7 @@ static bool open_timing(Timing *t, DipCostContext *cost, int count, DipError *er
     return true;
 }
 
-// Makes the subject a row of the report. `counts`: its work is not known yet.
+// Makes the subject a row of the report. `counts` is true if the row's work must be counted.
 static void set_row(Timing *t, int subject, int row, bool counts) {
     DipCostRow *timed = &t->cost->report->rows[row];
     t->rows[subject] = row;
@@ -96,8 +100,8 @@ static void count_work(const Timing *t, int subject, int frame, const DipCounter
     }
 }
 
-// Makes means of the sums of count_work. Draws the frames whose times came from the journal, since
-// the journal has no counters.
+// Divides the sums that count_work made by the number of frames. First draws the frames whose times
+// came from the journal, since the journal has no counters.
 static bool average_work(const Timing *t, DipError *err) {
     const int frames = dip_cost_frame_count(t->cost->report);
     for (int s = 0; s < t->count; s++) {
@@ -122,7 +126,7 @@ static bool average_work(const Timing *t, DipError *err) {
 
 _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is a part");
 
-// Asks the process that draws for a timed frame of a path, by a request of the form
+// Asks the process t->child for a timed frame of a path, by a request of the form
 // "draw PATH FRAME SETTINGS". Writes the frame's counters and its times.
 static bool draw_in_child(const Timing *t, const Subject *s, int frame, DipCounters *counters,
                           DipTimed *timed, DipError *err) {
@@ -179,7 +183,7 @@ static bool keep_round(void *context, const DipTimed *timed, int count, DipError
                                       err);
 }
 
-// Hands the rounds of the journal to the driver, which skips rounds that are not the next.
+// Hands the rounds of the journal to the driver, which refuses a round that is not its next one.
 static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     const DipCostJournal *journal = t->cost->journal;
     const int rounds = dip_cost_journal_round_count(journal, NULL);
@@ -197,8 +201,8 @@ static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
 }
 
 typedef enum Where {
-    KEPT,     // The report's processes draw; the journal and the log keep the times.
-    HERE,     // The report's processes draw; the log keeps the times.
+    KEPT,     // The report's processes draw; the journal and the report's log keep the times.
+    HERE,     // The report's processes draw; only the report's log keeps the times.
     ELSEWHERE // This process draws; t->fit gets the times.
 } Where;
 
@@ -286,8 +290,8 @@ bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int ti
     for (int i = 0; i < count; i++) {
         set_row(&t, i + 1, rows[i], is_new);
     }
-    // Rows that are timed again have a block and a baseline each, since each is compared with a
-    // budget.
+    // Each row that is timed again has a block and a drawing of the baseline of its own, since each
+    // is compared with a budget.
     const bool done =
         drive(&t, HERE, is_new ? BLOCK_ROWS : 1, (uint64_t)cost->report->options.seed + seed,
               "frames timed for the advice", err);
@@ -327,10 +331,11 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
 
 // --- half the size -------------------------------------------------------------------------------
 
-// Lists the baseline, and settings that stand for edges, for textures and for both.
+// Fills report->smaller with the baseline, and with settings that add work at edges, in textures,
+// and in both.
 static void list_smaller(DipCostReport *report) {
     static const struct {
-        uint8_t aa, aaa, af; // Steps; 0: as in the baseline.
+        uint8_t aa, aaa, af; // Steps; 0 means the baseline's step.
     } steps[DIP_COST_MAX_SMALLER] = {{0, 0, 0}, {2, 0, 0}, {0, 0, 4}, {4, 1, 4}};
     for (int i = 0; i < DIP_COST_MAX_SMALLER; i++) {
         DipQuality quality = report->options.baseline;
@@ -372,8 +377,8 @@ bool dip_cost_time_smaller(DipCostContext *cost, DipError *err) {
 
 // --- the process that is asked -------------------------------------------------------------------
 
-// Draws the frame of a request. Its time is that of the whole drawing, as in a measurement without
-// --starts.
+// Draws the frame that a request names. Takes the time of the whole call that draws, as a
+// measurement without --starts does.
 static bool serve_draw(void *context, const char *request, DipBenchSample *sample, DipError *err) {
     DipCostContext *cost = context;
     char settings[REQUEST_SIZE];

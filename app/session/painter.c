@@ -1,4 +1,4 @@
-// Passes each call on to the renderer or to the gallery's pane.
+// Passes each call of a painter on to its scene renderer or to its pane of the gallery.
 #include "app/session/painter.h"
 
 #include <stdlib.h>

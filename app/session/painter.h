@@ -1,6 +1,7 @@
-// A painter draws one pane of a session. If the session shows models, the painter uses a scene
-// renderer; if the session shows a gallery scene, it uses a DipGalleryPane (app/gallery). Both take
-// the same settings and give the same kind of frame.
+// Declares the painter, which draws one pane of a session. If the session shows models, the painter
+// uses a scene renderer (renderer.h). If the session shows a scene of the gallery, whose scenes are
+// written in code, the painter uses a DipGalleryPane (app/gallery). Both take the same settings and
+// give the same kind of frame.
 #ifndef DIP_APP_SESSION_PAINTER_H
 #define DIP_APP_SESSION_PAINTER_H
 
@@ -9,9 +10,8 @@
 
 typedef struct DipPainter DipPainter;
 
-// Makes a painter that draws `gallery`, which is borrowed and must outlive the painter, or models
-// with a scene renderer if `gallery` is NULL. Fails as dip_renderer_create or
-// dip_gallery_pane_create does.
+// Makes a painter that draws `gallery`, or models if `gallery` is NULL. The gallery is borrowed and
+// must outlive the painter. Fails as dip_renderer_create or dip_gallery_pane_create does.
 DipPainter *dip_painter_create(const DipRendererDef *def, DipGallery *gallery, DipError *err);
 // *painter may be NULL and becomes NULL.
 void dip_painter_destroy(DipPainter **painter);

@@ -1,4 +1,4 @@
-// Collects the texts that a PNG file of Diptych has.
+// Collects the texts that Diptych writes into a PNG file (picture_texts.h).
 #include "app/session/picture_texts.h"
 
 #include "renderer/base/assert.h"
@@ -17,7 +17,8 @@ static void add(DipPictureTexts *texts, const char *keyword, const char *format,
     const int length = vsnprintf(text, left, format, arguments);
     va_end(arguments);
     const size_t size_bytes = length > 0 ? (size_t)length + 1 : 1;
-    // The last byte stays for the empty texts that follow a text that has been cut.
+    // If this text was cut, its final zero is the last byte. All later texts are empty and share
+    // this byte.
     texts->used_bytes += size_bytes < left ? size_bytes : left - 1;
     texts->items[texts->count++] = (DipPngText){keyword, text};
 }
@@ -35,7 +36,7 @@ size_t dip_pose_format(const DipPose *pose, char *text, size_t size_bytes) {
     return length;
 }
 
-// Returns where the camera's pose comes from.
+// Returns the text of "Path", which says where the camera's pose comes from.
 static const char *path_name(const DipSession *session, bool free_camera) {
     const DipSessionOptions *options = session->options;
     if (free_camera) {

@@ -1,4 +1,5 @@
-// Opens a session: reads the ini, starts the threads and makes the renderers. Also draws with them.
+// Opens a session: reads the ini, starts the threads and makes the renderers. Draws both panes with
+// the renderers.
 #include "app/session/session_private.h"
 
 #include "app/cli/log.h"
@@ -60,7 +61,8 @@ bool dip_session_find_shipped(const char *name, char *file, size_t size_bytes) {
     return false;
 }
 
-// Opens the ini's log file, unless the command line has named one.
+// Opens the log file that the ini names. Does nothing if `given`, the log file of the command line,
+// is not NULL, or if the ini names none.
 static bool use_log(const DipSession *session, const char *given, DipErrorList *faults) {
     const DipConfigFile *log = &session->config.log;
     DipError err;
@@ -285,7 +287,7 @@ void dip_session_close(DipSession *session) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
-// Draws the current pane. The requested pane shares its pixels, without any work or time.
+// Draws the current pane. The requested pane gets the same pixels, and counters and times of 0.
 static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_ns,
                         DipSessionFrame *frame, DipError *err) {
     DipFrame *copy = &frame->panes[DIP_PANE_REQUESTED];

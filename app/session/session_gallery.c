@@ -1,4 +1,5 @@
-// Chooses the gallery's scene that a session shows, makes its camera path, and changes the scene.
+// Chooses the scene of the gallery that a session shows, makes the scene's camera path, and goes to
+// another scene.
 #include "app/session/session_private.h"
 
 #include <limits.h>
@@ -6,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Sets the folder of the shipped assets. If there is none near the program, takes the folder
+// Finds the folder of the shipped assets. If there is none near the program, takes the folder
 // `assets` beside the folder of the ini.
 static bool find_assets(DipSession *session, DipErrorList *faults) {
     char folder[PATH_MAX + 16];
@@ -50,8 +51,9 @@ DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, D
 
 // --- camera paths --------------------------------------------------------------------------------
 
-// Makes a path with 64 keys per second. The tour's path flies from one scene to the next between
-// two keys, within 1/64 s, so that no frame at 30 or 60 frames per second falls between the scenes.
+// Makes the camera path of a scene of the gallery, with 64 keys per second. The tour (all scenes,
+// one after another) flies from one scene to the next between two keys. That is within 1/64 s, so
+// that no frame at 30 or 60 frames per second falls between the scenes.
 static DipCamPath *make_path(int scene, DipError *err) {
     static const int64_t period_ns = 15625000;
     const size_t count = (size_t)(dip_gallery_duration_ns(scene) / period_ns);
@@ -143,7 +145,7 @@ static bool show_scene(DipSession *session, int scene, DipError *err) {
 bool dip_session_step_scene(DipSession *session, int step, DipError *err) {
     const int ring = dip_gallery_scene_count() + (session->scene ? 1 : 0);
     const int now = session->shows_gallery ? session->gallery_scene : dip_gallery_scene_count();
-    // After the tour comes the first scene, and before it the last one.
+    // After the tour comes the first scene, and before the tour the last scene of the ring.
     const int from = now == DIP_GALLERY_TOUR ? (step > 0 ? -1 : 0) : now;
     return show_scene(session, (from + step + ring) % ring, err);
 }

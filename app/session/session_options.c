@@ -1,4 +1,4 @@
-// Describes the options that a session reads in tables, and reads and checks their values.
+// Describes in tables the options that a session uses, and reads and checks the options' values.
 #include "app/session/session_options.h"
 
 #include "assets/importer.h"
@@ -34,7 +34,7 @@ bool dip_option_isa(const DipOptionRow *row, const char *value, DipIsa *isa, Dip
                          "this machine cannot run '%s'; give one of %s", value, available);
 }
 
-// "auto" leaves the choice to the ini, as if the option were not given.
+// Reads --isa. The value "auto" leaves the choice to the ini, as if the option were not given.
 static bool read_isa(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipSessionOptions *options = fields;
     options->has_isa = strcmp(value, "auto") != 0;
@@ -52,7 +52,7 @@ static bool read_look(void *fields, const DipOptionRow *row, const char *value, 
     return true;
 }
 
-// Make the names of an option's values and their meanings a part of its help.
+// Texts of the help. Each lists the names of an option's values with their meanings.
 #define NAME_AND_TEXT(name, text) " `" #name "` " text "."
 #define UP_AXES                   DIP_UP_AXIS_LIST(NAME_AND_TEXT)
 #define SHADINGS                  DIP_MODEL_SHADING_LIST(NAME_AND_TEXT)
@@ -85,7 +85,7 @@ static bool read_pose(void *fields, const DipOptionRow *row, const char *value, 
     }
     memcpy(options->pose.position_world, numbers, sizeof options->pose.position_world);
     memcpy(options->pose.orientation, numbers + 3, sizeof options->pose.orientation);
-    // A pose must keep the same rules as the key of a path.
+    // Makes a path of this one key, because a pose must follow the same rules as a key of a path.
     if (!dip_campath_create(&options->pose, 1, DIP_CAMPATH_MIN_PERIOD_NS, &path, &failure)) {
         return dip_error_set(err, failure.code, NULL, 0, row->name, "%s: %s", failure.key,
                              failure.message);

@@ -1,5 +1,5 @@
-// Declares the options that commands share because a session reads them: those of the scene, the
-// camera and the panes.
+// Declares the options that commands share because a session (session.h) uses them: the options of
+// the scene, the camera and the panes.
 #ifndef DIP_APP_SESSION_SESSION_OPTIONS_H
 #define DIP_APP_SESSION_SESSION_OPTIONS_H
 
@@ -13,8 +13,8 @@
 
 enum { DIP_MAX_MODELS = 64 };
 
-// Texts are borrowed from argv. A NULL text or a false has_... means that the option is not given.
-// In that case, the ini decides.
+// The values of the options. Texts are borrowed from argv. If an option is not given, its text is
+// NULL or its has_... is false, and the ini decides.
 typedef struct DipSessionOptions {
     const char *config;
     const char *models[DIP_MAX_MODELS];
@@ -24,13 +24,13 @@ typedef struct DipSessionOptions {
     DipModelShading shading; // Where the light of lit surfaces is computed.
     int look;                // Variant of the gallery's scene, counted from 0.
     const char *scene;  // Scene of the gallery to show, "tour", or "models" for the ini's models.
-    int import_seconds; // Longest time that importing the models may take, in seconds; 0: default.
+    int import_seconds; // Most seconds that importing the models may take; 0 for the default.
     bool force_all_effects;
     const char *path;     // File of a camera path that replaces the ini's.
     const char *category; // Which of the ini's paths to fly: "AA", ...
     bool has_pose;
-    DipCamKey pose;   // Where the camera stands, instead of on a path.
-    double fov_y_deg; // Vertical field of view that replaces the others, in degrees; 0: not given.
+    DipCamKey pose;         // Where the camera stands still, instead of flying a path.
+    double fov_y_deg;       // Vertical field of view on every path, in degrees; 0 if not given.
     DipCamPathEnd path_end; // What the camera does at the end of a path.
     bool has_current;
     DipQuality current;
@@ -39,7 +39,7 @@ typedef struct DipSessionOptions {
     bool has_size;
     DipOptionSize size; // Size of one pane.
     bool has_threads;
-    int threads; // 0: all processors.
+    int threads; // Number of threads; 0 for all processors.
     bool has_isa;
     DipIsa isa;
     bool timing; // At the end, print how long starting and ending took.

@@ -1,5 +1,5 @@
-// Loads the camera paths of a session: those of the ini, the path of --path, the stand of --pose,
-// or an orbit around the model. The cameras of the models are paths, too.
+// Loads the camera paths of a session: the paths of the ini, the path of --path, the fixed pose of
+// --pose, or an orbit around the model. Also makes a path of each camera of the models.
 #include "app/session/session_private.h"
 
 #include "assets/cameras.h"
@@ -28,8 +28,8 @@ static bool out_of_memory(DipErrorList *faults) {
     return dip_session_refuse(faults, DIP_ERROR_MEMORY, NULL, 0, "cameras", "out of memory");
 }
 
-// Makes the path of a camera. The keys of the camera and of the path have the same numbers in the
-// same order.
+// Makes the path of a model's camera by copying its keys. A key of the camera has the numbers of a
+// key of a path, in the same order.
 static bool make_camera_path(const DipModelCamera *camera, DipSessionCamera *to,
                              DipErrorList *faults) {
     DipCamKey *keys = malloc(camera->key_count * sizeof *keys);
@@ -68,8 +68,8 @@ static bool add_cameras(DipSession *session, const DipModelCameras *found, DipEr
     return made;
 }
 
-// Reads the cameras of a model that has been loaded. If they cannot be read, that is a warning,
-// because the model can be drawn without them.
+// Reads the cameras of a model that has been loaded. If they cannot be read, adds only a warning,
+// because the model can be drawn without them. A fault of the machine is an error.
 static bool load_cameras_of(DipSession *session, const char *file, DipErrorList *faults) {
     DipError err = {0};
     DipModelCameras *found = dip_model_cameras_load(file, session->options->up, faults, &err);
@@ -99,7 +99,8 @@ static bool load_cameras(DipSession *session, DipErrorList *faults) {
     return loaded;
 }
 
-// Returns the camera that the name of a path means, or NULL. A file of this name comes first.
+// Returns the camera with this name, or NULL if there is none or if `file` exists. The value of
+// --path and of an ini key may be either, and a file has precedence.
 static const DipSessionCamera *camera_of(const DipSession *session, const char *file,
                                          const char *name) {
     for (int i = 0; access(file, F_OK) != 0 && i < session->camera_count; i++) {
@@ -110,7 +111,7 @@ static const DipSessionCamera *camera_of(const DipSession *session, const char *
     return NULL;
 }
 
-// Adds as many cameras to the track as it has room for.
+// Adds as many cameras of the models to the track as the track has room for.
 static void track_cameras(DipSession *session) {
     const int room = DIP_CAMTRACK_CATEGORIES - DIP_CATEGORY_COUNT;
     for (int i = 0; i < session->camera_count && i < room; i++) {
@@ -120,7 +121,7 @@ static void track_cameras(DipSession *session) {
     }
 }
 
-// Says that --path names neither a file nor a camera. Returns false.
+// Fails because --path names neither a file nor a camera. The message lists the cameras.
 static bool refuse_path(const DipSession *session, DipErrorList *faults) {
     char list[200] = "";
     size_t length = 0;
@@ -145,7 +146,8 @@ static bool refuse_path(const DipSession *session, DipErrorList *faults) {
 
 // --- paths ---------------------------------------------------------------------------------------
 
-// Plays a path in a category. `name` is the name of a camera of the models, or NULL. Returns true.
+// Gives a category of the track this path. `name` is the name of the camera of the models that the
+// path comes from, or NULL if it comes from none. Returns true.
 static bool play(DipSession *session, int category, const DipCamPath *path, double fov_y_deg,
                  const char *name) {
     dip_camtrack_set_named(&session->track, category, path, dip_session_fov(session, fov_y_deg),
@@ -153,7 +155,7 @@ static bool play(DipSession *session, int category, const DipCamPath *path, doub
     return true;
 }
 
-// Takes ownership of a path and plays it in a category. Returns true.
+// Takes ownership of a path and gives it to a category of the track. Returns true.
 static bool keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
     session->paths[session->path_count++] = path;
     return play(session, category, path, fov_y_deg, NULL);
@@ -190,7 +192,7 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
                     : dip_session_place_fault(session, &camera->file, faults, &err);
 }
 
-// Loads the file of --path, or plays the camera that --path names.
+// Loads the file that --path names, or takes the path of the camera that --path names.
 static bool load_own_path(DipSession *session, DipErrorList *faults) {
     const char *name = session->options->path;
     const DipSessionCamera *camera = camera_of(session, name, name);
@@ -216,8 +218,8 @@ static bool make_pose(DipSession *session, DipErrorList *faults) {
 }
 
 // Refuses a model that is too small to be drawn. The orbit fills the picture with the model, so the
-// camera would come nearer than the least distance of a near plane (DIP_MIN_NEAR_M). A model that
-// is a single point is accepted: the orbit treats it as if it had a size.
+// camera would come nearer to it than the least distance of a near plane (DIP_MIN_NEAR_M). Accepts
+// a model that is a single point, because the orbit treats it as if it had a size.
 static bool check_extent(const float low[3], const float high[3], const char *file,
                          DipErrorList *faults) {
     const double least = 5e-9;
@@ -264,7 +266,7 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
     return keep_path(session, path, 0, def.fov_y_deg);
 }
 
-// The key of a category is "CAMPATH_" and its name.
+// The ini's key for a category is "CAMPATH_" and the category's name.
 const char *dip_session_category(int category) {
     return dip_config_key_name((DipConfigKey)(DIP_KEY_CAMPATH_DEFAULT + 2 * category)) +
            strlen("CAMPATH_");

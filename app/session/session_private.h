@@ -1,48 +1,50 @@
-// Declares the parts of opening a session. Private to session*.c.
+// Declares the functions that open a session and are private to session*.c. Each that returns bool
+// returns false on failure. The list `faults` collects errors and warnings.
 #ifndef DIP_APP_SESSION_SESSION_PRIVATE_H
 #define DIP_APP_SESSION_SESSION_PRIVATE_H
 
 #include "app/session/session.h"
 
-// Adds a copy of the error to the list; returns false.
+// Adds a copy of the error to the list. Returns false.
 bool dip_session_add_fault(DipErrorList *faults, const DipError *err);
 
-// Adds an error with these parts (dip_error_set); returns false.
+// Makes an error of these parts, as dip_error_set does, and adds it to the list. Returns false.
 bool dip_session_refuse(DipErrorList *faults, DipErrorCode code, const char *file, int line,
                         const char *key, const char *format, ...) DIP_PRINTF(6, 7);
 
-// Adds the error with the line of the ini that names the file at fault; returns false.
+// Adds the error, and tells in it the line of the ini that names the file at fault. Returns false.
 bool dip_session_place_fault(const DipSession *session, const DipConfigFile *file,
                              DipErrorList *faults, const DipError *err);
 
-// Finds a file or folder that comes with Diptych. For a program in a build folder, it is in the
-// source tree, and for an installed program in the installation's share folder. Returns whether it
-// can be read there.
+// Finds the file or folder `name` that comes with Diptych, and writes its path to `file`. Looks in
+// the source tree of a program in a build folder, and in the share folder of an installed program.
+// Returns false if it cannot be read there.
 bool dip_session_find_shipped(const char *name, char *file, size_t size_bytes);
 
-// Creates the painters of both panes for the gallery, or for models if it is NULL. On failure, some
-// of them may exist.
+// Creates the painters of both panes, which draw the gallery, or models if `gallery` is NULL. Even
+// after a failure, the caller must destroy the painters that were created.
 bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
                                const DipQuality qualities[DIP_PANE_COUNT],
                                DipPainter *painters[DIP_PANE_COUNT], DipError *err);
 
-// session_scene.c: lists the models' files, from the command line or the ini, and returns their
-// number.
+// Lists the models' files, from the command line or the ini, and returns their number. In
+// session_scene.c.
 int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX_MODELS]);
 
-// session_scene.c: loads the models and makes the scene.
+// Loads the models and makes the scene. If keep_model is true, keeps the models' data. In
+// session_scene.c.
 bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults);
 
-// session_paths.c: loads the camera paths and the cameras of the models, or makes an orbit around
-// the model.
+// Loads the camera paths and the cameras of the models, or makes an orbit around the model. In
+// session_paths.c.
 bool dip_session_load_paths(DipSession *session, DipErrorList *faults);
 void dip_session_free_paths(DipSession *session);
 
-// session_gallery.c: finds out whether the session shows a scene of the gallery, and which one.
+// Finds out whether the session shows a scene of the gallery, and which one. In session_gallery.c.
 bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults);
 
-// session_gallery.c: makes the camera path of the gallery's scene and a track that plays it, unless
-// the user has given a path.
+// Makes the camera path of the gallery's scene and a track that plays it. If the user has given a
+// path or a pose, loads that instead. In session_gallery.c.
 bool dip_session_load_gallery_path(DipSession *session, DipErrorList *faults);
 
 #endif

@@ -1,4 +1,4 @@
-// Loads the models of a session and makes its scene.
+// Loads the models of a session and makes the scene of them.
 #include "app/session/session_private.h"
 
 #include "assets/model.h"
@@ -44,8 +44,8 @@ static bool has_sky(const DipSceneDef *def) {
 }
 
 // Sets the background, the sky and the near plane. For the ini's models, all three come from the
-// ini. A model given with --model keeps its own. If this model has a sky, the colour of the sky's
-// horizon becomes the background and fills the gaps beside the sky.
+// ini. A model given with --model keeps its own. If such a model has a sky, the colour of the sky's
+// horizon becomes the background, so that gaps beside the sky do not show.
 static void set_surroundings(const DipSession *session, DipSceneDef *def) {
     if (session->options->model_count) {
         if (has_sky(def)) {
@@ -86,8 +86,8 @@ static int compare_lines(const void *a, const void *b) {
     return ((const DipMaterialRule *)a)->line - ((const DipMaterialRule *)b)->line;
 }
 
-// Collects the MATERIAL_ keys of the ini in the order of their lines, because a later rule outranks
-// an earlier one. Returns the number of rules.
+// Makes the rules for materials from the MATERIAL_ keys of the ini, in the order of the lines,
+// because a later rule outranks an earlier one. Returns the number of rules.
 static int rules_of(const DipConfig *config, DipMaterialRule rules[DIP_MAX_MATERIAL_RULES]) {
     const struct {
         const DipConfigMaterials *materials;

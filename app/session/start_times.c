@@ -1,4 +1,4 @@
-// Reads the clock during the start and formats the result.
+// Measures how long the parts of the start take, and formats these times (session.h).
 #include "app/session/session.h"
 
 #include "renderer/base/clock.h"

@@ -1,4 +1,4 @@
-// The command `diptych cost advise`: one choice of settings for several reports.
+// Runs the command `diptych cost advise`: chooses one combination of settings for several reports.
 #include "app/cost/advise/common_advice.h"
 #include "app/cost/command.h"
 #include "app/cost/options.h"

@@ -1,4 +1,4 @@
-// Prints common advice for a terminal, and writes it as JSON.
+// Prints common advice (common_advice.h) for a terminal, and writes it as JSON.
 #include "app/cost/advise/common_advice.h"
 
 #include "app/files/whole_file.h"
@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-// The advice, which is the context of all fields.
+// The advice. It is the context of all fields (DipFieldAt).
 typedef struct Advised {
     const DipCostCommon *common;
     const DipCostCommonAdvice *list; // One for each budget.
@@ -48,13 +48,13 @@ static int count_reports(const DipFieldAt *at) {
 
 // --- what a report says about a choice -----------------------------------------------------------
 
-// The line of a report in the table of a budget. Values that are not known are NAN. The times have
-// the error that all combinations of the report share.
+// The line of a report in the table of a budget. Values that are not known are NAN. The intervals
+// of the times include the error that all combinations of the report share.
 typedef struct Line {
     DipCandidate chosen;
-    DipCandidate alone; // What this report alone would choose.
+    DipCandidate alone; // The settings that this report alone would choose.
     bool has_alone;
-    bool same; // The report alone would choose the same.
+    bool same; // The report alone would choose the same row.
     double loss;
 } Line;
 
@@ -130,7 +130,7 @@ DIP_GET_ITEM(get_line, DIP_MADE(Line, (line_of(advised_of(at)->common, at->item,
 
 // --- budgets -------------------------------------------------------------------------------------
 
-// Returns the common choice of an item that is the advice for a budget.
+// Returns the common choice for a budget. `at->item` is the advice for this budget.
 static const DipAdvice *all_of(const DipFieldAt *at) {
     return &((const DipCostCommonAdvice *)at->item)->all;
 }
@@ -244,7 +244,7 @@ static void print_reports(DipForm *form, const Advised *advised) {
         common->candidates.count == 1 ? "is" : "are", dip_time_kind_names[common->candidates.kind]);
 }
 
-// Says what stands in the way of better settings.
+// Prints the next better combination, and how far it is from fitting the budget.
 static void print_next(DipForm *form, const DipCostCommon *common, const DipAdvice *advice) {
     char settings[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES];
     char fits[DIP_NUMBER_BYTES];

@@ -41,7 +41,7 @@ static bool begin_match(DipCostCommon *common, DipError *err) {
     return true;
 }
 
-// Keeps the combinations that this report has, too.
+// Removes the combinations that the report `index` does not have.
 static bool keep_matches(DipCostCommon *common, int index, DipError *err) {
     DipCandidates *all = &common->candidates;
     int kept = 0;
@@ -57,7 +57,8 @@ static bool keep_matches(DipCostCommon *common, int index, DipError *err) {
                          "have, too");
 }
 
-// Checks that a report can be used beside the first one.
+// Checks that a report has times and combinations, that its machine was quiet enough and that it
+// comes from the same build as the first report.
 static bool check_report(const DipCostCommon *common, int index, DipError *err) {
     const DipCostReport *report = &common->reports[index];
     const char *const name = common->names[index];
@@ -89,8 +90,8 @@ static double bound_of(const DipCandidate *candidate) {
     return time.high;
 }
 
-// Fills in the candidate that stands for a combination: its means of FLIP, and its time in the
-// report in which it may take longest.
+// Fills in the candidate that stands for a combination in all reports. Its FLIP is the mean over
+// the reports. Its time is that of the report in which it may take longest.
 static void join(DipCostCommon *common, int combination) {
     DipCandidate *to = &common->candidates.list[combination];
     DipCandidate joined = {.time = dip_estimate_unknown(0.0)};

@@ -15,17 +15,18 @@ typedef struct DipCostCommon {
     DipCostReport *reports;                         // Owned.
     int report_count;
     // The combinations as candidates: their mean FLIP over the reports, and their time in the
-    // report in which they may take longest. `row` is the combination. The list is owned.
+    // report in which they may take longest. `row` is the index in this list. The list is owned.
     DipCandidates candidates;
 } DipCostCommon;
 
 // What to choose for one time budget.
 typedef struct DipCostCommonAdvice {
-    DipAdvice all;                          // The common choice, among common->candidates.
-    int alone[DIP_COST_MAX_COMMON_REPORTS]; // The row that each report alone would choose, or -1.
+    DipAdvice all; // The common choice, among common->candidates.
+    // [report]: the row that this report alone would choose, or -1 if it would choose none.
+    int alone[DIP_COST_MAX_COMMON_REPORTS];
 } DipCostCommonAdvice;
 
-// Reads reports: files, or folders that have a cost.json. `files` is borrowed as the names.
+// Reads reports: files, or folders that have a cost.json. Borrows the strings of `files` as names.
 // `budget_of` is the time that must be within the budget. Fails if a report cannot be read, has no
 // combinations with times and errors, comes from a machine that was too busy (DIP_ERROR_BUSY) or
 // from another build of the program, or if no combination is in all reports. Free *common even
@@ -45,14 +46,15 @@ int dip_cost_common_row(const DipCostCommon *common, int combination, int report
 // Returns the time and error of a combination in one report.
 DipCandidate dip_cost_common_candidate(const DipCostCommon *common, int combination, int report);
 
-// Chooses the common settings for a budget (dip_advise), and those that each report would choose
-// alone. For a single report the common choice is its own.
+// Chooses the common settings for a budget (dip_advise), and the settings that each report would
+// choose alone. With a single report, the two are the same.
 void dip_cost_common_advise(const DipCostCommon *common, double budget_ms,
                             DipCostCommonAdvice *advice);
 
-// The share by which the chosen combination's FLIP in one report is above the FLIP of the row that
-// this report alone would choose. Both count at least as much as the floor of the report's truths.
-// NAN if either is missing.
+// Returns the share by which the chosen combination's FLIP in one report is above the FLIP of the
+// row that this report alone would choose. A FLIP below the noise floor of the report's truths
+// counts as the floor (dip_cost_ranking_flip). Returns NAN if there is no common choice, or if this
+// report alone would choose none.
 double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                                   int report);
 
@@ -61,7 +63,7 @@ double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostComm
 void dip_cost_common_print(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                            int count, FILE *out);
 
-// Writes the same to a file as JSON. Fails with DIP_ERROR_MEMORY, or DIP_ERROR_IO if the file
+// Writes the advice to a file as JSON. Fails with DIP_ERROR_MEMORY, or DIP_ERROR_IO if the file
 // cannot be written.
 extern const DipRecord dip_cost_common_record; // The fields of the file.
 bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommonAdvice *advice,

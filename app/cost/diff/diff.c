@@ -1,4 +1,5 @@
-// Computes what all comparisons have in common: growth of quantities, marks of rows, and notes.
+// Computes what comparisons of reports and of programs share: the growth of quantities, the marks
+// of rows, and notes.
 #include "app/cost/diff/diff.h"
 
 #include <math.h>
@@ -78,7 +79,7 @@ void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff) {
         int known[2], used[2];
         count_rows(diff, 0, q, &known[0], &used[0]);
         count_rows(diff, 1, q, &known[1], &used[1]);
-        const int side = used[0] == 0 ? 0 : 1; // The side that perhaps does not count it.
+        const int side = used[0] == 0 ? 0 : 1; // The side that perhaps does not count `q`.
         if (used[side] > 0 || used[1 - side] == 0 || used[1 - side] < known[1 - side]) {
             continue;
         }

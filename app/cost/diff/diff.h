@@ -1,9 +1,10 @@
-// `diptych cost diff` finds what got slower or worse between two reports or two programs.
+// Declares the parts of `diptych cost diff`, which finds what got slower or worse between two
+// reports, two programs, or a report and a program.
 //
-// A comparison has two sides: 0 is A, 1 is B. Each of its rows is a combination of settings on a
-// camera path that both sides have, with the values of some quantities on both sides. A quantity is
-// an error, a counter or the number of pictures that differ. Quantities are exact, so any
-// difference has a cause. A row also has times, which are noisy and have intervals.
+// A comparison has two sides: side 0 is A, and side 1 is B. Each of its rows is a combination of
+// settings on a camera path that both sides have, with the values of some quantities on both sides.
+// A quantity is an error, a counter or the number of pictures that differ. Quantities are exact, so
+// any difference has a cause. A row also has times, which are noisy and have intervals.
 #ifndef DIP_APP_COST_DIFF_DIFF_H
 #define DIP_APP_COST_DIFF_DIFF_H
 
@@ -40,9 +41,9 @@ typedef struct DipCostDiffArguments {
     int side_count;
     DipCostDiffSet sets[DIP_COST_DIFF_MAX_SETS];
     int set_count;
-    DipMeasureOptions measure; // Rounds 0: as the report or the program that is compared needs.
-    int frames;                // 0: as the report or the program that is compared needs.
-    double fail_over;          // 1.03 for --fail-over 3%; 0: never fail.
+    DipMeasureOptions measure; // 0 rounds mean DIP_COST_DIFF_ROUNDS, or 1 with a report.
+    int frames;                // 0 means DIP_COST_DIFF_FRAMES. Unused with a report.
+    double fail_over;          // 1.03 for --fail-over 3%; 0 if nothing fails.
     const char *json;
 } DipCostDiffArguments;
 
@@ -78,14 +79,14 @@ typedef enum DipCostDiffMark {
 typedef struct DipCostDiffRow {
     DipQuality quality;
     char path[16];
-    double values[2][DIP_COST_DIFF_QUANTITY_COUNT]; // NAN: not known, or not comparable.
+    double values[2][DIP_COST_DIFF_QUANTITY_COUNT]; // NAN if not known or not comparable.
     bool timed;                                     // Both sides have a time.
-    bool is_base;                                   // It is the baseline of a report's path.
+    bool is_base;                                   // Reports only: the baseline of its path.
     double ms[2];                                   // Mean time of a frame.
-    DipEstimate ratios[2];                          // Reports only: the time over the baseline's.
-    DipEstimate change;  // How many times as long B takes, with its 95 % interval.
+    DipEstimate ratios[2];                          // Reports only: time / the baseline's time.
+    DipEstimate change;  // How many times as long B takes as A, with its 95 % interval.
     double surely_above; // The change is surely greater than this; see dip_cost_diff_mark.
-    double surely_below;
+    double surely_below; // The change is surely less than this.
     // Programs only, for each stage of a frame: 1 + (B's time in the stage - A's time in it) / A's
     // time of the frame.
     DipEstimate stages[DIP_COST_DIFF_STAGES];
@@ -111,13 +112,14 @@ typedef struct DipCostDiff {
     char reasons[2][DIP_COST_REASON];
     DipCostDiffRow *rows; // Owned.
     int row_count;
-    char notes[DIP_COST_DIFF_MAX_NOTES][DIP_COST_DIFF_NOTE]; // Differences of a whole side.
+    // Differences of a whole side, not of single rows.
+    char notes[DIP_COST_DIFF_MAX_NOTES][DIP_COST_DIFF_NOTE];
     int note_count;
-    char cause[512];  // The likely cause of a slowdown; "" if nothing is sure.
-    double limit;     // A row is slower if it surely takes more than this many times as long.
-    double fail_over; // The limit beyond which times and errors fail; 0: nothing fails.
-    int slower;       // Number of rows with each mark.
-    int faster;
+    char cause[512];   // The likely cause of a slowdown; "" if nothing is sure.
+    double limit;      // A row is slower if B surely takes more than this many times as long.
+    double fail_over;  // The limit beyond which times and errors fail; 0 if nothing fails.
+    int slower;        // Number of rows that are marked as slower.
+    int faster;        // Number of rows that are marked as faster.
     int failed_times;  // Number of rows that are slower beyond fail_over.
     int failed_errors; // Number of rows with an error that grew beyond fail_over.
 } DipCostDiff;
@@ -137,7 +139,7 @@ const char *dip_cost_diff_title(int quantity);
 // Returns whether a row's quantity is known on both sides and differs.
 bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
 
-// Returns by what share an error grew from A to B (0.1: B's error is 10 % greater), or 0 if it is
+// Returns by what share an error grew from A to B (0.1 if B's error is 10 % greater), or 0 if it is
 // not known. PSNR and SSIM are turned into errors that grow when the picture gets worse: the root
 // mean square difference that PSNR stands for, and 1 - SSIM. For other quantities, returns the
 // growth of the value.
@@ -149,7 +151,7 @@ void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
 
 // Computes the rows' marks and the counts from the rows and the limits. A row is marked as slower
 // if surely_above is greater than the limit, and as faster if surely_below is less than its
-// inverse. Times are left out if the times may not be compared, if a machine is red, or if two
+// inverse. Marks no row if the times may not be compared, if a machine's verdict is red, or if two
 // reports come from different machines.
 void dip_cost_diff_mark(DipCostDiff *diff);
 
@@ -160,8 +162,8 @@ typedef struct DipCostDiffChange {
     int quantity;
     int rows;     // Number of rows in which the quantity differs.
     int greatest; // The row with the greatest change.
-    double least; // Least and greatest growth (dip_cost_diff_growth).
-    double most;
+    double least; // Least growth in these rows (dip_cost_diff_growth).
+    double most;  // Greatest growth in these rows.
 } DipCostDiffChange;
 
 // Quantities that differ in the same rows. All errors are one group.
@@ -173,25 +175,27 @@ typedef struct DipCostDiffGroup {
 } DipCostDiffGroup;
 
 // Finds all groups, so that a reader sees the few causes of the differences and not one line per
-// row. Each quantity is in at most one group. Returns their number, or -1 when memory runs out.
+// row. Each quantity is in at most one group. Returns the number of groups, or -1 when memory runs
+// out.
 int dip_cost_diff_group(const DipCostDiff *diff,
                         DipCostDiffGroup groups[DIP_COST_DIFF_QUANTITY_COUNT]);
 
 // --- causes of a slowdown ------------------------------------------------------------------------
 
-// Additional times of some rows, and the work that may explain them. Arrays are borrowed.
+// How much longer B takes than A in some rows (the additional times), and the work that may explain
+// it. Arrays are borrowed.
 typedef struct DipCauseData {
     int rows;
     int starts;
-    int kinds;               // Kinds of work.
-    const double *per_start; // [row * starts + start]: additional time; NAN: not known.
-    const double *work;      // [kind * rows + row], at least 0.
+    int kinds;               // Number of kinds of work.
+    const double *per_start; // [row * starts + start]: additional time; NAN if not known.
+    const double *work;      // [kind * rows + row]: amount of work, at least 0.
 } DipCauseData;
 
 typedef struct DipCause {
     int kind;     // The kind of work that explains the additional times best; -1 if none is sure.
     double price; // Additional time per unit of this work.
-    double share; // Share of the sum of squares of the additional times that it explains.
+    double share; // Share of the sum of squares of the additional times that this work explains.
 } DipCause;
 
 // Fits the additional times y of the rows by y = price * work, for each kind of work by itself,
@@ -227,10 +231,11 @@ bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCo
 bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *const programs[2],
                             DipCostDiff *diff, DipError *err);
 
-// Measures the rows of a report again with another program, as a report that has only these rows:
-// the rows of the report's first path whose settings `arguments` lists. Each row's ratio is that to
-// the report's baseline. The new report has no errors. Fails with DIP_ERROR_MISSING if the report
-// has none of the rows or no times. On success the caller frees the new report.
+// Measures rows of a report again with another program: the rows of the report's first path whose
+// settings `arguments` lists. Makes a new report with the baseline and these rows. It has no
+// errors, and each row's ratio is its time / the time of the baseline in the same program. Fails
+// with DIP_ERROR_MISSING if the report has none of the rows or no times. On success the caller
+// frees the new report.
 bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const char *program,
                                   const DipCostReport *report, DipCostReport *measured,
                                   DipError *err);
@@ -239,7 +244,7 @@ bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const c
 bool dip_cost_diff_print(const DipCostDiff *diff, FILE *out, DipError *err);
 
 // Writes the comparison to a JSON file.
-extern const DipRecord dip_cost_diff_record; // DipCostDiff
+extern const DipRecord dip_cost_diff_record; // The fields of a DipCostDiff in the file.
 bool dip_cost_diff_write_json(const DipCostDiff *diff, const char *file, DipError *err);
 
 #endif

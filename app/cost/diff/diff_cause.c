@@ -30,7 +30,7 @@ bool dip_cause_is_same_work(const DipCauseData *data, int a, int b) {
 }
 
 // Finds the kind of work that explains most of the sum of squares of the times, with a positive
-// price. Counts kinds that cannot be told apart as the first of them.
+// price. If several kinds cannot be told apart (dip_cause_is_same_work), returns the first of them.
 static DipCause best_fit(const DipCauseData *data, const double *times) {
     DipCause best = {.kind = -1};
     const double squares = dot(times, times, data->rows);
@@ -54,7 +54,8 @@ static DipCause best_fit(const DipCauseData *data, const double *times) {
     return best;
 }
 
-// Computes the mean of each row over the drawn starts. Returns false if a row has no time in them.
+// Computes the mean additional time of each row over the drawn starts. Returns false if a row has
+// no time in any of them.
 static bool mean_times(const DipCauseData *data, const int *drawn, double *times) {
     for (int r = 0; r < data->rows; r++) {
         double sum = 0.0;
@@ -104,8 +105,7 @@ bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err) {
     return made;
 }
 
-// --- describing the cause
-// --------------------------------------------------------------------------
+// --- describing the cause ------------------------------------------------------------------------
 
 // Returns the stage that takes most of the additional time of the slower rows. Writes the share of
 // the additional time that this stage takes.
@@ -129,8 +129,8 @@ static DipBenchStage slowest_stage(const DipCostDiff *diff, double *share) {
     return found;
 }
 
-// Kinds of work that may explain additional time: one unit per frame, A's time of the stage, and
-// the counters.
+// Kinds of work that may explain additional time: one unit per frame, A's time in the slowest
+// stage, and from FIRST_COUNTER on the counters.
 enum { PER_FRAME, STAGE_TIME, FIRST_COUNTER };
 
 static void list_work(const DipTimesFit *fit, const DipCostDiff *diff, DipBenchStage stage,
@@ -175,8 +175,8 @@ static void write_cause(DipCostDiff *diff, const DipCauseData *data, const DipCa
     }
 }
 
-// Writes how much longer B takes in a stage, in milliseconds, for each row in each start by itself:
-// per_start[row * starts + start].
+// Writes how much longer B takes than A in a stage, in milliseconds. Computes a value for each row
+// in each start by itself: per_start[row * starts + start].
 static bool list_per_start(const DipTimes *all, int rows, DipBenchStage stage, double *per_start,
                            DipError *err) {
     DipTimesFit *fit = NULL;

@@ -1,5 +1,5 @@
-// The command `diptych cost diff`: reads its options, finds out what A and B are, compares them and
-// judges the result.
+// Runs the command `diptych cost diff`: reads its options, finds out what A and B are, compares
+// them and judges the result.
 #include "app/cost/command.h"
 #include "app/cost/diff/diff.h"
 #include "app/report/format/formats.h"
@@ -21,8 +21,8 @@ static const double least_limit = 1.01;
 
 #define FIELD(name) offsetof(DipCostDiffArguments, name)
 
-// Settings that use each part of the renderer: samples, filters, sample groups, compression, and
-// all of them.
+// Sets of settings that together use each part of the renderer: samples, filters, sample groups and
+// compression.
 static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=on;opt=advanced;"
                                    "aa=8,aaa=on,asd=2,af=16,aaf=on";
 

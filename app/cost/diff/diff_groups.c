@@ -12,10 +12,10 @@ enum { NOT_DEFAULT = -1, MOST_TERMS = 2 };
 
 // A condition on rows: on their path, and on their steps of some settings.
 typedef struct Condition {
-    const char *path; // NULL: rows on any path meet the condition.
-    int count;        // Number of settings.
+    const char *path; // NULL if rows on any path meet the condition.
+    int count;        // Number of settings that the condition names.
     int settings[MOST_TERMS];
-    int steps[MOST_TERMS]; // NOT_DEFAULT: any step but the default.
+    int steps[MOST_TERMS]; // NOT_DEFAULT stands for any step but the default.
 } Condition;
 
 static bool meets(const DipCostDiffRow *row, const Condition *condition) {
@@ -36,13 +36,13 @@ static int term_count(const Condition *condition) {
 // A search for the condition that describes some rows best.
 typedef struct Search {
     const DipCostDiff *diff;
-    const bool *rows; // [row]: it is one of the rows to describe.
+    const bool *rows; // [row]: true if the row is to be described.
     Condition best;
     int best_count; // Number of rows that meet the best condition; 0 if there is none yet.
 } Search;
 
-// Keeps a condition if all rows to describe meet it, and if fewer other rows meet it than meet the
-// best condition so far, or as many and it has fewer terms.
+// Keeps a condition if all rows to describe meet it and it is better than the best one so far:
+// fewer rows meet it, or as many rows meet it and it has fewer terms.
 static void consider(Search *search, const Condition *condition) {
     int count = 0;
     for (int r = 0; r < search->diff->row_count; r++) {
@@ -59,7 +59,8 @@ static void consider(Search *search, const Condition *condition) {
     }
 }
 
-// Considers a condition, alone and with all steps of further settings after its last one.
+// Considers a condition by itself. Then considers it with a term more: each step of each setting
+// after its last one. Goes on in the same way up to MOST_TERMS settings.
 static void consider_settings(Search *search, Condition condition) {
     consider(search, &condition);
     const int last = condition.count++;
@@ -88,7 +89,7 @@ static void format_condition(const Condition *condition, char *text, size_t size
     }
 }
 
-// Describes rows, of which there is at least one, in a few words.
+// Describes in a few words the rows for which rows[row] is true. There must be at least one.
 static void describe(const DipCostDiff *diff, const bool *rows, char *text, size_t size) {
     Search search = {.diff = diff, .rows = rows};
     int count = 0, first = 0;
@@ -149,7 +150,7 @@ static bool mark_rows(const DipCostDiff *diff, int quantity, bool *rows) {
     return any;
 }
 
-// Returns the group that a quantity belongs to, which may be a new one at the end.
+// Returns the index of the group that a quantity belongs to, or `count` if it needs a new group.
 static int find_group(const DipCostDiffGroup *groups, int count, const bool *group_rows,
                       const bool *rows, int quantity, int row_count) {
     for (int g = 0; g < count; g++) {

@@ -1,13 +1,14 @@
 // Compares two programs that take turns at every frame, and measures the rows of a report again
 // with a program.
 //
-// For both, it times pairs of subjects. A subject is a set of settings that one program draws. The
-// two subjects of a pair, called sides, take turns at every frame. The programs are started several
-// times, because each start is by chance a little faster or slower than another.
+// In both cases, it times pairs of subjects. A subject is a set of settings that one program draws.
+// The two subjects of a pair, called sides, take turns at every frame. The programs are started
+// several times, because each start is by chance a little faster or slower than another.
 //
 // The programs run as `PROGRAM bench ... --serve` (app/measure/timing/child.h). With two programs,
-// pair p is set p in both. With one, it is set 0 beside set p + 1. The last pair is the A/A pair:
-// set 0 and the last set, which has the same settings, in program 0.
+// both sides of pair p draw set p, each in its own program. With one program, the sides draw set 0
+// and set p + 1. The last pair is the A/A pair, whose times should be equal: program 0 draws set 0
+// and the last set, which has the same settings.
 #include "app/cost/diff/diff.h"
 
 #include "app/cli/drive.h"
@@ -23,9 +24,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The programs, their pairs and times.
+// What is timed: the programs and the pairs, with their times.
 typedef struct Duel {
-    const char *programs[2]; // The second one is NULL if there is only one. Borrowed.
+    const char *programs[2]; // The second is NULL if there is only one program. Borrowed.
     char sets[(DIP_COST_DIFF_MAX_SETS + 2) * DIP_COST_TEXT];
     int set_count;
     int pair_count;
@@ -35,13 +36,13 @@ typedef struct Duel {
     int threads;       // Number of threads of a program that draw.
     DipDriver *driver; // Times of the subjects 2 * pair + side. Side 0 is the base. Owned.
     DipTimesFit *fit;  // Owned.
-    // [subject * frames + frame]: the first drawing, which has counters and a hash. Owned.
+    // [subject * frames + frame]: the frame's first drawing, with its counters and hash. Owned.
     DipBenchSample *first;
 } Duel;
 
 enum { MOST_ARGUMENTS = 40 + 2 * DIP_MAX_MODELS, MOST_SUBJECTS = 2 * (DIP_COST_DIFF_MAX_SETS + 1) };
 
-// A rest before each frame, in which the other program's threads go to sleep.
+// A rest in nanoseconds before each frame, in which the other program's threads go to sleep.
 static const int64_t rest_ns = 1000000;
 
 // --- the command line of the programs ------------------------------------------------------------
@@ -71,7 +72,7 @@ static void add_number(CommandLine *line, const char *name, const char *format, 
     add_option(line, name, text);
 }
 
-// Adds the options of the scene and of the drawing.
+// Adds the options that say which scene the programs draw, and how.
 static void add_session(CommandLine *line, const DipSessionOptions *session) {
     add_option(line, "--config", session->config);
     for (int m = 0; m < session->model_count; m++) {
@@ -101,7 +102,7 @@ static void add_session(CommandLine *line, const DipSessionOptions *session) {
     add_option(line, "--isa", session->has_isa ? dip_isa_name(session->isa) : NULL);
 }
 
-// Adds a set of settings.
+// Appends a set of settings to duel->sets.
 static void add_set(Duel *duel, const char *text) {
     const size_t used = strlen(duel->sets);
     snprintf(duel->sets + used, sizeof duel->sets - used, "%s%s", used ? ";" : "", text);
@@ -141,8 +142,8 @@ static void stop_programs(Programs *p) {
     dip_child_stop(&p->children[1], dip_interrupted());
 }
 
-// Starts the programs anew. If a program does not answer at its first start, it was named wrongly,
-// so the fault lies in the input.
+// Starts the programs anew. If a program does not answer at its first start, the command line
+// probably names a wrong file, so the error is one of the input.
 static bool start_programs(void *context, int start, DipError *err) {
     Programs *p = context;
     Duel *duel = p->duel;
@@ -159,8 +160,8 @@ static bool start_programs(void *context, int start, DipError *err) {
             return false;
         }
         if (duel->threads == 0) {
-            // The ini of the programs decides how many threads draw, so they are counted. The
-            // program has a pool for bench and one for the session, and the main thread is in both.
+            // The program's ini file decides how many threads draw, so all its threads are counted.
+            // It has a pool for bench and one for the session, and the main thread is in both.
             const int threads = (dip_child_thread_count(p->children[i]) + 1) / 2;
             duel->threads = threads > 0 ? threads : 1;
         }
@@ -350,7 +351,7 @@ bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *c
 
 // --- a report and a program ----------------------------------------------------------------------
 
-// Lists the rows to measure. The baseline is set 0 of all pairs and has no pair of its own.
+// Lists the rows to measure. Leaves out the baseline, which is side 0 of every pair.
 static int list_rows(const DipCostDiffArguments *arguments, const DipCostReport *report,
                      int rows[DIP_COST_DIFF_MAX_SETS]) {
     int count = 0;
@@ -375,7 +376,7 @@ static void add_quality(Duel *duel, const DipQuality *quality) {
     add_set(duel, text);
 }
 
-// Completes the options with what the report was measured with.
+// Fills in the options that were not given, with the values that the report was measured with.
 static DipCostDiffArguments options_of_report(const DipCostDiffArguments *arguments,
                                               const DipCostReport *report) {
     DipCostDiffArguments all = *arguments;

@@ -6,18 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Ratios that two starts of one program measure differ by this standard deviation. A report of a
-// single start does not show how far.
+// Standard deviation of the logarithm of a ratio between starts of one program. A report of a
+// single start cannot measure it.
 static const double start_error = 0.006;
 
-enum { NAMED_ROWS = 4 }; // Rows that a note names; the others are counted.
+enum { NAMED_ROWS = 4 }; // Greatest number of rows that a note names.
 
-// Which parts of two reports may be compared.
+// Says which parts of two reports may be compared.
 typedef struct Comparable {
     bool pictures;                   // Scene and size are the same.
-    bool errors;                     // So are the converged pictures and the viewpoints.
-    bool counters;                   // So are the timed frames.
-    bool ratios;                     // So are the baselines.
+    bool errors;                     // Pictures, converged pictures and viewpoints are the same.
+    bool counters;                   // Pictures and timed frames are the same.
+    bool ratios;                     // Pictures and baselines are the same.
     bool poses[DIP_COST_MAX_PATHS];  // [path of A]: B has the same poses.
     int path_of[DIP_COST_MAX_PATHS]; // [path of A]: the path of B with this name, or -1.
 } Comparable;
@@ -141,7 +141,8 @@ static bool is_repeated_baseline(const DipCostReport *report, int row) {
            report->base_rows[report->rows[row].path] != row;
 }
 
-// Finds the first row of B that has the settings and path of a row of A and is not taken.
+// Finds the first row of B that has the settings and path of a row of A and that no earlier row of
+// A has taken. Returns -1 if there is none.
 static int find_row(const DipCostRow *wanted, const DipCostReport *b, int path, const bool *taken) {
     int row = dip_report_find(b, &wanted->quality, path, 0);
     while (row >= 0 && (taken[row] || is_repeated_baseline(b, row))) {
@@ -177,7 +178,8 @@ static void note_lonely(DipCostDiff *diff, const DipCostReport *report, const bo
     }
 }
 
-// Copies the errors of the viewpoints that both reports judged. `rows` holds an index per side.
+// Computes the errors of both sides over the viewpoints that both reports judged. `rows` holds the
+// index of the row on each side.
 static void copy_errors(const DipCostReport *const reports[2], const int rows[2],
                         DipCostDiffRow *to) {
     DipMetricSums sums[2] = {{.bursts = 0.0}, {.bursts = 0.0}};
@@ -202,9 +204,8 @@ static void copy_errors(const DipCostReport *const reports[2], const int rows[2]
     }
 }
 
-// Copies the means of counters over the frames. Counters are whole numbers, so their sums are
-// rounded before they are compared: the sums of two reports may have been rounded in different
-// ways.
+// Copies the means of counters over the frames. The sums of counters are whole numbers, so they are
+// rounded to whole numbers first: the means in two reports may have been rounded in different ways.
 static void copy_counters(const DipCostReport *const reports[2], const int rows[2],
                           DipCostDiffRow *to) {
     for (int side = 0; side < 2; side++) {
@@ -216,9 +217,9 @@ static void copy_counters(const DipCostReport *const reports[2], const int rows[
     }
 }
 
-// Computes the quotient of the two ratios. The error of its logarithm combines those of both ratios
-// and, for reports of a single start, the error of a start. The baseline's ratio to itself has no
-// error.
+// Computes the quotient of the two sides' ratios. The error of its logarithm combines the errors of
+// both ratios and, if a report has a single start, start_error. The baseline's ratio to itself has
+// no error.
 static void compare_times(const DipCostReport *const reports[2], const int rows[2],
                           DipCostDiffRow *to) {
     const int rounds = reports[0]->options.rounds < reports[1]->options.rounds
@@ -244,8 +245,8 @@ static void compare_times(const DipCostReport *const reports[2], const int rows[
                                    hypot(error, shows_starts ? 0.0 : start_error), degrees);
 }
 
-// Computes bounds of the changes that are so wide that all of them together hold with 95 %. Of a
-// hundred intervals of 95 % each, five would miss (Bonferroni's correction).
+// Computes bounds of the changes that are so wide that all of them together hold with a probability
+// of 95 % (Bonferroni's correction). Of a hundred intervals of 95 % each, five would miss.
 static void widen_bounds(DipCostDiff *diff) {
     int count = 0;
     for (int r = 0; r < diff->row_count; r++) {

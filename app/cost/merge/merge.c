@@ -1,5 +1,5 @@
-// The command `diptych cost merge`: joins the viewpoints that several machines have judged into one
-// report.
+// Runs the command `diptych cost merge`: joins several reports into one. Each of them has the
+// errors at some of the viewpoints.
 #include "app/cost/command.h"
 #include "app/cost/context.h"
 #include "app/cost/options.h"
@@ -110,7 +110,7 @@ static bool check_scene(const DipCostReport *report, const DipSession *session, 
                          report->scene, here.scene);
 }
 
-// Writes the report with pictures that this process draws, since pictures have the same bits on
+// Writes the report. This process draws the pictures of the page, which are the same to the bit on
 // every machine.
 static bool write_with_pictures(DipCostReport *report, DipSession *session,
                                 const Arguments *arguments, DipError *err) {

@@ -1,4 +1,4 @@
-// Collects what the parts tell about their machines, and prints it as a table.
+// Collects what the parts of a merged report tell about their machines, and prints it as a table.
 #include "app/cost/merge/merge_machines.h"
 
 #include "app/files/put.h"
@@ -13,7 +13,8 @@ static bool is_repeated(const DipCostReport *report, int sweep) {
     return false;
 }
 
-// Returns the index of a sweep's last step, or of its first step if the last one is the base.
+// Returns the index of a sweep's last step, or of its first step if the last one is the sweep's
+// base.
 static int far_step(const DipCostSweep *sweep) {
     const int last = sweep->row_count - 1;
     return sweep->rows[last] == sweep->base ? 0 : last;

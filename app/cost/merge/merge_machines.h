@@ -19,12 +19,13 @@ typedef struct DipCostMachine {
     DipEstimate ratios[DIP_COST_MACHINE_ROWS];
 } DipCostMachine;
 
-// The machines in the order of the parts. Zero-initialise it; it owns nothing.
+// The machines in the order of the parts. Zero-initialise the struct; it owns nothing.
 typedef struct DipCostMachines {
     DipCostMachine list[DIP_COST_MAX_PARTS];
     int count;
-    // Names of the compared ratios, "aa 8 / none": the time of the last step of a setting's first
-    // sweep (of its first step, if the last one is the sweep's base) over that of the base.
+    // Names of the compared ratios, such as "aa 8 / none". A ratio is the time of the last step of
+    // a setting's first sweep over the time of the sweep's base. If the last step is the base, the
+    // ratio has the time of the first step instead.
     char rows[DIP_COST_MACHINE_ROWS][DIP_COST_TEXT];
     int row_count;
 } DipCostMachines;

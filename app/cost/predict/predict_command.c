@@ -1,4 +1,5 @@
-// The command `diptych cost predict`: reads its options, predicts, prints and writes the files.
+// Runs the command `diptych cost predict`: reads its options, predicts, prints the prediction and
+// writes it to files.
 #include "app/cost/command.h"
 #include "app/cost/predict/predict_elsewhere.h"
 #include "app/cli/progress.h"

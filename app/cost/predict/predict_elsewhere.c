@@ -1,5 +1,5 @@
-// Counts the work of combinations at another place ("there"), times a few of them, and predicts all
-// from prices of work.
+// Counts the work of combinations at another place ("there", predict_elsewhere.h), times a few of
+// them there, and predicts the times of all from the price of each kind of work.
 #include "app/cost/predict/predict_elsewhere.h"
 
 #include "app/report/format/formats.h"
@@ -73,8 +73,9 @@ static bool list_combinations(DipCostElsewherePrediction *p, const char *name, D
 
 // --- counting ------------------------------------------------------------------------------------
 
-// Only a few of the frames that are timed were counted. The work of one combination, the baseline
-// if it is listed, is counted in all of them. It tells by how much the few differ from all.
+// The counters come from only a few of the timed frames. Counts the work of one combination in all
+// timed frames, and scales the counters of all combinations by the ratio of the two. Takes the
+// baseline if it is listed, otherwise the first combination.
 static bool scale_counters(DipCostContext *there, DipError *err) {
     DipCostReport *report = there->report;
     const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);
@@ -151,7 +152,8 @@ static double predict(const DipCostElsewherePrediction *p, const DipCostModel *m
                                 &p->list[index].quality);
 }
 
-// Predicts a timed combination from the report and from all others that were timed.
+// Predicts a timed combination from the report and from all other combinations to which prices are
+// fitted.
 static double predict_left_out(const DipCostElsewherePrediction *p, int index) {
     DipCostElsewhere others[DIP_COST_MOST_TIMED];
     int count = 0;
@@ -168,7 +170,7 @@ void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
     const DipCostModel as_is_model = fit(p, NULL, 0);
     const DipCostModel fitted_model = fit(p, p->timed, p->timed_count);
     double as_is[2][DIP_COST_MOST_TIMED], fitted[2][DIP_COST_MOST_TIMED], logs[DIP_COST_MOST_TIMED];
-    int count[2] = {0, 0}; // [0]: combinations that were timed to predict from; [1]: checked ones.
+    int count[2] = {0, 0}; // [0]: combinations to which prices are fitted; [1]: checked ones.
     for (int i = 0; i < p->count; i++) {
         DipCostPredictedThere *c = &p->list[i];
         c->as_is_ms = predict(p, &as_is_model, i);
@@ -193,8 +195,8 @@ void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
 
 // --- the whole -----------------------------------------------------------------------------------
 
-// A session for the place where the report was measured, or for the place that is predicted: the
-// same scene with other threads and another instruction set.
+// A copy of the command's session for the place where the report was measured, or for the place
+// that is predicted. It has the same scene, but its own threads and instruction set.
 typedef struct Place {
     DipSession session;
     DipPool *pool; // Owned; NULL if the pool of the command's session has the right threads.
@@ -224,7 +226,8 @@ static bool find_isa(const DipCostReport *report, DipIsa *isa, const char *name,
                          report->isa);
 }
 
-// Fills in size, path and threads: those of the command line, otherwise those of the report.
+// Fills in the size, path, threads and instruction set of p->there, each from the command line if
+// it is given there, otherwise from the report.
 static void describe_there(DipCostElsewherePrediction *p, const DipSession *session,
                            const DipSessionOptions *options, DipIsa isa) {
     const DipCostReport *report = &p->report;

@@ -2,9 +2,10 @@
 // on another camera path, with another number of threads or another instruction set.
 //
 // A combination is a set of quality settings on the camera path. The report's model of times
-// (fit.h) knows the price of each kind of work. The work of each combination is counted there. The
-// sum of work times price is the prediction from the report alone (as_is_ms). If some combinations
-// are timed there, prices are fitted anew to them and to the report, and predict all others.
+// (fit.h) knows the price of each kind of work: the milliseconds that a unit of it takes. The work
+// of each combination is counted there. The sum of work times price is the prediction from the
+// report alone (as_is_ms). If some combinations are timed there, prices are fitted anew to them and
+// to the report, and predict all others.
 #ifndef DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 #define DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 
@@ -23,10 +24,10 @@ typedef struct DipCostPredictArguments {
     DipSessionOptions session;
     const char *report; // A cost.json, or a folder that has one.
     int report_count;
-    int timed;        // Combinations to time there, to predict from; 0: from the report alone.
+    int timed;        // Combinations to time there, to predict from. 0 uses the report alone.
     int checked;      // Further combinations to time there, to compare the predictions with.
-    const char *json; // Files to write, or NULL.
-    const char *csv;
+    const char *json; // JSON file to write, or NULL.
+    const char *csv;  // CSV file to write, or NULL.
 } DipCostPredictArguments;
 
 // A combination of the report.
@@ -34,7 +35,7 @@ typedef struct DipCostPredictedThere {
     DipQuality quality;
     double report_ms; // Mean time of a frame in the report, which measured or predicted it.
     double as_is_ms;  // Mean time there, predicted from the report alone.
-    double ms;        // The same, predicted from the report and from what was timed there.
+    double ms;        // Mean time there, predicted from the report and from what was timed there.
     int timed;        // Index in the prediction's `timed`; -1 if it was not timed there.
 } DipCostPredictedThere;
 
@@ -47,20 +48,24 @@ typedef struct DipCostElsewherePrediction {
     DipCostPredictedThere *list; // Owned; `count` of them, in the order of the report.
     int count;
     DipCostElsewhere timed[2 * DIP_COST_MOST_TIMED];
-    int timed_count;   // Prices are fitted to this many of them, the first ones.
-    int checked_count; // The others are only compared with their predictions.
-    double factor;     // Median of time / as_is_ms of those to which prices are fitted; 1 if none.
-    DipCostMisses timed_as_is;    // How far as_is_ms misses those to which prices are fitted,
-    DipCostMisses timed_left_out; // and how far the fit misses each when it leaves that one out.
-    DipCostMisses checked_as_is;  // How far as_is_ms misses the checked combinations,
-    DipCostMisses checked_fitted; // and how far ms does.
-    double wait; // Share of their time that threads waited for a core while times were taken.
+    int timed_count;   // Prices are fitted to the first timed_count combinations of `timed`.
+    int checked_count; // The checked_count after these are only compared with their predictions.
+    // Median of time / as_is_ms of the combinations to which prices are fitted; 1 if there are
+    // none.
+    double factor;
+    DipCostMisses timed_as_is; // How far as_is_ms misses the times to which prices are fitted.
+    // How far the fit misses each of these times when it is made without that one.
+    DipCostMisses timed_left_out;
+    DipCostMisses checked_as_is;  // How far as_is_ms misses the times of checked combinations.
+    DipCostMisses checked_fitted; // How far ms misses the times of checked combinations.
+    double wait; // Share of the timed frames' time that their threads waited for a core.
 } DipCostElsewherePrediction;
 
-// Reads the report, counts the work of its combinations there, times a few and predicts all. Shows
-// its progress on standard error. Free the prediction even after
-// a failure. Fails as dip_cost_read_report and the renderer do; with CONFLICT if the session shows
-// another scene than the report; with MISSING if the report has no times or no combinations.
+// Reads the report, counts the work of its combinations there, times a few there and predicts all.
+// Shows its progress on standard error. Free the prediction even after a failure. Fails as
+// dip_cost_read_report and the renderer do; with CONFLICT if the session shows another scene than
+// the report, or another camera path; with MISSING if the report has no times or no combinations;
+// with UNSUPPORTED if this machine lacks the report's instruction set.
 bool dip_cost_predict_there(DipCostElsewherePrediction *prediction, const DipSession *session,
                             const DipCostPredictArguments *arguments, DipError *err);
 void dip_cost_predict_there_free(DipCostElsewherePrediction *prediction);

@@ -1,4 +1,5 @@
-// Prints predictions of times elsewhere, and writes them as JSON and CSV.
+// Prints predictions of times at another place (predict_elsewhere.h), and writes them as JSON and
+// CSV.
 #include "app/cost/predict/predict_elsewhere.h"
 
 #include "app/files/whole_file.h"
