@@ -1,4 +1,4 @@
-// How the panel writes prices, and the tips that explain the steps of settings.
+// Writes prices as the panel shows them, and the tips that explain the steps (values) of settings.
 #ifndef DIP_APP_PREVIEW_PRICES_PRICE_TEXT_H
 #define DIP_APP_PREVIEW_PRICES_PRICE_TEXT_H
 
@@ -27,11 +27,12 @@ void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 // Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.
 void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes a price's error. One that is unknown is dots, or a dash if the setting has no effect
+// Writes a price's error. If it is unknown, writes dots, or a dash if the setting has no effect
 // without another setting.
 void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes the tip of a step: what it does, and its price. why: why it cannot be chosen, or "".
+// Writes the tip of a step: what the step does, and its price. why: why the step cannot be chosen,
+// or "" if it can.
 void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const char *why,
                   char text[DIP_STEP_TEXT_BYTES]);
 
