@@ -136,7 +136,7 @@ static void set_face_size(DipFont *font, int size) {
     FT_Set_Pixel_Sizes(font->face, 0, (FT_UInt)size);
     const FT_Fixed scale = font->face->size->metrics.y_scale;
     font->ascent[size] = pixels_up(FT_MulFix(font->face->ascender, scale));
-    // The baseline is rounded down the page, so letters may need one row more than the face says.
+    // Rounding moves the baseline down, so letters may need one row more than the face's height.
     const int height = pixels_up(FT_MulFix(font->face->height, scale));
     const int letters = font->ascent[size] + pixels_up(FT_MulFix(-font->face->descender, scale));
     font->line_height[size] = letters > height ? letters : height;
