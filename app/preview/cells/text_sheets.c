@@ -15,7 +15,7 @@ enum {
 
 // --- times -------------------------------------------------------------------------------------
 
-// Draws a pane's lines below the pane, in as many columns as fit.
+// Writes the lines with a pane's times, errors and work below the pane, in as many columns as fit.
 static void draw_pane_times(DipTextScreen *screen, DipTextArea area, const DipPanelLine *lines,
                             int count) {
     const int columns = dip_max(1, area.columns / LINE_COLUMNS);

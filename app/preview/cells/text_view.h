@@ -61,7 +61,7 @@ bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEve
 
 // --- for the parts of the view -----------------------------------------------------------------
 
-// Each writes one of the things that the body shows: settings, times or costs.
+// Each function writes into the body what it can show: settings, times or costs.
 void dip_text_draw_settings(DipTextView *view, DipTextArea body);
 void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextLayout *layout,
                          const DipPaneFigures figures[DIP_PANE_COUNT]);

@@ -57,7 +57,8 @@ static void find_base(DipPreviewChoice *choice, const DipQuality *base) {
     }
 }
 
-// All presets are at least as fast as the advised settings, so they fit the budget as well.
+// Finds the settings of the measured presets. They are at least as fast as the advised settings, so
+// they fit the budget as well.
 static void make_presets(DipPreviewChoice *choice) {
     const DipCandidate *advised = dip_preview_advised(choice);
     const DipCandidate *fastest =

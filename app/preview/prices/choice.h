@@ -14,8 +14,9 @@ typedef enum DipChoiceState {
     DIP_CHOICE_KNOWN
 } DipChoiceState;
 
-// Number of presets that follow from measurements. Each reaches a certain share of the gain from
-// the fastest settings of all to the best settings within the budget, in the least time.
+// Number of presets that follow from measurements. The possible gain is how much less error the
+// best settings within the budget have than the fastest settings of all. Each preset is the fastest
+// combination of settings that reaches a certain share of this gain.
 enum { DIP_MEASURED_PRESETS = 4 };
 
 // Zero-initialise.
@@ -23,10 +24,10 @@ typedef struct DipPreviewChoice {
     DipChoiceState state;
     bool live;                // The times come from live prices: they are means of this view.
     DipCandidates candidates; // Measured by the report, or priced from one picture.
-    int *front;               // The thinned front: indices of candidates. Owned.
+    int *front;               // The Pareto front (dip_front): indices of candidates. Owned.
     int front_count;
-    int base;         // The candidate with the settings that prices start from, or -1.
-    DipAdvice advice; // For the budget.
+    int base;         // Index of the candidate with the settings that prices start from, or -1.
+    DipAdvice advice; // The advice for the budget.
     int presets[DIP_MEASURED_PRESETS]; // Indices of candidates, or -1 while nothing fits.
     // What the members above were computed from.
     bool is_made;           // They have been computed.

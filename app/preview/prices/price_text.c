@@ -116,7 +116,7 @@ static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
     if (price->beside[0]) {
         snprintf(beside, sizeof beside, " beside %s", price->beside);
     }
-    if (price->path[0]) { // A rough price is that of one picture, not of a path.
+    if (price->path[0]) { // A rough price has no path, since it is for one picture.
         snprintf(where, sizeof where, " on path %s", price->path);
     }
     if (price->has_flip) {

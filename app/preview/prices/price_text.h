@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Stands before times that come from a few frames.
+// The mark before times that come from a few frames.
 #define DIP_ROUGH_MARK "\u2248 "
 
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
@@ -21,7 +21,8 @@ const char *dip_step_explanation(DipSetting setting, int step);
 void dip_ms_text(double ms, DipPriceTrust trust, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a price's time without its unit, by its trust: "+1.2", "≈ +1.2" if it is rough, "~+1.2" if
-// a model predicts it, "+1?" if it is doubtful, "≈ 0", "base", or dots if it is unknown.
+// a model predicts it, "+1?" if it is doubtful, "≈ 0", or "base". If it is unknown, writes dots, or
+// a dash if the setting has no effect without another setting.
 void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.

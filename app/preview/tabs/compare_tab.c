@@ -9,8 +9,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// SMALL and TINY are sizes of letters. All lengths are at scale 1.
 enum {
-    SMALL = 11, // Sizes of letters.
+    SMALL = 11,
     TINY = 10,
     STRIP_LEAST = 44, // Least height of the room below the buttons that shows thumbnails.
     STRIP_MOST = 96,  // Greatest height of a thumbnail.

@@ -7,8 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// TEXT, SMALL and TINY are sizes of letters. All lengths are at scale 1.
 enum {
-    TEXT = 12, // Sizes of letters.
+    TEXT = 12,
     SMALL = 11,
     TINY = 10,
     BOX_SIDE = 120,

@@ -17,7 +17,7 @@ enum {
     NAME_HEIGHT = 18,
     STEP_HEIGHT = 18,
     PRICE_HEIGHT = 16,
-    SLIDER_GAP = 5, // Below a slider.
+    SLIDER_GAP = 5, // Room below a slider.
     SWITCH_HEIGHT = 26,
     LABELS_WIDTH = 32, // Room for "ms" and "FLIP" left of the prices.
     PILL_LEAST_WIDTH = 34,
@@ -141,7 +141,8 @@ typedef struct Slider {
     bool dimmed; // The setting has no effect beside the pane's other settings.
 } Slider;
 
-// Draws a bar at the foot of a price. Its length is the value's share of the greatest one.
+// Draws a bar at the foot of a price. The length of the bar is proportional to `value`, and the
+// value `most` has the longest bar.
 static void draw_bar(DipUi *ui, DipRect cell, double value, double most, DipColour colour,
                      bool requested) {
     const int longest = dip_ui_px(ui, BAR_LENGTH);

@@ -26,7 +26,7 @@ static DipColour colour_of(int pane) {
     return pane == DIP_PANE_CURRENT ? dip_style_soft : dip_style_accent;
 }
 
-// Times of one pane in the last seconds.
+// Frame times of one pane in the last seconds.
 typedef struct History {
     double ms[DIP_TIMING_SAMPLES];
     int64_t age_ns[DIP_TIMING_SAMPLES];

@@ -7,7 +7,8 @@
 // Number of the button "Show the panel", greater than the numbers of the bar's buttons (bar.c).
 enum { WAY_BACK = 100 };
 
-// Declares one pane as a control: a click chooses the pane, a double click shows it alone.
+// Declares one pane as a control. A click chooses the pane whose settings the keys change. A double
+// click turns the full screen on or off.
 static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
     DipPreviewState *state = window->state;
     const DipUiControl control = {.id = DIP_UI_ID(DIP_UI_PANES, pane),

@@ -24,8 +24,8 @@ bool dip_compare_shows_truth(const DipWindow *window);
 // picture. Sets *version to the version of that picture.
 const DipPixels *dip_compare_picture(const DipWindow *window, int pane, uint64_t *version);
 
-// Returns the size at which the panes' frames are drawn: the size of a pane, or of both panes
-// together if one picture takes their place.
+// Returns the size at which the panes' frames are drawn: the size of a pane or, if one picture
+// takes the place of both panes, the size of the area in which it shows.
 void dip_compare_frame_size(const DipLayout *layout, DipComparison comparison, int *width,
                             int *height);
 
@@ -34,12 +34,12 @@ void dip_compare_frame_size(const DipLayout *layout, DipComparison comparison, i
 // down and keeps its aspect ratio.
 DipRect dip_compare_fit(DipRect area, int width, int height);
 
-// Returns where a pane's picture shows in the window; empty if the comparison does not show it. In
-// a wipe, this is the whole picture, of which the divider hides a part.
+// Returns where a pane's picture shows in the window, or would show if the comparison did not hide
+// it. In a wipe, this is the whole picture, of which the divider hides a part.
 DipRect dip_compare_shown(const DipWindow *window, int pane);
 
-// Returns the part of dip_compare_shown that the user sees. The pane's label belongs in its top
-// left corner.
+// Returns the part of dip_compare_shown that the user sees; empty if the comparison hides the pane.
+// The pane's label belongs in the top left corner of this part.
 DipRect dip_compare_visible(const DipWindow *window, int pane);
 
 // Returns whether a pane's picture shows and needs its label. A difference has a label of its own.
@@ -55,8 +55,8 @@ int dip_compare_divider_column(double divider, int width);
 
 // Differences of two pictures in 8-bit sRGB codes.
 typedef struct DipDifference {
-    int64_t pixels;    // Pixels of a picture.
-    int64_t differing; // Pixels in which a channel differs.
+    int64_t pixels;    // Number of pixels of a picture.
+    int64_t differing; // Number of pixels in which a channel differs.
     int greatest;      // The greatest difference of a channel, 0..255.
     int x;             // Column of the first pixel, row by row, with the greatest difference.
     int y;             // Row of that pixel.

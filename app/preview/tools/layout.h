@@ -20,7 +20,7 @@ typedef struct DipLayout {
     double scale;
     DipRect panes[DIP_PANE_COUNT]; // Where the pictures show. Both have the same size.
     DipDockSide side;
-    DipRect bar;  // One row with the dock's tabs and time line. It shows while the dock is folded.
+    DipRect bar;  // One row with the tabs and the time line. A folded dock keeps its bar.
     DipRect body; // The chosen tab's contents; empty while the dock is folded.
 } DipLayout;
 

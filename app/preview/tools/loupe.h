@@ -92,7 +92,7 @@ typedef struct DipBoxKey {
 
 typedef struct DipPaneSamples {
     DipSampleValue *samples; // Owned.
-    size_t capacity;         // In entries.
+    size_t capacity;         // Number of entries for which `samples` has room.
     bool tried;              // Reading has been tried, for `version` and `region`.
     bool known;              // Reading succeeded.
     uint64_t version;        // Version of the pane's picture.

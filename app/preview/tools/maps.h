@@ -92,11 +92,12 @@ void dip_maps_free(DipMaps *maps);
 
 // --- what the preview's loop calls ---------------------------------------------------------------
 
-// Returns whether a tool shows errors or the truth, so that the loop must measure them at rest.
+// Returns whether a tool shows errors or the truth (the converged picture), so that the loop must
+// measure errors at rest.
 bool dip_maps_need_errors(const DipToolState *tools);
 
-// Gives the maps the newest errors. pictures: NULL if there are none. Both are borrowed until the
-// next call. The loop calls this before it draws the window.
+// Gives the maps the newest errors. pictures: borrowed until the next call; NULL if there are none.
+// The loop calls this function before it draws the window.
 void dip_maps_set_errors(DipMaps *maps, const DipErrorReading *reading,
                          const DipErrorPictures *pictures);
 

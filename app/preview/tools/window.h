@@ -19,7 +19,7 @@ typedef struct DipWindow {
     uint64_t versions[DIP_PANE_COUNT]; // Equal versions mean equal pixels (draw_list.h).
     bool still;                        // Camera and scene stand still.
     int64_t now_ns;                    // Time on the display's clock, as in DipUiPass.
-    const DipPaneFigures *figures;     // [DIP_PANE_COUNT]
+    const DipPaneFigures *figures;     // Array with the figures of each pane.
     const DipPrices *prices;
     DipTools *tools; // What the tools have computed: loupe, comparison and maps.
     // The converged picture of this pose, of the size of the frames; NULL if it is not known.
