@@ -13,7 +13,7 @@
 // So no control keeps a copy of the value that it shows, and the code that declares a control
 // decides in one place how the control looks and what it does:
 //
-//     if (dip_ui_button(ui, ID_APPLY, rect, "Apply", DIP_UI_PRIMARY)) { ... }
+//     if (dip_ui_button(ui, ID_APPLY, rect, "Apply", DIP_UI_PRIMARY, NULL)) { ... }
 //
 // All coordinates are pixels of the window's picture. Lengths that are given for scale 1 become
 // pixels by dip_ui_px. One DipUi must not be used by two threads at the same time.
@@ -24,8 +24,8 @@
 #include "app/ui/event.h"
 
 // Names a control from one pass to the next. Ids are unique within a pass and are not 0. DIP_UI_ID
-// makes an id from a DipUiGroup and an index below 65536. The groups keep the
-// ids of different parts of the program apart.
+// makes an id from a DipUiGroup and an index below 65536. The groups keep the ids of different
+// parts of the program apart.
 typedef unsigned DipUiId;
 #define DIP_UI_ID(group, index) (((unsigned)(group) + 1) << 16 | (unsigned)(index))
 typedef enum DipUiGroup {
@@ -63,8 +63,8 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
 // above everything else, and returns false.
 bool dip_ui_end(DipUi *ui);
 
-// Returns the time at which the window must be drawn again although nothing happens, because a tip
-// appears, or INT64_MAX.
+// Returns the time at which a tip appears, so that the window must be drawn again without an event.
+// Returns INT64_MAX if no tip is due.
 int64_t dip_ui_wakes_ns(const DipUi *ui);
 
 // Takes the focus from all controls, so that keys act on the preview again.
@@ -85,7 +85,7 @@ typedef struct DipUiControl {
     bool skips_focus;  // Tab passes the control over.
     bool takes_arrows; // Left and Right change the control while it has the focus.
     bool takes_wheel;
-    bool takes_digits; // Digits, the point and Backspace go to the control while it has the focus.
+    bool takes_digits; // Digits, '.' and Backspace go to the control while it has the focus.
                        // A click gives such a control a focus that shows.
 } DipUiControl;
 

@@ -32,7 +32,7 @@ struct DipUi {
     DipMouseButton held_button;
     double wheel_rest; // The part of a step by which the wheel has turned beyond its whole steps.
     DipUiId focus;
-    bool focus_shows; // The focus came by keyboard, or keys go to the control.
+    bool focus_shows; // The focus came by the keyboard, or the control takes digits.
     DipUiId typing;   // The number field into which the user types, or 0.
     char typed[8];    // What the user has typed into it and not yet ended with Enter.
     bool taken;       // A control took the event of this pass.
