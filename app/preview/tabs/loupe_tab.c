@@ -251,8 +251,8 @@ static int brief_height(const Part *part, DipRect rect) {
 
 // --- crops ---------------------------------------------------------------------------------------
 
-// The crop is a control: a click looks at the pixel under the pointer, the wheel zooms, and arrow
-// keys move by one pixel.
+// Declares the crop as a control. A click moves the loupe to the pixel under the pointer, the wheel
+// zooms, and the left and right arrow keys move the loupe by one pixel.
 static void handle_crop(Part *part, const DipLoupeCrop *crop) {
     DipToolState *tools = &part->window->state->tools;
     const DipPixels *frame = &part->window->frames[part->pane];
@@ -311,7 +311,7 @@ static void draw_crop(Part *part, DipRect area) {
     handle_crop(part, &content.crop);
 }
 
-// Divides a pane's part of the tab into the crop and the figures, whichever fit.
+// Divides a pane's part of the tab between the crop and the figures. Leaves out what does not fit.
 static void declare_part(DipUi *ui, DipWindow *window, int pane, DipRect rect) {
     const DipToolState *tools = &window->state->tools;
     Part part = {.ui = ui,
@@ -384,8 +384,8 @@ static void declare_head(DipUi *ui, DipWindow *window, DipRect row) {
     }
 }
 
-// Returns the part of the tab that lies beneath a pane, or a half of the tab if the tab lies beside
-// the panes.
+// Returns the part of the tab that lies beneath a pane, or a half of the tab if the dock is a
+// drawer (tools/layout.h).
 static DipRect half_of(const DipLayout *layout, DipRect body, int pane) {
     DipRect half = body;
     if (layout->side == DIP_DOCK_BELOW) {

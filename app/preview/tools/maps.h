@@ -17,9 +17,9 @@ enum { DIP_MAP_DRAWS = 15 }; // How often a frame is drawn. A tile's time is the
 // What was measured of a pane's frame. The arrays are owned, NULL until the frame has been drawn,
 // and valid until the next dip_maps_update.
 typedef struct DipMapWork {
-    int draws; // Number of draws so far, 0..DIP_MAP_DRAWS. 0 if nothing is known.
-    int width; // Size of the frame, in pixels.
-    int height;
+    int draws;              // Number of draws so far, 0..DIP_MAP_DRAWS. 0 if nothing is known.
+    int width;              // Width of the frame, in pixels.
+    int height;             // Height of the frame, in pixels.
     int across;             // Number of tiles from left to right.
     int down;               // Number of tiles from top to bottom.
     DipTileRecord *records; // Counters of each tile; the times are those of one draw.
@@ -101,8 +101,9 @@ bool dip_maps_need_errors(const DipToolState *tools);
 void dip_maps_set_errors(DipMaps *maps, const DipErrorReading *reading,
                          const DipErrorPictures *pictures);
 
-// Returns the truth's picture, or NULL if it is not known. Valid until the next call of
-// dip_maps_set_errors. `version` as in dip_draw_list_picture; no frame has the same number.
+// Returns the picture of the truth, or NULL if it is not known. It is valid until the next call of
+// dip_maps_set_errors. Sets *version to the picture's version (dip_draw_list_picture), which
+// differs from the versions of all frames.
 const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version);
 
 // Draws at most one frame for the map that the window showed last (DipMaps.wanted), if nothing
