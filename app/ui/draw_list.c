@@ -15,10 +15,10 @@ typedef struct Command {
     DipColour colour;
     uint64_t version;  // Version of the picture, for COMMAND_PICTURE.
     DipPixels picture; // Not compared: the version stands for the pixels.
-    int size;          // Em size of the text, or the radius of COMMAND_ROUND.
-    int x;             // Left end of the text, or the ring of COMMAND_ROUND.
-    int y;
-    size_t text; // Offset of the line in the frame's texts.
+    int size;          // Em size of the text; for COMMAND_ROUND, the radius.
+    int x;             // Left end of the text; for COMMAND_ROUND, the width of the ring.
+    int y;             // Top of the text.
+    size_t text;       // Offset of the line in the frame's texts.
 } Command;
 
 typedef struct Frame {

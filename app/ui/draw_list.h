@@ -29,7 +29,7 @@ typedef struct DipDamage {
 // united with one in the array.
 void dip_damage_add(DipDamage *damage, DipRect rect);
 
-// The font is borrowed and must outlive the list.
+// Creates an empty list. The font is borrowed and must outlive the list. Fails with MEMORY.
 DipDrawList *dip_draw_list_create(DipFont *font, DipError *err);
 void dip_draw_list_destroy(DipDrawList **list);
 
@@ -42,7 +42,7 @@ int dip_draw_list_width(const DipDrawList *list);
 int dip_draw_list_height(const DipDrawList *list);
 
 // Each of the next functions records one command. If memory runs out, the command is left out of
-// the frame, and dip_draw_list_paint fails. With a list that is NULL, they do nothing.
+// the frame, and dip_draw_list_paint fails. If `list` is NULL, the functions do nothing.
 
 void dip_draw_list_fill(DipDrawList *list, DipRect rect, DipColour colour);
 

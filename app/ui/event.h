@@ -88,7 +88,7 @@ typedef enum DipControllerAxis {
 } DipControllerAxis;
 
 typedef enum DipEventKind {
-    DIP_EVENT_NONE, // An event of no other kind. The preview ignores it.
+    DIP_EVENT_NONE, // An event of none of the kinds below. The preview ignores it.
     DIP_EVENT_KEY_DOWN,
     DIP_EVENT_KEY_UP, // Also sent for every held key when the display loses the keyboard focus.
     DIP_EVENT_MOUSE_MOVE,

@@ -20,20 +20,20 @@ static const uint32_t replacement_character = 0xfffd;
 
 typedef struct Glyph {
     uint32_t key; // Code point and size; 0 marks an empty slot.
-    int left;     // From the pen to the mask's left edge, pixels.
-    int top;      // From the baseline up to the mask's top edge, pixels.
+    int left;     // Distance from the pen to the mask's left edge, in pixels.
+    int top;      // Distance from the baseline up to the mask's top edge, in pixels.
     int width;
     int height;
-    int advance;   // From this pen to the next one, pixels.
+    int advance;   // Distance from this glyph's pen to the next one's, in pixels.
     uint8_t *mask; // Coverage, packed rows; NULL if the glyph shows nothing.
 } Glyph;
 
 struct DipFont {
     FT_Library library;
     FT_Face face;
-    int face_size; // The size to which the face is set; 0: no size was set yet.
+    int face_size; // The size to which the face is set; 0 before the first size is set.
     int ascent[DIP_FONT_MAX_SIZE + 1];
-    int line_height[DIP_FONT_MAX_SIZE + 1]; // 0: not computed yet.
+    int line_height[DIP_FONT_MAX_SIZE + 1]; // 0 if it is not computed yet.
     Glyph glyphs[GLYPH_SLOTS];
     int glyph_count;
 };
@@ -136,7 +136,7 @@ static void set_face_size(DipFont *font, int size) {
     FT_Set_Pixel_Sizes(font->face, 0, (FT_UInt)size);
     const FT_Fixed scale = font->face->size->metrics.y_scale;
     font->ascent[size] = pixels_up(FT_MulFix(font->face->ascender, scale));
-    // The baseline is rounded down the page, so letters may need one row more than the face says.
+    // Rounding moves the baseline down, so letters may need one row more than the face's height.
     const int height = pixels_up(FT_MulFix(font->face->height, scale));
     const int letters = font->ascent[size] + pixels_up(FT_MulFix(-font->face->descender, scale));
     font->line_height[size] = letters > height ? letters : height;

@@ -13,7 +13,7 @@ typedef struct DipFont DipFont;
 
 enum { DIP_FONT_MIN_SIZE = 8, DIP_FONT_MAX_SIZE = 128 }; // Em size in pixels.
 
-// Fails with MISSING if the system has no usable font.
+// Opens the system's font. Fails with MISSING if there is no usable font, or with MEMORY.
 DipFont *dip_font_create(DipError *err);
 void dip_font_destroy(DipFont **font);
 

@@ -1,4 +1,4 @@
-// Rows, columns and grids: rectangles that are cut from rectangles, and texts that fill them.
+// Cuts rectangles into rows, columns and grid cells, and writes texts into them.
 //
 // Code that lays out controls keeps the rectangle that is still free, and cuts from it what each
 // row or column needs:
@@ -19,8 +19,8 @@ static inline int dip_rect_bottom(DipRect rect) {
     return rect.y + rect.height;
 }
 
-// Each cuts a piece from one side of *rest and returns it. A piece that is longer than *rest leaves
-// it empty, with a length below 0.
+// Each function cuts a piece from one side of *rest and returns the piece. If the piece is longer
+// than *rest, *rest becomes empty with a length below 0.
 DipRect dip_cut_top(DipRect *rest, int height);
 DipRect dip_cut_bottom(DipRect *rest, int height);
 DipRect dip_cut_left(DipRect *rest, int width);
@@ -34,7 +34,8 @@ DipRect dip_rect_inset(DipRect rect, int x, int y);
 DipRect dip_rect_middle(DipRect room, int width, int height);
 
 // Returns a cell of a grid that is as wide as `room` and begins at its top. The cells are numbered
-// row by row. height: of a cell. gap_x, gap_y: between two columns and two rows.
+// from 0, row by row. height: height of a cell. gap_x, gap_y: gaps between columns and between
+// rows.
 DipRect dip_rect_cell(DipRect room, int columns, int height, int gap_x, int gap_y, int index);
 
 // Shows a line of text in a rectangle: halfway between its top and bottom, and at its left side,
@@ -50,7 +51,8 @@ void dip_ui_line(DipUi *ui, int size, DipColour colour, DipRect *rest, const cha
 // and `gap` from it.
 void dip_ui_word(DipUi *ui, int size, DipColour colour, DipRect *rest, int gap, const char *text);
 
-// Declares a control that the caller draws, and that the arrow keys and the wheel step.
+// Declares a control that takes steps by the arrow keys and the wheel (DipUiInput.steps). The
+// caller draws the control.
 DipUiInput dip_ui_stepper(DipUi *ui, DipUiId id, DipRect rect, const char *tip);
 
 #endif

@@ -28,14 +28,15 @@ static const DipColour dip_style_dark = {0, 0, 0, 255};        // Borders of mar
 static const DipColour dip_style_shadow = {10, 12, 15, 255};   // Edges of letters over pictures.
 static const DipColour dip_style_on_accent = {26, 18, 6, 255}; // Text on the accent.
 
-// The colours of both panes, wherever their figures stand beside each other.
+// Returns the colour of a pane's figures and marks, for places where both panes' figures stand
+// beside each other.
 static inline DipColour dip_style_of_pane(int pane) {
     return pane ? dip_style_accent : dip_style_white;
 }
 
 // Returns black or white, whichever stands out from a colour.
 static inline DipColour dip_style_contrast(DipColour ground) {
-    const int luma = 2 * ground.red + 5 * ground.green + ground.blue; // 0..2040
+    const int luma = 2 * ground.red + 5 * ground.green + ground.blue; // From 0 to 2040.
     return luma > 1000 ? dip_style_dark : dip_style_white;
 }
 

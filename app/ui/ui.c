@@ -69,8 +69,8 @@ static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *inpu
     ui->taken = true;
 }
 
-// Adds what a wheel has turned to what is left from before, and returns the whole steps, at
-// most 16. Touch pads send parts of steps.
+// Adds `turned` steps of a wheel to the part of a step that earlier events have left. Returns the
+// whole steps, from -16 to 16, and keeps the rest. Touch pads send parts of steps.
 static int wheel_steps(DipUi *ui, double turned) {
     if (turned * ui->wheel_rest < 0.0) {
         ui->wheel_rest = 0.0;
@@ -230,7 +230,7 @@ static double type_number(DipUi *ui, DipUiId id, const DipUiInput *input) {
         ui->typed[length + 1] = '\0';
     }
     const bool by_key = ui->pass.event && ui->pass.event->kind == DIP_EVENT_KEY_DOWN;
-    if (!input->pressed || !by_key || !ui->typed[0]) { // A click enters nothing.
+    if (!input->pressed || !by_key || !ui->typed[0]) { // A click does not enter the number.
         return -1.0;
     }
     ui->typing = 0;

@@ -13,7 +13,7 @@
 // So no control keeps a copy of the value that it shows, and the code that declares a control
 // decides in one place how the control looks and what it does:
 //
-//     if (dip_ui_button(ui, ID_APPLY, rect, "Apply", DIP_UI_PRIMARY)) { ... }
+//     if (dip_ui_button(ui, ID_APPLY, rect, "Apply", DIP_UI_PRIMARY, NULL)) { ... }
 //
 // All coordinates are pixels of the window's picture. Lengths that are given for scale 1 become
 // pixels by dip_ui_px. One DipUi must not be used by two threads at the same time.
@@ -23,9 +23,9 @@
 #include "app/ui/draw_list.h"
 #include "app/ui/event.h"
 
-// Names a control from one pass to the next. Ids are unique within a pass and are not 0. Code that
-// declares controls takes them from its own range, which DIP_UI_ID makes from the enumerator of a
-// DipUiGroup and an index below 65536.
+// Names a control from one pass to the next. Ids are unique within a pass and are not 0. DIP_UI_ID
+// makes an id from a DipUiGroup and an index below 65536. The groups keep the ids of different
+// parts of the program apart.
 typedef unsigned DipUiId;
 #define DIP_UI_ID(group, index) (((unsigned)(group) + 1) << 16 | (unsigned)(index))
 typedef enum DipUiGroup {
@@ -46,7 +46,7 @@ typedef struct DipUi DipUi;
 // What a pass gets from its caller.
 typedef struct DipUiPass {
     DipFont *font;         // Borrowed for the pass.
-    double scale;          // The display's scale times that of --ui-scale.
+    double scale;          // Factor from lengths at scale 1 to pixels.
     int64_t now_ns;        // Time on the display's clock.
     DipDrawList *list;     // Where controls are recorded; NULL in an event pass. Borrowed.
     const DipEvent *event; // The event of an event pass; NULL in a drawing pass. Borrowed.
@@ -63,14 +63,15 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
 // above everything else, and returns false.
 bool dip_ui_end(DipUi *ui);
 
-// Returns the time at which the window must be drawn again although nothing happens, because a tip
-// appears, or INT64_MAX.
+// Returns the time at which a tip appears, so that the window must be drawn again without an event.
+// Returns INT64_MAX if no tip is due.
 int64_t dip_ui_wakes_ns(const DipUi *ui);
 
 // Takes the focus from all controls, so that keys act on the preview again.
 void dip_ui_blur(DipUi *ui);
 
-// The id of the control with the focus, or 0. The focus is visible only after Tab or arrow keys.
+// Returns the id of the control whose focus shows, or 0. The focus shows after Tab, and after a
+// click on a control that takes digits.
 DipUiId dip_ui_focus(const DipUi *ui);
 
 // --- controls ----------------------------------------------------------------------------------
@@ -84,7 +85,7 @@ typedef struct DipUiControl {
     bool skips_focus;  // Tab passes the control over.
     bool takes_arrows; // Left and Right change the control while it has the focus.
     bool takes_wheel;
-    bool takes_digits; // Digits, the point and Backspace go to the control while it has the focus.
+    bool takes_digits; // Digits, '.' and Backspace go to the control while it has the focus.
                        // A click gives such a control a focus that shows.
 } DipUiControl;
 
@@ -94,7 +95,7 @@ typedef struct DipUiInput {
     bool focused;  // The control has the focus and shows it: draw a ring.
     bool held;     // A mouse button that was pressed over the control is still down.
     bool pressed;  // The left button was released over the control, or Enter or Space was pressed.
-    bool began;    // A mouse button was pressed over the control.
+    bool began;    // The left button was pressed over the control.
     bool moved;    // The pointer moved over the control, or is dragged from it.
     bool right;    // The right button was pressed over the control.
     bool released; // The mouse button that was held is up again, wherever the pointer is.
@@ -104,7 +105,7 @@ typedef struct DipUiInput {
     int steps;     // Steps by wheel (away from the user is +1) or by arrow keys (right is +1).
     bool to_first; // Home was pressed.
     bool to_last;  // End was pressed.
-    int typed;     // With takes_digits: the key, a digit, '.' or DIP_KEYCODE_BACKSPACE; or 0.
+    int typed;     // With takes_digits: a digit, '.', DIP_KEYCODE_BACKSPACE, or 0 for no key.
     int x;         // Where the pointer is.
     int y;
     unsigned modifiers; // DIP_MODIFIER_... bits of the event.
@@ -115,34 +116,34 @@ DipUiInput dip_ui_control(DipUi *ui, const DipUiControl *control);
 
 typedef enum DipUiLook {
     DIP_UI_PLAIN,
-    DIP_UI_PRIMARY, // The one button that carries a change out: filled with the accent.
-    DIP_UI_CHOSEN,  // One of several alternatives, and the one that holds.
+    DIP_UI_PRIMARY, // The main button, such as Apply. It is filled with the accent colour.
+    DIP_UI_CHOSEN,  // The chosen one of several alternatives.
     DIP_UI_OFF      // Disabled. The tip says why.
 } DipUiLook;
 
-// A button with a text in its middle. Returns true when it is pressed.
+// Declares and draws a button with a text in its middle. Returns whether it was pressed.
 bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiLook look,
                    const char *tip);
 
-// A field that shows a number as a text. The user types another one and presses Enter, or steps by
-// the wheel or the arrow keys. Returns what the user did; if a number was typed, *typed is that
-// number, otherwise it is below 0.
+// Declares and draws a field that shows a number as a text. The user types another number and
+// presses Enter, or steps by the wheel or the arrow keys. Returns what the user did. Sets *typed to
+// the number that Enter ended, or to -1.
 DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *text,
                                const char *tip, double *typed);
 
 // Lets the tips of all controls in a rectangle appear outside the rectangle, so that they cover
-// none of its rows. Holds until the end of the pass.
+// none of its controls. Holds until the end of the pass.
 void dip_ui_keep_tips_off(DipUi *ui, DipRect rect);
 
 // --- drawing -----------------------------------------------------------------------------------
-// In an event pass, these functions do nothing.
+// In an event pass, the functions that draw do nothing.
 
 bool dip_ui_is_drawing(const DipUi *ui);
 DipDrawList *dip_ui_list(const DipUi *ui); // NULL in an event pass.
 double dip_ui_scale(const DipUi *ui);
 int64_t dip_ui_now_ns(const DipUi *ui);
 
-// Where the pointer was last seen, in pixels of the window.
+// Return where the pointer was last seen, in pixels of the window.
 int dip_ui_pointer_x(const DipUi *ui);
 int dip_ui_pointer_y(const DipUi *ui);
 
@@ -165,7 +166,7 @@ void dip_ui_mark(DipUi *ui, DipRect rect, DipColour colour);
 // Draws the ring that shows the keyboard's focus around a rectangle, if the control has the focus.
 void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input);
 
-// Shows a line of text, `size` at scale 1. See dip_draw_list_text.
+// Shows a line of text in letters of `size` at scale 1. For the rest, see dip_draw_list_text.
 void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, int y, int max_width,
                  const char *line);
 

@@ -141,7 +141,7 @@ static bool shows_tip(const DipUi *ui) {
            ui->pass.now_ns >= ui->hovered_ns + tip_delay_ns;
 }
 
-// Returns the place of a box along one axis, moved so that the box lies in the window.
+// Returns a box's position along one axis, changed so that the box lies in the window.
 static int moved_inside(int at, int size, int room) {
     return dip_max(0, dip_min(at, room - size));
 }
@@ -196,7 +196,8 @@ static void draw_tip(DipUi *ui) {
 
 // --- the end of a pass -------------------------------------------------------------------------
 
-// Moves the focus to the next control in the order of their declaration, in a ring.
+// Moves the focus to the next control in the order of declaration. The first control follows the
+// last one.
 static void move_focus(DipUi *ui, bool backwards) {
     int at = -1;
     for (int i = 0; i < ui->placed_count; ++i) {

@@ -17,27 +17,28 @@ struct DipUi {
     DipUiPass pass;
     int pointer_x;
     int pointer_y;
-    bool pointer_inside; // The pointer has been seen.
-    // The controls of this pass, and those of the pass before it, by which this pass finds the
-    // topmost control under the pointer. Controls beyond the limit take neither mouse nor focus.
+    bool pointer_inside; // An event has said where the pointer is.
+    // `placed` holds the controls of this pass, and `before` those of the pass before it. This pass
+    // finds the topmost control under the pointer in `before`. Controls beyond the limit take
+    // neither mouse nor focus.
     DipUiPlaced placed[DIP_UI_MAX_CONTROLS];
     int placed_count;
     DipUiPlaced before[DIP_UI_MAX_CONTROLS];
     int before_count;
     DipUiId under;      // The topmost control under the pointer, or 0.
     DipUiId hovered;    // The control under the pointer at the end of the last pass.
-    int64_t hovered_ns; // When the pointer came to rest over it.
+    int64_t hovered_ns; // When the pointer came over that control.
     DipUiId held;       // While a mouse button is down: the control over which it was pressed.
     DipMouseButton held_button;
     double wheel_rest; // The part of a step by which the wheel has turned beyond its whole steps.
     DipUiId focus;
-    bool focus_shows; // The focus came by keyboard, or keys go to the control.
-    DipUiId typing;   // The field of numbers that `typed` belongs to.
-    char typed[8];    // What the user has typed and not yet ended with Enter.
+    bool focus_shows; // The focus came by the keyboard, or the control takes digits.
+    DipUiId typing;   // The number field into which the user types, or 0.
+    char typed[8];    // What the user has typed into it and not yet ended with Enter.
     bool taken;       // A control took the event of this pass.
     bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
     bool tip_seen;    // The tip has been drawn.
-    DipRect tip_rect; // The control whose tip may show.
+    DipRect tip_rect; // Rectangle of the control whose tip may show.
     DipRect tip_off;  // The rectangle of dip_ui_keep_tips_off.
     char tip[DIP_UI_TIP_BYTES];
 };

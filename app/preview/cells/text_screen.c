@@ -1,4 +1,4 @@
-// Decodes UTF-8 into cells.
+// Decodes UTF-8 and writes its characters into cells.
 #include "app/preview/cells/text_screen.h"
 
 #include "renderer/base/utf8.h"

@@ -1,4 +1,4 @@
-// A screen of character cells (display.h), and functions that write text into it.
+// Writes text into a screen of character cells (DipTextCell in display.h).
 #ifndef DIP_APP_PREVIEW_CELLS_TEXT_SCREEN_H
 #define DIP_APP_PREVIEW_CELLS_TEXT_SCREEN_H
 
@@ -31,11 +31,12 @@ static const DipTextColours dip_text_dim = {{152, 162, 174, 255}, {10, 11, 14, 2
 static const DipTextColours dip_text_accent = {{255, 190, 92, 255}, {10, 11, 14, 255}};
 static const DipTextColours dip_text_gain = {{95, 214, 189, 255}, {10, 11, 14, 255}};
 static const DipTextColours dip_text_worse = {{255, 154, 139, 255}, {10, 11, 14, 255}};
-// The requested step, and the title of the setting that the arrow keys act on.
+// Colours of the requested step (value) of a setting, and of the title of the setting that the
+// arrow keys act on.
 static const DipTextColours dip_text_wanted = {{26, 18, 6, 255}, {255, 190, 92, 255}};
 static const DipTextColours dip_text_focused = {{255, 255, 255, 255}, {30, 70, 110, 255}};
 
-// Sets the size and clears all cells, so that they show the picture. Fails with MEMORY.
+// Sets the size and clears all cells. A clear cell shows the picture. Fails with MEMORY.
 bool dip_text_screen_begin(DipTextScreen *screen, int columns, int rows, DipError *err);
 void dip_text_screen_free(DipTextScreen *screen);
 

@@ -6,10 +6,10 @@
 
 enum {
     BLOCK_COLUMNS = 44,  // Width of a column of blocks; a setting is a block of several rows.
-    SUM_COLUMNS = 26,    // Width that the blocks leave free at the right.
+    SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
     ROW_COLUMNS = 56,    // Least width of a setting that takes one row.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
-    FIGURE_COLUMNS = 15, // Width of a step's figures behind its row.
+    FIGURE_COLUMNS = 15, // Width of a step's time and error at the end of the row.
     MAX_BLOCK_COLUMNS = 3,
     MARGIN = 1
 };
@@ -32,8 +32,8 @@ static const char *step_name(DipSetting setting, int step) {
 
 // --- steps -------------------------------------------------------------------------------------
 
-// Draws one step: filled if it is the requested one, in brackets if it is the current one. A click
-// in its area chooses it.
+// Draws one step (value) of a setting: filled if the requested pane has it, in brackets if the
+// current pane has it. A click in `area` chooses the step.
 static void draw_step(DipTextView *view, DipSetting setting, int step, DipTextArea area) {
     const DipQuality *quality = view->state->quality;
     const bool current = quality[DIP_PANE_CURRENT].step[setting] == step;
@@ -71,7 +71,7 @@ static void draw_title(DipTextView *view, DipSetting setting, int row, int colum
 
 // --- figures of a cost report ------------------------------------------------------------------
 
-// Returns the steps of a setting in the report, none if there is no report.
+// Returns the steps of a setting that the report has. Without a report, there are none.
 static DipCostsRow costs_row(const DipCostReport *report, DipSetting setting) {
     for (int i = 0; report && i < report->sweep_count; ++i) {
         if (report->sweeps[i].setting == setting) {
@@ -91,8 +91,8 @@ static const DipCostsStep *costs_step(const DipCostsRow *row, DipSetting setting
     return NULL;
 }
 
-// Writes a step's relative time and its error in columns that end at the given ones. Writes nothing
-// if the report does not have the step.
+// Writes a step's relative time and its error at the right ends of the areas `time` and `flip`.
+// Writes nothing if the report does not have the step.
 static void draw_figures(DipTextView *view, const DipCostsRow *costs, DipSetting setting, int step,
                          DipTextArea time, DipTextArea flip) {
     const DipCostsStep *found = costs_step(costs, setting, step);
@@ -167,7 +167,8 @@ static void draw_blocks(DipTextView *view, DipTextArea body) {
     }
 }
 
-// Says which key copies the requested settings, and what the colours and figures mean.
+// Writes which key gives the current pane the requested settings, and what brackets, colours and
+// figures mean.
 static void draw_sum(DipTextView *view, DipTextArea body) {
     const DipPreviewState *state = view->state;
     const int column = body.column + MARGIN + MAX_BLOCK_COLUMNS * BLOCK_COLUMNS;

@@ -15,7 +15,7 @@ enum {
 
 // --- times -------------------------------------------------------------------------------------
 
-// Draws a pane's lines below the pane, in as many columns as fit.
+// Writes the lines with a pane's times, errors and work below the pane, in as many columns as fit.
 static void draw_pane_times(DipTextScreen *screen, DipTextArea area, const DipPanelLine *lines,
                             int count) {
     const int columns = dip_max(1, area.columns / LINE_COLUMNS);
@@ -84,7 +84,8 @@ void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPrevi
 
 // --- keys --------------------------------------------------------------------------------------
 
-// Draws one line of the help at a position in columns of `rows` lines.
+// Draws a line of the help. The lines fill columns of `rows` lines each; `index` is the line's
+// number.
 static void draw_key(DipTextScreen *screen, DipTextArea area, int rows, int index,
                      const char *label, const char *text) {
     const int row = area.row + 2 + index % rows;

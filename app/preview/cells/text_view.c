@@ -5,8 +5,8 @@
 #include <string.h>
 
 enum {
-    MIN_PANE_ROWS = 8,    // The settings show by themselves if the panes keep this many rows.
-    ROOMY_PANE_ROWS = 14, // Settings that the user did not ask for leave the panes more rows.
+    MIN_PANE_ROWS = 8,    // Least rows of the panes beside all rows that the user asked for.
+    ROOMY_PANE_ROWS = 14, // Least rows of the panes beside settings that show unasked.
     LEAST_ROWS = 6        // A screen with fewer rows shows the panes and their labels only.
 };
 

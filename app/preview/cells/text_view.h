@@ -1,5 +1,5 @@
-// The preview's labels, status line, settings and help in character cells, for a display that shows
-// characters (display.h). The panes' pictures fill the cells that hold no text.
+// Writes the preview's labels, status line, settings and help into character cells, for a display
+// that shows characters (display.h). The panes' pictures fill the cells that hold no text.
 //
 // The screen has, from top to bottom: a row of labels, the panes, a bar with the camera path, the
 // settings (or the times, or the costs), and a row of keys.
@@ -12,7 +12,7 @@
 
 enum { DIP_TEXT_MAX_TARGETS = 64 };
 
-// An area that a mouse click acts on: a step of a setting.
+// A step (value) of a setting, and the area in which a mouse click chooses it.
 typedef struct DipTextTarget {
     DipTextArea area;
     DipSetting setting;
@@ -24,15 +24,15 @@ typedef struct DipTextLayout {
     int columns;
     int rows;
     DipTextArea panes[DIP_PANE_COUNT];
-    int bar_row;      // -1: there is no bar.
-    DipTextArea body; // Settings, times or costs; without rows if nothing of them shows.
-    int keys_row;     // -1: there is no row of keys.
+    int bar_row;      // -1 if there is no bar.
+    DipTextArea body; // Settings, times or costs. It has no rows if none of these shows.
+    int keys_row;     // -1 if there is no row of keys.
 } DipTextLayout;
 
 // Zero-initialise.
 typedef struct DipTextView {
     DipTextScreen screen;
-    DipTextTarget targets[DIP_TEXT_MAX_TARGETS]; // Of the last drawing.
+    DipTextTarget targets[DIP_TEXT_MAX_TARGETS]; // Where clicks act, from the last drawing.
     int target_count;
     bool focused;                 // The arrow keys act on the settings.
     DipSetting focus;             // The setting that they act on.
@@ -53,15 +53,15 @@ void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, 
 bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int width, int height,
                         const DipPaneFigures figures[DIP_PANE_COUNT], DipError *err);
 
-// Hands an event to the settings. The up and down arrow keys choose a setting, the left and right
-// ones change the chosen setting, Escape leaves the settings; a click chooses a step. Returns
-// whether the settings have taken the event, which then must do nothing else.
+// Hands an event to the settings. The up and down arrow keys choose a setting, and the left and
+// right ones change it. Escape leaves the settings. A click chooses a step. Returns whether the
+// settings have taken the event; then the event must do nothing else.
 bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEvent *event,
                          int64_t now_ns);
 
 // --- for the parts of the view -----------------------------------------------------------------
 
-// Each writes one of the things that the body shows: settings, times or costs.
+// Each function writes into the body what it can show: settings, times or costs.
 void dip_text_draw_settings(DipTextView *view, DipTextArea body);
 void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextLayout *layout,
                          const DipPaneFigures figures[DIP_PANE_COUNT]);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Shares of the gain, in the order of DipPreset.
+// Shares of the gain (choice.h) of the presets below DIP_PRESET_BEST, in the order of DipPreset.
 static const double shares[DIP_MEASURED_PRESETS - 1] = {0.5, 0.8, 0.95};
 
 static void take_candidates(DipPreviewChoice *choice, const DipPrices *prices) {
@@ -38,7 +38,8 @@ static void take_candidates(DipPreviewChoice *choice, const DipPrices *prices) {
     }
 }
 
-// Without memory there is no front: what is advised stays, and the presets are the advice.
+// Lists the Pareto front of the candidates. Without memory for it, the advice is still computed,
+// and all presets are the advised settings.
 static void list_front(DipPreviewChoice *choice) {
     const int count = choice->candidates.count;
     free(choice->front);
@@ -56,7 +57,8 @@ static void find_base(DipPreviewChoice *choice, const DipQuality *base) {
     }
 }
 
-// All presets are at least as fast as the advised settings, so they fit the budget as well.
+// Finds the settings of the measured presets. They are at least as fast as the advised settings, so
+// they fit the budget as well.
 static void make_presets(DipPreviewChoice *choice) {
     const DipCandidate *advised = dip_preview_advised(choice);
     const DipCandidate *fastest =

@@ -1,6 +1,7 @@
-// What the preview can choose now: the combinations of the cost report or of live prices, the
-// advice for the budget, and presets. All of it follows from one list of candidates
-// (app/report/choice.h), so the tab of advice, the key for advice and the presets agree.
+// Finds what the preview can choose now: the combinations of settings that have a time and an error
+// from the cost report or from live prices, the advice for the time budget, and the presets. All of
+// it follows from one list of candidates (app/report/choice.h), so the advice tab, the key for
+// advice and the presets agree.
 #ifndef DIP_APP_PREVIEW_PRICES_CHOICE_H
 #define DIP_APP_PREVIEW_PRICES_CHOICE_H
 
@@ -13,42 +14,43 @@ typedef enum DipChoiceState {
     DIP_CHOICE_KNOWN
 } DipChoiceState;
 
-// Presets that are measured: the fastest settings that reach a share of what the best within the
-// budget gains over the fastest of all.
+// Number of presets that follow from measurements. The possible gain is how much less error the
+// best settings within the budget have than the fastest settings of all. Each preset is the fastest
+// combination of settings that reaches a certain share of this gain.
 enum { DIP_MEASURED_PRESETS = 4 };
 
 // Zero-initialise.
 typedef struct DipPreviewChoice {
     DipChoiceState state;
-    bool live;                // From live prices, so times are means of this view.
-    DipCandidates candidates; // Those that the report measured, or prices of one picture.
-    int *front;               // The thinned front: indices of candidates. Owned.
+    bool live;                // The times come from live prices: they are means of this view.
+    DipCandidates candidates; // Measured by the report, or priced from one picture.
+    int *front;               // The Pareto front (dip_front): indices of candidates. Owned.
     int front_count;
-    int base;         // The candidate with the settings that prices start from, or -1.
-    DipAdvice advice; // For the budget.
-    int presets[DIP_MEASURED_PRESETS]; // Candidates, or -1 while nothing fits.
-    // What all of it was computed from.
-    bool is_made;
-    unsigned price_changes;
-    bool of_like; // The candidates depend on `like`.
-    DipQuality like;
-    DipCandidate *own_list; // Owned.
+    int base;         // Index of the candidate with the settings that prices start from, or -1.
+    DipAdvice advice; // The advice for the budget.
+    int presets[DIP_MEASURED_PRESETS]; // Indices of candidates, or -1 while nothing fits.
+    // What the members above were computed from.
+    bool is_made;           // They have been computed.
+    unsigned price_changes; // dip_prices_changes at that time.
+    bool of_like;           // The candidates depend on `like`.
+    DipQuality like;        // Settings of the requested pane.
+    DipCandidate *own_list; // The candidates' list if the choice owns it; otherwise NULL.
 } DipPreviewChoice;
 
-// Computes the choice again if something has changed. prices may be NULL. like: the settings of the
-// requested pane. Returns whether it was computed.
+// Computes the choice again if prices, settings or the budget have changed. prices may be NULL.
+// like: the settings of the requested pane. Returns whether the choice was computed.
 bool dip_preview_choose(DipPreviewChoice *choice, const DipPrices *prices, const DipQuality *like,
                         double budget_ms);
 
-// Asks for another budget at once.
+// Computes the advice and the presets for another budget at once.
 void dip_preview_choice_set_budget(DipPreviewChoice *choice, double budget_ms);
 void dip_preview_choice_free(DipPreviewChoice *choice);
 
-// Returns what is advised for the budget, or NULL.
+// Returns the settings that are advised for the budget, or NULL if none are.
 const DipCandidate *dip_preview_advised(const DipPreviewChoice *choice);
 
-// Says in a sentence why nothing is advised: what is awaited, with `progress`, or that nothing
-// fits.
+// Writes why nothing is advised: what is still being measured, followed by `progress`; that the
+// report lacks times or was disturbed; or that nothing fits.
 void dip_preview_choice_why(const DipPreviewChoice *choice, const char *progress, char *text,
                             size_t size_bytes);
 

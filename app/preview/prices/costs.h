@@ -1,4 +1,5 @@
-// The sweeps of a cost report (`diptych cost`) as text for the window, and the report's memory.
+// Reads a cost report (`diptych cost`), and turns its sweeps into texts for the window. A sweep has
+// the measurements of all steps (values) of one setting.
 #ifndef DIP_APP_PREVIEW_PRICES_COSTS_H
 #define DIP_APP_PREVIEW_PRICES_COSTS_H
 
@@ -10,7 +11,7 @@ typedef struct DipCostsStep {
     char name[24];      // Name of the step: "4".
     char time[16];      // Time relative to the baseline, "1.56x"; "" if it is not known.
     char flip[16];      // Change of FLIP, "-.0107"; "" if it is not known.
-    char figures[32];   // Both: "1.56x -.0107".
+    char figures[32];   // Time and change of FLIP: "1.56x -.0107".
     double flip_change; // Change of FLIP as a number; 0 for the baseline, NAN if it is not known.
 } DipCostsStep;
 
@@ -28,7 +29,7 @@ typedef struct DipCosts {
     int row_count;
 } DipCosts;
 
-// Writes the scene, size, threads and instruction set.
+// Writes the scene, size, threads and instruction set of a report.
 enum { DIP_COSTS_HEADING = 256 };
 void dip_costs_heading(const DipCostReport *report, char text[DIP_COSTS_HEADING]);
 
@@ -38,9 +39,10 @@ void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 // Returns whether a pane's settings include the given step of the row's setting.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality);
 
-// Reads a cost report from the JSON file that `diptych cost` wrote, and gives it to `prices`,
-// unless that is NULL, which uses it as long as it has no other. Returns NULL on failure: as
-// dip_cost_read_json does, or with CONFLICT if the report's scene is not `scene`.
+// Reads a cost report from the JSON file that `diptych cost` wrote. `prices`, unless it is NULL,
+// borrows the report until it gets another one. The caller frees the report. Returns NULL on
+// failure: with the errors of dip_cost_read_json, with MEMORY, or with CONFLICT if the report's
+// scene is not `scene`.
 DipCostReport *dip_costs_load(DipPrices *prices, const char *file, const char *scene,
                               DipError *err);
 void dip_costs_free(DipCostReport **report); // *report may be NULL.

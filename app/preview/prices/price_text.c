@@ -97,8 +97,8 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) 
     }
 }
 
-// Writes what is known of a doubtful time. An interval that is wider than the whole frame says
-// nothing.
+// Writes what is known of a doubtful time, and why it is doubtful. Leaves out an interval that is
+// wider than the frame's time without the step, since it says nothing.
 static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
     const char *why = price->doubtful ? "the machine was too busy while it was measured"
                                       : "other programs disturbed the frames that timed it";
@@ -116,7 +116,7 @@ static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
     if (price->beside[0]) {
         snprintf(beside, sizeof beside, " beside %s", price->beside);
     }
-    if (price->path[0]) { // A rough price is that of one picture, not of a path.
+    if (price->path[0]) { // A rough price has no path, since it is for one picture.
         snprintf(where, sizeof where, " on path %s", price->path);
     }
     if (price->has_flip) {

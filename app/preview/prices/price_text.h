@@ -1,4 +1,4 @@
-// How the panel writes prices, and the tips that explain the steps of settings.
+// Writes prices as the panel shows them, and the tips that explain the steps (values) of settings.
 #ifndef DIP_APP_PREVIEW_PRICES_PRICE_TEXT_H
 #define DIP_APP_PREVIEW_PRICES_PRICE_TEXT_H
 
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Stands before times that come from a few frames.
+// The mark before times that come from a few frames.
 #define DIP_ROUGH_MARK "\u2248 "
 
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
@@ -21,17 +21,19 @@ const char *dip_step_explanation(DipSetting setting, int step);
 void dip_ms_text(double ms, DipPriceTrust trust, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a price's time without its unit, by its trust: "+1.2", "≈ +1.2" if it is rough, "~+1.2" if
-// a model predicts it, "+1?" if it is doubtful, "≈ 0", "base", or dots if it is unknown.
+// a model predicts it, "+1?" if it is doubtful, "≈ 0", or "base". If it is unknown, writes dots, or
+// a dash if the setting has no effect without another setting.
 void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.
 void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes a price's error. One that is unknown is dots, or a dash if the setting has no effect
+// Writes a price's error. If it is unknown, writes dots, or a dash if the setting has no effect
 // without another setting.
 void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes the tip of a step: what it does, and its price. why: why it cannot be chosen, or "".
+// Writes the tip of a step: what the step does, and its price. why: why the step cannot be chosen,
+// or "" if it can.
 void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const char *why,
                   char text[DIP_STEP_TEXT_BYTES]);
 

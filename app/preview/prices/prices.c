@@ -9,13 +9,13 @@
 #include <string.h>
 
 struct DipPrices {
-    DipPriceView *read; // NULL: there is no report.
-    DipCostReport measured;
-    DipPriceView *live; // Of `measured`.
+    DipPriceView *read;     // View of the report that was read; NULL if there is none.
+    DipCostReport measured; // The live report.
+    DipPriceView *live;     // View of `measured`.
     bool prefers_live;
     DipPriceConditions conditions;
     unsigned changes;
-    double pixels_per_degree; // 0: none was set.
+    double pixels_per_degree; // 0 if none was set.
     char progress[DIP_PRICE_PROGRESS];
 };
 
@@ -97,7 +97,7 @@ static bool begin_live(DipPrices *prices, DipError *err) {
     report->options.budget_of = DIP_TIME_MEAN;
     report->machine.settled = true;
     report->path_count = 1;
-    report->rounds = report->options.rounds = 1; // The log has more.
+    report->rounds = report->options.rounds = 1; // The log of times has more rounds.
     report->rows = calloc(DIP_PRICES_LIVE_ROWS, sizeof *report->rows);
     return (report->rows || out_of_memory(err)) && dip_cost_report_alloc(report, err);
 }
@@ -135,7 +135,7 @@ void dip_prices_forget_live(DipPrices *prices) {
     ++prices->changes;
     dip_cost_report_free(&prices->measured);
     prices->measured.options.baseline = base;
-    dip_price_view_update(prices->live, NULL); // Empty.
+    dip_price_view_update(prices->live, NULL); // The report has no rows now.
 }
 
 // --- what is used --------------------------------------------------------------------------------

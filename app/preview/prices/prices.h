@@ -1,5 +1,6 @@
-// The prices that the preview shows: those of a report that was read, or of the report that it
-// fills itself while nothing moves (live). app/report/prices/prices.h says what a price is.
+// Provides the prices that the preview shows. They come from a cost report that was read from a
+// file, or from the live report, which the preview fills with measurements while nothing moves.
+// app/report/prices/prices.h says what a price is.
 #ifndef DIP_APP_PREVIEW_PRICES_PRICES_H
 #define DIP_APP_PREVIEW_PRICES_PRICES_H
 
@@ -7,12 +8,12 @@
 
 typedef struct DipPrices DipPrices;
 
-// Makes prices without a source: all are unknown. Fails with MEMORY.
+// Creates prices without a report. All of them are unknown. Fails with MEMORY.
 DipPrices *dip_prices_create(DipError *err);
 void dip_prices_destroy(DipPrices **prices);
 
-// What the panes are drawn from and drawn on now. Strings are borrowed until the next call; NULL
-// and 0 stand for what is not known and is not compared with the report.
+// The scene of the panes and the machine that draws them. Strings are borrowed until the conditions
+// are set again. A member that is NULL or 0 is not known, and is not compared with the report.
 typedef struct DipPriceConditions {
     const char *scene;     // As dip_cost_scene_name names it.
     const char *processor; // As dip_machine_processor names it.
@@ -22,7 +23,8 @@ typedef struct DipPriceConditions {
 
 void dip_prices_set_conditions(DipPrices *prices, const DipPriceConditions *conditions);
 
-// Sets the viewing distance for which the user wants FLIP, in pixels per degree; 0: none is wanted.
+// Sets the viewing distance for which the user wants FLIP, in pixels per degree; 0 if the user has
+// not given one.
 void dip_prices_set_viewing(DipPrices *prices, double pixels_per_degree);
 
 // Returns the pixels per degree for the FLIP of the panes and of live prices: those that were set,
@@ -37,46 +39,49 @@ bool dip_prices_has_report(const DipPrices *prices);
 // Returns whether there is a report and it is of another scene than the conditions name.
 bool dip_prices_are_of_other_scene(const DipPrices *prices);
 
-// Says whether live prices are used although there is a report, because the report is stale and the
-// user wants to measure here. Without a report, live prices are always used.
+// Sets whether live prices are used although there is a report. A user wants this if the report is
+// stale (dip_prices_source). Without a report, live prices are always used.
 void dip_prices_prefer_rough(DipPrices *prices, bool prefer);
 
 // Returns whether the prices are live, so that it is worth measuring.
 bool dip_prices_are_rough(const DipPrices *prices);
 
-// The report that the prices come from now.
+// Returns the view of the report that the prices come from now.
 const DipPriceView *dip_prices_view(const DipPrices *prices);
 
-// The settings that prices start from: those of the report's baseline, or the defaults.
+// Returns the settings that prices start from: those of the report's baseline, or the defaults.
 DipQuality dip_prices_base(const DipPrices *prices);
 
-// The live report. It has one picture instead of paths (dip_cost_is_view) and one viewpoint.
+// Returns the live report. It measures one picture from one viewpoint instead of camera paths
+// (dip_cost_is_view).
 DipCostReport *dip_prices_live(DipPrices *prices);
 
-// Returns the live report's row of a combination or of one that draws the same pictures; -1: none.
+// Returns the index of the live report's row with these settings, or with settings that draw the
+// same pictures. Returns -1 if there is none.
 int dip_prices_find_live(const DipPrices *prices, const DipQuality *quality);
 
-// Does the same, and adds a row that is new. Fails with MEMORY, or if all DIP_PRICES_LIVE_ROWS are
-// in use.
+// Returns the same index, but adds a row if there is none. Returns -1 on failure: MEMORY, also if
+// all DIP_PRICES_LIVE_ROWS are in use.
 enum { DIP_PRICES_LIVE_ROWS = 256 };
 int dip_prices_live_row(DipPrices *prices, const DipQuality *quality, DipError *err);
 
-// Computes the live report's times from its log if `timed`, and its prices. Fails with MEMORY.
+// Updates the live prices from the live report. If `timed`, first computes the report's times from
+// its log. Fails with MEMORY.
 bool dip_prices_update_live(DipPrices *prices, bool timed, DipError *err);
 
 // Empties the live report, because the picture, its size or its scene has changed.
 void dip_prices_forget_live(DipPrices *prices);
 
-// Grows whenever a price may have changed.
+// Returns a number that grows whenever a price may have changed.
 unsigned dip_prices_changes(const DipPrices *prices);
 
-// What is being measured, for the panel: "3 of 8 frames, 4 s left", or "" if nothing is. The text
-// is copied and cut to DIP_PRICE_PROGRESS bytes. Returns whether the text is new.
+// Sets the text that tells the user what is being measured: "3 of 8 frames, 4 s left", or "" if
+// nothing is. The text is copied and cut to DIP_PRICE_PROGRESS bytes. Returns whether it is new.
 enum { DIP_PRICE_PROGRESS = 96 };
 bool dip_prices_set_progress(DipPrices *prices, const char *text);
 const char *dip_prices_progress(const DipPrices *prices);
 
-// dip_price_step and dip_price_sum of the prices that are used now.
+// Return dip_price_step and dip_price_sum for the report that the prices come from now.
 DipPrice dip_prices_step(const DipPrices *prices, DipSetting setting, int step,
                          const DipQuality *quality);
 DipPriceSum dip_prices_sum(const DipPrices *prices, const DipQuality *quality);

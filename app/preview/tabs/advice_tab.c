@@ -1,6 +1,6 @@
-// The tab of advice: the best settings for a time budget, what the next better ones cost, and a
-// plot of all that can be chosen. Everything comes from the preview's choice (choice.h), which is
-// made from a report or from live prices.
+// Declares the advice tab: the best settings for a time budget, what the next better settings cost,
+// and a plot of all settings that can be chosen. Everything comes from the preview's choice
+// (prices/choice.h), which is computed from a cost report or from live prices (prices.h).
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -168,7 +168,7 @@ static void declare_advised(DipUi *ui, DipWindow *window, DipRect room) {
 
 // --- one step up and down ------------------------------------------------------------------------
 
-// Writes what changes from one combination to another: "asd=1 -> asd=2".
+// Writes what changes from one combination of settings to another: "asd=1 -> asd=2".
 static void format_change(const DipQuality *from, const DipQuality *to, char text[160]) {
     size_t length = 0;
     text[0] = '\0';
@@ -182,7 +182,8 @@ static void format_change(const DipQuality *from, const DipQuality *to, char tex
     }
 }
 
-// Returns the slowest candidate of the front that is faster than the advised one, or NULL.
+// Returns the slowest candidate of the Pareto front (choice.h) that is faster than the advised one,
+// or NULL if there is none.
 static const DipCandidate *next_faster(const DipPreviewChoice *choice,
                                        const DipCandidate *advised) {
     const DipCandidate *found = NULL;
@@ -193,8 +194,9 @@ static const DipCandidate *next_faster(const DipPreviewChoice *choice,
     return found;
 }
 
-// Declares a step to other settings as a button at the top of *room, and cuts it off with a gap.
-// `to`: the settings, or NULL if there are none. up: they are better and slower.
+// Declares a button that tries other settings, at the top of *room, and cuts it off with a gap.
+// `to`: these settings, or NULL if there are none. up: true if they are better and slower than the
+// advised ones.
 static void declare_step(DipUi *ui, DipWindow *window, const DipCandidate *advised,
                          const DipCandidate *to, bool up, DipRect *room) {
     const int pad = dip_ui_px(ui, 8), radius = dip_ui_px(ui, 4);
@@ -259,7 +261,7 @@ static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
     dip_ui_text_block(ui, NOTE_SIZE, dip_style_dim, room, heading);
 }
 
-// Says how to get a report, which measures combinations along whole paths.
+// Says how to make a cost report, which measures combinations of settings along whole camera paths.
 static void write_how_to(DipUi *ui, const DipWindow *window, DipRect room) {
     char text[2 * DIP_SCENE_WORDS_BYTES + 512];
     snprintf(text, sizeof text,
@@ -320,7 +322,8 @@ static void draw_dot(DipUi *ui, const Plot *plot, const DipCandidate *point, int
     dip_ui_fill_round(ui, disc, size / 2, colour);
 }
 
-// Draws the front as stairs: at each time, the least error that was measured within it.
+// Draws the Pareto front as stairs. The height at each time is the least error of the settings on
+// the front that take at most this time.
 static void draw_front(DipUi *ui, const Plot *plot, const DipPreviewChoice *choice) {
     const int thick = dip_ui_px(ui, 1);
     const DipCandidate *last = NULL;
@@ -402,9 +405,10 @@ static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot) {
     }
 }
 
-// Draws what can be chosen (window->state->choice) by time and error into `room`: the front as
-// stairs, the times beyond the budget shaded, the advised settings and those of the current pane
-// marked. Draws no plot in a room that is too small for one, or of fewer than two candidates.
+// Plots the candidates of the preview's choice by time and error in `room`. The plot shows the
+// Pareto front as stairs, shades the times beyond the budget, and marks the advised settings and
+// those of the current pane. If the room is too small or there are fewer than two candidates, only
+// the heading shows.
 static void draw_plot(DipUi *ui, const DipWindow *window, DipRect room) {
     const DipPreviewChoice *choice = window->state->choice;
     const DipCandidates *candidates = &choice->candidates;

@@ -1,20 +1,22 @@
-// The dock's bar: tabs on the left; playback, the time line, help and folding on the right.
+// Declares and draws the dock's bar. The tabs are on the left. Playback, the time line, help and
+// the button that folds the dock are on the right.
 //
-// A narrow bar first leaves out words: tabs become symbols. Then it leaves out what keys do as
-// well: the steps by one frame, the time line, the name of the path, and playback.
+// In a narrow bar, the tabs first show symbols instead of their names. Then the bar leaves out
+// parts that keys can replace: the steps by one frame, the time line, the name of the path, and
+// playback.
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
 
 #include <stdio.h>
 
-// Numbers of buttons at the bar's end: the one that folds the panel; with help; with the panes
-// alone and the full screen.
+// Numbers of buttons at the bar's right end. TAIL_FOLD: only the button that folds the panel.
+// TAIL_HELP: help, too. TAIL_ALL: the buttons for "panes only" and the full screen, too.
 enum { TAIL_FOLD = 1, TAIL_HELP = 2, TAIL_ALL = 4 };
 enum { TAB_SIZE = 13, TAB_PAD = 11, BUTTON = 28, ICON_TAB = 32, LEAST_LINE = 60, MOST_LINE = 270 };
 
 typedef enum BarControl {
-    BAR_TABS, // One for each tab.
+    BAR_TABS, // The first tab. The numbers of the other tabs follow.
     BAR_BACK = BAR_TABS + DIP_TAB_COUNT,
     BAR_PLAY,
     BAR_ON,
@@ -37,18 +39,18 @@ static const char *const tab_tips[DIP_TAB_COUNT] = {
     "Times: stages, errors and work of both panes (R)",
     "Path: fly the camera, make a path from its poses (Ctrl+P)"};
 
-// What of the bar fits.
+// Which parts of the bar fit, and how wide they are.
 typedef struct Bar {
     DipRect rect;
     int button; // Width of a button.
     bool words; // Tabs show their names, otherwise symbols.
     int tab_width[DIP_TAB_COUNT];
     int tabs_width;
-    int tail; // Number of buttons at the right end. Folding is the last one.
-    int play; // Playback's buttons: 3, 1 or 0.
-    int line; // Width of the time line, or 0.
-    char place[128];
-    int place_width; // 0: the place does not show.
+    int tail;        // Number of buttons at the right end. The last one folds the panel.
+    int play;        // Number of playback buttons: 3, 1 or 0.
+    int line;        // Width of the time line, or 0.
+    char place[128]; // Says where the camera is.
+    int place_width; // Room for `place`, or 0 if it does not show.
 } Bar;
 
 static DipUiId bar_id(int control) {
@@ -87,12 +89,13 @@ static void declare_symbol(DipUi *ui, DipWindow *window, const Bar *bar, DipRect
 
 // --- what fits -----------------------------------------------------------------------------------
 
-// Writes where the camera is: the path and its time, or the gallery's scene.
+// Writes where the camera is: the path and the time on it, the gallery's scene, or that the camera
+// is free.
 static void format_place(const DipPreviewState *state, int category, bool brief, int64_t path_ns,
                          char *text, size_t size_bytes) {
     const double seconds = 1e-9 * (double)path_ns;
     const double length = 1e-9 * (double)dip_preview_path_length_ns(state);
-    const int decimals = state->paused ? 2 : 1; // A step of one frame shows.
+    const int decimals = state->paused ? 2 : 1; // So that a step by one frame changes the text.
     if (state->manual) {
         snprintf(text, size_bytes, "Free camera");
     } else if (state->scene_title) {
@@ -118,8 +121,9 @@ static void measure_tabs(const DipUi *ui, Bar *bar, bool words) {
     }
 }
 
-// Returns the width of the widest place, so that the buttons before it stand still while time
-// passes and paths change. All digits of a font with tabular figures are as wide as a zero.
+// Returns the width of the widest text that format_place writes for any path. With this width, the
+// buttons beside the text stand still while time passes and paths change. Every digit counts as a
+// zero, since most fonts give all digits one width.
 static int widest_place(const DipUi *ui, const DipPreviewState *state, bool brief) {
     DipPreviewState still = *state;
     char text[128];
@@ -150,7 +154,8 @@ static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, 
     room -= bar->play * bar->button;
     bar->place_width = room >= place_width ? place_width : 0;
     room -= bar->place_width;
-    const bool has_line = dip_preview_path_length_ns(state) > 0; // The free camera keeps its room.
+    // The free camera shows no time line but keeps the room for it.
+    const bool has_line = dip_preview_path_length_ns(state) > 0;
     bar->line =
         has_line && room >= dip_ui_px(ui, LEAST_LINE) ? dip_min(room, dip_ui_px(ui, MOST_LINE)) : 0;
 }
@@ -171,7 +176,7 @@ static Bar measure(const DipUi *ui, const DipWindow *window) {
         bar.tail = TAIL_HELP;
         share_room(ui, state, &bar, true);
     }
-    if (bar.tabs_width + 3 * bar.button > bar.rect.width) { // Symbols come closer together.
+    if (bar.tabs_width + 3 * bar.button > bar.rect.width) { // Moves the symbols closer together.
         bar.tail = TAIL_FOLD;
         const int narrow = dip_max(1, (bar.rect.width - bar.button) / DIP_TAB_COUNT);
         for (int t = 0; t < DIP_TAB_COUNT; ++t) {

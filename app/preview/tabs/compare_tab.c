@@ -1,5 +1,5 @@
-// The comparisons' tab: how the two pictures are compared, options of that comparison, and a strip
-// of thumbnails of the path.
+// Declares the comparisons' tab: the choice of how the two pictures are compared, the options of
+// that comparison, and a strip of thumbnails of the camera path.
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
 #include "app/preview/tools/strip.h"
@@ -9,10 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// SMALL and TINY are sizes of letters. All lengths are at scale 1.
 enum {
-    SMALL = 11, // Sizes of letters.
+    SMALL = 11,
     TINY = 10,
-    STRIP_LEAST = 44, // Height of a body's rest from which it shows thumbnails.
+    STRIP_LEAST = 44, // Least height of the room below the buttons that shows thumbnails.
     STRIP_MOST = 96,  // Greatest height of a thumbnail.
 };
 
@@ -42,7 +43,7 @@ static void declare_left(DipFlow *flow) {
     dip_flow_text(flow, dip_style_soft, text);
 }
 
-// Declares the line that moves the divider.
+// Declares a slider that moves the divider between both pictures.
 static void declare_divider(DipUi *ui, DipToolState *tools, DipRect rect) {
     const DipUiInput input =
         dip_ui_stepper(ui, DIP_UI_ID(DIP_UI_COMPARE, ID_DIVIDER), rect,
@@ -171,7 +172,7 @@ static void declare_options(DipFlow *flow) {
 
 // --- the strip -----------------------------------------------------------------------------------
 
-// Declares one thumbnail with its time. A click moves the time there.
+// Declares one thumbnail with its time. A click moves the preview to that time.
 static void declare_thumbnail(DipUi *ui, DipWindow *window, int index, DipRect rect) {
     const DipStrip *strip = &window->tools->strip;
     const DipThumbnail thumbnail = dip_strip_thumbnail(strip, index);

@@ -32,7 +32,7 @@ static const Stroke icons[DIP_ICON_PLAY][MAX_STROKES] = {
      {BOX, 6, 6, 4, 4},
      {BOX, 11, 6, 4, 4},
      {BOX, 11, 1, 4, 4}},
-    [DIP_TAB_ADVICE] = // A front of time and error.
+    [DIP_TAB_ADVICE] = // A Pareto front of time and error.
     {{BOX, 1, 1, 2, 14}, {BOX, 1, 13, 14, 2}, {LINE, 4, 2, 6, 7}, {LINE, 6, 7, 13, 10}},
     [DIP_TAB_TIMES] = // A clock.
     {{RING, 1, 1, 14, 0}, {BOX, 7, 4, 2, 5}, {BOX, 7, 7, 4, 2}},
@@ -59,7 +59,7 @@ static const Stroke icons[DIP_ICON_PLAY][MAX_STROKES] = {
 // Draws a stroke on the grid whose top left corner is at x, y.
 static void draw_stroke(DipUi *ui, const Stroke *s, int x, int y, DipColour colour) {
     const int left = dip_ui_px(ui, s->a), top = dip_ui_px(ui, s->b), thick = dip_ui_px(ui, 2);
-    if (s->kind == BOX) { // The edges are rounded once each, so that neighbours meet.
+    if (s->kind == BOX) { // Each edge is rounded once, so that adjacent boxes meet.
         dip_ui_fill(ui,
                     (DipRect){x + left, y + top, dip_ui_px(ui, s->a + s->c) - left,
                               dip_ui_px(ui, s->b + s->d) - top},

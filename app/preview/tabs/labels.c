@@ -1,5 +1,5 @@
-// Draws the labels over the panes, and notices. Says what time a pane takes, for the labels and the
-// panel.
+// Draws the labels over the panes, and notices. Finds a pane's frame time, which the labels and the
+// panel show.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
@@ -107,8 +107,8 @@ static Label label_of(const DipUi *ui, const DipWindow *window, int pane, int ro
     return label;
 }
 
-// Returns the height of a text's lines below the first line of a label, or 0 if the label would
-// then take more than a third of the pane.
+// Returns the height that a text takes in a label, below lines that are `above` pixels tall.
+// Returns 0 if the label would then be taller than a third of the pane.
 static int height_below(const DipUi *ui, int room, const char *text, int above, int pane_height) {
     const int height = dip_ui_text_block_height(ui, LABEL_SIZE, room, text);
     return 3 * (above + height) > pane_height ? 0 : height;

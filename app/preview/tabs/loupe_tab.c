@@ -1,4 +1,4 @@
-// The loupe's tab: crops of both panes, and the figures of the pixel in their middle.
+// Declares the loupe's tab: an enlarged crop of each pane, and figures of the pixel in its middle.
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/loupe.h"
 #include "app/ui/layout.h"
@@ -7,16 +7,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// TEXT, SMALL and TINY are sizes of letters. All lengths are at scale 1.
 enum {
-    TEXT = 12, // Sizes of letters.
+    TEXT = 12,
     SMALL = 11,
     TINY = 10,
     BOX_SIDE = 120,
-    HEAD_HEIGHT = 28,    // Of the row with buttons.
-    DETAILS_WIDTH = 264, // Of a pixel's box and figures beside a crop.
-    FIGURES_WIDTH = 128, // Of the figures alone.
-    LEAST_CROP = 64,     // Width below which a crop has no text beside it.
-    SAMPLES_ZOOM = 16,   // Zooms from which the crop marks samples.
+    HEAD_HEIGHT = 28,    // Height of the row with buttons.
+    DETAILS_WIDTH = 264, // Width of a pixel's box and figures beside a crop.
+    FIGURES_WIDTH = 128, // Width of the figures without the box.
+    LEAST_CROP = 64,     // Least width of a crop that has text beside it.
+    SAMPLES_ZOOM = 16,   // Least zoom at which the crop marks samples.
 };
 
 enum { ID_ZOOM, ID_PIN = 8, ID_CROP };
@@ -127,7 +128,7 @@ static int distance(DipColour a, DipColour b) {
     return dip_max(abs(a.red - b.red), green_blue);
 }
 
-// Compares the pixel with the converged picture, if that is known.
+// Compares the pixel with the converged picture if that picture is known.
 static void say_truth(Part *part) {
     const DipWindow *window = part->window;
     const DipToolState *tools = &window->state->tools;
@@ -170,7 +171,8 @@ static void draw_box(Part *part, DipRect rect) {
     }
 }
 
-// Shows the figures beside a crop, with the pixel's box if there is room for it.
+// Shows the figures beside a crop. If there is room, also shows the pixel's box (loupe.h), which is
+// a picture of the pixel with its samples.
 static void show_details(Part *part, DipRect rect) {
     DipUi *ui = part->ui;
     const DipToolState *tools = &part->window->state->tools;
@@ -233,9 +235,9 @@ static void show_brief(Part *part, DipRect rect) {
     say_samples(part);
 }
 
-// Returns the height of the brief figures of a part with this rectangle: that of the three lines,
-// and of the samples' colours if the crop above stays tall enough. Both panes get the same, so that
-// their crops are alike.
+// Returns the height that show_brief needs in a part of the tab with this rectangle: three lines,
+// and the samples' colours if the crop above stays tall enough. Both panes get the same height, so
+// that their crops have one size.
 static int brief_height(const Part *part, DipRect rect) {
     int most = 0;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -249,8 +251,8 @@ static int brief_height(const Part *part, DipRect rect) {
 
 // --- crops ---------------------------------------------------------------------------------------
 
-// The crop is a control: a click looks at the pixel under the pointer, the wheel zooms, and arrow
-// keys move by one pixel.
+// Declares the crop as a control. A click moves the loupe to the pixel under the pointer, the wheel
+// zooms, and the left and right arrow keys move the loupe by one pixel.
 static void handle_crop(Part *part, const DipLoupeCrop *crop) {
     DipToolState *tools = &part->window->state->tools;
     const DipPixels *frame = &part->window->frames[part->pane];
@@ -309,7 +311,7 @@ static void draw_crop(Part *part, DipRect area) {
     handle_crop(part, &content.crop);
 }
 
-// Divides a pane's part of the tab into the crop and the figures, whichever fit.
+// Divides a pane's part of the tab between the crop and the figures. Leaves out what does not fit.
 static void declare_part(DipUi *ui, DipWindow *window, int pane, DipRect rect) {
     const DipToolState *tools = &window->state->tools;
     Part part = {.ui = ui,
@@ -382,8 +384,8 @@ static void declare_head(DipUi *ui, DipWindow *window, DipRect row) {
     }
 }
 
-// Returns the part of the tab that lies beneath a pane, or a half of the tab if the tab lies beside
-// the panes.
+// Returns the part of the tab that lies beneath a pane, or a half of the tab if the dock is a
+// drawer (tools/layout.h).
 static DipRect half_of(const DipLayout *layout, DipRect body, int pane) {
     DipRect half = body;
     if (layout->side == DIP_DOCK_BELOW) {

@@ -1,5 +1,6 @@
-// Explains the map in the maps' tab: a scale of its colours with the distribution of the values, or
-// a key of its colours; and tables of the whole frame and of the pixel under the mouse.
+// Explains the map in the maps' tab. Draws a scale of the map's colours with the distribution of
+// the values, or a key of the colours. Also draws tables of the whole frame and of the pixel under
+// the mouse.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tabs/maps_tab_private.h"
 #include "app/preview/tools/map_colours.h"
@@ -8,7 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// Writes a line of text `down` below the top of an area, at scale 1. Returns its width.
+// Writes a line of text at the left side of an area. down: distance from the area's top, at scale
+// 1. Returns the width of the text in pixels.
 static int put(const Tab *tab, int size, DipColour colour, DipRect area, int down,
                const char *text) {
     dip_ui_text(tab->ui, size, colour, DIP_ALIGN_LEFT, area.x, area.y + px(tab, down), area.width,
@@ -16,7 +18,7 @@ static int put(const Tab *tab, int size, DipColour colour, DipRect area, int dow
     return dip_ui_text_width(tab->ui, size, text);
 }
 
-// Returns the map's colour of a value, as a share of the scale.
+// Returns a map's colour for a value. share: the value divided by the value at the scale's end.
 static DipColour colour_of(DipMap map, float share) {
     uint8_t rgb[3];
     (map == DIP_MAP_FLIP ? dip_magma : dip_cividis)(share, rgb);
@@ -25,8 +27,8 @@ static DipColour colour_of(DipMap map, float share) {
 
 // --- the scale -----------------------------------------------------------------------------------
 
-// Counts the values of a pane in CHART_BINS bins up to `end`. Values beyond `end` are in the last
-// bin. Returns whether the values are known.
+// Counts the map's values of a pane in CHART_BINS equal bins from 0 to `end`. The last bin also
+// counts the values beyond `end`. Returns whether the values are known.
 static bool count_values(const Tab *tab, int pane, double end, double counts[CHART_BINS]) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
     const DipErrorPictures *errors = tab->maps->errors;
@@ -45,7 +47,8 @@ static bool count_values(const Tab *tab, int pane, double end, double counts[CHA
     return work->draws > 0;
 }
 
-// Height of a count in the chart, 0..1. Pixels are shown on a logarithmic scale.
+// Returns the height of a bin in the chart, from 0 to 1. The bins of the FLIP map count pixels and
+// have a logarithmic scale. The bins of other maps count tiles and have a linear scale.
 static double chart_height(const Tab *tab, double count, double most) {
     return tab->tools->map == DIP_MAP_FLIP ? log(count + 1.0) / log(most + 1.0) : count / most;
 }
@@ -89,7 +92,7 @@ static void draw_chart(const Tab *tab, DipRect area, double end) {
     }
 }
 
-// Returns a pane's value at a pixel, or a number below 0 if it is not known.
+// Returns the map's value at a pixel of a pane, or -1 if it is not known.
 static double value_at(const Tab *tab, int pane, int x, int y) {
     const DipErrorPictures *errors = tab->maps->errors;
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
@@ -103,7 +106,8 @@ static double value_at(const Tab *tab, int pane, int x, int y) {
                : -1.0;
 }
 
-// Draws the colour scale as 64 steps, with a mark for each pane's value at the described pixel.
+// Draws the colour scale as 64 steps, with a mark for each pane's value at the pixel that the tab
+// describes.
 static void draw_scale(const Tab *tab, DipRect area, double end) {
     enum { STEPS = 64 };
     int x, y;
@@ -189,7 +193,7 @@ static void scale_legend(const Tab *tab, DipRect rest) {
 
 // --- keys ----------------------------------------------------------------------------------------
 
-// Draws a square of a colour, `down` below the top of an area, with words beside it.
+// Draws a square of a colour with words beside it. down: distance from the area's top, at scale 1.
 static void draw_key(const Tab *tab, DipRect area, int down, DipColour colour, const char *text) {
     const int side = px(tab, 14), thin = px(tab, 2);
     area.y += px(tab, down) + thin;
@@ -250,7 +254,8 @@ void dip_maps_legend_block(const Tab *tab, DipRect area) {
 
 typedef enum Comparison { NOT_COMPARED, BY_FACTOR, IN_PER_CENT } Comparison;
 
-// The rows that tables of work have: of a whole frame, and of a tile.
+// The rows of two tables of work. `name` and `format` are for the table of the whole frame;
+// `tile_name` and `tile_format` are for the table of one tile.
 static const struct {
     DipMap map;
     const char *name;
@@ -264,7 +269,8 @@ static const struct {
 enum { WORK_ROWS = sizeof work_rows / sizeof *work_rows };
 
 // Writes a row of a table: a name, both panes' values and how they compare. Values below 0 are not
-// known. IN_PER_CENT is for errors, of which less is better.
+// known and are left out. With IN_PER_CENT, the colour says whether the change is better or worse;
+// a smaller value is better.
 static void put_row(const Tab *tab, DipRect area, int index, const char *name, const char *format,
                     const double values[DIP_PANE_COUNT], Comparison comparison) {
     const int ends[DIP_PANE_COUNT] = {px(tab, 152), px(tab, 216)};
@@ -322,7 +328,8 @@ static void flip_table(const Tab *tab, DipRect area) {
     }
 }
 
-// Sums a map's values over a frame: milliseconds, or counts.
+// Returns the sum of a map's values over a frame, in milliseconds or as a count; -1 if it is not
+// known.
 static double sum_of(const DipMapWork *work, DipMap map) {
     double sum = 0.0;
     for (int t = 0; work->draws && t < work->across * work->down; t++) {
@@ -365,7 +372,8 @@ void dip_maps_frame_block(const Tab *tab, DipRect area) {
 
 // --- under the mouse -----------------------------------------------------------------------------
 
-// Shows a pane's value at a pixel as a square of its colour in the pane's frame, and in words.
+// Shows a pane's value at a pixel in words, beside a square that has the value's colour and a
+// border in the pane's colour.
 static void put_swatch(const Tab *tab, int pane, DipRect area, DipColour colour,
                        const char *value) {
     const int side = px(tab, 22), gap = px(tab, 8);

@@ -1,4 +1,4 @@
-// The maps' tab: its buttons, and where its parts lie. Draws the maps over the panes.
+// Lays out the maps' tab and declares its buttons. Draws the maps over the panes.
 #include "app/preview/tabs/maps_tab_private.h"
 #include "app/preview/tools/loupe.h"
 
@@ -50,7 +50,8 @@ static DipRect map_buttons(const Tab *tab, DipRect area) {
     return area;
 }
 
-// Declares the choice of panes in a row, as far as the row reaches.
+// Declares buttons in a row that choose which panes show the map. Leaves out buttons that do not
+// fit.
 static void over_buttons(const Tab *tab, DipRect row) {
     static const char *const names[2][3] = {{"both", "current", "requested"},
                                             {"both", "left", "right"}};
@@ -100,14 +101,14 @@ void dip_tab_maps(DipUi *ui, DipWindow *window, DipRect body) {
                   {TABLE_WIDTH, 152, dip_maps_frame_block}};
     const Tab tab = {ui, window, &window->tools->maps, &window->state->tools};
     const int margin = px(&tab, MARGIN);
-    DipRect rest = dip_rect_inset(body, margin, margin); // What no row of blocks has taken.
+    DipRect rest = dip_rect_inset(body, margin, margin); // Room below the rows of blocks so far.
     rest.height += margin;
     DipRect row = rest;
     int row_height = 0;
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
         const int width = dip_min(px(&tab, blocks[i].width), rest.width);
         int height = px(&tab, blocks[i].height);
-        height = i == 0 ? dip_min(height, rest.height) : height; // Buttons show in any height.
+        height = i == 0 ? dip_min(height, rest.height) : height; // The buttons show in any height.
         if (width > row.width && row_height > 0) {
             dip_cut_top(&rest, row_height + margin);
             row = rest;
@@ -186,7 +187,7 @@ static void draw_cross(const Tab *tab, int pane, int x, int y) {
     }
 }
 
-// Frames the block with the greatest mean error, and writes that error beside it.
+// Frames the block of pixels with the greatest mean FLIP, and writes this FLIP beside it.
 static void draw_worst_block(const Tab *tab, int pane) {
     const DipErrorPictures *errors = tab->maps->errors;
     if (!errors || !errors->flip[pane] || errors->spread[pane].tail.worst <= 0.0) {
@@ -232,7 +233,7 @@ static void draw_described(const Tab *tab, int pane) {
     dip_ui_outline(tab->ui, inner, 0, px(tab, 3), dip_style_of_pane(pane));
 }
 
-// Says at the foot of a pane which map shows, and what it waits for.
+// Says at the foot of a pane which map was chosen, and what the map still waits for.
 static void draw_words(const Tab *tab, int pane) {
     const DipRect *rect = &tab->window->layout->panes[pane];
     char room[80], text[120];

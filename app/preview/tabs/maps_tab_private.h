@@ -1,4 +1,4 @@
-// What maps_tab.c and maps_legend.c share.
+// Declares what maps_tab.c and maps_legend.c share.
 #ifndef DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
 #define DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
 
@@ -7,7 +7,7 @@
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
 
-// Lengths at scale 1.
+// Letter sizes and lengths, at scale 1.
 enum {
     MARGIN = 10,
     GAP = 22, // Between the tab's blocks.
@@ -28,7 +28,7 @@ enum {
 enum { ID_MAP = 1, ID_OVER = 20, ID_BRIGHTNESS = 30 };
 enum { CHART_BINS = 25, BRIGHTNESS_COUNT = 4 };
 
-// What the blocks of the tab are drawn from.
+// Everything that the functions need to draw the tab's blocks.
 typedef struct Tab {
     DipUi *ui;
     DipWindow *window;
@@ -54,7 +54,8 @@ static inline bool described_pixel(const Tab *tab, int *x, int *y) {
            *y < frame->height;
 }
 
-// Each draws a block of the tab into its area.
+// Draw the tab's blocks: the legend of the map, the table of the whole frame, and the values at the
+// pixel that the tab describes.
 void dip_maps_legend_block(const Tab *tab, DipRect area);
 void dip_maps_frame_block(const Tab *tab, DipRect area);
 void dip_maps_mouse_block(const Tab *tab, DipRect area);

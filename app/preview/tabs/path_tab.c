@@ -1,5 +1,5 @@
-// The tab of the camera: the path that it follows, how it flies, and the path that the user makes
-// key by key.
+// Declares the camera's tab: the choice of the path that the camera follows, the controls that fly
+// the camera, and the editor of a path that the user makes key by key.
 #include "app/preview/state/pilot.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
@@ -24,8 +24,9 @@ static void action_button(DipFlow *flow, unsigned id, const char *text, DipUiLoo
 
 // --- the path that plays -------------------------------------------------------------------------
 
-// Lists the categories that have paths of their own. A path that several categories share is listed
-// once, by the category that plays or else by the first one. Returns their number.
+// Lists one category of camera paths (camtrack.h) for each path. If several categories share a
+// path, this is the active category or else the first of them. Returns the number of listed
+// categories.
 static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEGORIES]) {
     const DipCamTrack *track = state->track;
     int count = 0;
@@ -145,12 +146,12 @@ static void declare_key(DipFlow *flow, size_t index) {
     }
 }
 
-// Declares one row of keys around the chosen one.
+// Declares a row of buttons for the path's keys around the chosen key.
 static void declare_keys(DipFlow *flow) {
     const DipPathEditor *editor = flow->window->state->editor;
     const int count = (int)editor->count;
     const int step = dip_ui_px(flow->ui, KEY_WIDTH) + flow->gap;
-    const int room = flow->body.width / dip_max(1, step) - 2; // Two arrows take room, too.
+    const int room = flow->body.width / dip_max(1, step) - 2; // Leaves room for two arrows.
     const int shown = dip_max(1, dip_min(room, MAX_SHOWN_KEYS));
     const int middle = (int)editor->chosen - shown / 2;
     const int first = dip_max(0, dip_min(middle, count - shown));

@@ -1,4 +1,5 @@
-// Declares settings as sliders of steps with prices, as switches, or as lines of a list.
+// Declares the controls of settings. A slider shows the price of each step (value) of its setting.
+// Settings with two steps are switches. In a narrow list, each setting takes one line.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
@@ -16,7 +17,7 @@ enum {
     NAME_HEIGHT = 18,
     STEP_HEIGHT = 18,
     PRICE_HEIGHT = 16,
-    SLIDER_GAP = 5, // Below a slider.
+    SLIDER_GAP = 5, // Room below a slider.
     SWITCH_HEIGHT = 26,
     LABELS_WIDTH = 32, // Room for "ms" and "FLIP" left of the prices.
     PILL_LEAST_WIDTH = 34,
@@ -28,8 +29,8 @@ static DipUiId id_of(DipSetting setting) {
     return DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FIRST_SETTING + (int)setting);
 }
 
-// The pane whose setting the row changes: the requested pane, unless only the current pane is
-// chosen.
+// Returns the pane that the controls edit: the requested pane, unless the user edits only the
+// current pane.
 static int edited_pane(const DipPreviewState *state) {
     return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
 }
@@ -52,7 +53,7 @@ static bool is_known(const DipPrice *price) {
     return price->state != DIP_PRICE_UNKNOWN && price->state != DIP_PRICE_BASE;
 }
 
-// Returns whether a price is known well enough to be compared with others at a glance.
+// Returns whether a price is known well enough for a bar that compares it with other prices.
 static bool has_bar(const DipPrice *price) {
     return is_known(price) && dip_price_trust(price) == DIP_PRICE_TRUST_KNOWN;
 }
@@ -63,8 +64,9 @@ static DipColour flip_colour(const DipPrice *price) {
                                : dip_style_worse;
 }
 
-// Returns whether a step fits the other settings; otherwise writes why it does not. A number of
-// samples always fits, since the group size follows it.
+// Returns whether the edited pane can have a step beside its other settings. If it cannot, writes
+// why. Every step of antialiasing is valid, since the group size of adaptive antialiasing follows
+// the number of samples.
 static bool is_valid(const DipPreviewState *state, DipSetting setting, int step, char why[256]) {
     DipQuality quality = state->quality[edited_pane(state)];
     DipError err;
@@ -93,7 +95,8 @@ static void draw_values(DipUi *ui, const DipPreviewState *state, DipSetting sett
     }
 }
 
-// Changes a setting by what the user did with its row.
+// Changes a setting by what the user did with its control. pointed: position of the step under the
+// pointer, in the order of dip_setting_step_at.
 static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const DipUiInput *input,
                       int pointed) {
     DipPreviewState *state = window->state;
@@ -104,7 +107,7 @@ static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const Di
         wanted = pointed;
     } else if (input->steps) {
         wanted = now + input->steps;
-        char why[256]; // Steps that do not fit are passed over.
+        char why[256]; // Skips steps that are not valid.
         while (wanted >= 0 && wanted < count &&
                !is_valid(state, setting, dip_setting_step_at(setting, wanted), why)) {
             wanted += input->steps > 0 ? 1 : -1;
@@ -126,19 +129,20 @@ static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const Di
 typedef struct Slider {
     DipSetting setting;
     DipRect rect;
-    DipRect cells; // The steps and their prices.
+    DipRect cells; // Where the steps and their prices lie.
     int cell_width;
-    int count;
-    int pointed; // Position under the pointer.
+    int count;   // Number of steps.
+    int pointed; // Position of the step under the pointer.
     DipUiInput input;
-    DipPrice prices[DIP_MAX_STEPS]; // By position.
-    double most_ms;                 // The greatest price, for the bars.
-    double most_flip;
-    bool rough;  // Prices come from a few frames; the row says so once, before them.
-    bool dimmed; // The setting has no effect now.
+    DipPrice prices[DIP_MAX_STEPS]; // Prices of the steps by their position.
+    double most_ms;                 // The greatest time of a price, which has the longest bar.
+    double most_flip;               // The greatest change of FLIP.
+    bool rough;  // Some prices come from a few frames only. A mark before all prices says so.
+    bool dimmed; // The setting has no effect beside the pane's other settings.
 } Slider;
 
-// Draws a bar at the foot of a price. Its length is the value's share of the greatest one.
+// Draws a bar at the foot of a price. The length of the bar is proportional to `value`, and the
+// value `most` has the longest bar.
 static void draw_bar(DipUi *ui, DipRect cell, double value, double most, DipColour colour,
                      bool requested) {
     const int longest = dip_ui_px(ui, BAR_LENGTH);
@@ -288,11 +292,12 @@ static int declare_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipR
 
 // --- a switch ------------------------------------------------------------------------------------
 
-// Draws the knob at the requested side. A ring shows the current pane's side if it is another.
+// Draws a switch with its knob at the requested pane's side. If the current pane has the other
+// side, a ring shows there.
 static void draw_switch(DipUi *ui, DipRect rect, bool current, bool requested, bool hovered) {
     const int inset = dip_ui_px(ui, 3), side = rect.height - 2 * inset;
     const DipRect inside = dip_rect_inset(rect, inset, inset);
-    DipRect places[2] = {inside, inside}; // Of the knob, off and on.
+    DipRect places[2] = {inside, inside}; // Places of the knob: off, on.
     places[1].x = dip_rect_right(inside) - side;
     places[0].width = places[1].width = side;
     dip_ui_fill_round(ui, rect, rect.height / 2, requested ? dip_style_accent : dip_style_switch);
@@ -377,7 +382,7 @@ void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, 
     dip_step_tip(setting, requested, &price, "", tip);
     DipUiInput input = dip_ui_stepper(ui, id_of(setting), rect, tip);
     const int title_end = rect.x + dip_ui_px(ui, 10) + dip_ui_text_width(ui, LINE_SIZE, title);
-    if (input.pressed) { // A click on the arrow before the value takes the step before.
+    if (input.pressed) { // A click in the left half behind the title goes one step back.
         const bool back = input.hovered && input.x >= title_end &&
                           input.x < (title_end + dip_rect_right(rect)) / 2;
         dip_preview_act(window->state, DIP_ACTION_SETTING, (int)setting, back, dip_ui_now_ns(ui));

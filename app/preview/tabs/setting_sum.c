@@ -1,5 +1,6 @@
-// Shows the price of the requested settings: the sum, its parts against the budget, and where the
-// prices come from. Declares the buttons that act on all settings, and the fields of the target.
+// Shows the price of the requested settings: the sum of prices, its parts against the time budget,
+// and where the prices come from. Declares the buttons that act on all settings, and the number
+// fields of the target (frames per second and milliseconds per frame).
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -27,8 +28,8 @@ static DipUiId id_of(int control) {
 
 // --- presets and buttons -------------------------------------------------------------------------
 
-// Returns whether presets cannot be chosen yet, because nothing is known of what settings cost and
-// gain here. Scenes of the gallery have no errors to wait for.
+// Returns whether presets that depend on prices cannot be chosen yet, because the base has no time
+// or no error yet. Scenes of the gallery have no errors, so only the time is awaited.
 static bool presets_wait(const DipWindow *window) {
     const DipQuality base = dip_prices_base(window->prices);
     const DipPriceSum sum = dip_prices_sum(window->prices, &base);
@@ -162,11 +163,11 @@ static const DipColour part_colours[PART_COUNT] = {{139, 149, 162, 255},
                                                    {255, 226, 143, 255},
                                                    {196, 202, 210, 255}};
 
-// What the bar and its legend show of a sum.
+// A sum of prices, divided as the bar and its legend show it.
 typedef struct Parts {
-    double ms[PART_COUNT]; // Without prices that are doubtful.
-    double rest_ms;        // What the sum has beyond these parts: the settings cost it together.
-    bool doubt;            // The rest has a setting whose own price is doubtful.
+    double ms[PART_COUNT]; // Time of each part. Doubtful prices are left out.
+    double rest_ms;        // The rest of the sum: doubtful prices, and DipPriceSum.together_ms.
+    bool doubt;            // rest_ms has a doubtful price.
 } Parts;
 
 static Parts parts_of(const DipPriceSum *sum) {
@@ -190,7 +191,7 @@ static Parts parts_of(const DipPriceSum *sum) {
     return parts;
 }
 
-// Fills a rectangle with slanting stripes, for what the prices of single settings miss.
+// Fills a rectangle with slanting stripes.
 static void fill_hatched(DipUi *ui, DipRect rect, DipColour colour) {
     const int step = dip_ui_px(ui, HATCH_STEP);
     for (int y = 0; y < rect.height; ++y) {
@@ -202,8 +203,8 @@ static void fill_hatched(DipUi *ui, DipRect rect, DipColour colour) {
     }
 }
 
-// Returns the end of the scale of times: 1.2 budgets or, for longer frames, as often twice that. So
-// the scale stands still while the time of the frames varies.
+// Returns the time at the end of the bar's scale: 1.2 budgets, doubled until `ms` fits. Since the
+// end only doubles, the scale seldom changes while frame times vary.
 static double end_of_scale(double ms, double budget_ms) {
     double end_ms = budget_ms * 1.2;
     while (end_ms < ms * 1.02 && end_ms < 1e6) {
@@ -212,7 +213,7 @@ static double end_of_scale(double ms, double budget_ms) {
     return end_ms;
 }
 
-// Draws the parts of the sum on one scale with the budget.
+// Draws a bar of the parts of the sum, and a mark at the budget.
 static void draw_budget(DipUi *ui, const Parts *parts, double sum_ms, double budget_ms,
                         DipRect rect) {
     const double rest_ms = parts->rest_ms;
@@ -236,7 +237,7 @@ static void draw_budget(DipUi *ui, const Parts *parts, double sum_ms, double bud
         fill_hatched(ui, (DipRect){rect.x + parts_end, rect.y, width, rect.height},
                      dip_style_accent);
     }
-    if (rest_ms < 0.0) { // The parts take less time together: what they save is struck out.
+    if (rest_ms < 0.0) { // The sum is less than its parts. Stripes cover the difference.
         fill_hatched(ui, (DipRect){rect.x + end, rect.y, parts_end - end - 1, rect.height},
                      dip_style_well);
     }
@@ -287,8 +288,8 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 
 // --- the sum -------------------------------------------------------------------------------------
 
-// Writes what the panel says beside the sum: its interval or how far it is over the budget, why it
-// is doubtful, and of what path it is.
+// Writes the note beside the sum. It says that the sum is doubtful, how far it exceeds the budget,
+// or its 95 % interval. The last two also say if the sum holds for a path.
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
     char along[48] = "";
     note[0] = '\0';
@@ -305,7 +306,8 @@ static void format_note(const DipWindow *window, const DipPriceSum *sum, char no
     }
 }
 
-// Writes the sum of a pane, with the digits that it has everywhere.
+// Writes the sum of a pane's prices as dip_pane_time_text does. Without prices, writes the pane's
+// time.
 static void format_sum(const DipWindow *window, int pane, const DipPriceSum *sum,
                        char text[DIP_PANE_TIME_BYTES]) {
     DipPaneTime time = dip_pane_time(window, pane);
@@ -328,7 +330,7 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     dip_ui_word(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, &rect, dip_ui_px(ui, 9),
                 text);
     dip_cut_bottom(&rect, dip_ui_px(ui, 4));
-    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // Otherwise the bar below shows it.
+    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // A note is shown whole or not.
         dip_ui_line(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft,
                     &(DipRect){rect.x, dip_rect_bottom(rect) - dip_ui_line_height(ui, NOTE_SIZE),
                                rect.width, 0},
@@ -336,17 +338,18 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     }
 }
 
-// Declares a button at the right end of *line, and cuts it from the line. Leaves it out if it would
-// take more than half of the line. Returns whether it was pressed.
+// Declares a button at the right end of *line, and cuts it from the line. Leaves out a button that
+// would take more than half of the line. Returns whether the button was pressed.
 static bool end_button(DipUi *ui, int id, DipRect *line, const char *text, const char *tip) {
     const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
     return 2 * width <= line->width &&
            dip_ui_button(ui, id_of(id), dip_cut_right(line, width), text, DIP_UI_PLAIN, tip);
 }
 
-// Declares the button that gets prices for this view, where there are none: it pauses if prices are
-// measured only at rest. Where the report's prices do not hold, it measures others or goes back to
-// the report.
+// Declares a button that gets prices for this view, if one is needed. While live prices (prices.h)
+// are not known and time runs, the button pauses, since live prices are measured at rest. If
+// the report's prices do not hold for the panes, the button changes between the report and live
+// prices.
 static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect *line) {
     DipPreviewState *state = window->state;
     const DipPrices *prices = window->prices;
@@ -400,9 +403,9 @@ static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSu
     }
 }
 
-// Draws what is being measured, the settings as text, and where the prices come from. A warning
-// that the prices do not hold comes before the settings and is never cut: what does not fit beside
-// it is left out.
+// Writes what is being measured, the settings, and where the prices come from. If the prices are
+// doubtful or do not hold for the panes, their source is a warning and comes before the settings,
+// so that a lack of room cuts the settings first.
 static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
     char source[400], settings[200];
     const bool stale = dip_prices_source(window->prices, window->frames[0].width,
@@ -456,7 +459,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     line = dip_cut_top(&rest, dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3));
     line.height = note;
     draw_legend(ui, &shown, &parts, line);
-    line = dip_cut_top(&rest, dip_ui_px(ui, 28)); // The buttons, which cover the legend at need.
+    line = dip_cut_top(&rest, dip_ui_px(ui, 28)); // The buttons may cover the legend.
     line.y = dip_min(line.y, dip_rect_bottom(rect) - line.height);
     dip_setting_buttons_declare(ui, window, line);
     rest.y = dip_rect_bottom(line) + dip_ui_px(ui, 4);

@@ -1,5 +1,5 @@
-// The tab of the settings, laid out by the room that it has: three columns of settings, one column
-// at a time, or a list.
+// Declares the settings tab. Depending on its room, the tab shows three columns of settings, one
+// column at a time, or a list.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -46,7 +46,8 @@ static DipRect inside_of(const DipUi *ui, DipRect body) {
 
 // --- all columns ---------------------------------------------------------------------------------
 
-// Declares all columns and the sum. What is wider than they need goes to the graph of frame times.
+// Declares all columns and the sum of prices. If the tab is wider than these need, the rest shows
+// the graph of frame times.
 static void declare_columns(DipUi *ui, DipWindow *window, DipRect body) {
     const int gap = dip_ui_px(ui, COLUMN_GAP), widest_sum = dip_ui_px(ui, 420);
     DipRect rest = inside_of(ui, body);
@@ -104,7 +105,9 @@ static void declare_one_column(DipUi *ui, DipWindow *window, DipRect body) {
 
 // --- the drawer ----------------------------------------------------------------------------------
 
-// Declares the foot of the drawer: the sum, Apply, and the way to presets and Undo.
+// Declares the foot of the drawer (tools/layout.h): the sum of prices, the button Apply, and a
+// button that exchanges the list of settings for presets, Undo and Copy. more: the presets show
+// now.
 static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) {
     const int pad = dip_ui_px(ui, 4);
     const double budget_ms = window->state->budget_ms;

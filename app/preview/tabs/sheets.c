@@ -9,10 +9,10 @@
 #include <string.h>
 
 enum {
-    LARGEST_LETTERS = 15,      // Of costs.
-    LARGEST_HELP_LETTERS = 17, // Of the list of keys.
+    LARGEST_LETTERS = 15,      // Largest letter size of the costs, at scale 1.
+    LARGEST_HELP_LETTERS = 17, // Largest letter size of the list of keys, at scale 1.
     TOP_EDGE_PX = 2,
-    EDGE_PX = 8, // What a list of keys leaves free of the window's width and height.
+    EDGE_PX = 8, // Part of the window's width and height that the list of keys leaves free.
     MAX_HELP_ROWS = 56,
     MAX_HELP_GROUPS = 3, // The keys stand in up to three groups beside each other.
     MAX_COLUMNS = 1 + 2 * DIP_COST_MAX_SWEEP_ROWS
@@ -26,7 +26,7 @@ static const char help_note[] =
 // --- a table on a sheet --------------------------------------------------------------------------
 
 typedef struct Cell {
-    const char *text; // NULL: the row ends before this column.
+    const char *text; // NULL if the row ends before this column.
     DipColour colour;
 } Cell;
 
@@ -38,17 +38,17 @@ typedef struct Table {
     const char *note;
     int half_gaps[MAX_COLUMNS]; // Gap behind each column, in halves of `gap`.
     int gap;
-    int size; // Of the letters.
-    int line; // Height of a row.
+    int size; // Letter size, in pixels.
+    int line; // Height of a row, in pixels.
     int widths[MAX_COLUMNS];
-    DipRect sheet; // Without a position until it is drawn.
+    DipRect sheet; // Only its width and height are used.
 } Table;
 
 static int gap_behind(const Table *table, int column) {
     return table->gap * table->half_gaps[column] / 2;
 }
 
-// Finds the columns' widths and the sheet's size. table->size, gap and the cells are given.
+// Computes the columns' widths and the sheet's size from the cells, table->size and table->gap.
 static void measure(Table *table, DipFont *font, int spacing) {
     int width = 0;
     table->line = dip_font_line_height(font, table->size) + spacing;
@@ -78,7 +78,8 @@ static DipRect draw_sheet(DipDrawList *list, int width, int height) {
     return sheet;
 }
 
-// Draws the table's sheet with the rows and the note. Returns the room of the title.
+// Draws the table's sheet with the rows and the note. Returns the rectangle in which the caller
+// writes the title.
 static DipRect draw_table(DipDrawList *list, const Table *table) {
     const DipRect sheet = draw_sheet(list, table->sheet.width, table->sheet.height);
     DipRect room = dip_rect_inset(sheet, table->size, table->size);
@@ -99,7 +100,7 @@ static DipRect draw_table(DipDrawList *list, const Table *table) {
 
 // --- costs ---------------------------------------------------------------------------------------
 
-// Says how to make a report of this scene. Lines with a command are marked.
+// Says how to make a report of this scene. Lines with a command have the accent colour.
 static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double scale) {
     DipFont *font = dip_draw_list_font(list);
     const int least = dip_style_scaled(10, scale);
@@ -119,7 +120,7 @@ static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double 
     }
 }
 
-// Fills in a row for each setting: its title, and each step's name and figures.
+// Makes a table with a row for each setting: its title, and each step's name and figures.
 static Table make_costs(const DipCosts *costs, const DipQuality *quality) {
     Table table = {.rows = costs->row_count, .columns = 1, .note = costs_note, .half_gaps = {2}};
     for (int r = 0; r < costs->row_count; ++r) {
@@ -164,7 +165,7 @@ void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, doubl
 
 // --- help ----------------------------------------------------------------------------------------
 
-// Returns whether a text holds words in any case.
+// Returns whether a text contains `words`, ignoring case.
 static bool holds(const char *text, const char *words) {
     const size_t length = strlen(words);
     for (; strlen(text) >= length; ++text) {
@@ -180,8 +181,8 @@ static bool holds(const char *text, const char *words) {
     return false;
 }
 
-// Lists the keys whose label or text holds the words, in groups of `table->rows` rows. Returns
-// their number.
+// Lists the keys whose label or text contains `words`, in groups of `table->rows` rows. Returns the
+// number of these keys.
 static int list_keys(Table *table, const char *words) {
     int count = 0;
     memset(table->cells, 0, sizeof table->cells);
@@ -201,7 +202,8 @@ static int list_keys(Table *table, const char *words) {
     return count;
 }
 
-// Lists all keys in letters of a size, in so many groups beside each other.
+// Makes a table of all keys in letters of the given size. The keys stand in `groups` groups beside
+// each other.
 static Table make_help(DipFont *font, int size, int groups) {
     Table table = {.rows = MAX_HELP_ROWS, .note = help_note, .gap = size, .size = size};
     const int count = list_keys(&table, "");
@@ -217,8 +219,8 @@ static Table make_help(DipFont *font, int size, int groups) {
 }
 
 // Finds the largest letters at which the whole help fits, and the fewest groups for these letters.
-// If the window is too small even for the smallest letters, the texts become narrower, and those
-// that are too long end in an ellipsis.
+// If the window is too small even for the smallest letters, the columns of texts become narrower,
+// and texts that are too long end in an ellipsis.
 static Table fit_help(const DipDrawList *list, double scale) {
     DipFont *font = dip_draw_list_font(list);
     const int room = dip_draw_list_width(list) - EDGE_PX;
@@ -247,7 +249,7 @@ static Table fit_help(const DipDrawList *list, double scale) {
 }
 
 void dip_sheet_draw_help(DipDrawList *list, double scale, const char *words) {
-    Table table = fit_help(list, scale); // The words change nothing of where the keys stand.
+    Table table = fit_help(list, scale); // The sheet has room for all keys whatever the words are.
     const int count = list_keys(&table, words);
     const DipRect room = draw_table(list, &table);
     char title[64];

@@ -1,15 +1,18 @@
-// The tabs of the dock, and the tools that draw over the panes.
+// Declares the functions that draw the window: the tabs of the dock (tools/layout.h), the labels,
+// and the sheets.
 //
-// Each tab has a file that declares its controls (ui.h) and draws its contents. The same code runs
-// for events and for drawing. A tab changes nothing but the state (state.h, by dip_preview_act
-// where an action exists) and its own tool's memory.
+// Each tab has a source file. Its function declares the tab's controls (ui.h) and draws the tab's
+// contents, in event passes as well as in drawing passes. A tab changes only the preview's state
+// (state.h) and the memory of its own tool (tools.h). Where a DipAction exists for a change of the
+// state, the tab calls dip_preview_act.
 #ifndef DIP_APP_PREVIEW_TABS_TABS_H
 #define DIP_APP_PREVIEW_TABS_TABS_H
 
 #include "app/preview/tools/tools.h"
 #include "app/preview/tools/window.h"
 
-// Declares and draws the whole window: the panes' pictures, labels, marks, the dock and sheets.
+// Declares and draws the whole window: the panes' pictures, labels, marks, the dock and the sheets
+// that cover the window.
 void dip_window_declare(DipUi *ui, DipWindow *window);
 
 // Each function declares and draws one tab in the rectangle `body`, which is never empty. Where the
@@ -22,52 +25,57 @@ void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_times(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body);
 
-// Draws the frame times of both panes in the last seconds, with the line of the budget.
+// Draws a graph of both panes' frame times in the last 5 seconds, with a line at the time budget of
+// a frame.
 void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect);
 
 // --- rows of controls ----------------------------------------------------------------------------
 
-// Where the next control of a tab lies: rows are filled from the left, and begin anew below.
+// Finds places for the controls of a tab. The controls fill a row from the left, then the row below
+// it.
 typedef struct DipFlow {
     DipUi *ui;
     DipWindow *window;
-    DipUiGroup group; // Of the buttons' ids.
-    int note_size;
+    DipUiGroup group; // Range of the buttons' ids (ui.h).
+    int note_size;    // Letter size of notes, at scale 1.
     DipRect body;
     int x;
     int y;
     int row; // Height of a row.
     int gap;
-    int pad; // By which a button is wider than its text.
-    bool narrow;
+    int pad;     // How much wider a button is than its text.
+    bool narrow; // See dip_flow_make_narrow.
 } DipFlow;
 
-// Begins at the top of a tab. note_size: of the letters of notes.
+// Begins at the top of a tab. note_size: letter size of notes, at scale 1.
 DipFlow dip_flow_make(DipUi *ui, DipWindow *window, DipUiGroup group, DipRect body, int note_size);
-// Makes rows and buttons small, and leaves out notes and the beginnings of groups.
+// Saves room in a narrow tab: rows and buttons become smaller, notes are left out, and a group of
+// controls does not begin a new row.
 void dip_flow_make_narrow(DipFlow *flow);
 void dip_flow_next_row(DipFlow *flow);
-// Begins a new row for other matters.
+// Begins a new row for the next group of controls, unless the flow is narrow.
 void dip_flow_next_group(DipFlow *flow);
-// Returns a rectangle of the given width in this row or the next one; empty if the tab is full.
+// Returns a rectangle of the given width for the next control, in this row or, if it does not fit,
+// in the next one. The rectangle is empty if the tab is full.
 DipRect dip_flow_next(DipFlow *flow, int width);
 int dip_flow_button_width(const DipFlow *flow, const char *text);
 // Declares a button. Returns whether it was pressed.
 bool dip_flow_button(DipFlow *flow, unsigned id, const char *text, DipUiLook look, const char *tip);
-// Declares a button for one of several alternatives.
+// Declares a button for one of several alternatives. Returns whether it was pressed.
 bool dip_flow_choice(DipFlow *flow, unsigned id, const char *text, bool chosen, const char *tip);
-// Writes a note. One that is wider than the tab gets lines of its own.
+// Writes a note. A note that is wider than the tab begins a new row and is broken into lines.
 void dip_flow_text(DipFlow *flow, DipColour colour, const char *text);
 
 // --- labels and the bar ---------------------------------------------------------------------
 
-// Draws a label of one line over each pane: the pane's name, its frame time and its settings.
+// Draws a label over each pane: the pane's name, its frame time and its settings. The label has one
+// line if that fits.
 void dip_labels_draw(DipUi *ui, DipWindow *window);
 
 // Draws the notice, which says what just happened, over the lower edge of the panes.
 void dip_labels_draw_notice(DipUi *ui, DipWindow *window);
 
-// Declares the dock's bar: tabs, playback and the time line.
+// Declares the dock's bar: the buttons of the tabs, playback, the time line and help.
 void dip_bar_declare(DipUi *ui, DipWindow *window);
 
 // --- a pane's time --------------------------------------------------------------------------
@@ -77,26 +85,29 @@ enum { DIP_PANE_TIME_BYTES = 48 };
 typedef struct DipPaneTime {
     double ms;
     DipPriceTrust trust;
-    bool measured_here; // Timed at rest, a few frames beside the other settings' frames.
+    bool measured_here; // Measured at rest with a few frames, for the live prices (prices.h).
     bool single;        // The time of a single frame.
 } DipPaneTime;
 
-// Returns a pane's time. While pictures move, it is the median of the last second. At rest it is
-// the time of the settings that was measured for their prices or, before there is one, the last
-// median. If the settings have changed since, it is the time of the single frame that was drawn.
+// Returns a pane's frame time. While pictures move, this is the median of the last second. At rest,
+// it is the time that was measured for the live price of the pane's settings. If there is no live
+// price, it is the last median or, if the settings have changed since, the time of the single frame
+// that was drawn.
 DipPaneTime dip_pane_time(const DipWindow *window, int pane);
 
-// Writes "8.4 ms", "≈ 8.4 ms" if it was measured at rest, "8? ms" if it is doubtful, or "one frame:
-// 44.0 ms".
+// Writes a pane's time: "8.4 ms"; "≈ 8.4 ms" if it was measured at rest; "8? ms" if it is doubtful;
+// "one frame: 44.0 ms"; or dots if it is not known.
 void dip_pane_time_text(const DipPaneTime *time, char text[DIP_PANE_TIME_BYTES]);
 
-// Returns the sum of prices that the panel shows for a pane: that of the report or, without a
-// report, one that ends at the pane's time. While no price is known, it has the base alone.
+// Returns the time of a pane's settings as the sum of prices that the panel shows. It comes from
+// the report or, if prices are live, from measurements at rest. If neither is known, the sum is the
+// pane's time (dip_pane_time), and the base is its only part.
 DipPriceSum dip_pane_sum(const DipWindow *window, int pane);
 
 // --- the settings' tab ----------------------------------------------------------------------
 
-// Ids of the settings tab beyond those of the settings, which are 1 + the DipSetting.
+// Ids of the controls in the settings tab. The id of a setting is DIP_ID_FIRST_SETTING plus the
+// DipSetting.
 enum {
     DIP_ID_FIRST_SETTING = 1,
     DIP_ID_PRESETS = 100,
@@ -116,37 +127,39 @@ enum {
 // takes.
 int dip_setting_row_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect);
 
-// Declares a setting as one line of a narrow list: its name, its step and its price.
+// Declares a setting as one line of a narrow list: its name, its step (value) and its price.
 void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect);
 
 // Declares all presets as buttons in a grid.
 void dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns);
 
-// Declares Apply, Undo and Copy in a row.
+// Declare the buttons Apply, Undo and Copy in a row, or the button Apply alone.
 void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect);
 void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
-// Declares the target, by which settings are advised: frames a second, and the budget of a frame,
-// which says the same.
+// Declares two number fields for the target that advised settings must reach: frames per second,
+// and the same as milliseconds per frame (the budget).
 void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
-// Draws the price of the requested settings: the sum, its parts against the budget, and where the
-// prices come from. The buttons stand between. Leaves out what does not fit.
+// Draws the price of the requested settings: the sum of prices, its parts against the budget, and
+// where the prices come from. Declares the target and the setting buttons between these. Leaves out
+// what does not fit.
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
 // --- sheets ---------------------------------------------------------------------------------
 
-// Draws all keys and what they do, in the largest letters that fit, or those whose text holds
-// `words` in any case. scale: the display's scale (display.h).
+// Draws a sheet that covers the window and lists all keys and what they do, in the largest letters
+// that fit. If `words` is not empty, lists only the keys whose label or text contains `words`,
+// ignoring case. scale: as in DipUiPass.
 void dip_sheet_draw_help(DipDrawList *list, double scale, const char *words);
 
-// Draws the cost report as a table, in which the steps of the requested pane are highlighted. If
-// there is no report, the sheet says how to make one.
+// Draws a sheet with the cost report as a table, which highlights the steps that the requested pane
+// has. If there is no report, the sheet says how to make one.
 void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, double scale);
 
 // --- symbols of the bar ---------------------------------------------------------------------
 
-// Symbols beyond those of the tabs, whose numbers are those of DipTab.
+// Symbols of the bar. The symbol of a tab has the number of its DipTab. These symbols follow.
 enum {
     DIP_ICON_FULL_SCREEN = DIP_TAB_COUNT,
     DIP_ICON_PANES, // Two pictures beside each other.
@@ -154,12 +167,12 @@ enum {
     DIP_ICON_OPEN,  // A chevron that points up.
     DIP_ICON_PLAY,
     DIP_ICON_PAUSE,
-    DIP_ICON_STEP, // A bar and a triangle that points away from it: one frame on.
-    DIP_ICON_BACK, // One frame back.
+    DIP_ICON_STEP, // One frame forward: a bar, and a triangle that points right.
+    DIP_ICON_BACK, // One frame back: a triangle that points left, and a bar.
     DIP_ICON_HELP  // A question mark.
 };
 
-// Draws a symbol in the middle of a rectangle.
+// Draws a symbol in the middle of a rectangle. icon: a DipTab or one of the numbers above.
 void dip_icon_draw(DipUi *ui, int icon, DipRect rect, DipColour colour);
 
 #endif

@@ -1,5 +1,5 @@
-// The tab of times: a graph of the frame times of the last seconds; stages, errors and work of each
-// pane in lines.
+// Draws the times tab: a graph of the frame times of the last seconds, and lines with the stage
+// times, errors and work of each pane.
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
@@ -21,12 +21,12 @@ static const char *const pane_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
 
 // --- the graph -----------------------------------------------------------------------------------
 
-// The graph's colour of a pane.
+// Returns a pane's colour in the graph.
 static DipColour colour_of(int pane) {
     return pane == DIP_PANE_CURRENT ? dip_style_soft : dip_style_accent;
 }
 
-// Times of one pane in the last seconds.
+// Frame times of one pane in the last seconds.
 typedef struct History {
     double ms[DIP_TIMING_SAMPLES];
     int64_t age_ns[DIP_TIMING_SAMPLES];
@@ -42,7 +42,8 @@ static History history_of(const DipPaneFigures *figures, int64_t now_ns) {
     return history;
 }
 
-// The time of the graph moves in steps, so that the graph changes four times a second only.
+// Returns the time at the graph's right end. It moves in steps, so that the graph is drawn anew
+// only four times a second.
 static int64_t graph_now_ns(const DipUi *ui) {
     const int64_t step_ns = 250000000;
     return dip_ui_now_ns(ui) / step_ns * step_ns;
@@ -133,7 +134,7 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect) {
 
 // --- the lines -----------------------------------------------------------------------------------
 
-// Draws the lines of one pane in as many columns as fit, from the most important line on.
+// Draws the lines of one pane, the most important first, in as many columns as fit.
 static void draw_lines(DipUi *ui, const DipPanelLine *lines, int count, DipRect room) {
     const int line = dip_ui_line_height(ui, SIZE) + dip_ui_px(ui, 1);
     const int rows = dip_max(1, room.height / line);

@@ -4,9 +4,11 @@
 #include "app/preview/state/pilot.h"
 #include "app/ui/style.h"
 
-enum { WAY_BACK = 100 }; // Number of the button "Show the panel", above all of the bar's.
+// Number of the button "Show the panel", greater than the numbers of the bar's buttons (bar.c).
+enum { WAY_BACK = 100 };
 
-// Declares one pane as a control: a click chooses the pane, a double click shows it alone.
+// Declares one pane as a control. A click chooses the pane whose settings the keys change. A double
+// click turns the full screen on or off.
 static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
     DipPreviewState *state = window->state;
     const DipUiControl control = {.id = DIP_UI_ID(DIP_UI_PANES, pane),
@@ -14,7 +16,7 @@ static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
                                   .skips_focus = true,
                                   .takes_wheel = state->manual || dip_loupe_is_on(&state->tools)};
     const DipUiInput input = dip_ui_control(ui, &control);
-    if (input.began && !input.focuses) { // A press that brings the focus means nothing else here.
+    if (input.began && !input.focuses) { // A press that brings the window the focus does no more.
         if (!state->edited[pane]) {
             dip_preview_notice(state, dip_ui_now_ns(ui), "Keys and panel change the %s pane",
                                dip_pane_names[pane]);
@@ -59,8 +61,9 @@ static void declare_sheet(DipUi *ui, DipWindow *window) {
     }
 }
 
-// Declares the button that ends the mode without a panel. It shows while the pointer is in the
-// lower half of the window, and while a notice shows, as when the mode begins.
+// Declares the button that ends the mode in which only the panes show. The button shows while the
+// pointer is in the lower half of the window or a notice shows. A notice shows when the mode
+// begins.
 static void declare_way_back(DipUi *ui, DipWindow *window) {
     static const char text[] = "Show the panel  (/)";
     const DipLayout *layout = window->layout;

@@ -1,4 +1,4 @@
-// Says where the pictures of a comparison show, and computes the difference of both panes.
+// Computes where the pictures of a comparison show, and the difference of both panes' pictures.
 #include "app/preview/tools/compare.h"
 
 #include "app/preview/tools/loupe.h"
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int64_t blink_ns = 500000000; // How long BLINK shows a pane by itself.
+static const int64_t blink_ns = 500000000; // How long BLINK shows each pane by turns.
 enum { DIVIDER_STEPS = 64 };               // Steps of the divider across the picture.
 
 const char *dip_compare_name(DipComparison comparison) {
@@ -45,7 +45,8 @@ const DipPixels *dip_compare_picture(const DipWindow *window, int pane, uint64_t
     return truth ? window->truth : &window->frames[pane];
 }
 
-// Returns where a comparison that is one picture shows. A drawer covers the current pane.
+// Returns the area in which a comparison of one picture shows: both panes, or the requested pane
+// while a drawer (layout.h) covers the current one.
 static DipRect area_of(const DipLayout *layout) {
     if (layout->side == DIP_DOCK_DRAWER && !dip_rect_is_empty(layout->body)) {
         return layout->panes[DIP_PANE_REQUESTED];
@@ -110,7 +111,7 @@ int dip_compare_divider_column(double divider, int width) {
     return (int)(bounded * width + 0.5);
 }
 
-// The first column of the window right of the divider.
+// Returns the first column of the window right of the divider.
 static int divider_x(const DipWindow *window, DipRect shown) {
     const int width = window->frames[DIP_PANE_CURRENT].width;
     const int column = dip_compare_divider_column(window->state->tools.divider, width);

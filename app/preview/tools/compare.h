@@ -1,4 +1,5 @@
-// Comparisons of both panes' pictures: where each picture shows, and the difference of both.
+// Compares both panes' pictures. Says where each picture shows in a comparison (DipComparison), and
+// computes the difference of both.
 #ifndef DIP_APP_PREVIEW_TOOLS_COMPARE_H
 #define DIP_APP_PREVIEW_TOOLS_COMPARE_H
 
@@ -19,24 +20,26 @@ bool dip_compare_wants_truth(const DipToolState *tools);
 // it, and it is known.
 bool dip_compare_shows_truth(const DipWindow *window);
 
-// Returns the picture of a pane in a comparison, and its version.
+// Returns the picture that the comparison shows for a pane: the pane's frame or the converged
+// picture. Sets *version to the version of that picture.
 const DipPixels *dip_compare_picture(const DipWindow *window, int pane, uint64_t *version);
 
-// Returns the size at which the panes' frames are drawn: the size of a pane, or of both panes
-// together if one picture takes their place.
+// Returns the size at which the panes' frames are drawn: the size of a pane or, if one picture
+// takes the place of both panes, the size of the area in which it shows.
 void dip_compare_frame_size(const DipLayout *layout, DipComparison comparison, int *width,
                             int *height);
 
-// Returns where the one picture shows in an area: in the middle, as many times as large as fits by
-// a whole factor. A picture that is larger than the area is scaled down and keeps its shape.
+// Returns where a picture of width x height pixels shows in an area. It lies in the middle,
+// enlarged by the greatest whole factor that fits. A picture that is larger than the area is scaled
+// down and keeps its aspect ratio.
 DipRect dip_compare_fit(DipRect area, int width, int height);
 
-// Returns where a pane's picture shows in the window; empty if the comparison does not show it. In
-// a wipe, this is the whole picture, of which the divider hides a part.
+// Returns where a pane's picture shows in the window, or would show if the comparison did not hide
+// it. In a wipe, this is the whole picture, of which the divider hides a part.
 DipRect dip_compare_shown(const DipWindow *window, int pane);
 
-// Returns the part of dip_compare_shown that the user sees. The pane's label belongs in its top
-// left corner.
+// Returns the part of dip_compare_shown that the user sees; empty if the comparison hides the pane.
+// The pane's label belongs in the top left corner of this part.
 DipRect dip_compare_visible(const DipWindow *window, int pane);
 
 // Returns whether a pane's picture shows and needs its label. A difference has a label of its own.
@@ -52,15 +55,15 @@ int dip_compare_divider_column(double divider, int width);
 
 // Differences of two pictures in 8-bit sRGB codes.
 typedef struct DipDifference {
-    int64_t pixels;    // Pixels of a picture.
-    int64_t differing; // Pixels in which a channel differs.
+    int64_t pixels;    // Number of pixels of a picture.
+    int64_t differing; // Number of pixels in which a channel differs.
     int greatest;      // The greatest difference of a channel, 0..255.
-    int x;             // The first pixel, row by row, with that difference.
-    int y;
+    int x;             // Column of the first pixel, row by row, with the greatest difference.
+    int y;             // Row of that pixel.
 } DipDifference;
 
 // Computes |a - b| * gain for each channel, at most 255, with alpha 255, into `out`, whose rows are
-// packed. Both pictures have one size.
+// packed. Both pictures must have the same size.
 DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int gain,
                                      uint8_t *out);
 
@@ -69,14 +72,15 @@ DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int
 // Puts the divider at a share of the picture's width; below 0 counts as 0, above 1 as 1.
 void dip_compare_divide(DipToolState *tools, double at);
 
-// Moves what `[` and `]` move: the divider by 1/64 of the picture, or the gain by a factor of 2.
-// Returns false if the comparison has neither.
+// Carries out the keys `[` (steps below 0) and `]`. A step moves the divider by 1/64 of the
+// picture, or changes the gain by a factor of 2. Returns false if the comparison has neither
+// divider nor gain.
 bool dip_compare_adjust(DipToolState *tools, int steps);
 
-// Returns the pane that a comparison of one picture shows at a time, for BLINK and ALONE.
+// Returns the pane that the comparison BLINK or ALONE shows at the time `now_ns`.
 int dip_compare_pane(const DipPreviewState *state, int64_t now_ns);
 
-// Returns when the window must be drawn again because pictures change by time, or INT64_MAX.
+// Returns when the window must be drawn again because BLINK changes its picture, or INT64_MAX.
 int64_t dip_compare_wakes_ns(const DipToolState *tools, int64_t now_ns);
 
 const char *dip_compare_name(DipComparison comparison); // "Side by side"
@@ -87,10 +91,10 @@ const char *dip_compare_name(DipComparison comparison); // "Side by side"
 typedef struct DipComparer {
     DipCanvas difference;
     DipDifference found;
-    bool known; // The members below say what `difference` shows.
-    uint64_t of[DIP_PANE_COUNT];
+    bool known;                  // The members below say what `difference` shows.
+    uint64_t of[DIP_PANE_COUNT]; // Versions of the two compared pictures.
     int gain;
-    uint64_t version;
+    uint64_t version; // Version of `difference`.
 } DipComparer;
 
 // Returns the difference of the panes' pictures, and computes it if a picture or the gain has

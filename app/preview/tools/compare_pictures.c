@@ -14,8 +14,9 @@ enum {
 
 // --- pictures ------------------------------------------------------------------------------------
 
-// Draw lists compare versions instead of pixels. The comparisons show parts of frames, and the
-// whole of frames at other sizes, so each comparison has its own range of versions.
+// Returns the version of a picture that a comparison makes from a frame with the given version. A
+// comparison may show only a part of a frame, and draw lists compare versions instead of pixels, so
+// each comparison has versions of its own.
 static uint64_t own_version(uint64_t version, DipComparison comparison) {
     return version ^ ((uint64_t)comparison + 1) << 56;
 }
@@ -92,8 +93,9 @@ void dip_compare_pictures(DipUi *ui, DipWindow *window) {
 
 // --- over the panes ------------------------------------------------------------------------------
 
-// The pointer drags the divider from anywhere in the picture, because a press that moves has no
-// other meaning there. While the user flies, only a press near the line drags it.
+// Moves the divider to a pointer that drags. A drag may begin anywhere in the picture, because it
+// has no other meaning there. While the user flies the camera, only a drag near the divider moves
+// it.
 static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) {
     DipToolState *tools = &window->state->tools;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);
@@ -107,7 +109,8 @@ static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) 
     dip_compare_divide(tools, to_middle ? 0.5 : (input->x - shown.x + 0.5) / shown.width);
 }
 
-// The line is a control of its own, because in the middle it lies in the gap between the panes.
+// Declares the divider as a control of its own. A divider in the middle lies in the gap between the
+// panes, where the panes' controls do not reach.
 static DipUiInput declare_line(DipUi *ui, const DipWindow *window) {
     const DipRect left = dip_compare_visible(window, DIP_PANE_CURRENT);
     const int reach = dip_ui_px(ui, 8);
@@ -150,8 +153,8 @@ static void draw_divider(DipUi *ui, const DipWindow *window) {
     draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_style_accent);
 }
 
-// Says which two pictures the difference is of. A text that is wider than the picture has two
-// lines.
+// Writes of which two pictures the difference is. A text that is wider than the picture is broken
+// into lines.
 static void label_difference(DipUi *ui, const DipWindow *window) {
     const DipPreviewState *state = window->state;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);

@@ -24,7 +24,7 @@ static void press(DipFlight *flight, const DipUiInput *input) {
     flight->press_y = flight->drag_y = input->y;
 }
 
-// Adds the way that the pointer has moved to what the loop moves the camera by in its next turn.
+// Adds the pointer's movement to the drag that the loop applies to the camera in its next turn.
 static void drag(DipUi *ui, DipWindow *window, const DipUiInput *input) {
     DipPreviewState *state = window->state;
     DipFlight *flight = &state->flight;

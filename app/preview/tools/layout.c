@@ -55,7 +55,8 @@ void dip_layout_window_size(int pane_width, int pane_height, double scale, bool 
                             int *width, int *height) {
     *width = 2 * pane_width + DIP_PANE_GAP_PX;
     *height = pane_height;
-    // The dock's height depends on the window's: a low window has a low bar and no room beneath it.
+    // The dock's height depends on the window's height: a low window has a low bar, and no dock
+    // below the panes.
     while (dip_layout_make(*width, *height, scale, open, bare).panes[0].height < pane_height) {
         ++*height;
     }

@@ -1,4 +1,4 @@
-// Where the panes and the dock lie in a window of any size.
+// Computes where the panes and the dock lie in a window of any size.
 //
 // The dock holds the preview's controls. It lies beneath the panes and does not cover them. In
 // windows that are too small for both, the open dock becomes a drawer that covers the current pane
@@ -20,25 +20,25 @@ typedef struct DipLayout {
     double scale;
     DipRect panes[DIP_PANE_COUNT]; // Where the pictures show. Both have the same size.
     DipDockSide side;
-    DipRect bar;  // The dock's tabs and time line: one row, also while the dock is folded.
+    DipRect bar;  // One row with the tabs and the time line. A folded dock keeps its bar.
     DipRect body; // The chosen tab's contents; empty while the dock is folded.
 } DipLayout;
 
-// Returns the scale of text and controls in a window of this height. Without --ui-scale, they grow
-// with windows of more than 1080 pixels, so that they can be read on a display with many small
-// pixels that does not say so. display_scale: what the display says.
+// Returns the scale of text and controls in a window of this height in pixels. Unless --ui-scale is
+// given, the scale grows by quarters in windows that are taller than 1080 pixels. So text stays
+// legible on a display with small pixels that reports a scale of 1. display_scale: the scale that
+// the display reports.
 double dip_layout_scale(double display_scale, const DipToolState *tools, int height);
 
-// Lays a window out. scale: that of dip_layout_scale. open: the dock shows a
-// tab. bare: the window shows nothing but the panes.
+// Lays a window out. scale: from dip_layout_scale. open: the dock shows a tab. bare: the window
+// shows nothing but the panes.
 DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare);
 
 // Finds a size of the window in which each pane has the given size in pixels.
 void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
                             int *width, int *height);
 
-// Returns the height of the dock below panes at scale 1, with its bar, for a window that opens with
-// the dock.
+// Returns the height of an open dock below the panes, with its bar, at scale 1.
 int dip_layout_dock_height(void);
 
 #endif

@@ -6,7 +6,8 @@
 
 // --- arithmetic --------------------------------------------------------------------------------
 
-// The largest odd number of pixels that fit.
+// Returns the largest odd number of squares, `zoom` pixels wide, that fit into `length` pixels;
+// below 1 if none fits.
 static int odd_count(int length, int zoom) {
     const int count = length / zoom;
     return count % 2 ? count : count - 1;
@@ -31,7 +32,8 @@ DipLoupeCrop dip_loupe_crop(int width, int height, int x, int y, int zoom, DipRe
     return crop;
 }
 
-// The pixel of a row of `from` pixels that pixel i of `to` pixels shows (see dip_canvas_copy).
+// Returns the pixel of a row that pixel i shows after the row is scaled from `from` to `to` pixels
+// as dip_canvas_copy does.
 static int scaled(int i, int from, int to) {
     return (int)((2 * (int64_t)i + 1) * from / (2 * (int64_t)to));
 }
@@ -46,7 +48,8 @@ bool dip_loupe_pixel_at(DipRect shown, int width, int height, int window_x, int 
     return true;
 }
 
-// The first of `to` pixels that shows pixel i of `from` pixels, or a later pixel.
+// Returns the first pixel k of a row, scaled from `from` to `to` pixels, that shows the row's pixel
+// i or a later one.
 static int first_showing(int i, int from, int to) {
     const int64_t twice = 2 * (int64_t)to * i - from; // (2 * k + 1) * from >= 2 * to * i
     return twice <= 0 ? 0 : (int)((twice + 2 * (int64_t)from - 1) / (2 * (int64_t)from));
@@ -130,8 +133,7 @@ void dip_loupe_want(DipLoupe *loupe, DipTargetRegion region) {
     loupe->is_wanted = region.x0 < region.x1 && region.y0 < region.y1;
 }
 
-// Returns whether a pane's samples, or the failure to read them, are those of a picture and a
-// region.
+// Returns whether reading a pane's samples has been tried already for this picture and region.
 static bool is_current(const DipPaneSamples *held, uint64_t version,
                        const DipTargetRegion *region) {
     return held->tried && held->version == version &&

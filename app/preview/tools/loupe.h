@@ -1,8 +1,9 @@
-// The loupe shows pixels enlarged. This header says which pixels it shows, where the panes mark
-// them, and what the samples of these pixels are.
+// Finds the pixels that the loupe shows enlarged and where the panes mark them, reads the samples
+// of these pixels, and draws the loupe's pictures.
 //
 // The loupe looks at one pixel of both panes. Below each pane, the dock shows the pixels around it,
-// each as a square of `zoom` x `zoom` pixels of the window, and the samples of the pixel itself.
+// each as a square of `zoom` x `zoom` pixels of the window (the crop), and a larger square with the
+// samples of the looked-at pixel (the box).
 #ifndef DIP_APP_PREVIEW_TOOLS_LOUPE_H
 #define DIP_APP_PREVIEW_TOOLS_LOUPE_H
 
@@ -15,8 +16,8 @@
 
 // --- arithmetic --------------------------------------------------------------------------------
 
-// The part of a picture that the loupe shows. The looked-at pixel lies in the middle; where the
-// picture ends, the loupe shows nothing.
+// The part of a picture that the loupe shows. The looked-at pixel lies in the middle. Beyond the
+// picture's edges, the crop is empty.
 typedef struct DipLoupeCrop {
     DipRect source; // Pixels of the picture that show; empty if the area is smaller than a pixel.
     DipRect shown;  // Where `source` shows, in pixels of the window.
@@ -51,14 +52,14 @@ void dip_loupe_keep_inside(DipToolState *tools, int width, int height);
 // Returns whether the loupe looks at the panes: it is on, or its tab shows.
 bool dip_loupe_is_on(const DipToolState *tools);
 
-// The number of samples and the number of them that show the patch that is nearest to the eye.
+// How the samples of a pixel are divided among surface patches (readback.h).
 typedef struct DipSampleCount {
-    int samples;
-    int front;   // Samples of the nearest patch.
-    int patches; // Distinct patches of all samples; the background counts as one.
+    int samples; // Number of samples.
+    int front;   // Number of samples that show the patch nearest to the eye.
+    int patches; // Number of distinct patches. The background counts as one.
 } DipSampleCount;
 
-// samples: `count` entries of a readback.
+// Counts the samples of a pixel. samples: `count` entries of a readback.
 DipSampleCount dip_loupe_count(const DipSampleValue *samples, int count);
 
 // Returns whether a sample shows the patch that is nearest to the eye.
@@ -73,11 +74,11 @@ typedef struct DipKeptPicture {
     uint64_t version;
 } DipKeptPicture;
 
-// What a pane's crop and box show. They are compared byte by byte, so they are set to 0 before
-// their members are set.
+// The keys say what the pictures of a pane's crop and box were drawn from. Keys are compared byte
+// by byte, so a key is set to 0 before its members are set.
 typedef struct DipCropKey {
     uint64_t frame_version;
-    unsigned generation; // Of the loupe.
+    unsigned generation; // DipLoupe.generation at that time.
     DipLoupeCrop crop;
 } DipCropKey;
 
@@ -91,10 +92,10 @@ typedef struct DipBoxKey {
 
 typedef struct DipPaneSamples {
     DipSampleValue *samples; // Owned.
-    size_t capacity;         // In entries.
-    bool tried;              // The three members below say what was read last.
-    bool known;              // False if reading failed.
-    uint64_t version;
+    size_t capacity;         // Number of entries for which `samples` has room.
+    bool tried;              // Reading has been tried, for `version` and `region`.
+    bool known;              // Reading succeeded.
+    uint64_t version;        // Version of the pane's picture.
     DipTargetRegion region;
     const DipSamplePattern *pattern;
     DipKeptPicture crop;
@@ -108,31 +109,31 @@ typedef struct DipLoupe {
     DipSrgbEncodeTable encode;
     DipTargetRegion wanted;
     bool is_wanted;
-    uint64_t frame_index; // Of the frame that was drawn last.
+    uint64_t frame_index; // Number of the panes' newest frame.
     unsigned generation;  // Grows whenever samples are read.
-    uint64_t version;     // Version of the picture that was drawn last.
+    uint64_t version;     // Version of the loupe's newest picture (a crop or a box).
     DipPaneSamples panes[DIP_PANE_COUNT];
 } DipLoupe;
 
 void dip_loupe_free(DipLoupe *loupe);
 
-// Tells the loupe which pixels the panes' crops show; called while the window is drawn. region: the
-// pixels whose samples are of interest.
+// Tells the loupe of which pixels the crops and boxes need the samples. The loupe's tab calls it
+// while the window is drawn.
 void dip_loupe_want(DipLoupe *loupe, DipTargetRegion region);
 
-// Reads the samples that the crops show, if the panes' pictures stand still and the samples are not
-// known yet. Returns whether something new is there to show. A failure leaves the samples unknown.
+// Reads the wanted samples if the panes' pictures stand still and the samples are not known yet.
+// Returns whether new samples are known. After a failure, the samples stay unknown.
 bool dip_loupe_update(DipLoupe *loupe, const DipToolsInput *input);
 
-// Returns the samples of a pixel of a pane, in the pattern *pattern, or NULL if they are not known
-// for the picture with this version.
+// Returns the samples of a pane's pixel, and sets *pattern to their sample pattern. Returns NULL if
+// they are not known for the picture with this version.
 const DipSampleValue *dip_loupe_samples(const DipLoupe *loupe, int pane, uint64_t version, int x,
                                         int y, const DipSamplePattern **pattern);
 
-// Returns the patterns of the frame that was drawn last, from a pane's settings.
+// Returns the sample pattern that the newest frame has with a pane's settings.
 const DipSamplePattern *dip_loupe_pattern(const DipLoupe *loupe, const DipQuality *quality);
 
-// Returns a sample's colour, and the linear light, 0 to 1, of a code of 8-bit sRGB.
+// Return a sample's colour, and the linear light (0 to 1) of a code of 8-bit sRGB.
 DipColour dip_loupe_colour(const DipLoupe *loupe, const DipSampleValue *sample);
 double dip_loupe_linear(const DipLoupe *loupe, uint8_t code);
 
@@ -145,10 +146,9 @@ typedef struct DipCropContent {
     DipLoupeCrop crop;
 } DipCropContent;
 
-// Returns the magnified pixels of a pane with marks of the samples of pixels that show several
-// patches, and its version, which lies in a range that no frame uses. The picture has the size of
-// crop.frame. Returns false if memory runs out. The pixels are valid until the next call for the
-// pane.
+// Draws the enlarged pixels of a pane, and marks the samples of pixels that show several patches.
+// *picture has the size of crop.frame and is valid until the next call for the pane. *version lies
+// in a range that no frame uses. Returns false if memory runs out.
 bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
                             DipPixels *picture, uint64_t *version);
 
@@ -160,13 +160,13 @@ typedef struct DipBoxContent {
     int side;                      // Width and height of the picture, in pixels of the window.
 } DipBoxContent;
 
-// Returns a picture of a pixel: its colour, a grid, and a disc at each sample's position, filled
-// with the sample's colour. Samples of the nearest patch have a whole ring; those of others a
-// dashed ring. Returns false if memory runs out.
+// Draws the box: the pixel's colour, a grid, and a disc with the sample's colour at each sample's
+// position. Samples of the nearest patch have a solid ring, other samples a dashed ring. Returns
+// false if memory runs out. *picture is valid until the next call for the pane.
 bool dip_loupe_box_picture(DipLoupe *loupe, int pane, const DipBoxContent *content,
                            DipPixels *picture, uint64_t *version);
 
-// Returns where the box picture shows the middle of a sample, from its top left corner.
+// Returns where the box shows the middle of a sample, in pixels from the box's top left corner.
 void dip_loupe_box_position(const DipSamplePattern *pattern, int side, int sample, int *x, int *y);
 
 #endif

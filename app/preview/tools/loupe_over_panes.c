@@ -11,7 +11,7 @@
 
 enum { TINY = 10 }; // Size of letters.
 
-// Outlines the part of a pane that a crop of the usual size in the tab shows.
+// Outlines the part of a pane that the loupe's tab shows if its crop has the usual size.
 static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
     const DipToolState *tools = &window->state->tools;
     const DipPixels *frame = &window->frames[pane];
@@ -58,8 +58,8 @@ static void handle_panes(DipWindow *window, const DipUiInput panes[DIP_PANE_COUN
     }
 }
 
-// Explains the colours of a pane that shows mip levels: each stands for a size of a level in
-// texels.
+// Draws a legend over a pane that shows mip levels. Each colour stands for the side of a mip level
+// in texels.
 static void draw_mip_legend(DipUi *ui, DipRect shown) {
     enum { COUNT = DIP_MIP_DEBUG_LEVELS };
     const int margin = dip_ui_px(ui, 8);

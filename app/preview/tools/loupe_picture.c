@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-// Zooms from which the crop marks samples. Below, the marks would hide the pixels.
+// Least zoom at which the crop marks samples. At smaller zooms, the marks would hide the pixels.
 enum { MARKS_ZOOM = 16 };
 
-// Sides of a disc's mask at most; larger discs are cut.
+// Greatest width and height of a disc, in pixels. Larger discs are cut off.
 enum { MASK_SIDE = 64 };
 
 // --- the crop ------------------------------------------------------------------------------------
@@ -94,12 +94,14 @@ bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *con
 
 // --- the box -------------------------------------------------------------------------------------
 
-// Width of the ground around the pixel's square, so that discs near its edges are not cut.
+// Returns the width of the margin around the pixel's square. Discs near the square's edges reach
+// into the margin.
 static int box_margin(int side) {
     return side / 12;
 }
 
-// Converts 1/256 pixel to a distance from the picture's edge.
+// Converts a position in the pixel, in 1/256 of the pixel's width, to a distance from the picture's
+// edge.
 static int box_position(int side, int position) {
     const int margin = box_margin(side);
     return margin + (position * (side - 2 * margin) + 128) / 256;

@@ -1,4 +1,5 @@
-// The palette of the maps of work, the ends of the maps' scales, and how values are written.
+// Computes the colours of the maps of work, rounds the ends of the maps' scales, and formats
+// values.
 #ifndef DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
 #define DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
 
@@ -11,7 +12,7 @@ enum { DIP_MAP_COLOURS = 256 };
 // Values outside 0..1 are clamped. Thread-safe.
 void dip_cividis(float value, uint8_t rgb[3]);
 
-// Returns the index of the colour of a value on a scale from 0 to `end`.
+// Returns the index of a value's colour among DIP_MAP_COLOURS colours for values from 0 to `end`.
 static inline int dip_map_colour_index(float value, float end) {
     const float index = value / end * (DIP_MAP_COLOURS - 1) + 0.5f;
     return index < (float)DIP_MAP_COLOURS ? (int)index : DIP_MAP_COLOURS - 1;
@@ -21,7 +22,7 @@ static inline int dip_map_colour_index(float value, float end) {
 // and below.
 double dip_map_round_up(double value);
 
-// Writes a value below 1 as ".43", others as "4.3" or "43".
+// Writes a value of at least 0 in two or three digits: "0", ".043", ".43", "4.30" or "43".
 void dip_map_format(double value, char *text, size_t size_bytes);
 
 #endif

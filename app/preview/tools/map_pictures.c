@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A work map shows this many 256ths of its colour; the rest is the grey picture beneath it.
+// Share of the map's colour in a map of work, in 1/256. The rest is the pane's picture in grey.
 enum { COLOUR_SHARE = 174 };
 
 static void put(uint8_t *to, const uint8_t rgb[3]) {
@@ -224,7 +224,8 @@ DipColour dip_map_mip_colour(int index) {
     return mip_colours[index];
 }
 
-// Returns the squared distance of a pixel from a colour that light may have dimmed.
+// Returns the squared distance of a pixel from a colour. Light may have dimmed the pixel, so the
+// function takes the brightness of the colour, from 0.3 to 1, that fits the pixel best.
 static double distance_from(const uint8_t *pixel, const double colour[3]) {
     double product = 0.0, square = 1e-9, distance = 0.0;
     for (int c = 0; c < 3; c++) {

@@ -1,5 +1,5 @@
-// The maps' memory: measures the work of the panes' frames with a renderer of its own, and keeps
-// what the error thread found.
+// Measures the work of the panes' frames with a renderer of the maps' own, and keeps the newest
+// errors from the error thread.
 #include "app/preview/tools/maps.h"
 
 #include "app/preview/tools/compare.h"
@@ -89,7 +89,8 @@ static double median(const double *values, int count) {
     return count % 2 ? sorted[count / 2] : (sorted[count / 2 - 1] + sorted[count / 2]) / 2.0;
 }
 
-// Adds a draw of a pane's frame to what is known about it. All draws count the same work.
+// Adds a draw of a pane's frame: its times join those of the draws before. Its counters replace
+// theirs, since each draw of a frame does the same work.
 static bool add_draw(DipMapWork *work, const DipFrame *frame) {
     if (!work->records && !make_arrays(work, frame)) {
         return false;
@@ -195,7 +196,8 @@ static bool draw(DipMaps *maps, const DipToolsInput *input, int pane) {
                                         : add_draw(&maps->panes[pane], &frame);
 }
 
-// Returns how often a pane is yet to be drawn for the wanted map.
+// Returns how often a pane must still be drawn to have `wanted_draws` draws for the wanted map. The
+// map of mip levels needs one draw.
 static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
     const DipMapWork *work = &maps->panes[pane];
     if (pane == DIP_PANE_REQUESTED && maps->key.copied) {
@@ -207,7 +209,7 @@ static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
     return wanted_draws - work->draws;
 }
 
-// Returns the pane to draw next, or -1.
+// Returns the pane to draw next, or -1 if the wanted map is complete.
 static int next_pane(const DipMaps *maps) {
     const int all = maps->wanted == DIP_MAP_TIME ? DIP_MAP_DRAWS : 1;
     const int wanted[] = {dip_min(all, FIRST_DRAWS), all};

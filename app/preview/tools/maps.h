@@ -1,4 +1,4 @@
-// The maps: pictures that show over each pane where its error lies and where its work goes.
+// Makes the maps: pictures over each pane that show where its error lies and where its work goes.
 //
 // The FLIP map comes from the thread that measures errors. For the other maps, a renderer of the
 // maps' own draws each pane's frame again with a record of its tiles, while camera and scene rest.
@@ -12,23 +12,23 @@
 #include "app/preview/tools/tools_input.h"
 #include "app/ui/pixels.h"
 
-enum { DIP_MAP_DRAWS = 15 }; // Draws of a frame from which the median time of a tile is taken.
+enum { DIP_MAP_DRAWS = 15 }; // How often a frame is drawn. A tile's time is the median.
 
 // What was measured of a pane's frame. The arrays are owned, NULL until the frame has been drawn,
 // and valid until the next dip_maps_update.
 typedef struct DipMapWork {
-    int draws; // Number of draws so far, 0..DIP_MAP_DRAWS. 0: nothing is known.
-    int width; // Size of the frame, in pixels.
-    int height;
-    int across; // Number of tiles.
-    int down;
+    int draws;              // Number of draws so far, 0..DIP_MAP_DRAWS. 0 if nothing is known.
+    int width;              // Width of the frame, in pixels.
+    int height;             // Height of the frame, in pixels.
+    int across;             // Number of tiles from left to right.
+    int down;               // Number of tiles from top to bottom.
     DipTileRecord *records; // Counters of each tile; the times are those of one draw.
     double *draws_ms;       // DIP_MAP_DRAWS times for each tile.
     double *ms;             // Median time of each tile, on the worker that drew it.
-    uint8_t *mixed;         // DipFrameTiles.mixed
-    uint8_t *mips;          // The frame in mip colours, rows packed. It needs no other draw.
-    double geometry_ms;     // Time of one draw before the tiles.
-    double mirrored_ms;     // Time of one draw for the mirrored scene.
+    uint8_t *mixed;         // Copy of DipFrameTiles.mixed: the pixels whose samples differ.
+    uint8_t *mips;          // The frame in mip colours, rows packed. One draw is enough for it.
+    double geometry_ms;     // Time that one draw takes for geometry, before the tiles.
+    double mirrored_ms;     // Time that one draw takes for the mirrored scene in a reflection.
 } DipMapWork;
 
 typedef enum DipMapOver {
@@ -40,8 +40,8 @@ typedef enum DipMapOver {
 typedef struct DipMapView {
     DipMapOver over;
     bool pointed; // The pointer is over a pane.
-    int x;        // The pixel under the pointer.
-    int y;
+    int x;        // Column of the pixel under the pointer.
+    int y;        // Row of that pixel.
 } DipMapView;
 
 // Everything that decides what the panes' frames show and how they are drawn.
@@ -63,7 +63,7 @@ typedef struct DipMapPicture {
     size_t pixels;
     DipMap map;
     double end;
-    uint64_t source; // Version of the values.
+    uint64_t source; // Version of the values that the map shows.
     uint64_t frame_version;
     int width;
     int height;
@@ -71,14 +71,14 @@ typedef struct DipMapPicture {
     uint64_t version;
 } DipMapPicture;
 
-// The memory of the maps; zero-initialise. The maps' tab reads `reading` and `errors`, sets
-// `wanted` while the window is drawn, and keeps its choices in `view`.
+// The memory of the maps; zero-initialise. While the window is drawn, the maps' tab sets `wanted`.
+// The tab reads `reading` and `errors`, and keeps its choices in `view`.
 typedef struct DipMaps {
     DipMap wanted;       // The map that the window showed last.
     DipPainter *painter; // Draws what the panes show, with records; NULL until a map needs it.
     DipMapKey key;
-    bool failed;         // The frames of the key could not be drawn.
-    uint64_t generation; // Grows whenever something new is known about work.
+    bool failed;         // The frames that `key` describes could not be drawn.
+    uint64_t generation; // Grows whenever a measurement of work is added or dropped.
     DipMapWork panes[DIP_PANE_COUNT];
     DipErrorReading reading;
     const DipErrorPictures *errors; // Borrowed; NULL if there are none.
@@ -92,23 +92,26 @@ void dip_maps_free(DipMaps *maps);
 
 // --- what the preview's loop calls ---------------------------------------------------------------
 
-// Returns whether a tool shows errors or the truth, so that the loop must measure them at rest.
+// Returns whether a tool shows errors or the truth (the converged picture), so that the loop must
+// measure errors at rest.
 bool dip_maps_need_errors(const DipToolState *tools);
 
-// Gives the maps the newest errors. pictures: NULL if there are none. Both are borrowed until the
-// next call. The loop calls this before it draws the window.
+// Gives the maps the newest errors. pictures: borrowed until the next call; NULL if there are none.
+// The loop calls this function before it draws the window.
 void dip_maps_set_errors(DipMaps *maps, const DipErrorReading *reading,
                          const DipErrorPictures *pictures);
 
-// Returns the truth's picture, or NULL if it is not known. Valid until the next call of
-// dip_maps_set_errors. `version` as in dip_draw_list_picture; no frame has the same number.
+// Returns the picture of the truth, or NULL if it is not known. It is valid until the next call of
+// dip_maps_set_errors. Sets *version to the picture's version (dip_draw_list_picture), which
+// differs from the versions of all frames.
 const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version);
 
 // Draws at most one frame for the map that the window showed last (DipMaps.wanted), if nothing
 // moves. Returns whether the window must be drawn again. Runs on the thread that draws frames.
 bool dip_maps_update(DipMaps *maps, const DipToolsInput *input);
 
-// Chooses a map, or none. Maps show side by side.
+// Chooses a map, or DIP_MAP_NONE. Maps show only beside each other, so choosing a map also chooses
+// DIP_COMPARE_SIDE_BY_SIDE.
 void dip_maps_choose(DipToolState *tools, DipMap map);
 
 // --- what is known about the panes ---------------------------------------------------------------
@@ -119,7 +122,7 @@ const DipMapWork *dip_maps_work(const DipMaps *maps, int pane);
 // Returns the tile that holds a pixel.
 int dip_map_tile(const DipMapWork *work, int x, int y);
 
-// Number of pixels of a tile that lie in the frame.
+// Returns the number of pixels of a tile that lie in the frame.
 int dip_map_tile_pixels(const DipMapWork *work, int tile);
 
 // Returns the value of a tile: ms for TIME, a mean per pixel for FRAGMENTS and PROBES, the share of
@@ -131,14 +134,15 @@ double dip_maps_end(const DipMaps *maps, const DipToolState *tools);
 
 // --- pictures ------------------------------------------------------------------------------------
 
-// Returns the map of a pane, of the frame's size, and its version; false if it is not known (yet).
-// frame: the pane's picture, which shows dimly through maps of work. Valid until the next call for
-// the pane.
+// Makes the picture of a pane's map, which has the frame's size. Returns false if the map is not
+// known (yet). frame: the pane's picture, which shows dimly through maps of work. *picture is valid
+// until the next call for the pane.
 bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const DipPixels *frame,
                       uint64_t frame_version, DipPixels *picture, uint64_t *version);
 
-// Says in one line why a pane has no map, or what the map still waits for; "" if it is final.
-// gallery: the panes show a scene of the gallery. still: camera and scene rest.
+// Returns a line that says why a pane has no map or what the map still waits for; "" if the map is
+// final. The line is a constant or lies in `text`. gallery: the panes show a scene of the gallery.
+// still: camera and scene rest.
 const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still,
                             char *text, size_t size_bytes);
 
@@ -147,7 +151,7 @@ const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gall
 // and colours of two levels mix where levels are blended.
 int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y);
 
-// The colour of mip level `index` (0..7), which stands for 1024 >> index texels.
+// Returns the colour of mip level `index` (0..7), which stands for a size of 1024 >> index texels.
 DipColour dip_map_mip_colour(int index);
 
 #endif

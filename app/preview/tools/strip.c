@@ -1,4 +1,5 @@
-// Draws the thumbnails of a path with a renderer of their own, which exists while they are drawn.
+// Draws the thumbnails of a path with a renderer of their own. The renderer exists only until all
+// of them are drawn.
 #include "app/preview/tools/strip.h"
 
 #include "campaths/campath.h"

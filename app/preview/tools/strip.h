@@ -1,5 +1,6 @@
-// Thumbnails of the path: small pictures of the current pane at even times, which the user clicks
-// to jump there. They are drawn one after the other while the camera rests.
+// Draws thumbnails of the camera path: small pictures with the current pane's settings at evenly
+// spaced times. The user clicks a thumbnail to move to its time. The thumbnails are drawn one after
+// the other while the camera rests.
 #ifndef DIP_APP_PREVIEW_TOOLS_STRIP_H
 #define DIP_APP_PREVIEW_TOOLS_STRIP_H
 
@@ -30,7 +31,7 @@ typedef struct DipStrip {
     DipPainter *painter; // NULL unless thumbnails are being drawn.
     DipCanvas pictures[DIP_STRIP_COUNT];
     uint64_t versions[DIP_STRIP_COUNT];
-    uint64_t version; // Of the thumbnail that was drawn last.
+    uint64_t version; // Version of the thumbnail that was drawn last.
     int drawn;        // Number of thumbnails, from the first, that show the subject.
     bool failed;      // The subject cannot be drawn.
     bool wanted;
@@ -41,18 +42,18 @@ typedef struct DipStrip {
 
 void dip_strip_free(DipStrip *strip);
 
-// Asks for thumbnails of a size in pixels; called while the window is drawn with a strip. Without a
-// call since the last update, the strip draws nothing.
+// Asks for thumbnails of a size in pixels. The tab that shows the strip calls it while the window
+// is drawn. Without a call since the last update, the strip draws nothing.
 void dip_strip_want(DipStrip *strip, int width, int height);
 
-// Draws the next thumbnail, if the strip is wanted, incomplete, and the camera rests. Returns
-// whether it drew one. Scenes of the gallery have no strip.
+// Draws the next thumbnail if the strip is wanted and incomplete, and the camera rests. Returns
+// whether it drew a thumbnail. Scenes of the gallery have no strip.
 bool dip_strip_update(DipStrip *strip, const DipToolsInput *input);
 
 // Returns one of DIP_STRIP_COUNT thumbnails. Its picture is valid until the next update.
 DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index);
 
-// Duration of the path that the strip shows, or 0 if it has none.
+// Returns the duration of the path that the strip shows, or 0 if the strip has no path.
 int64_t dip_strip_duration_ns(const DipStrip *strip);
 
 #endif

@@ -1,4 +1,4 @@
-// Holds the memory of all tools.
+// Creates and destroys the memory of all tools, and lets each tool do its work.
 #include "app/preview/tools/tools.h"
 
 #include <stdlib.h>

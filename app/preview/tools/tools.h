@@ -1,4 +1,5 @@
-// The tools for looking closer: the loupe, comparisons, maps and the strip.
+// Holds the tools for looking closer at the pictures: the loupe, comparisons, maps and the strip of
+// thumbnails.
 #ifndef DIP_APP_PREVIEW_TOOLS_TOOLS_H
 #define DIP_APP_PREVIEW_TOOLS_TOOLS_H
 
@@ -19,10 +20,10 @@ struct DipTools {
 DipTools *dip_tools_create(DipError *err);
 void dip_tools_destroy(DipTools **tools);
 
-// Does work of the tools that needs the renderers: reads the samples that the loupe shows, and
-// draws one thumbnail of the path. The loop calls it after each window that it draws, on the thread
-// that draws frames. It does nothing unless a tool shows what it would draw and the pictures are
-// still. Returns whether the window must be drawn again.
+// Does the tools' work that needs renderers: reads the samples that the loupe shows, draws one
+// thumbnail of the path, and draws one frame for a map. Each of these happens only if its tool
+// shows and the pictures are still. The loop calls this function after each window that it draws,
+// on the thread that draws frames. Returns whether the window must be drawn again.
 bool dip_tools_update(DipTools *tools, const DipToolsInput *input);
 
 #endif

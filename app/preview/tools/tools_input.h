@@ -8,13 +8,13 @@
 // What the tools need to draw parts of frames again. All of it is borrowed for the call.
 typedef struct DipToolsInput {
     DipSession *session;
-    const DipPose *pose; // Pose, time and number of the frame that was drawn last.
-    int64_t play_ns;
-    uint64_t frame_index;
+    const DipPose *pose;               // Pose of the frame that was drawn last.
+    int64_t play_ns;                   // Time of that frame.
+    uint64_t frame_index;              // Number of that frame.
     uint64_t versions[DIP_PANE_COUNT]; // Versions of the panes' pictures, as in DipWindow.
-    int width;                         // Size of the panes' pictures.
-    int height;
-    bool copied; // See DipSessionFrame.
+    int width;                         // Width of the panes' pictures, in pixels.
+    int height;                        // Height of the panes' pictures, in pixels.
+    bool copied; // The requested pane shows a copy of the current one (DipSessionFrame).
     bool still;  // Camera and scene stand still.
 } DipToolsInput;
 

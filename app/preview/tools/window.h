@@ -1,4 +1,5 @@
-// What the window shows in one pass, and the tools that draw over its panes.
+// Declares what the window shows in one pass (ui.h), and the functions of the tools that draw over
+// the panes.
 #ifndef DIP_APP_PREVIEW_TOOLS_WINDOW_H
 #define DIP_APP_PREVIEW_TOOLS_WINDOW_H
 
@@ -18,7 +19,7 @@ typedef struct DipWindow {
     uint64_t versions[DIP_PANE_COUNT]; // Equal versions mean equal pixels (draw_list.h).
     bool still;                        // Camera and scene stand still.
     int64_t now_ns;                    // Time on the display's clock, as in DipUiPass.
-    const DipPaneFigures *figures;     // [DIP_PANE_COUNT]
+    const DipPaneFigures *figures;     // Array with the figures of each pane.
     const DipPrices *prices;
     DipTools *tools; // What the tools have computed: loupe, comparison and maps.
     // The converged picture of this pose, of the size of the frames; NULL if it is not known.
@@ -29,23 +30,24 @@ typedef struct DipWindow {
 // Draws the panes' pictures: side by side, or as the chosen comparison or map shows them.
 void dip_compare_pictures(DipUi *ui, DipWindow *window);
 
-// Each declares what its tool shows over the panes: marks, dividers, the value under the pointer.
-// `panes`: what the user did with the panes' own control in this pass, for each pane.
+// Each function declares what its tool shows over the panes, such as marks, dividers and the map.
+// `panes`: what the user did with each pane's control in this pass.
 void dip_loupe_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
 void dip_compare_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
 void dip_maps_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
 
-// Lets the mouse fly the camera. `panes`: what the user did with the panes' own controls in this
-// pass. Dragging with the right button turns the camera, and makes it free if it was not. The left
-// button does so too if the camera is free and no tool uses the button. The wheel changes the speed
-// of the free camera, or zooms.
+// Lets the mouse fly the camera. `panes`: what the user did with each pane's control in this pass.
+// Dragging with the right button turns the camera, and frees it from the path. Dragging with the
+// left button turns a camera that is free already, unless a tool uses the button. The wheel changes
+// the speed of the free camera, or zooms.
 //
-// Takes out of `panes` what has flown the camera, so that no tool acts on it: the wheel's steps,
-// and the right button's press. A press without a drag comes back when the button is released.
+// Removes from `panes` the input that has flown the camera, so that no tool acts on it: the wheel's
+// steps and the press of the right button. If the button is released without a drag, its press is
+// reported then.
 void dip_fly_over_panes(DipUi *ui, DipWindow *window, DipUiInput panes[DIP_PANE_COUNT]);
 
-// Lets a key event act on the tools: while the loupe is on, arrow keys move it by a pixel. Call it
-// for keys that no control took. Returns whether the key did something.
+// Lets arrow keys move the loupe by a pixel, or with Shift by 8 pixels, while the loupe is on. Call
+// it for events that no control took. Returns whether the event moved the loupe.
 bool dip_loupe_press(DipPreviewState *state, int width, int height, const DipEvent *event);
 
 #endif
