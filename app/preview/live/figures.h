@@ -45,7 +45,7 @@ static const double dip_taa_pace_share = 0.9;
 // Zero-initialise.
 typedef struct DipTaaPace {
     bool on;          // A pane used temporal antialiasing in the last frame.
-    int64_t since_ns; // When it was turned on, if `on`.
+    int64_t since_ns; // If `on`, when temporal antialiasing was turned on.
 } DipTaaPace;
 
 // Says whether frames come fast enough for temporal antialiasing.

@@ -35,7 +35,7 @@ struct DipLivePrices {
     int samples[DIP_PRICES_LIVE_ROWS]; // Samples of that truth; 0 if the row has no errors yet.
     DipLiveTruth truth;                // The truth that dip_live_prices_step got last.
     int errors_left;         // Rows without errors against the truth; 0 if there is no truth.
-    DipProcessorShare share; // How much of a processor the caller gets for errors.
+    DipProcessorShare share; // Tells whether measuring errors waits for a processor.
     int64_t progress_ns;     // When the text of the progress was written last.
 };
 
@@ -216,7 +216,8 @@ static void begin_errors(DipLivePrices *live) {
 }
 
 // Shows the errors against the newest truth, but only when every row that shows an error has one
-// against this truth: errors against two truths must not be compared. Returns whether it did.
+// against this truth: errors against two truths must not be compared. Returns whether the
+// errors show now.
 static bool show_errors(const DipLivePrices *live) {
     const DipCostReport *report = dip_prices_live(live->prices);
     for (int r = 0; r < report->row_count; r++) {

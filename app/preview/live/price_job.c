@@ -31,7 +31,7 @@ struct DipPriceJob {
     DipQuality requested;
     bool follows; // The panes' settings are known.
     bool failed;
-    DipError failure; // Why it failed, if `failed`.
+    DipError failure; // Why the job failed, if `failed`.
     bool idle;        // Nothing is left to time, or the report is full.
     DipQuality wanted[DIP_PRICE_MAX_WANTED];
     int wanted_count;

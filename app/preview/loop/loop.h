@@ -59,7 +59,7 @@ typedef struct DipPreviewDef {
     void *context;
 } DipPreviewDef;
 
-// Fails with MISSING if there is no font.
+// Creates a preview. Fails with MISSING if the display needs a font and there is none.
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err);
 void dip_preview_destroy(DipPreview **preview);
 

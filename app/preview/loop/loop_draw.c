@@ -162,7 +162,7 @@ static void judge_taa(DipPreview *preview, int64_t now_ns) {
 
 // --- files that the user saves -------------------------------------------------------------------
 
-// Draws both panes side by side, with their gap.
+// Draws both panes side by side, with the gap between them.
 static bool join_panes(const DipFrame panes[DIP_PANE_COUNT], DipCanvas *joined, DipError *err) {
     const DipFrame *current = &panes[DIP_PANE_CURRENT], *requested = &panes[DIP_PANE_REQUESTED];
     const int right = current->width + DIP_PANE_GAP_PX, width = right + requested->width;

@@ -23,7 +23,7 @@ typedef struct Opening {
     bool running;
     atomic_bool done;
     bool dropped;                   // False if a file has changed.
-    char name[DIP_WATCH_NAME_SIZE]; // The file that was dropped or has changed, without its folder.
+    char name[DIP_WATCH_NAME_SIZE]; // Name, without folder, of the dropped or changed file.
     DipSessionOptions options;
     const DipImporter *importer;
     DipSession session;
@@ -40,7 +40,7 @@ struct DipReload {
     char changed_name[DIP_WATCH_NAME_SIZE];
     const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first.
     int drop_count;
-    char **names; // Every file that was ever dropped, each once. Options point to these names.
+    char **names; // Names of all files dropped so far, each once; options point to them.
     int name_count;
     Opening opening;
     DipCostReport *costs; // Owned; NULL if none was opened.

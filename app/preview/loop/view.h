@@ -28,7 +28,7 @@ uint64_t dip_view_version(const DipView *view, int pane);
 typedef struct DipViewInput {
     int width; // Size of the window in pixels.
     int height;
-    double scale; // The display's scale.
+    double scale; // The display's scale (display.h).
     int64_t now_ns;
     DipPreviewState *state;
     const DipPaneFigures *figures; // One for each pane.

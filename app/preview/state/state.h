@@ -107,14 +107,14 @@ typedef struct DipPreviewState {
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
-    bool manual;             // The user flies the camera; time stands still.
+    bool manual;             // The user flies the camera; the time on the path stands still.
     bool shows_gallery;      // The panes show a scene of the gallery.
     int scene_step;          // Scenes to go forward (below 0: back), as the user asked.
     int look;                // The scene's variant; numbers past the last variant wrap around.
     const char *scene_title; // Title of the gallery's scene; NULL if the panes show models.
     const char *scene_look;  // Name of the scene's variant; NULL if the panes show models.
     bool help;               // The help shows.
-    char help_words[DIP_HELP_WORDS]; // The help shows only keys with this text.
+    char help_words[DIP_HELP_WORDS]; // If not empty, the help shows only keys with these words.
     bool panel;                      // Each pane shows its times, errors and work.
     const DipCostReport *costs;      // Borrowed; NULL if there is no cost report.
     bool show_costs;                 // The table of costs shows.

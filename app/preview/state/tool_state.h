@@ -20,11 +20,11 @@ typedef enum DipTab {
 // How the window compares the pictures of the two panes.
 typedef enum DipComparison {
     DIP_COMPARE_SIDE_BY_SIDE,
-    DIP_COMPARE_WIPE,       // One picture: current left of a divider, requested right of it.
-    DIP_COMPARE_BLINK,      // One picture: current, and requested while a key is held or by turns.
-    DIP_COMPARE_DIFFERENCE, // Absolute difference of the two, times a gain.
+    DIP_COMPARE_WIPE,       // One picture: the current pane's left of a divider, requested right.
+    DIP_COMPARE_BLINK,      // One pane's picture; a key or a timer switches to the other pane's.
+    DIP_COMPARE_DIFFERENCE, // Absolute difference of the two pictures, times a gain.
     DIP_COMPARE_ALONE,      // One pane alone, as large as both.
-    DIP_COMPARE_TRUTH,      // The converged picture in the current pane's place.
+    DIP_COMPARE_TRUTH,      // The converged picture (the truth) in the current pane's place.
     DIP_COMPARISON_COUNT
 } DipComparison;
 
@@ -32,7 +32,7 @@ typedef enum DipComparison {
 typedef enum DipMap {
     DIP_MAP_NONE,
     DIP_MAP_FLIP,      // FLIP error of each pixel against the converged picture.
-    DIP_MAP_TIME,      // Time per tile.
+    DIP_MAP_TIME,      // Time of drawing each tile.
     DIP_MAP_FRAGMENTS, // Fragments shaded per pixel.
     DIP_MAP_PROBES,    // Texture probes per pixel.
     DIP_MAP_SAMPLES,   // Pixels whose samples differ.
@@ -57,7 +57,7 @@ typedef struct DipToolState {
     DipComparison comparison;
     double divider;     // WIPE: 0 is the pane's left edge, 1 its right edge.
     int gain;           // DIFFERENCE: 1, 2, 4, ... 64.
-    bool against_truth; // WIPE, BLINK, DIFFERENCE: compare the converged picture, not current.
+    bool against_truth; // WIPE, BLINK, DIFFERENCE: the truth replaces the current picture.
     bool blinked;       // BLINK: shows the requested pane.
     bool blinks;        // BLINK: changes between the panes by itself, twice a second.
     DipMap map;
