@@ -22,11 +22,11 @@ enum {
 typedef struct Client {
     DipWire wire;
     bool ended;       // The client has closed its side; no further input comes.
-    bool broken;      // Nobody reads the output any more, so output is thrown away.
+    bool broken;      // The client does not read any more, so its output is thrown away.
     bool skips;       // The line is too long, and its rest is skipped.
     unsigned topics;  // Subscriptions, as bits 1 << DipControlTopic.
     uint64_t dropped; // Events that were dropped since the last event that was sent.
-    int attempt;      // How often the first line has been put off.
+    int attempt;      // How often the owner has put off the first line's request.
     size_t in_first;  // Index in `in` of the first byte that is not used yet.
     size_t in_bytes;  // Number of bytes in `in` that are not used yet.
     size_t out_bytes;
@@ -37,12 +37,12 @@ typedef struct Client {
 struct DipControl {
     DipControlDef def;
     DipEndpoint endpoint;
-    Client *clients[DIP_CONTROL_MAX_CLIENTS]; // NULL: free.
+    Client *clients[DIP_CONTROL_MAX_CLIENTS]; // NULL where no client is connected.
     unsigned subscriptions;
 };
 
-// The first text is sent instead of a reply when memory runs out, the second one to a client that
-// is one too many.
+// Diptych sends the first text instead of a reply when memory runs out. It sends the second text to
+// a client when too many are connected already.
 static const char no_memory[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"MEMORY\","
                                 "\"field\":\"\",\"message\":\"out of memory\"}}";
 static const char too_many[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"BUSY\","
@@ -55,7 +55,7 @@ static void drop_input(Client *client, size_t bytes) {
     client->in_bytes -= bytes;
 }
 
-// Reads what has arrived, as far as there is room.
+// Reads the bytes that have arrived, as far as the buffer has room.
 static void read_input(Client *client) {
     memmove(client->in, client->in + client->in_first, client->in_bytes);
     client->in_first = 0;
@@ -94,7 +94,7 @@ static Line find_line(Client *client, const char **line, size_t *length) {
     const char *end = memchr(first, '\n', client->in_bytes);
     *line = first;
     *length = end ? (size_t)(end - first) : client->in_bytes;
-    if (*length > DIP_CONTROL_MAX_LINE_BYTES + 1) { // 1: a carriage return may end the line.
+    if (*length > DIP_CONTROL_MAX_LINE_BYTES + 1) { // The line may end with "\r".
         skip(client);
         return LONG_LINE;
     }
@@ -153,7 +153,7 @@ static void send_object(Client *client, cJSON *object) {
     cJSON_Delete(object);
 }
 
-// Adds an array of the names whose bits are set.
+// Adds an array with the names whose bits are set.
 static void add_names(cJSON *object, const char *key, const char *const *names, int count,
                       unsigned bits) {
     cJSON *array = cJSON_AddArrayToObject(object, key);
@@ -307,7 +307,7 @@ static void answer_lines(DipControl *control, Client *client) {
 
 // --- clients -------------------------------------------------------------------------------------
 
-// Greets a client, or tells it that there are too many.
+// Greets a client, or tells it that too many are connected.
 static void welcome(DipControl *control, DipWire wire) {
     int c = 0;
     while (c < DIP_CONTROL_MAX_CLIENTS && control->clients[c]) {

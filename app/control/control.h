@@ -1,5 +1,6 @@
-// Opens the control channel. Other programs send requests as lines of JSON over it, and get a reply
-// for every line, and the events that they subscribe to. docs/embedding.md describes the protocol.
+// Opens the control channel, over which other programs send requests as lines of JSON. They get a
+// reply to every line, and the events that they subscribe to. docs/embedding.md describes the
+// protocol.
 //
 // The channel reads and checks requests, and hands each of them to a function of its owner, which
 // carries it out. All functions must be called on one thread; none of them waits.
@@ -32,8 +33,8 @@ typedef struct DipControlDef {
 
 typedef struct DipControl DipControl;
 
-// Opens the channel. Only this user can connect to a socket. Fails with CONFLICT (the path is in
-// use), OVERSIZED (the path is too long), IO or MEMORY.
+// Opens the channel. Only the user who runs the program can connect to a socket. Fails with
+// CONFLICT (the path is in use), OVERSIZED (the path is too long), IO or MEMORY.
 DipControl *dip_control_open(const DipControlDef *def, DipError *err);
 
 // Closes all connections and removes the socket. *control may be NULL and becomes NULL.
@@ -52,7 +53,7 @@ unsigned dip_control_subscriptions(const DipControl *control);
 
 // Sends an event to the clients that have subscribed to its topic. A client that reads too slowly
 // misses the event; the next event that reaches it says how many it has missed. Takes ownership of
-// `fields`, an object with the event's fields, or NULL if memory ran out.
+// `fields`, an object with the event's fields. It is NULL if memory ran out.
 void dip_control_send(DipControl *control, DipControlTopic topic, struct cJSON *fields);
 
 #endif

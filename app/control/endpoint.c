@@ -68,7 +68,7 @@ void dip_wire_close(DipWire *wire) {
 
 // Opens standard output once more so that writing to it never waits. The flag O_NONBLOCK belongs to
 // an open file; setting it on the descriptor that Diptych was given would also change the file of
-// the parent. Sockets cannot be opened again, so they are only duplicated.
+// the parent process. Sockets cannot be opened again, so they are only duplicated.
 static int open_output(void) {
     struct stat status;
     int output = -1;
@@ -96,8 +96,8 @@ bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *
     }
     if (fstat(STDIN_FILENO, &status) == 0 && S_ISSOCK(status.st_mode) &&
         fstat(wire->out, &status) == 0 && S_ISSOCK(status.st_mode)) {
-        // The parent made one socket for both, with socketpair. Reading uses the same duplicate of
-        // the socket (open_output) as writing.
+        // The parent process made one socket for input and output, with socketpair. Reading uses
+        // the same duplicate of the socket (open_output) as writing.
         wire->in = wire->out;
         wire->socket = true;
     }
@@ -144,7 +144,7 @@ static bool remove_stale(const struct sockaddr_un *address, DipError *err) {
 
 static bool bind_path(DipEndpoint *endpoint, const struct sockaddr_un *address) {
     struct stat status;
-    const mode_t before = umask(077); // Only this user may connect.
+    const mode_t before = umask(077); // Only the user who runs the program may connect.
     const bool bound =
         bind(endpoint->listener, (const struct sockaddr *)address, sizeof *address) == 0;
     const int why = errno;

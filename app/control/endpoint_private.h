@@ -13,7 +13,7 @@
 typedef struct DipWire {
     int in;
     int out;
-    bool socket; // Both descriptors are one socket.
+    bool socket; // True if both descriptors are the same socket.
 } DipWire;
 
 // Reads at most `size` bytes. Returns their number, 0 if there are none now, or -1 at the end of
@@ -31,23 +31,23 @@ void dip_wire_close(DipWire *wire);
 typedef struct DipEndpoint {
     int listener; // Listening socket, or -1 with standard input and output.
     char path[128];
-    dev_t device; // Device and inode of the socket's file, so that only this file is removed.
-    ino_t inode;
-    int stdout_copy; // Copy of the descriptor that standard output had before, or -1.
+    dev_t device; // Device of the socket's file.
+    ino_t inode;  // Inode of the socket's file. A file with another inode or device is not removed.
+    int stdout_copy; // Copy of the descriptor of the original standard output, or -1.
 } DipEndpoint;
 
 // Takes over standard input and output. What the program prints on standard output from now on goes
 // to standard error. From now on, the process ignores SIGPIPE.
 bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *err);
 
-// Listens on a socket that only this user can open. A file of this name is replaced only if it is a
-// socket that nobody listens on. Fails with CONFLICT, OVERSIZED or IO.
+// Listens on a socket that only the user who runs the program can open. Replaces a file at this
+// path only if it is a socket on which no program listens. Fails with CONFLICT, OVERSIZED or IO.
 bool dip_endpoint_listen(DipEndpoint *endpoint, const char *path, DipError *err);
 
-// Accepts a client. Returns false if none waits.
+// Accepts a client. Returns false if no client waits.
 bool dip_endpoint_accept(const DipEndpoint *endpoint, DipWire *wire);
 
-// Removes the socket's file, or gives standard output back.
+// Removes the socket's file, or restores the process's standard output.
 void dip_endpoint_close(DipEndpoint *endpoint);
 
 #endif

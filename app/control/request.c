@@ -1,5 +1,5 @@
-// Reads requests by two tables: one describes all fields, the other says which fields each request
-// has.
+// Reads requests with the help of two tables. One describes all fields, and the other says which
+// fields each request has.
 #include "app/control/request.h"
 
 #include "renderer/base/assert.h"
@@ -24,7 +24,7 @@ typedef enum FieldKind {
     TEXT,   // char[size], not empty
     NUMBER, // double
     WHOLE,  // int
-    NAMES   // unsigned: a bit per name; in JSON a name or an array of names
+    NAMES   // unsigned with a bit per name; in JSON a name or an array of names
 } FieldKind;
 
 typedef struct Field {
@@ -45,7 +45,7 @@ typedef struct Field {
 #define NAMES_FIELD(name, field, names)                                                            \
     { name, NAMES, AT(field), DIP_ARRAY_COUNT(names), 0, 0, names }
 
-// X(FIELD, its description)
+// Lists the fields as X(FIELD, description).
 #define FIELD_LIST(X)                                                                              \
     X(PANE, NAMES_FIELD("pane", panes, pane_names))                                                \
     X(SETTINGS, TEXT_FIELD(settings))                                                              \
@@ -70,10 +70,10 @@ static const Field fields[FIELD_COUNT] = {FIELD_LIST(DESCRIPTION)};
 
 #define BIT(field) (1u << (field))
 
-// The fields of each request besides "request" and "id", as bits. Requests without fields have no
-// row.
+// Says which fields a request has besides "request" and "id", as bits of fields. Requests without
+// further fields have an empty row.
 typedef struct Row {
-    unsigned needs;
+    unsigned needs;    // Fields that must be present.
     unsigned may_have; // Further fields, which may be missing.
 } Row;
 
@@ -97,7 +97,7 @@ static const unsigned usual_parts = BIT(DIP_CONTROL_PART_STATE) | BIT(DIP_CONTRO
 
 // --- words of messages ---------------------------------------------------------------------------
 
-// Words separated by spaces. The end of a text that is too long is cut off.
+// A text of words that are separated by spaces. If they do not fit, the end is cut off.
 typedef struct Words {
     char text[224];
 } Words;
@@ -125,7 +125,7 @@ static Words list_fields(unsigned bits) {
     return words;
 }
 
-// Describes a value for a message: 'text', a number, or its type. Long texts are cut.
+// Describes a value for a message by its text in quotes, its number or its type. Cuts long texts.
 static Words describe(const cJSON *item) {
     Words words = {""};
     if (cJSON_IsString(item)) {
@@ -186,8 +186,8 @@ static bool check_number(const Field *field, const cJSON *item, DipError *err) {
            refuse_type(field->name, item, whole ? "a whole number" : "a number", err);
 }
 
-// Reads a text that is one of the names, and adds its bit. `what` says what the names stand for; it
-// is the word "topic" in the message "'x' is no topic, accepted ...".
+// Reads a text that is one of the field's names, and sets this name's bit. `what` is a word for the
+// names: "topic" in the message "'x' is no topic, accepted ...".
 static bool read_name(const Field *field, const char *what, const cJSON *item, unsigned *bits,
                       DipError *err) {
     const Words accepted = list_names(field->names, field->size);
@@ -442,7 +442,7 @@ bool dip_control_request_read(const char *line, size_t length, DipControlRequest
 
 // --- changes of settings -------------------------------------------------------------------------
 
-// Returns whether a text of settings, "aa=4,af=16", has a part for a key.
+// Returns whether a text of settings such as "aa=4,af=16" names the setting `key`.
 static bool names_key(const char *text, const char *key) {
     const size_t length = strlen(key);
     while (*text) {
@@ -455,8 +455,8 @@ static bool names_key(const char *text, const char *key) {
     return false;
 }
 
-// Parses a text that has the old steps of all settings that the change does not name, and then the
-// change itself, so that dip_quality_parse finds every mistake in the change.
+// Joins the old values of the settings that the change does not name with the change itself, and
+// parses the result, so that dip_quality_parse finds every mistake in the change.
 bool dip_control_change_settings(const DipQuality *from, const char *change, DipQuality *to,
                                  DipError *err) {
     char text[DIP_CONTROL_TEXT_SIZE + 256];

@@ -24,7 +24,7 @@ enum {
     DIP_CONTROL_MAX_SIZE_PX = 8192 // Largest width and height of a pane.
 };
 
-// The requests. X(name, NAME)
+// Lists the requests as X(name, NAME).
 #define DIP_CONTROL_VERB_LIST(X)                                                                   \
     X(set, SET)                                                                                    \
     X(apply, APPLY)                                                                                \
@@ -49,7 +49,8 @@ typedef enum DipControlVerb {
         DIP_CONTROL_VERB_COUNT
 } DipControlVerb;
 
-// What a client can subscribe to. Every event of a topic has the topic's name. X(name, NAME)
+// Lists the topics that a client can subscribe to, as X(name, NAME). Every event of a topic has the
+// topic's name.
 #define DIP_CONTROL_TOPIC_LIST(X)                                                                  \
     X(times, TIMES)                                                                                \
     X(errors, ERRORS)                                                                              \
@@ -66,7 +67,7 @@ typedef enum DipControlTopic {
         DIP_CONTROL_TOPIC_COUNT
 } DipControlTopic;
 
-// The parts of the answer to `get`. X(name, NAME)
+// Lists the parts of the answer to `get`, as X(name, NAME).
 #define DIP_CONTROL_PART_LIST(X)                                                                   \
     X(state, STATE)                                                                                \
     X(settings, SETTINGS)                                                                          \
@@ -113,26 +114,27 @@ typedef struct DipControlRequest {
     DipControlId id;
     DipControlVerb verb;
     unsigned panes; // SET: DIP_CONTROL_PANE_... bits, at least one.
-    // SET: exactly one of the two is not empty. `settings` are whole settings, which the reader has
-    // checked; `change` names only the settings to change (dip_control_change_settings).
+    // SET: exactly one of these two texts is not empty. `settings` replaces all settings; the
+    // reader has checked it. `change` names only the settings to change
+    // (dip_control_change_settings).
     char settings[DIP_CONTROL_TEXT_SIZE];
     char change[DIP_CONTROL_TEXT_SIZE];
-    unsigned notices; // SET: with DIP_CONTROL_OFF, the status line does not name the change.
-    unsigned show;    // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF.
+    unsigned notices;                     // SET: with DIP_CONTROL_OFF, no notice names the change.
+    unsigned show;                        // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF.
     char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
     char name[DIP_CONTROL_NAME_SIZE];     // SCENE: name of a scene.
     char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT: file to write.
     double time_s;                        // SEEK: time on the path, 0..86400.
     int width;                            // SIZE: size of a pane, in pixels.
     int height;
-    int x; // PICK: a pixel of a pane.
+    int x; // PICK: position of a pixel in a pane.
     int y;
     unsigned topics; // SUBSCRIBE and UNSUBSCRIBE: bits 1 << DipControlTopic, at least one.
     unsigned parts;  // GET: bits 1 << DipControlPart, at least one.
 } DipControlRequest;
 
-// Reads a line without its line feed. On failure, *err says which field was found and what is
-// accepted, and request->id holds the line's id if the line has a good one. Thread-safe.
+// Reads a request from a line without its line feed. On failure, *err says what was found and what
+// is accepted, and request->id holds the line's id if that is valid. Thread-safe.
 bool dip_control_request_read(const char *line, size_t length, DipControlRequest *request,
                               DipError *err);
 

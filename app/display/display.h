@@ -1,4 +1,5 @@
-// The interface between the preview and the display that shows it: pixels go out, events come in.
+// Declares the interface between the preview and the display that shows it: pixels go out, events
+// come in.
 //
 // A display is a struct of functions and a context. A back end (a folder beside this file) fills in
 // the struct; the preview uses nothing else of a back end. All functions of one display must be
@@ -15,7 +16,7 @@
 // A character cell of a display that shows characters, such as a terminal. A cell covers one pixel
 // of the picture and the pixel below that one.
 typedef struct DipTextCell {
-    uint32_t code;   // Code point of a character one cell wide. 0: the cell shows the picture.
+    uint32_t code;   // Code point of a character one cell wide; 0 if the cell shows the picture.
     DipColour ink;   // Colour of the character. Alpha is ignored.
     DipColour paper; // Colour behind the character. Alpha is ignored.
 } DipTextCell;
@@ -48,14 +49,14 @@ typedef struct DipDisplay {
     // next_event waits.
     int64_t (*now_ns)(void *context);
 
-    // Returns whether nobody can see the picture, because the display is minimised or hidden. An
-    // EXPOSE event comes when it shows again. NULL if the display cannot tell.
+    // Returns whether nobody can see the picture, because the display is minimised or hidden. When
+    // the display shows again, an EXPOSE event comes. NULL if the display cannot tell.
     bool (*is_hidden)(void *context);
 
     // Turns full-screen mode on or off. NULL if the display has no such mode.
     void (*set_full_screen)(void *context, bool on);
 
-    // Gives the window a title. NULL if it has none.
+    // Gives the window a title. NULL if the display has no title.
     void (*set_title)(void *context, const char *title);
 
     // Gives the clipboard a text. Returns false if that failed. NULL if the display has no
@@ -74,8 +75,8 @@ typedef struct DipDisplay {
     // Closes the display and frees the context.
     void (*close)(void *context);
 
-    // Copies the text of the clipboard, cut to the buffer. Returns false if there is none. NULL if
-    // the display has no clipboard.
+    // Copies the text of the clipboard, cut to the buffer. Returns false if the clipboard holds no
+    // text. NULL if the display has no clipboard.
     bool (*get_clipboard)(void *context, char *text, size_t size_bytes);
 } DipDisplay;
 

@@ -1,4 +1,4 @@
-// The command `diptych preview`: its options, its help, and the session that it opens.
+// Defines the command `diptych preview`: its options, its help, and the session that it opens.
 #include "app/preview/command.h"
 
 #include "app/cost/options.h"
@@ -12,7 +12,7 @@
 
 #define FIELD(name) offsetof(DipPreviewOptions, name)
 
-// Reads an X11 identifier, 29 bits in decimal or, after 0x, in hexadecimal.
+// Reads the identifier of an X11 window: 29 bits, written in decimal or, after 0x, in hexadecimal.
 static bool read_window(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     const bool hexadecimal = value[0] == '0' && (value[1] == 'x' || value[1] == 'X');
     const char *digits = hexadecimal ? value + 2 : value;
@@ -27,7 +27,8 @@ static bool read_window(void *fields, const DipOptionRow *row, const char *value
     return true;
 }
 
-// Names in the order of DipDisplayChoice, of DipTerminalColours, and of hides_panel.
+// The options' values, in the order of DipDisplayChoice, of DipTerminalColours, and of
+// hides_panel's values 0 and 1.
 static const char *const displays[] = {"auto", "window", "terminal"};
 static const char *const colours[] = {"auto", "true", "256", "none"};
 static const char *const panels[] = {"on", "off"};

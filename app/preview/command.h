@@ -1,4 +1,4 @@
-// The command `diptych preview`.
+// Declares the command `diptych preview`, which opens the window or draws into the terminal.
 #ifndef DIP_APP_PREVIEW_COMMAND_H
 #define DIP_APP_PREVIEW_COMMAND_H
 

@@ -25,7 +25,7 @@ static bool open_window(DipDisplay *display, const DipSession *session,
                                 .fixed_scale = options->ui_scale > 0.0};
     const int pane_height = session->pane_size.height;
     int height = pane_height;
-    for (int i = 0; i < 4 && !options->hides_panel; ++i) { // The height depends on the scale.
+    for (int i = 0; i < 4 && !options->hides_panel; ++i) { // The scale depends on the height.
         const double scale = dip_layout_scale(1.0, &tools, height);
         height = pane_height + (int)(scale * dip_layout_dock_height() + 0.5);
     }
@@ -45,8 +45,9 @@ static bool open_terminal(DipDisplay *display, const DipPreviewOptions *options,
     return dip_terminal_display_open(display, options->terminal_colours, err);
 }
 
-// Opens a window. If there is no display to open it on, opens the terminal, unless the user has
-// asked for a window. Sets *notice to a text that tells the user about this, or to NULL.
+// Opens the terminal or the window that the options ask for. If there is no display to open
+// a window on, `auto` opens the terminal, except with --window-id or --control. Sets *notice to a
+// text that tells the user about this replacement, or to NULL.
 static bool open_display(DipDisplay *display, const DipSession *session,
                          const DipPreviewOptions *options, const char **notice, DipError *err) {
     static const char no_window[] =
@@ -71,8 +72,9 @@ static bool open_display(DipDisplay *display, const DipSession *session,
     return false;
 }
 
-// Opens what the preview needs beside its session and its display: the cost report, the cache, the
-// reload and the control channel. Whatever was opened before a failure stays in *def and *remote.
+// Opens what the preview needs beside its session and its display: prices, the cost report, the
+// cache, the reload (reload.h) and the control channel. Whatever was opened before a failure stays
+// in *def and *remote.
 static bool open_parts(DipPreviewDef *def, DipRemote **remote, char cache[PATH_MAX],
                        const DipPreviewOptions *options, DipError *err) {
     char scene[DIP_COST_TEXT];
@@ -92,7 +94,7 @@ static bool open_parts(DipPreviewDef *def, DipRemote **remote, char cache[PATH_M
     if (dip_cost_find_cache(options->cache, cache, err)) {
         def->cache = cache[0] ? cache : NULL;
     } else if (options->cache) {
-        return false; // Without the option, the preview does without the user's cache folder.
+        return false; // Without --cache, the preview can run without a cache.
     }
     if (options->control) {
         *remote = dip_remote_open(options->control, err);

@@ -10,29 +10,30 @@
 
 // The display that the user asks for.
 typedef enum DipDisplayChoice {
-    DIP_DISPLAY_AUTO, // In a window if one can be opened, otherwise in the terminal.
+    DIP_DISPLAY_AUTO, // A window if one can be opened, otherwise the terminal.
     DIP_DISPLAY_WINDOW,
     DIP_DISPLAY_TERMINAL
 } DipDisplayChoice;
 
-// Models that are given as arguments are added to the models of --model.
+// The values of the options. Models that are given as arguments are added to those of --model, in
+// session.models.
 typedef struct DipPreviewOptions {
     DipProgramOptions program;
     DipSessionOptions session;
     const char *cost_report;  // A cost.json of this scene, borrowed from argv, or NULL.
-    double pixels_per_degree; // Viewing distance for FLIP; 0 without the options.
-    const char *cache;        // Folder of the cached truths, borrowed from argv, or NULL.
+    double pixels_per_degree; // For FLIP (a perceptual error); 0 if no option sets it.
+    const char *cache;        // Folder of cached truths (truth.h), borrowed from argv, or NULL.
     const char *control;      // "-" or the path of a socket, borrowed from argv, or NULL.
-    unsigned long window_id;  // X11 window to open the preview in; 0: open a window of its own.
+    unsigned long window_id;  // X11 window to open the preview in; 0 means a window of its own.
     bool watch;               // Reload what the preview shows when a file changes.
-    int hides_panel;          // 1: --panel off.
+    int hides_panel;          // 1 with --panel off, otherwise 0.
     double ui_scale;          // Factor by which controls are enlarged; 0 without the option.
     DipDisplayChoice display;
     DipTerminalColours terminal_colours;
 } DipPreviewOptions;
 
-// Shows the session until the user quits. Fails with RUNTIME if there is no display, with MISSING
-// if there is no font, or if drawing fails.
+// Shows the session until the user quits. Fails if there is no display (RUNTIME) or no font
+// (MISSING), or if drawing fails.
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err);
 
 #endif

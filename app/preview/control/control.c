@@ -20,10 +20,9 @@ struct DipRemote {
     bool waits;                     // A request waits for the next picture.
     unsigned topics;
     unsigned subscriptions;
-    // A hash of each topic's last event, when it was sent, and when the last notice ends.
-    uint64_t told[DIP_CONTROL_TOPIC_COUNT];
-    int64_t told_ns[DIP_CONTROL_TOPIC_COUNT];
-    int64_t told_notice_ns;
+    uint64_t told[DIP_CONTROL_TOPIC_COUNT];   // Hash of each topic's last event.
+    int64_t told_ns[DIP_CONTROL_TOPIC_COUNT]; // When this event was sent.
+    int64_t told_notice_ns;                   // When the newest known notice ends.
 };
 
 // --- settings, paths and time --------------------------------------------------------------------
@@ -52,7 +51,7 @@ static bool set(const DipPreviewMoment *moment, const DipControlRequest *request
             dip_preview_set_quality(state, p, &quality[p], moment->now_ns);
         }
     }
-    if (request->notices & DIP_CONTROL_OFF) { // What the status line said before stays.
+    if (request->notices & DIP_CONTROL_OFF) { // Keeps the notice that showed before.
         memcpy(state->notice, notice, sizeof notice);
         state->notice_end_ns = notice_end_ns;
     }
@@ -86,7 +85,7 @@ static void set_paused(const DipPreviewMoment *moment, bool paused) {
 
 // --- scene and size ------------------------------------------------------------------------------
 
-// Finds the place of a scene in the ring of scenes through which dip_session_step_scene goes.
+// Finds the index of a scene in the ring of scenes through which dip_session_step_scene goes.
 static bool find_scene(const DipSession *session, const char *name, int *scene, DipError *err) {
     if (strcmp(name, "models") == 0) {
         *scene = dip_gallery_scene_count();
@@ -199,15 +198,15 @@ static void get(const DipPreviewMoment *moment, unsigned parts, cJSON *reply) {
     }
 }
 
-// Returns whether a request reads what has been drawn. It then waits until the pictures show the
-// requests before it.
+// Returns whether a request reads what has been drawn. Such a request waits until the pictures show
+// the effects of earlier requests.
 static bool needs_pictures(DipControlVerb verb) {
     return verb == DIP_CONTROL_PICK || verb == DIP_CONTROL_GET || verb == DIP_CONTROL_SCREENSHOT;
 }
 
-// At the first attempt, the pictures must show everything that has been asked for. Between two
-// attempts a picture is drawn, so that later requests of other clients cannot put this one off for
-// ever.
+// Returns whether a request can read the pictures. At its first attempt, they must show everything
+// that has been asked for. At later attempts, any pictures will do, so that the requests of other
+// clients cannot delay this one for ever.
 static bool pictures_are_ready(const DipRemote *remote, int attempt) {
     const DipPreviewMoment *moment = remote->moment;
     const bool exist = moment->panes[0].rgba8 && moment->picture.rgba8;
@@ -273,7 +272,7 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
 
 // --- events --------------------------------------------------------------------------------------
 
-enum { PERIOD_NS = 250000000 }; // Least time between two events of times, prices or polls.
+enum { PERIOD_NS = 250000000 }; // Shortest time between two events of times, prices or polls.
 
 static bool wants(const DipRemote *remote, DipControlTopic topic) {
     return (remote->topics >> topic & 1) != 0;
@@ -288,11 +287,12 @@ static uint64_t hash_of(const cJSON *object) {
     return hash.lanes[0];
 }
 
-// A topic whose events have the fields of a part. An event is sent if it says something new, at
-// most once in a period. A poll is sent even if nothing is new: it asks the subscribers for their
-// settings, and a subscriber whose settings have changed answers with the request `set`.
+// Says how the events of a topic are sent. They have the fields of a part (DipControlPart). An
+// event is sent if it says something new, at most once in a period. A poll is sent even if nothing
+// is new: it asks the subscribers for their settings, and a subscriber whose settings have changed
+// answers with the request `set`.
 typedef struct Topic {
-    bool is_part;
+    bool is_part; // False if other functions send the events.
     DipControlPart part;
     int64_t period_ns;
     bool repeats;       // The event is also sent if it says nothing new.
@@ -358,7 +358,7 @@ static void send_events(DipRemote *remote) {
     }
 }
 
-// Sends the colours of the pixel under the mouse, when the user has pressed a button.
+// Sends the colours of the pixel under the mouse after the user has pressed a mouse button.
 static void press(void *context, const DipPreviewMoment *moment, const DipEvent *event) {
     static const char *const buttons[] = {
         [DIP_MOUSE_LEFT] = "left",

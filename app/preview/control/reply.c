@@ -29,7 +29,7 @@ static double path_time_s(const DipPreviewState *state) {
     return 1e-9 * (double)time_ns;
 }
 
-// Returns the name that the request `scene` takes for what the session shows.
+// Returns the name by which the request `scene` asks for the scene that the session shows.
 static const char *scene_name(const DipSession *session) {
     if (!session->shows_gallery) {
         return "models";
@@ -121,7 +121,7 @@ static void add_paths(cJSON *object, const DipPreviewMoment *moment) {
     cJSON *paths = cJSON_AddArrayToObject(object, "paths");
     for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
         if (c >= DIP_CATEGORY_COUNT && !state->track->categories[c].path) {
-            break; // All cameras of the models are listed.
+            break; // No further camera of the models has a path.
         }
         cJSON *path = cJSON_CreateObject();
         cJSON_AddStringToObject(path, "category", dip_preview_path_name(state, c));

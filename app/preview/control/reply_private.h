@@ -1,6 +1,5 @@
-// Writes what the preview tells other programs in replies and events; docs/embedding.md lists the
-// fields.
-// If memory runs out, fields are missing.
+// Writes what the preview tells other programs in replies and events. docs/embedding.md lists the
+// fields. If memory runs out, fields are missing.
 #ifndef DIP_APP_PREVIEW_CONTROL_REPLY_PRIVATE_H
 #define DIP_APP_PREVIEW_CONTROL_REPLY_PRIVATE_H
 
@@ -12,7 +11,7 @@ struct cJSON;
 typedef struct DipReplyPart {
     // Adds the part's fields to an object.
     void (*add)(struct cJSON *object, const DipPreviewMoment *moment);
-    bool is_list; // The part is one field, a list with the part's name.
+    bool is_list; // The part is a list in a single field that has the part's name.
 } DipReplyPart;
 
 extern const DipReplyPart dip_reply_parts[DIP_CONTROL_PART_COUNT];

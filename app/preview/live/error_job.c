@@ -1,5 +1,6 @@
 // Draws the truth (the converged picture) in steps. The truth passes through levels, each with more
-// samples per pixel than the level before. At each level, the job judges both panes' pictures.
+// samples per pixel than the level before. At each level, the job compares the panes' pictures with
+// the truth.
 #include "app/preview/live/error_job.h"
 
 #include <stdlib.h>
@@ -14,8 +15,8 @@ struct DipErrorJob {
     DipMeter meter;
     float *flip[DIP_PANE_COUNT]; // FLIP of each pixel of a pane.
     DipMetricSums sums[DIP_PANE_COUNT];
-    bool judges; // A pane's picture has not been compared with the newest truth yet.
-    int pane;    // The pane that is judged next, or now if has_begun.
+    bool judges; // True while a pane's picture must still be compared with the newest truth.
+    int pane;    // The pane that is compared next or, if has_begun, now.
     bool has_begun;
     DipErrorJobResult result;
 };
@@ -139,7 +140,8 @@ static void begin_pane(DipErrorJob *job) {
     job->has_begun = true;
 }
 
-// Keeps the errors of the pane. Pane and meter exchange the memory of their maps.
+// Keeps the pane's errors. Swaps the FLIP maps of the pane and the meter, so that nothing is
+// copied.
 static void end_pane(DipErrorJob *job) {
     float *map = job->flip[job->pane];
     job->flip[job->pane] = job->meter.flip_map;
@@ -149,8 +151,8 @@ static void end_pane(DipErrorJob *job) {
     job->has_begun = false;
 }
 
-// Judges the next part of a pane's picture. After the last pane, or if no pane is judged, publishes
-// the truth and the errors.
+// Compares the next part of a pane's picture with the truth. When no pane is left, puts the errors
+// into the job's result.
 static DipStep judge(DipErrorJob *job, const DipTruth *truth, DipError *err) {
     while (job->pane < DIP_PANE_COUNT &&
            (!job->still.rgba8[job->pane] || job->still.unjudged[job->pane])) {

@@ -1,8 +1,8 @@
 // Measures the errors of both panes' pictures against the converged picture from the same pose.
 //
-// The converged picture (the truth, app/measure/metrics/truth.h) is refined in levels of rising
-// sample counts; each level gives a better result. The work is cut into small steps, so that the
-// caller can drop the work between any two steps.
+// The converged picture (the truth, app/measure/metrics/truth.h) is the mean of two halves that are
+// drawn independently. It is refined in levels of rising sample counts; each level gives a better
+// result. The work is cut into small steps, so that the caller can drop it between any two steps.
 #ifndef DIP_APP_PREVIEW_LIVE_ERROR_JOB_H
 #define DIP_APP_PREVIEW_LIVE_ERROR_JOB_H
 
@@ -20,11 +20,10 @@ typedef struct DipStill {
     int width;
     int height;
     size_t stride_bytes;
-    double pixels_per_degree; // For FLIP.
+    double pixels_per_degree; // Viewing distance for FLIP, a perceptual error.
     // If both panes show the same picture, the requested pane's pointer is NULL.
     const uint8_t *rgba8[DIP_PANE_COUNT];
-    // The pane does not show the scene as the truth does (it shows mip colours), so it has no
-    // error.
+    // True if a pane has no error, because it shows mip colours instead of the scene's colours.
     bool unjudged[DIP_PANE_COUNT];
 } DipStill;
 
@@ -41,18 +40,19 @@ typedef struct DipPaneError {
 } DipPaneError;
 
 typedef struct DipErrorJobResult {
-    int samples; // Samples per pixel of the truth's two halves together; 0: no result yet.
+    int samples; // Samples per pixel of the truth's two halves together; 0 if there is no result.
     bool last;   // True if no further level will refine the truth.
-    // The truth's own noise: half of the root mean square difference of its halves, linear light.
+    // The truth's own noise: half of the root mean square difference of its halves in linear light.
     double floor_rmse;
     DipPaneError panes[DIP_PANE_COUNT];
 } DipErrorJobResult;
 
 typedef struct DipErrorJob DipErrorJob;
 
-// Everything is borrowed. The job sets the renderer's time to the time of each still. It shares the
-// last level of each truth with `diptych cost` through the folder `cache`, where scene_hash
-// (app/cost/plan.h) stands for the scene; if the folder is NULL, there is no cache.
+// Creates a job. It borrows all arguments and sets the reference renderer's time to the time of
+// each still. Through the folder `cache`, it shares the last level of each truth with `diptych
+// cost`. There, scene_hash (app/cost/plan.h) stands for the scene. If `cache` is NULL, there is no
+// cache.
 DipErrorJob *dip_error_job_create(DipReference *reference, const char *scene_hash,
                                   const char *cache, DipError *err);
 void dip_error_job_destroy(DipErrorJob **job);
@@ -62,21 +62,21 @@ void dip_error_job_destroy(DipErrorJob **job);
 // has drawn of the truth. After a failure the job has no still.
 bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err);
 
-// Does a few milliseconds of work. Returns RESULT when there is a new result, and DONE when there
-// is nothing left to do.
+// Does a few milliseconds of work. Returns RESULT when there is a new result, and DONE when nothing
+// is left to do.
 DipStep dip_error_job_step(DipErrorJob *job, DipError *err);
 
 const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
 
-// Returns the samples per pixel of the truth that the next step draws at, both halves together, or
+// Returns the samples per pixel, both halves together, of the truth that the next step works on, or
 // 0 if the next step draws no truth.
 int dip_error_job_next_samples(const DipErrorJob *job);
 
-// Returns how much of that truth is drawn, from 0 to 1.
+// Returns how much of the next truth is drawn, from 0 to 1.
 double dip_error_job_drawn(const DipErrorJob *job);
 
-// The pictures that belong to the result, for the next two functions. They are complete between the
-// step that returned RESULT and the next step; later steps overwrite them. Rows are packed.
+// The next two functions return the pictures behind the result. The pictures are complete between
+// the step that returned RESULT and the next step; later steps overwrite them. Rows are packed.
 
 // Returns the FLIP value of each pixel of a pane, or NULL if the pane is not judged.
 const float *dip_error_job_flip(const DipErrorJob *job, int pane);

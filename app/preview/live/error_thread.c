@@ -16,9 +16,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-// By how much the thread's priority is below that of other threads. Where all compete for a
-// processor, the thread gets 0.4 of what another thread gets; with an idle priority it would get
-// nothing.
+// The thread's nice value, by which its priority is lower than that of other threads. If all
+// threads compete for a processor, this thread gets 0.4 of the time of another thread; with an idle
+// priority it would get none.
 enum { NICE = 4 };
 
 // A still that owns its pictures.
@@ -28,16 +28,16 @@ typedef struct Still {
     size_t size_bytes;
 } Still;
 
-// Pictures of a result, which pass from the thread to the caller. There are three of these: the
-// thread fills one, the caller reads another, and the third one holds the newest pictures that the
-// caller has not asked for yet. They change places under the lock, so that no pixels are copied
-// under it.
+// The pictures behind a result, which pass from the thread to the caller. There are three of these
+// structs: the thread fills one, the caller reads another, and the third one holds the newest
+// pictures that the caller has not asked for yet. The structs are swapped under the lock, so that
+// no pixels are copied under it.
 typedef struct Pictures {
     DipErrorPictures out; // Its pointers point into the arrays below.
     DipStill still;       // The still that was measured; its pictures are not valid.
-    unsigned number;      // The number of this still; 0: there are no pictures.
+    unsigned number;      // The number of this still; 0 if there are no pictures.
     uint8_t *truth_rgba8; // Owned.
-    float *flip;          // Owned; the maps of both panes.
+    float *flip;          // Owned; the FLIP maps of both panes.
     size_t pixels;        // Size of the arrays.
 } Pictures;
 
@@ -48,13 +48,13 @@ struct DipErrorThread {
     Still staged; // The next still, which the caller fills without holding the lock.
     unsigned picture_number;
     bool shown;    // A still was given since the last pause.
-    Pictures held; // What the caller reads.
+    Pictures held; // The pictures that the caller reads.
     DipStill last; // The last still, whose number is last_number.
     unsigned last_number;
     pthread_t thread;
     bool running;
     DipProcessorShare share;
-    bool working; // In the last reading, the thread was drawing a truth.
+    bool working; // When the caller last read the result, the thread was drawing a truth.
     atomic_bool stop;
 
     // The lock guards everything below. The caller and the thread hold it only to copy a few bytes,
@@ -64,7 +64,7 @@ struct DipErrorThread {
     Still asked;
     unsigned asked_number; // Number of the last still; results of older stills are dropped.
     bool resting;
-    int limit; // Greatest number of samples of a truth that may be drawn.
+    int limit; // Most samples per pixel of a truth that may be drawn.
     DipErrorReading reading;
     bool news;
     Pictures newest;
@@ -81,7 +81,7 @@ typedef struct Worker {
     Still still;
     unsigned number;
     bool idle;
-    Pictures pictures; // What the thread fills.
+    Pictures pictures; // The pictures that the thread fills.
     DipFlipTailMeter tail;
     uint64_t version;
 } Worker;
@@ -183,8 +183,8 @@ static void pass_pictures(Worker *worker) {
     worker->pictures = swap;
 }
 
-// Returns whether the worker must wait: the owner rests, nothing is left to do for the still, or
-// the owner does not want the next truth yet.
+// Returns whether the worker must wait, because measuring is paused, nothing is left to do for the
+// still, or the next truth has more samples than the limit allows.
 static bool must_wait(const Worker *worker) {
     const DipErrorThread *owner = worker->owner;
     const bool fresh = owner->asked_number != worker->number;

@@ -1,8 +1,8 @@
 // Measures the errors of both panes' pictures on a thread of its own while the camera rests.
 //
 // The thread has a slightly lower priority than the threads that draw frames. It gets a share of
-// the processors even if other programs keep all of them busy. Its work is a DipErrorJob, in steps
-// of a few milliseconds. When the pictures change, the thread drops the work after the current
+// the processors even if other programs keep all of them busy. It runs a DipErrorJob in steps of a
+// few milliseconds. When the pictures change, the thread drops the work after the current
 // step.
 #ifndef DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
 #define DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
@@ -12,7 +12,7 @@
 
 typedef struct DipErrorThread DipErrorThread;
 
-// The scene is borrowed, and so is `cache`, the folder of the cached truths; NULL: there is no
+// Borrows the scene and `cache`, the folder of cached truths (converged pictures), or NULL for no
 // cache. The thread starts, and allocates memory, with the first measurement.
 DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
                                         const DipReflectionDef *reflection, const char *cache,
@@ -27,8 +27,8 @@ void dip_error_thread_destroy(DipErrorThread **thread);
 void dip_error_thread_measure(DipErrorThread *thread, const DipStill *still,
                               unsigned picture_number);
 
-// Lets the thread draw truths of at most this many samples per pixel. Errors against a truth that
-// is drawn already are measured at once. At first there is no limit.
+// Lets the thread draw truths of at most this many samples per pixel. The limit does not delay the
+// measuring of errors against a truth that is drawn already. At first there is no limit.
 void dip_error_thread_limit(DipErrorThread *thread, int samples);
 
 // Stops measuring and forgets all results. Call it while the camera moves.
@@ -44,13 +44,13 @@ typedef enum DipErrorStatus {
 typedef struct DipErrorReading {
     DipErrorStatus status;
     DipErrorJobResult result;
-    int next_samples; // Samples per pixel of the truth that is being drawn; 0: none is.
+    int next_samples; // Samples per pixel of the truth that is being drawn; 0 if there is none.
     double drawn;     // How much of that truth is drawn, from 0 to 1.
     bool waits;       // The thread waits for a processor most of the time.
 } DipErrorReading;
 
-// Reads the result for the last still. Returns whether the result is new since the previous call;
-// the members after the result may change without that.
+// Reads the status and the result for the last still. Returns whether they are new since the
+// previous call; the members after `result` may change even if they are not.
 bool dip_error_thread_read(DipErrorThread *thread, DipErrorReading *reading);
 
 // Number of bins, from FLIP 0 to FLIP 1, in which pixels are counted.
@@ -76,7 +76,7 @@ typedef struct DipErrorPictures {
 } DipErrorPictures;
 
 // Returns the newest pictures that belong to the last still, or NULL if there are none (yet). They
-// are valid until the next call of any function of this thread but dip_error_thread_read. Only the
+// are valid until the next call of any function of this file except dip_error_thread_read. Only the
 // thread that calls dip_error_thread_measure may call this function.
 const DipErrorPictures *dip_error_thread_pictures(DipErrorThread *thread);
 

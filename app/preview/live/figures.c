@@ -128,8 +128,9 @@ static int count_dropped(const DipFigures *figures, int64_t now_ns) {
     return (int)dropped;
 }
 
-// Takes the median of the last second. If no frame was drawn in that second, the previous median
-// stays, unless the settings have changed since. Returns whether the median is new.
+// Sets the pane's shown time to the median of the last second. If no frame was drawn in that
+// second, the previous median stays, unless the settings have changed since. Returns whether the
+// median is new.
 static bool follow_median(DipPaneFigures *shown, const DipTiming *total, int64_t now_ns) {
     const int frames = dip_timing_per_second(total, now_ns);
     if (frames == 0 && shown->frames > 0) {
@@ -220,7 +221,7 @@ static void add_error(Lines *lines, const DipPaneFigures *figures, int pane) {
     } else {
         add(lines, true, "Error", "refining: %d of %d samples", result->samples, all_samples);
     }
-    // A coarse truth is noisy, so an error that lies in its noise may prove to be larger.
+    // An error within the noise of a coarse truth may prove to be larger against a finer one.
     const char *const floor = result->last ? " at floor" : " at floor so far";
     add(lines, false, "RMSE, linear", "%.4f%s", error->rmse_lin, error->at_floor ? floor : "");
     if (isinf(error->psnr_db)) {

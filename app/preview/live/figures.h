@@ -45,25 +45,26 @@ static const double dip_taa_pace_share = 0.9;
 // Zero-initialise.
 typedef struct DipTaaPace {
     bool on;          // A pane used temporal antialiasing in the last frame.
-    int64_t since_ns; // When it was turned on, if `on`.
+    int64_t since_ns; // If `on`, when temporal antialiasing was turned on.
 } DipTaaPace;
 
-// What a pane with temporal antialiasing says about its speed.
+// Says whether frames come fast enough for temporal antialiasing.
 typedef struct DipTaaSpeed {
     bool too_slow;
     int shown;  // Frames presented in the last second.
     int wanted; // Refreshes of the display in a second.
 } DipTaaSpeed;
 
-// Notes at each turn whether a pane uses temporal antialiasing, and returns its speed.
+// Notes in each turn of the loop whether a pane uses temporal antialiasing, and returns its speed.
 // `presented` holds the moments at which frames were presented. No speed counts as too slow in the
 // first second after temporal antialiasing was turned on.
 DipTaaSpeed dip_taa_pace_update(DipTaaPace *pace, bool on, const DipTiming *presented,
                                 int64_t refresh_ns, int64_t now_ns);
 
-// Returns when the frame after the one that was due at `due_ns` is due: one refresh later, so that
-// the mean rate is exactly the display's. If that moment has passed already, or lies further ahead
-// than one refresh, the frame is due one refresh after this turn's begin, `turn_ns`.
+// Returns when the next frame is due: one refresh after `due_ns`, when the previous frame was due,
+// so that the mean rate is exactly the display's. If that moment has passed already, or lies
+// further ahead than one refresh, the frame is due one refresh after `turn_ns`, when this turn
+// began.
 int64_t dip_taa_pace_next_ns(int64_t due_ns, int64_t turn_ns, int64_t refresh_ns, int64_t now_ns);
 
 // --- figures -------------------------------------------------------------------------------------
@@ -78,7 +79,7 @@ enum {
 // The figures of a pane as the window shows them.
 typedef struct DipPaneFigures {
     double ms;  // Median frame time of the last second in which frames were drawn.
-    int frames; // Number of these frames. 1: the time is that of a single frame.
+    int frames; // Number of these frames; 1 if `ms` is the time of a single frame.
     double stage_ms[DIP_STAGE_COUNT];
     int fps; // Pictures shown in the last second; 0 if no rate is shown.
     DipEffects effects;
@@ -86,19 +87,19 @@ typedef struct DipPaneFigures {
     bool copied; // The pane shows the other pane's picture, since the settings are the same.
     DipErrorReading errors;
     const DipTiming *times; // The newest frames' times; NULL if there are none. Borrowed.
-    int dropped;            // Refreshes of the last 5 seconds of movement without a new picture.
-    DipTaaSpeed taa_speed;  // Too slow only if the pane uses temporal antialiasing.
-    bool mip_colours;       // The pane shows mip colours, which have no error.
-    bool no_errors;         // The scene has no reference pictures, so the panel leaves errors out.
+    int dropped; // Refreshes that showed no new picture of a movement, in the last 5 seconds.
+    DipTaaSpeed taa_speed; // `too_slow` only if the pane uses temporal antialiasing.
+    bool mip_colours;      // The pane shows mip colours, which have no error.
+    bool no_errors;        // The scene has no reference pictures, so the panel leaves errors out.
 } DipPaneFigures;
 
 // Zero-initialise.
 typedef struct DipFigures {
     DipTiming total[DIP_PANE_COUNT];
     DipTiming stages[DIP_PANE_COUNT][DIP_STAGE_COUNT];
-    DipTiming presented; // When pictures were presented; their times are 0.
-    DipTiming dropped; // When refreshes had no new picture; instead of a time, how many they were.
-    int64_t presented_ns; // When the last picture was presented; 0 before, and after a rest.
+    DipTiming presented;  // When pictures were presented; `ms` is 0.
+    DipTiming dropped;    // When refreshes had no new picture; `ms` holds how many they were.
+    int64_t presented_ns; // When the last picture was presented; 0 if nothing moved then.
     int64_t updated_ns;   // When the shown times were updated.
     bool outdated;        // Settings have changed since the shown times were measured.
     DipPaneFigures shown[DIP_PANE_COUNT]; // What the window shows.
@@ -111,8 +112,8 @@ void dip_figures_forget(DipFigures *figures, int pane);
 // dip_figures_update.
 void dip_figures_add(DipFigures *figures, const DipSessionFrame *frame, int64_t now_ns);
 
-// Counts a presented picture, and the refreshes of the display that passed without one while the
-// picture moved.
+// Counts a presented picture, and the refreshes of the display that passed without a new picture
+// while the picture moved.
 void dip_figures_count_presented(DipFigures *figures, bool moving, int64_t refresh_ns,
                                  int64_t now_ns);
 

@@ -1,4 +1,4 @@
-// Draws frames for the live report, and compares them with the truth.
+// Draws frames for the live report, and compares them with the truth (the converged picture).
 #include "app/preview/live/live_prices.h"
 
 #include "app/cost/plan.h"
@@ -17,8 +17,8 @@ struct DipLivePrices {
     DipSession *session;
     DipPrices *prices;
     DipPriceJob *job;
-    // One painter for each step of the setting gi, because a renderer keeps the copies of meshes
-    // that gi=off makes.
+    // One painter for gi=off and one for gi=on, because gi=off makes copies of meshes, which a
+    // renderer then keeps.
     DipPainter *painters[2];
     DipLivePicture picture;
     bool has_picture;
@@ -26,16 +26,16 @@ struct DipLivePrices {
     char processor[DIP_COST_TEXT];
 
     DipMeter meter;
-    uint8_t *rgba8; // Copy of the picture that is judged, rows packed. Owned; NULL: no meter yet.
+    uint8_t *rgba8;       // The picture to compare, rows packed. Owned; NULL without `meter`.
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
-    int judged; // Row of the report whose picture this is.
+    int judged; // The report's row whose picture is compared.
     // Errors of each row against the finest truth with which the row was compared.
     DipMetricSums sums[DIP_PRICES_LIVE_ROWS];
-    int samples[DIP_PRICES_LIVE_ROWS]; // Samples of this truth; 0: no truth yet.
-    DipLiveTruth truth;                // The truth that the last step was given.
-    int errors_left;         // Combinations whose errors are not known, if there is a truth.
-    DipProcessorShare share; // This thread's share while it measures errors.
+    int samples[DIP_PRICES_LIVE_ROWS]; // Samples of that truth; 0 if the row has no errors yet.
+    DipLiveTruth truth;                // The truth that dip_live_prices_step got last.
+    int errors_left;         // Rows without errors against the truth; 0 if there is no truth.
+    DipProcessorShare share; // Tells whether measuring errors waits for a processor.
     int64_t progress_ns;     // When the text of the progress was written last.
 };
 
@@ -81,7 +81,7 @@ static void forget(DipLivePrices *live) {
     live->errors_left = 0;
     memset(live->samples, 0, sizeof live->samples);
     live->has_picture = false;
-    live->progress_ns = -progress_period_ns; // The next text is shown at once.
+    live->progress_ns = -progress_period_ns; // The next progress text shows at once.
 }
 
 static void destroy_painters(DipLivePrices *live) {
@@ -144,15 +144,15 @@ static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
            a->pixels_per_degree == b->pixels_per_degree;
 }
 
-// Returns whether the live report has the present baseline. A cost report that was opened since may
-// have another one.
+// Returns whether the live report still has the right baseline. A cost report that was opened in
+// the meantime may have brought another one.
 static bool has_same_base(const DipLivePrices *live) {
     const DipQuality base = dip_prices_base(live->prices);
     return dip_quality_equal(&base, &dip_prices_live(live->prices)->options.baseline);
 }
 
-// Forgets the prices if the picture is another one. A painter that cannot have the new size is
-// destroyed; the next frame then fails with the reason.
+// Forgets the prices if the picture has changed. Destroys a painter that cannot be resized; the
+// next frame then makes a new one or fails with the reason.
 static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
     if (live->has_picture && is_same_picture(&live->picture, picture) && has_same_base(live)) {
         return;
@@ -170,7 +170,8 @@ static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
 
 // --- errors --------------------------------------------------------------------------------------
 
-// Begins to judge a copy of the frame, since the painter draws over its own picture.
+// Begins to compare a frame with the truth. Copies the frame, because the painter's next frame
+// overwrites it.
 static bool begin_judging(DipLivePrices *live, const DipFrame *frame, const DipSrgbPicture *truth) {
     const DipLivePicture *picture = &live->picture;
     const size_t row_bytes = 4 * (size_t)picture->width;
@@ -194,7 +195,7 @@ static bool begin_judging(DipLivePrices *live, const DipFrame *frame, const DipS
     return true;
 }
 
-// Returns the first row whose errors against the truth are not known; -1: there is none.
+// Returns the first row whose errors against the truth are not known, or -1 if there is none.
 static int find_unjudged(const DipLivePrices *live) {
     for (int r = 0; r < dip_prices_live(live->prices)->row_count; r++) {
         if (live->samples[r] < live->truth.samples) {
@@ -214,8 +215,9 @@ static void begin_errors(DipLivePrices *live) {
     live->errors_left = live->errors_failed ? 0 : live->errors_left;
 }
 
-// Shows the errors against the newest truth once no row shows an error against a coarser one, since
-// errors against two truths must not be compared.
+// Shows the errors against the newest truth, but only when every row that shows an error has one
+// against this truth: errors against two truths must not be compared. Returns whether the
+// errors show now.
 static bool show_errors(const DipLivePrices *live) {
     const DipCostReport *report = dip_prices_live(live->prices);
     for (int r = 0; r < report->row_count; r++) {
@@ -232,7 +234,7 @@ static bool show_errors(const DipLivePrices *live) {
     return dip_prices_update_live(live->prices, false, NULL);
 }
 
-// Draws the picture of a combination whose error is not known, or measures a part of it.
+// Draws the picture of a combination whose error is not known, or compares a part of this picture.
 // Returns whether an error has become known.
 static bool step_errors(DipLivePrices *live) {
     if (!live->measures_errors) {
@@ -271,7 +273,8 @@ static bool has_truth(const DipLivePrices *live) {
            truth->height == live->picture.height;
 }
 
-// If the truth has moved in memory, the picture that is being judged is judged again.
+// Takes the newest truth. If the truth has changed or moved in memory, the comparison that is under
+// way begins again.
 static void follow_truth(DipLivePrices *live, const DipLiveTruth *truth) {
     if (live->meter.standard.picture.rgba8 != truth->picture.rgba8) {
         live->measures_errors = false;
@@ -293,7 +296,7 @@ static void count_errors_left(DipLivePrices *live) {
 
 // --- progress ------------------------------------------------------------------------------------
 
-// Returns whether another thread draws the next truth now, or is about to.
+// Returns whether the error thread draws the next truth now, or is about to.
 static bool truth_draws(const DipLivePrices *live) {
     return live->truth.next_samples > 0 || live->truth.comes_first;
 }

@@ -1,9 +1,11 @@
-// Measures rough prices of what the panes show, with painters of its own, while nothing moves.
+// Measures what the settings cost in the panes' present picture, with painters of its own, while
+// nothing moves. These live prices (app/preview/prices/prices.h) are rough: they come from one
+// picture and few frames.
 //
-// The loop calls dip_live_prices_step in each turn in which camera and scene rest and no event is
-// waiting. A step draws one frame or more within its budget. First come the times (price_job.h),
-// then, if the loop has the truth of the picture, the errors. Nothing is timed while another thread
-// draws a truth, which would disturb the times.
+// The loop calls dip_live_prices_step in each turn in which camera and scene rest. A step draws one
+// frame or more within its budget. It measures first the times (price_job.h) and then, if the loop
+// has the picture's truth (the converged picture), the errors. Nothing is timed while another
+// thread draws a truth, because that would disturb the times.
 #ifndef DIP_APP_PREVIEW_LIVE_LIVE_PRICES_H
 #define DIP_APP_PREVIEW_LIVE_LIVE_PRICES_H
 
@@ -13,14 +15,14 @@
 
 typedef struct DipLivePrices DipLivePrices;
 
-// The picture whose settings have prices. Prices hold for one picture only.
+// The picture for which prices are measured. They hold for this picture only.
 typedef struct DipLivePicture {
     DipPose pose;
     int64_t time_ns;
     int width; // Size of a pane's frame, in pixels.
     int height;
-    int look;                 // Variant of a scene of the gallery.
-    double pixels_per_degree; // For FLIP.
+    int look;                 // The variant of a gallery scene.
+    double pixels_per_degree; // Viewing distance for FLIP.
 } DipLivePicture;
 
 // Session and prices are borrowed. Painters are made when they are first needed. Fails with MEMORY.
@@ -31,26 +33,26 @@ void dip_live_prices_destroy(DipLivePrices **live); // *live may be NULL.
 // is replaced, since the painters of a gallery must not outlive it.
 void dip_live_prices_leave_scene(DipLivePrices *live);
 
-// Tells the prices which scene the session shows and on what it is drawn. If the report is of
-// another scene, rough prices replace it until its scene is back. Call it after the session was
-// opened and after its scene was replaced.
+// Tells the prices which scene the session shows and which processor draws it. If the opened cost
+// report is of another scene, rough prices replace the report's until the session shows the
+// report's scene again. Call it after the session was opened and after its scene was replaced.
 void dip_live_prices_enter_scene(DipLivePrices *live);
 
-// What is known of the converged picture, and how far the next, better one is.
+// The newest converged picture, and the progress of the next, finer one.
 typedef struct DipLiveTruth {
-    // Has the live picture's size and pose. It has no pixels while there is no truth.
+    // The truth, with the live picture's size and pose. It has no pixels while there is no truth.
     DipSrgbPicture picture;
     int samples; // Samples per pixel. Errors against a finer truth replace the previous errors.
     bool comes_first; // No frames are timed until there is a truth.
-    int next_samples; // Samples of the truth that is being drawn; 0: none is.
-    double drawn;     // How much of that truth is drawn, from 0 to 1.
-    bool waits;       // The thread that draws it waits for a free processor.
+    int next_samples; // Samples of the truth that is being drawn; 0 if there is none.
+    double drawn;     // How much of the next truth is drawn, from 0 to 1.
+    bool waits;       // The thread that draws the next truth waits for a free processor.
 } DipLiveTruth;
 
-// Measures for about budget_ms milliseconds; what has been begun is finished. First forgets the
-// prices of any other picture. Errors against a truth of fewer samples stay until all
-// errors against the new one are known, because only errors against one truth can be compared.
-// Returns whether the panel must be drawn again, because prices or the text of their progress
+// Measures for about budget_ms milliseconds, at least a frame or a part of a comparison. First
+// forgets the prices if the picture has changed. Errors against a coarser truth stay until all
+// errors against `truth` are known, because only errors against one truth can be compared. Returns
+// whether the panel must be drawn again, because prices or the text of their progress
 // (dip_prices_progress) have changed; the text changes four times a second at most.
 bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
                           const DipQuality quality[DIP_PANE_COUNT], const DipLiveTruth *truth,

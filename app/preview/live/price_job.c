@@ -1,4 +1,4 @@
-// Times combinations of settings beside the base, in blocks.
+// Times combinations of settings in blocks, each block together with the base settings.
 #include "app/preview/live/price_job.h"
 
 #include "app/cost/context.h"
@@ -15,10 +15,10 @@
 enum {
     BLOCK = 4,            // Combinations in a block, not counting the base.
     VISITS = BLOCK + 1,   // Combinations in a block, counting the base.
-    FRAMES_OF_A_VISIT = 2 // In a round, each combination draws an untimed and a timed frame.
+    FRAMES_OF_A_VISIT = 2 // Frames of a combination in a round: one untimed, one timed.
 };
 
-// A combination of the block that is being timed. The first one is the base.
+// A combination of the block that is being timed. The first member of a block is the base.
 typedef struct Member {
     DipQuality quality;
     double counters[DIP_COST_COUNTER_COUNT]; // Counters of the last frame.
@@ -31,25 +31,25 @@ struct DipPriceJob {
     DipQuality requested;
     bool follows; // The panes' settings are known.
     bool failed;
-    DipError failure; // Why it failed, if `failed`.
-    bool idle;        // Every combination is known.
+    DipError failure; // Why the job failed, if `failed`.
+    bool idle;        // Nothing is left to time, or the report is full.
     DipQuality wanted[DIP_PRICE_MAX_WANTED];
     int wanted_count;
-    // Rounds that each wanted combination is to get: the first rounds until all combinations have
-    // them, then all rounds.
+    // Rounds that each wanted combination gets: DIP_PRICE_JOB_FIRST_ROUNDS until all combinations
+    // have had these, then DIP_PRICE_JOB_ROUNDS.
     int rounds;
 
-    DipDriver *driver; // Times the members; NULL: there is no block.
+    DipDriver *driver; // Times the members; NULL if there is no block.
     Member members[VISITS];
     int member_count;
     int rounds_before; // Rounds that the members had when the block began.
 
     int rounds_of[DIP_PRICES_LIVE_ROWS]; // Rounds in which each row was timed.
     int blocks;                          // Blocks that are complete.
-    double drawn_ms;                     // Sum of the times of this picture's frames.
+    double drawn_ms;                     // Time of drawing all frames of this picture.
     int drawn;                           // Number of these frames.
-    double waited; // Share that the threads waited, summed over the rounds of all blocks.
-    int waited_rounds;
+    double waited;     // Share of a round's time that the threads waited, summed over all rounds.
+    int waited_rounds; // Number of these rounds.
 };
 
 static int64_t now_ns(const DipPriceJob *job) {
@@ -95,8 +95,8 @@ void dip_price_job_forget(DipPriceJob *job) {
 
 // --- what to time --------------------------------------------------------------------------------
 
-// Lists the combinations that were timed in fewer than `rounds` rounds. The base is not in the
-// list, because every block times it.
+// Lists the combinations that were timed in fewer than `rounds` rounds, without the base, which
+// every block times.
 static void list_with_rounds(DipPriceJob *job, int rounds) {
     const DipQuality base = dip_prices_base(job->prices);
     DipQuality all[DIP_PRICE_MAX_WANTED];
@@ -139,7 +139,9 @@ static void drop_block(DipPriceJob *job) {
     job->member_count = 0;
 }
 
-// Each round begins with the sample pattern of temporal AA that the previous round timed last.
+// Temporal AA has one sample pattern for frames with even indices and one for odd indices. Each
+// round begins with the pattern that the previous round timed, so that the rounds time both in
+// turn.
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     DipPriceJob *job = context;
     Member *member = &job->members[turn->subject];
@@ -203,8 +205,8 @@ static bool begin_block(DipPriceJob *job) {
     return !job->failed;
 }
 
-// Adds the times of the block to the log. If its members were timed before, the numbers of their
-// new rounds follow those of the old ones.
+// Adds the block's times to the report's log. If its members were timed before, their new rounds
+// are numbered after the old ones.
 static bool log_block(DipPriceJob *job, const int rows[VISITS], DipError *err) {
     DipCostReport *report = dip_prices_live(job->prices);
     const DipTimes times = dip_driver_times(job->driver);
@@ -271,7 +273,7 @@ DipPriceProgress dip_price_job_progress(const DipPriceJob *job) {
     if (!progress.working) {
         return progress;
     }
-    const int blocks = (job->wanted_count + BLOCK - 1) / BLOCK; // Including the present one.
+    const int blocks = (job->wanted_count + BLOCK - 1) / BLOCK; // The present block counts, too.
     const int visits = job->wanted_count + blocks;
     const bool first = job->rounds == DIP_PRICE_JOB_FIRST_ROUNDS;
     const int rounds = first ? job->rounds : job->rounds - DIP_PRICE_JOB_FIRST_ROUNDS;

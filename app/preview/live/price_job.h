@@ -1,13 +1,16 @@
-// Measures the times of the live report while the preview rests, a frame at a time.
+// Measures frame times for the live report (app/preview/prices/prices.h), a frame at a time, while
+// nothing in the preview moves.
 //
-// The job times combinations of settings in blocks: the base and a few combinations, each drawn
-// once in every round, in an order that is shuffled anew. In a round, each combination draws one
-// frame untimed, because the previous combination has used the caches, and times the next frame.
-// All times enter the log of the live report (app/preview/prices/prices.h), which is estimated anew
-// after each block. At first every combination gets three rounds, so that all prices are soon known
-// roughly; then each gets five more. The combinations nearest to the requested settings come first.
+// The job times combinations of settings in blocks. A block holds the base (the settings that
+// prices start from) and a few combinations. Every round takes them in an order that is shuffled
+// anew. In a round, each combination draws one frame untimed, because the previous combination has
+// used the caches, and times the next frame. All times enter the log of the live report, from which
+// the times and prices are computed anew after each block. At first every combination gets three
+// rounds, so that all prices are soon known roughly; then each gets five more. The combinations
+// nearest to the requested settings come first.
 //
-// The caller gives the functions that draw and that tell the time, so that tests can replace them.
+// The caller supplies the functions that draw and that tell the time, so that tests can replace
+// them.
 #ifndef DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
 #define DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
 
@@ -23,13 +26,13 @@
 enum { DIP_PRICE_JOB_FIRST_ROUNDS = 3, DIP_PRICE_JOB_ROUNDS = 8 };
 
 typedef struct DipPriceJobCalls {
-    // Draws a frame with these settings. frame_index: see dip_painter_set_frame_index. The
-    // job uses the counters and the stage times of *frame. After a failure, the job measures
-    // nothing until dip_price_job_forget.
+    // Draws a frame with these settings. dip_renderer_set_frame_index explains frame_index. The job
+    // uses the counters and the stage times of *frame. After a failure, the job measures nothing
+    // until dip_price_job_forget.
     bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
                  DipError *err);
     int64_t (*now_ns)(void *context);          // NULL means dip_clock_ns.
-    DipThreadUse (*thread_use)(void *context); // NULL: that of this process.
+    DipThreadUse (*thread_use)(void *context); // NULL means the use of this process.
     int threads;                               // Number of threads that draw a frame.
     void *context;
 } DipPriceJobCalls;
@@ -40,14 +43,15 @@ typedef struct DipPriceJob DipPriceJob;
 DipPriceJob *dip_price_job_create(const DipPriceJobCalls *calls, DipPrices *prices, DipError *err);
 void dip_price_job_destroy(DipPriceJob **job); // *job may be NULL.
 
-// Drops the block that is being timed and empties the live report. Call it when pose, time,
-// size or scene of the picture change.
+// Drops the block that is being timed and empties the live report. Call it when the picture's pose,
+// time, size or scene changes.
 void dip_price_job_forget(DipPriceJob *job);
 
-// Drops the round that is being timed, because the preview no longer rests.
+// Drops the round that is being timed. Call it when something begins to move.
 void dip_price_job_interrupt(DipPriceJob *job);
 
-// Tells the panes' settings. Combinations that are known already are not timed again.
+// Tells the job the panes' settings, by which it chooses the combinations to time. Combinations
+// that are known already are not timed again.
 void dip_price_job_follow(DipPriceJob *job, const DipQuality *current, const DipQuality *requested);
 
 // Draws frames until the budget is used up, at least one. Returns whether there are new prices.
@@ -55,16 +59,17 @@ bool dip_price_job_step(DipPriceJob *job, double budget_ms);
 
 typedef struct DipPriceProgress {
     bool working;        // There are combinations left to time.
-    bool first;          // Among them are some that have no time at all.
+    bool first;          // Some of them have not had their first rounds.
     bool failed;         // A frame could not be drawn, or memory ran out.
-    int rounds;          // Rounds of the block that are complete.
-    int combinations;    // Combinations that are left, including those of the block.
-    double seconds_left; // Time that drawing them takes; 0 before the first frame.
+    int rounds;          // Complete rounds of the present block.
+    int combinations;    // Combinations left, including those of the block.
+    double seconds_left; // Estimated time to draw them; 0 before the first frame.
 } DipPriceProgress;
 
 DipPriceProgress dip_price_job_progress(const DipPriceJob *job);
 
-// Writes "times: 12 steps left, 4 s", or "" if there is nothing to measure.
+// Describes the progress for the panel: "times: 12 steps left, 4 s", why prices cannot be
+// measured, or "" if nothing is left.
 void dip_price_job_describe(const DipPriceJob *job, char *text, size_t size_bytes);
 
 #endif

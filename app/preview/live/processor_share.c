@@ -1,4 +1,4 @@
-// Compares the processor time of a thread with the time that has passed.
+// Compares a thread's processor time with the time that passes while the thread works.
 #include "app/preview/live/processor_share.h"
 
 #include "renderer/base/clock.h"

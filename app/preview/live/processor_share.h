@@ -8,17 +8,17 @@
 
 // Zero-initialise.
 typedef struct DipProcessorShare {
-    int64_t from_ns; // Time when the thread's work began, and its processor time then.
-    int64_t from_used_ns;
-    int64_t worked_ns; // Sums of both over the last pieces of work.
-    int64_t used_ns;
-    bool low; // In the last half second of work, the thread had a processor for less than half.
+    int64_t from_ns;      // Time when the thread's present piece of work began.
+    int64_t from_used_ns; // The thread's processor time at that moment.
+    int64_t worked_ns;    // Time that pieces of work took since `low` was set last.
+    int64_t used_ns;      // Processor time of these pieces of work.
+    bool low; // In the last half second of work, it had a processor for less than half the time.
 } DipProcessorShare;
 
 // Notes that the thread begins to work.
 void dip_processor_share_begin(DipProcessorShare *share, pthread_t thread);
 
-// Notes that the thread has worked since the call of dip_processor_share_begin, or wanted to.
+// Notes that the thread has worked, or waited for a processor, since dip_processor_share_begin.
 void dip_processor_share_end(DipProcessorShare *share, pthread_t thread);
 
 #endif

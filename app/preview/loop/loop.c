@@ -73,7 +73,7 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
         preview->state.tools.fixed_scale = true;
     }
     preview->state.tools.bare = def->hides_panel;
-    // An open drawer would cover the current pane.
+    // Opens the dock, unless it is a drawer (layout.h), which would cover the current pane.
     preview->state.tools.open = dip_preview_layout(preview).side == DIP_DOCK_BELOW;
     return preview;
 }
@@ -164,7 +164,7 @@ static void drop_file(DipPreview *preview, const char *file, int64_t now_ns) {
 static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
     const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
     DipUi *ui = dip_view_ui(preview->view);
-    if (!preview->state.help) { // Letters typed into the help do not fly.
+    if (!preview->state.help) { // Letters typed into the help do not fly the camera.
         dip_keys_hold(&preview->held, event);
     }
     if (handle_in_window(preview, event, now_ns)) {
@@ -287,7 +287,7 @@ static void paste_settings(DipPreview *preview, int64_t now_ns) {
     dip_preview_notice(state, now_ns, "Pasted: %.120s", text);
 }
 
-// Copies the requested settings as text, if the user asked for it.
+// Copies the requested settings as text to the clipboard, if the user asked for it.
 static void copy_settings(DipPreview *preview, int64_t now_ns) {
     const DipDisplay *display = &preview->def.display;
     char text[256];
@@ -356,8 +356,8 @@ static void follow_motion(DipPreview *preview) {
     }
 }
 
-// Draws and presents the picture if something has changed, and sets *shown to whether it has. err
-// is not NULL.
+// Draws and presents the picture if something has changed. Sets *shown to whether something has
+// changed. `err` must not be NULL.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
     DipPreviewState *state = &preview->state;
     const bool had_notice = state->notice[0] != '\0';
@@ -404,7 +404,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
 static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
         const bool busy = dip_live_prices_are_working(preview->live_prices) &&
-                          dip_prices_progress(preview->prices)[0] != '\0'; // Empty in a pause.
+                          dip_prices_progress(preview->prices)[0] != '\0'; // Empty while paused.
         take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;
     }
@@ -417,20 +417,20 @@ static void wait_for_turn(DipPreview *preview, bool shown) {
     }
 }
 
-// Returns whether nobody sees the window and nobody waits for its picture.
+// Returns whether nobody sees the window and no program waits for its picture.
 static bool is_hidden(const DipPreview *preview) {
     const DipDisplay *display = &preview->def.display;
     return display->is_hidden && display->is_hidden(display->context) &&
            !preview->state.wants_picture;
 }
 
-// Runs a turn in which nothing is drawn or measured. Time stands still.
+// Runs a turn in which nothing is drawn or measured and the time on the path stands still.
 static void rest_hidden(DipPreview *preview) {
     if (preview->errors) {
         dip_error_thread_pause(preview->errors);
     }
     dip_live_prices_pause(preview->live_prices);
-    preview->figures.presented_ns = 0; // No refresh is missed until the next picture.
+    preview->figures.presented_ns = 0; // No refresh counts as dropped meanwhile.
     preview->exposed = true;
     take_event(preview, IDLE_WAIT_MS);
     preview->turn_ns = dip_loop_clock_ns(preview);

@@ -15,7 +15,7 @@
 
 typedef struct DipPreview DipPreview;
 
-// What a program that controls the preview sees between two turns.
+// The preview's state and pictures, as a program that controls the preview sees them in a call.
 typedef struct DipPreviewMoment {
     DipPreviewState *state; // The program may change it, as keys do.
     DipSession *session;
@@ -28,8 +28,8 @@ typedef struct DipPreviewMoment {
     int64_t now_ns;
 } DipPreviewMoment;
 
-// What lets another program control the preview (app/preview/control/control.h). NULL functions are
-// not called.
+// Functions through which another program controls the preview (app/preview/control/control.h).
+// NULL functions are not called.
 typedef struct DipPreviewControl {
     void *context;
     // Called once in each turn, before drawing. Returns whether the program may have changed the
@@ -43,13 +43,13 @@ typedef struct DipPreviewDef {
     DipSession *session;         // Borrowed.
     DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
     DipCostReport *costs;        // Borrowed; NULL if there is no cost report.
-    struct DipReload *reload;    // Borrowed; NULL: the preview ignores dropped files.
-    DipPrices *prices;           // Borrowed; NULL: the preview has prices of its own.
-    bool measures_prices;        // Measure rough prices while the dock is open and nothing moves.
-    const char *cache;           // Folder of the cached truths; borrowed; NULL: none.
+    struct DipReload *reload;    // Borrowed; with NULL, the preview ignores dropped files.
+    DipPrices *prices;           // Borrowed; with NULL, the preview makes prices of its own.
+    bool measures_prices;        // Measure rough prices (live_prices.h) while nothing moves.
+    const char *cache;           // Borrowed folder of cached truths (truth.h), or NULL.
     double flying_speed_m_per_s; // Speed of the free camera.
     DipPreviewControl control;   // Its context is borrowed.
-    double ui_scale;             // Factor by which controls are enlarged; 0 stands for 1.
+    double ui_scale;             // --ui-scale, which enlarges controls; 0 without the option.
     bool hides_panel;            // The window shows nothing but the panes at first.
     const char *notice;          // Shown at first for a few seconds; may be NULL. Copied.
 
@@ -59,7 +59,7 @@ typedef struct DipPreviewDef {
     void *context;
 } DipPreviewDef;
 
-// Fails with MISSING if there is no font.
+// Creates a preview. Fails with MISSING if the display needs a font and there is none.
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err);
 void dip_preview_destroy(DipPreview **preview);
 

@@ -1,4 +1,4 @@
-// Draws the panes' frames and the window, presents it, and saves what it shows.
+// Draws the panes' frames, draws and presents the window, and saves pictures and poses to files.
 #include "app/preview/loop/loop_private.h"
 
 #include "app/preview/state/poses.h"
@@ -68,7 +68,7 @@ static bool follow_size(DipPreview *preview, DipError *err) {
 
 static void number_picture(DipPreview *preview) {
     Drawn drawn;
-    memset(&drawn, 0, sizeof drawn); // memcmp compares the padding, too.
+    memset(&drawn, 0, sizeof drawn); // Clears the padding, which memcmp compares, too.
     drawn.pose = preview->pose;
     drawn.play_ns = preview->state.play_ns;
     drawn.width = preview->frame.panes[0].width;
@@ -162,7 +162,7 @@ static void judge_taa(DipPreview *preview, int64_t now_ns) {
 
 // --- files that the user saves -------------------------------------------------------------------
 
-// Draws both panes side by side, with their gap.
+// Draws both panes side by side, with the gap between them.
 static bool join_panes(const DipFrame panes[DIP_PANE_COUNT], DipCanvas *joined, DipError *err) {
     const DipFrame *current = &panes[DIP_PANE_CURRENT], *requested = &panes[DIP_PANE_REQUESTED];
     const int right = current->width + DIP_PANE_GAP_PX, width = right + requested->width;
@@ -207,7 +207,7 @@ static bool save_screenshot(DipPreview *preview, char *file, size_t size_bytes, 
     return written;
 }
 
-// Shows a notice that names the saved file, or one that tells the error.
+// Shows a notice that names the saved file or describes the error.
 static void tell_saved(DipPreview *preview, bool saved, const char *what, const char *file,
                        const DipError *err, int64_t now_ns) {
     char text[DIP_NOTICE_SIZE];
@@ -268,7 +268,8 @@ static void *run_prefetch(void *context) {
     return NULL;
 }
 
-// Starts the thread; a second call does nothing. The scene must outlive dip_prefetch_end.
+// Starts the thread that prepares textures; a second call does nothing. The scene must outlive
+// dip_prefetch_end.
 static void begin_prefetch(DipPrefetch *prefetch, const DipScene *scene) {
     if (prefetch->scene) {
         return;
@@ -284,7 +285,7 @@ void dip_prefetch_end(DipPrefetch *prefetch) {
     }
 }
 
-// Lets the tools compute the pictures that the window has asked them for.
+// Lets the loupe, the comparison and the maps compute the pictures that the window has asked for.
 static void update_tools(DipPreview *preview) {
     const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
     const DipToolsInput input = {
@@ -311,7 +312,7 @@ bool dip_loop_show(DipPreview *preview, int64_t now_ns, DipError *err) {
     }
     if (preview->state.screenshot) {
         save_picture(preview, now_ns);
-        if (!draw_view(preview, err)) { // Adds the notice that names the file.
+        if (!draw_view(preview, err)) { // Shows the notice that names the file.
             return false;
         }
     }

@@ -1,4 +1,4 @@
-// Measures errors and rough prices while nothing moves.
+// Measures the panes' errors (error_thread.h) and rough prices (live_prices.h) while nothing moves.
 #include "app/preview/loop/loop_private.h"
 
 #include "app/preview/tools/maps.h"
@@ -24,8 +24,8 @@ static bool wants_prices(const DipPreview *preview) {
 }
 
 // Returns whether the settings' price tags or the advice need the truth (the converged picture),
-// against which their errors are measured. The thread that draws the truth begins only once all
-// times are known, because it would disturb them.
+// against which their errors are measured. The thread that draws the truth is created only
+// when all times are known at least roughly, because it would disturb their measurement.
 static bool prices_need_truth(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     const bool shown = state->tools.tab == DIP_TAB_SETTINGS || state->tools.tab == DIP_TAB_ADVICE;
@@ -43,10 +43,10 @@ static bool shows_errors(const DipPreview *preview) {
     return looks_at_errors(preview) || preview->state.wants_errors;
 }
 
-// Returns the samples of the finest truth that may be drawn now. Times and truths take turns, the
-// cheapest useful one first: rough times, then the first truth that prices can be compared with and
-// the errors against it, then better times, then finer truths. While the user looks at errors,
-// that first truth comes before the times.
+// Returns the samples per pixel of the finest truth that may be drawn now. Times and truths take
+// turns, the cheapest useful one first: rough times, then the first truth that is good enough for
+// prices and the errors against it, then better times, then finer truths. While the user looks at
+// errors, that first truth comes before the times.
 static int truth_limit(const DipPreview *preview) {
     if (!wants_prices(preview)) {
         return INT_MAX;
@@ -135,8 +135,8 @@ bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns) {
     return news;
 }
 
-// Returns the truth of the picture that the panes show. It has no pixels while it is too noisy for
-// prices.
+// Returns the truth of the panes' picture, against which the errors of prices are measured. It has
+// no pixels while it is too noisy for this.
 static DipLiveTruth truth_for_prices(const DipPreview *preview) {
     if (!preview->errors || !wants_errors(preview)) {
         return (DipLiveTruth){.samples = 0};

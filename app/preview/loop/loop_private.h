@@ -1,7 +1,9 @@
-// Holds the memory of a preview, and declares what the files of the loop do for each other.
+// Defines the struct of a running preview, and declares the functions that the loop's files call in
+// each other.
 //
-// loop.c runs the turns. The functions of the other files each do one part of a turn. All run on
-// the thread that owns the preview. A function fails with the error of the function that it calls.
+// loop.c runs the turns (loop.h). The functions of the other files each do one part of a turn. All
+// run on the thread that owns the preview. A function fails with the error of the function that it
+// calls.
 #ifndef DIP_APP_PREVIEW_LOOP_LOOP_PRIVATE_H
 #define DIP_APP_PREVIEW_LOOP_LOOP_PRIVATE_H
 
@@ -43,7 +45,7 @@ struct DipPreview {
     DipPreviewState state;
     DipView *view;
     DipPrices *prices;       // Owned if def.prices is NULL; otherwise def.prices.
-    DipPreviewChoice choice; // Made anew in each turn in which prices have changed.
+    DipPreviewChoice choice; // What can be chosen with the present prices (choice.h).
     DipLivePrices *live_prices;
     DipTools *tools;
     DipPathEditor *editor;
@@ -51,7 +53,7 @@ struct DipPreview {
     DipFigures figures;
     DipPrefetch prefetch;
     DipErrorThread *errors; // NULL until errors are first wanted.
-    bool no_truth;          // The thread could not be made, so prices have no errors.
+    bool no_truth;          // `errors` could not be created, so prices have no errors.
     DipHeldKeys held;
     DipControllers controllers;
     int64_t turn_ns; // When the last turn began.
@@ -64,22 +66,22 @@ struct DipPreview {
     int pane_height;
     int tried_width; // Size that the renderers last got, or were refused for lack of memory.
     int tried_height;
-    int64_t blinks_ns;       // When a blinking comparison changes, or INT64_MAX.
-    bool redraw;             // What shows over and beside the panes may have changed.
-    bool exposed;            // The display has lost its picture and needs all of it.
-    char title[128];         // The window's title.
-    const void *judged_path; // The path and the scene for which state.stands holds.
-    const void *judged_scene;
-    bool flying;           // The user or the path editor moved the camera in this turn.
-    DipPose pose;          // Pose of the next frame.
-    DipSessionFrame frame; // The frame that was drawn last.
+    int64_t blinks_ns;        // When a blinking comparison changes, or INT64_MAX.
+    bool redraw;              // What shows over and beside the panes may have changed.
+    bool exposed;             // The display has lost its picture and needs all of it.
+    char title[128];          // The window's title.
+    const void *judged_path;  // The path that played when state.stands was set.
+    const void *judged_scene; // The scene that showed when state.stands was set.
+    bool flying;              // The user or the path editor moved the camera in this turn.
+    DipPose pose;             // Pose of the next frame.
+    DipSessionFrame frame;    // The frame that was drawn last.
     uint64_t frame_index;
     unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
     DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
     DipQuality first_quality[DIP_PANE_COUNT]; // Settings with which the session began.
     int drawn_look;
     Drawn drawn;
-    unsigned picture_number; // Number of the current pictures; grows when `drawn` changes.
+    unsigned picture_number; // Number of the panes' pictures; grows when `drawn` changes.
 };
 
 // --- loop_draw.c ---------------------------------------------------------------------------------
@@ -91,7 +93,7 @@ bool dip_loop_draw_panes(DipPreview *preview, DipError *err);
 bool dip_loop_alternates(const DipPreview *preview);
 // Adds the pose of the last frame to the file of saved poses.
 void dip_loop_save_pose(DipPreview *preview, int64_t now_ns);
-// Draws the window and presents it; saves a screenshot if the user asked for one.
+// Draws the window and presents it. Saves a screenshot if the user asked for one.
 bool dip_loop_show(DipPreview *preview, int64_t now_ns, DipError *err);
 // Waits until the thread that prepares textures has ended.
 void dip_prefetch_end(DipPrefetch *prefetch);
@@ -109,13 +111,13 @@ void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns);
 
 // --- loop_measure.c ------------------------------------------------------------------------------
 
-// Gives the maps the newest error pictures.
+// Gives the maps (app/preview/tools/maps.h) a reading of the error thread and its newest pictures.
 void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading);
 // Measures errors while the window shows them and the camera rests. Returns whether there are new
 // errors to show.
 bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns);
-// Measures rough prices while the dock is open and the camera rests. Returns whether the dock must
-// be drawn again.
+// Measures rough prices (live_prices.h) while the camera rests and the open dock (the panel with
+// the controls) or another program shows prices. Returns whether the dock must be drawn again.
 bool dip_loop_measure_prices(DipPreview *preview);
 
 // --- loop.c --------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
-// Replaces the scene by the gallery's next one, or by that of a session whose files were dropped or
-// have changed.
+// Replaces the scene of the preview by another scene of the gallery, or by the scene of a new
+// session after files were dropped or have changed.
 #include "app/preview/loop/loop_private.h"
 
 #include "app/cost/plan.h"
@@ -73,8 +73,8 @@ static void follow_track(DipSession *session, DipPreviewState *state, const DipC
 // Puts the reload's new session in the place of the old one and updates the state.
 //
 // The settings that the user has chosen stay, unless the new session begins with other settings
-// than the old one did, which means that the user has changed the ini. If the file was dropped, the
-// camera begins the new path. Otherwise it stays on the same path at the same time.
+// than the old one did. They differ if the ini has changed. If a file was dropped, the camera
+// begins the new path. Otherwise it stays on the same path at the same time.
 static void hand_over(DipPreview *preview, bool dropped) {
     DipSession *session = preview->def.session;
     DipPreviewState *state = &preview->state;
@@ -86,9 +86,9 @@ static void hand_over(DipPreview *preview, bool dropped) {
     dip_reload_take(preview->def.reload);
     dip_cost_scene_name(session, scene);
     if (strcmp(scene, scene_before) != 0) {
-        state->costs = NULL; // The report is about the other scene.
+        state->costs = NULL; // The report is about the previous scene.
     }
-    if (session->config.target_fps != fps_before) { // The user has changed the ini.
+    if (session->config.target_fps != fps_before) { // Another ini, or a changed one.
         const double fps = session->config.target_fps;
         dip_preview_set_budget(state, fps > 0.0 ? 1000.0 / fps : 0.0);
     }
@@ -103,7 +103,7 @@ static void hand_over(DipPreview *preview, bool dropped) {
 static void use_new_session(DipPreview *preview, bool dropped) {
     const DipErrorReading nothing = {.status = DIP_ERROR_STATUS_PAUSED};
     DipSession *session = preview->def.session;
-    preview->judged_path = NULL; // The new path may lie where the old one lay.
+    preview->judged_path = NULL; // The new path may have the address of the old one.
     dip_error_thread_destroy(&preview->errors);
     preview->no_truth = false;
     dip_loop_show_errors(preview, &nothing); // The thread owned the error pictures.

@@ -22,8 +22,8 @@ typedef struct Opening {
     pthread_t thread;
     bool running;
     atomic_bool done;
-    bool dropped;                   // False: a file has changed.
-    char name[DIP_WATCH_NAME_SIZE]; // The file that was dropped or has changed, without its folder.
+    bool dropped;                   // False if a file has changed.
+    char name[DIP_WATCH_NAME_SIZE]; // Name, without folder, of the dropped or changed file.
     DipSessionOptions options;
     const DipImporter *importer;
     DipSession session;
@@ -36,14 +36,14 @@ struct DipReload {
     const DipSessionOptions *first_options; // Options of the session before the first reload.
     DipSessionOptions options;              // Options of the session that the preview shows.
     DipWatch *watch;                        // NULL without --watch.
-    bool changed; // A file has changed: the session is to be opened again.
+    bool changed; // A file has changed, so the session must be opened again.
     char changed_name[DIP_WATCH_NAME_SIZE];
     const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first.
     int drop_count;
-    char **names; // Every file that was ever dropped, each once. Options point to these names.
+    char **names; // Names of all files dropped so far, each once; options point to them.
     int name_count;
     Opening opening;
-    DipCostReport *costs; // Owned; NULL: none was opened.
+    DipCostReport *costs; // Owned; NULL if none was opened.
 };
 
 // --- the files of a session ----------------------------------------------------------------------
@@ -70,8 +70,8 @@ static void watch_config(DipWatch *watch, const DipConfig *config) {
     }
 }
 
-// Watches the files of the session, and the files in which an opening has found faults, because
-// the user is about to mend them.
+// Watches the files of the session. Also watches the files in which the last opening of a session
+// has found faults, because the user is about to mend them.
 static void watch_session(DipReload *reload, const DipErrorList *faults) {
     const DipSessionOptions *options = &reload->options;
     if (!reload->watch) {
@@ -206,7 +206,7 @@ static void *open_session(void *context) {
     const DipSessionDef def = {
         .options = &opening->options,
         .importer = opening->importer,
-        .log = "", // Not NULL: the log that is open stays open.
+        .log = "", // Unlike NULL, this keeps the open log.
         .scene = true,
         .renderers = true,
         .begin_ns = dip_clock_ns(),
@@ -295,7 +295,7 @@ static bool lacks_changed_file(const Opening *opening) {
     return false;
 }
 
-// Takes the result of the thread, which has ended.
+// Takes the result of the thread that opened a session. The thread has ended.
 static bool finish(DipReload *reload, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     join(opening);
@@ -319,7 +319,7 @@ void dip_reload_take(DipReload *reload) {
     opening->opened = false;
     reload->options = opening->options;
     reload->session->options = &reload->options;
-    reload->session->times = times; // --timing tells about the start of the program.
+    reload->session->times = times; // --timing reports the program's start.
     watch_session(reload, &opening->faults);
     dip_error_list_free(&opening->faults);
 }

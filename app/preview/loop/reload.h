@@ -1,6 +1,6 @@
-// Opens a new session beside the one that the preview shows: after the user has dropped a file onto
-// the window, and, with --watch, after a file of the session has changed. The new session replaces
-// the old one only when it is whole. If it cannot be opened, the old one stays.
+// Opens a new session beside the one that the preview shows, after the user has dropped a file onto
+// the window or, with --watch, after a file of the session has changed. The new session replaces
+// the old one when it is completely open. If it cannot be opened, the old one stays.
 //
 // Sessions are opened on a thread, so that the preview keeps running. All functions of this file
 // must be called on one thread, that of the preview.
@@ -13,39 +13,39 @@
 
 typedef struct DipReload DipReload;
 
-// The session is borrowed and must outlive the reload. watch: reload when a file changes. Returns
-// NULL when memory runs out.
+// The session is borrowed and must outlive the reload. With `watch`, it is reloaded when one of its
+// files changes. Returns NULL when memory runs out.
 DipReload *dip_reload_create(DipSession *session, bool watch, DipError *err);
 
 // Waits for a session that is being opened, and closes it. The session that the preview shows stays
-// open and points to the options again that it had before the first reload.
+// open. It points again to the options that it had before the first reload.
 void dip_reload_destroy(DipReload **reload);
 
-// The user has dropped a file: a camera path (.pth, .bth), a cost report (.json), an ini (.ini), or
-// a model (any other name). The session then shows what it would show if the command line named
-// the file: an ini replaces everything, a model replaces models, scene and path, and a path
-// replaces the path. Files are opened in the order in which they are dropped. Returns false if too
-// many wait.
+// Accepts a file that the user has dropped: a camera path (.pth, .bth), a cost report (.json), an
+// ini (.ini), or a model (any other name). The session then shows what it would show if the command
+// line named the file: an ini replaces everything, a model replaces models, scene and path, and a
+// path replaces the path. Files are opened in the order in which they are dropped. Returns false if
+// too many files wait or memory runs out.
 bool dip_reload_drop(DipReload *reload, const char *file);
 
 typedef enum DipReloadKind {
     DIP_RELOAD_NOTHING, // There is no news.
     DIP_RELOAD_BEGUN,   // A session is being opened.
-    DIP_RELOAD_SESSION, // A new session is whole: call dip_reload_take.
+    DIP_RELOAD_SESSION, // A new session is open. Call dip_reload_take.
     DIP_RELOAD_COSTS,   // A new cost report is loaded.
     DIP_RELOAD_FAULT    // Something cannot be opened. The log has all errors.
 } DipReloadKind;
 
 typedef struct DipReloadNews {
     DipReloadKind kind;
-    bool dropped;                 // The user dropped a file; false: a file has changed.
+    bool dropped;                 // True if the user dropped a file, false if a file has changed.
     char notice[DIP_NOTICE_SIZE]; // What to tell the user.
-    const DipCostReport *costs;   // COSTS: the report. It is valid until the next one is loaded.
+    const DipCostReport *costs;   // With COSTS, the report. Valid until the next one is loaded.
 } DipReloadNews;
 
-// Looks for changed files, and begins or ends an opening. Call it in every turn of the preview.
-// Returns whether there is news. If a cost report is opened, `prices` take its prices. now_ns: time
-// on the preview's clock.
+// Looks for changed files, and begins or finishes the opening of a session. Call it in every turn
+// of the preview. Returns whether there is news. If a cost report is opened, `prices` uses its
+// prices. now_ns: time on the preview's clock.
 bool dip_reload_poll(DipReload *reload, DipPrices *prices, int64_t now_ns, DipReloadNews *news);
 
 // Puts the new session in the place of the old one, which is closed: nothing may use the old one's

@@ -60,7 +60,7 @@ uint64_t dip_view_version(const DipView *view, int pane) {
 
 DipLayout dip_view_layout(const DipViewInput *input) {
     const DipToolState *tools = &input->state->tools;
-    if (input->text) { // The bar and the body are characters.
+    if (input->text) { // The dock is drawn as characters, so only the panes have rectangles.
         DipLayout layout = {
             .width = input->width, .height = input->height, .scale = 1.0, .side = DIP_DOCK_DRAWER};
         dip_text_view_panes(input->text, input->state, input->width, input->height, layout.panes);
@@ -71,7 +71,8 @@ DipLayout dip_view_layout(const DipViewInput *input) {
                            tools->bare);
 }
 
-// Runs one pass over all controls. Returns what dip_ui_end returns.
+// Runs one pass (ui.h) over all controls: draws them into `list`, hands them `event`, or only lays
+// them out if both are NULL. Returns what dip_ui_end returns.
 static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *list,
                       const DipEvent *event) {
     const DipLayout layout = dip_view_layout(input);

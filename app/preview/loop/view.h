@@ -9,13 +9,13 @@
 
 typedef struct DipView DipView;
 
-// text: draws all texts as character cells (text_view.h), so that the picture holds the panes only;
-// borrowed. NULL: all texts are drawn into the picture. Fails with MISSING if the picture needs a
-// font and there is none.
+// If `text` is not NULL, it draws all texts as character cells (text_view.h), and the picture holds
+// the panes only. Otherwise all texts are drawn into the picture. `text` is borrowed. Fails with
+// MISSING if the picture needs a font and there is none.
 DipView *dip_view_create(DipTextView *text, DipError *err);
 void dip_view_destroy(DipView **view);
 
-// Returns the pixels of a frame, which are borrowed.
+// Returns the pixels of a frame. They still belong to the frame.
 DipPixels dip_view_pixels(const DipFrame *frame);
 
 // Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
@@ -28,13 +28,13 @@ uint64_t dip_view_version(const DipView *view, int pane);
 typedef struct DipViewInput {
     int width; // Size of the window in pixels.
     int height;
-    double scale; // The display's scale.
+    double scale; // The display's scale (display.h).
     int64_t now_ns;
     DipPreviewState *state;
     const DipPaneFigures *figures; // One for each pane.
     const DipPrices *prices;
     DipTools *tools;
-    DipTextView *text; // The texts, if they are character cells; otherwise NULL.
+    DipTextView *text; // Draws the texts as character cells; NULL if the picture holds them.
     bool still;        // Camera and scene stand still.
 } DipViewInput;
 

@@ -1,4 +1,4 @@
-// Compares stamps of files: numbers that change when a file changes.
+// Detects changes of files by comparing stamps, which are computed from names, times and sizes.
 #include "app/preview/loop/watch.h"
 
 #include "renderer/base/assert.h"
@@ -21,7 +21,7 @@ enum {
 
 // The state of a file or of the files in a folder.
 typedef struct Stamp {
-    uint64_t hash; // Of names, times and sizes; it does not depend on the order of the files.
+    uint64_t hash; // Hash of names, times, sizes and inodes, independent of the files' order.
     int count;     // Number of files.
     int64_t newest_ns;
     char newest[DIP_WATCH_NAME_SIZE]; // Name of the file that was written last.
@@ -30,7 +30,7 @@ typedef struct Stamp {
 typedef struct Entry {
     char *file; // Path of a file, or of a folder without a final slash.
     bool folder;
-    bool listed; // The list that is being made names the entry.
+    bool listed; // The new list names the entry (dip_watch_begin_list).
     Stamp stamp;
 } Entry;
 
@@ -104,7 +104,7 @@ static void add_folder(Stamp *stamp, const char *folder, int depth) {
         struct stat status;
         const int length = snprintf(file, sizeof file, "%s/%s", folder, found->d_name);
         if (found->d_name[0] == '.' || length >= (int)sizeof file || stat(file, &status) != 0) {
-            continue; // Also leaves out "." and "..".
+            continue; // Hidden names include "." and "..".
         }
         if (S_ISDIR(status.st_mode)) {
             if (depth < MAX_DEPTH) {

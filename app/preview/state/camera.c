@@ -70,7 +70,8 @@ bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_pe
 
 // --- mouse ---------------------------------------------------------------------------------------
 
-// Angle of the line of sight above the horizon. It exceeds 90 degrees if the camera is upside down.
+// Returns the angle of the line of sight above the horizon. It exceeds 90 degrees if the camera is
+// upside down.
 static double elevation_deg(const DipPose *pose) {
     static const double ahead[3] = {0.0, 0.0, -1.0};
     static const double up[3] = {0.0, 1.0, 0.0};

@@ -11,7 +11,7 @@ typedef struct DipCameraKeys {
     double right;   // Key D is 1, A is -1.
     double up;      // Key Q is 1, E is -1.
     double forward; // Key W is 1, S is -1.
-    bool turn;      // Shift: the camera turns instead of moving.
+    bool turn;      // The camera turns instead of moving, because Shift is held.
 } DipCameraKeys;
 
 // Moves the camera along its own axes by speed_m_per_s * seconds, or turns the camera if `turn` is
@@ -34,7 +34,7 @@ void dip_camera_orbit(DipPose *pose, const double centre_world[3], double right_
 void dip_camera_zoom(DipPose *pose, const double centre_world[3], double factor);
 
 // Writes the point on the camera's line of sight that is nearest to a given point, but at least
-// `least_m` before the camera.
+// `least_m` in front of the camera.
 void dip_camera_point_ahead(const DipPose *pose, const double near_world[3], double least_m,
                             double ahead_world[3]);
 

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-// Dead zones as parts of an axis: the values that Microsoft recommends for the Xbox controller.
+// Dead zones as fractions of an axis, with the values that Microsoft recommends for the Xbox
+// controller.
 static const double left_dead_zone = 7849.0 / 32767.0;
 static const double right_dead_zone = 8689.0 / 32767.0;
 static const double trigger_dead_zone = 30.0 / 255.0;
@@ -40,7 +41,8 @@ static const ButtonRow button_rows[DIP_CONTROLLER_BUTTON_COUNT] = {
     [DIP_CONTROLLER_RIGHT] = {.key = DIP_KEYCODE_RIGHT},
 };
 
-// Carries out the button's action, or fills in the event of its key. Returns whether it has a key.
+// Carries out the button's action, or fills in the event of its key. Returns whether the button has
+// a key.
 static bool press_button(DipPreviewState *state, const DipEvent *event, int64_t now_ns,
                          DipEvent *key) {
     const ButtonRow *row = &button_rows[event->controller_button];
@@ -116,7 +118,7 @@ bool dip_controllers_handle(DipControllers *controllers, DipPreviewState *state,
 
 // --- flying ------------------------------------------------------------------------------------
 
-// Scales an amount so that it begins with 0 at the edge of the dead zone and ends with 1.
+// Scales a tilt so that it is 0 at the edge of the dead zone and 1 at full tilt.
 static double beyond(double amount, double dead_zone) {
     if (amount <= dead_zone) {
         return 0.0;
@@ -124,8 +126,8 @@ static double beyond(double amount, double dead_zone) {
     return amount >= 1.0 ? 1.0 : (amount - dead_zone) / (1.0 - dead_zone);
 }
 
-// Adds a stick's tilt to *right and *forward. The dead zone is a circle, so that a stick tilted
-// along one axis does not jump when it leaves the other axis.
+// Adds a stick's tilt to *right and *forward. The dead zone is a circle, so that a movement along
+// one axis does not jump when the stick leaves the centre of the other axis.
 static void add_stick(double x, double y, double dead_zone, double *right, double *forward) {
     const double tilt = sqrt(x * x + y * y);
     const double amount = beyond(tilt, dead_zone);

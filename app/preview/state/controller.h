@@ -15,7 +15,7 @@ enum { DIP_MAX_CONTROLLERS = 4 };
 typedef struct DipControllers {
     struct {
         bool used;
-        int controller; // The number in the controller's events.
+        int controller; // The number by which events name the controller.
         double axes[DIP_CONTROLLER_AXIS_COUNT];
     } slots[DIP_MAX_CONTROLLERS];
 } DipControllers;

@@ -5,18 +5,19 @@
 
 #include <string.h>
 
-// A key without modifiers. The key `other` does the same.
+// A key without modifiers. A second key, `other`, does the same.
 #define KEY(key, other, action, argument, label, text)                                             \
     { key, other, DIP_ACTION_##action, argument, false, false, false, label, text }
 // Keys that go on acting while they are held.
 #define HELD(key, action, argument, reverse, label, text)                                          \
     { key, 0, DIP_ACTION_##action, argument, false, reverse, true, label, text }
-// Keys with Ctrl. A held key repeats the action of CTRL, but not that of EDIT.
+// CTRL and EDIT are keys that act with Ctrl. While held, only CTRL keys repeat their action.
 #define CTRL(key, action, argument, reverse, label, text)                                          \
     { key, 0, DIP_ACTION_##action, argument, true, reverse, true, label, text }
 #define EDIT(key, edit, label, text)                                                               \
     { key, 0, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_##edit, true, false, false, label, text }
-// Rows that only the help has. A terminal shows the row unless its action needs a window.
+// Rows that only the help uses. In a terminal, the help shows a row unless its action needs a
+// window.
 #define HELP(action, label, text)        KEY(0, 0, action, 0, label, text)
 #define SETTING(key, other, NAME, label) KEY(key, other, SETTING, DIP_SETTING_##NAME, label, NULL)
 #define PATH(digit)                      KEY('0' + digit, 0, PATH, digit, NULL, NULL)
@@ -106,7 +107,7 @@ static bool stands_for(const DipKeyRow *row, DipKeycode key) {
     return row->key != DIP_KEYCODE_NONE && (row->key == (int)key || row->other == (int)key);
 }
 
-// Carries out the row of a key. Returns whether there is one.
+// Carries out the action of the key's row. Returns whether the key has a row.
 static bool press_row(DipPreviewState *state, const DipEvent *event, bool ctrl, int64_t now_ns) {
     for (int i = 0; i < dip_key_row_count; ++i) {
         const DipKeyRow *row = &dip_key_rows[i];
@@ -145,7 +146,7 @@ static bool press_with_modifier(DipPreviewState *state, const DipEvent *event, i
     return press_row(state, event, true, now_ns);
 }
 
-// Leaves the tool that shows, as Escape does. Returns false if none shows.
+// Leaves the tool that shows, as Escape does. Returns false if no tool shows.
 static bool leave_tool(DipPreviewState *state) {
     DipToolState *tools = &state->tools;
     const bool shows = tools->bare || tools->loupe || tools->map != DIP_MAP_NONE ||
@@ -189,7 +190,8 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
     if (type_words(state, event)) {
         return true;
     }
-    // Escape goes back by one level: a sheet, a tool, full screen, the program.
+    // Each Escape closes one thing: the help and the cost table, then a tool, then full screen, and
+    // finally the program.
     if (event->key == DIP_KEYCODE_ESCAPE && (state->help || state->show_costs)) {
         state->help = state->show_costs = false;
         return true;

@@ -7,15 +7,15 @@
 #include "app/preview/state/state.h"
 
 typedef struct DipKeyRow {
-    int key;   // A DipKeycode. DIP_KEYCODE_NONE: only the help uses the row.
+    int key;   // A DipKeycode, or DIP_KEYCODE_NONE if only the help uses the row.
     int other; // A second key that does the same, or DIP_KEYCODE_NONE.
     DipAction action;
     int argument;
     bool ctrl;         // The key acts while Ctrl is held.
     bool reverse;      // The action goes backwards, as with Shift.
     bool repeats;      // The action is repeated while the key is held.
-    const char *label; // The key's name in the help; NULL: the help leaves the row out.
-    const char *text;  // The help's text; NULL: the help shows the setting's title.
+    const char *label; // The key's name in the help; NULL if the help leaves the row out.
+    const char *text;  // The help's text; NULL if the help shows the setting's title.
 } DipKeyRow;
 
 extern const DipKeyRow dip_key_rows[];
@@ -26,7 +26,7 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
 
 // The letters and modifiers that are held. They fly the camera. Zero-initialise.
 typedef struct DipHeldKeys {
-    bool letters[26]; // By the key's position on a US keyboard, 'a' first.
+    bool letters[26]; // Which letters are held, 'a' first, by their positions on a US keyboard.
     unsigned modifiers;
 } DipHeldKeys;
 

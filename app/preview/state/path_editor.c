@@ -1,4 +1,4 @@
-// Keeps the keys of the path that the user makes, flies the path and saves it.
+// Edits the keys (poses) of the path that the user makes, flies the path and saves it.
 #include "app/preview/state/path_editor.h"
 
 #include "app/preview/state/poses.h"

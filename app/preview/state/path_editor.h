@@ -1,7 +1,7 @@
 // Edits the camera path that the user makes in the window from poses of the camera.
 //
 // The path has keys: poses that the camera passes one after the other. One of them is the chosen
-// key: a new key is inserted behind it, and it can be replaced or deleted. The path is saved in the
+// key. New keys are inserted after it, and it can be replaced or deleted. The path is saved in the
 // text format (campaths/campath.h) under a name that no file has yet.
 #ifndef DIP_APP_PREVIEW_STATE_PATH_EDITOR_H
 #define DIP_APP_PREVIEW_STATE_PATH_EDITOR_H
@@ -34,16 +34,16 @@ typedef struct DipPathEditor {
 } DipPathEditor;
 
 typedef enum DipPathEdit {
-    DIP_PATH_EDIT_ADD,     // Inserts the camera's pose behind the chosen key, and chooses it.
+    DIP_PATH_EDIT_ADD,     // Inserts the camera's pose after the chosen key, and chooses it.
     DIP_PATH_EDIT_REPLACE, // Gives the chosen key the camera's pose.
     DIP_PATH_EDIT_DELETE,  // Deletes the chosen key. The key before it becomes the chosen one.
     DIP_PATH_EDIT_NEXT,    // Chooses the next key and moves the camera there.
     DIP_PATH_EDIT_BEFORE,  // Chooses the key before and moves the camera there.
-    DIP_PATH_EDIT_FLY,     // Flies the path from the chosen key on; a second time: stops.
+    DIP_PATH_EDIT_FLY,     // Flies the path from the chosen key on, or stops flying.
     DIP_PATH_EDIT_SAVE,
     DIP_PATH_EDIT_TAKE,   // Takes the keys of the path that plays, in place of the editor's keys.
-    DIP_PATH_EDIT_SLOWER, // The next longer time from key to key.
-    DIP_PATH_EDIT_FASTER, // The next shorter time from key to key.
+    DIP_PATH_EDIT_SLOWER, // Sets the next longer time from key to key.
+    DIP_PATH_EDIT_FASTER, // Sets the next shorter time from key to key.
     DIP_PATH_EDIT_COUNT
 } DipPathEdit;
 
@@ -53,13 +53,13 @@ void dip_path_editor_destroy(DipPathEditor **editor);
 // Tells the editor the pose of the camera, which new keys get.
 void dip_path_editor_see(DipPathEditor *editor, const DipPose *pose);
 
-// Carries out an edit. playing: the path that the preview plays; NULL if there is none. end: what
-// paths do at their end. Returns false if nothing happened. editor->said tells what happened, or
-// why nothing did.
+// Carries out an edit. `playing` is the path that the preview plays, or NULL if there is none.
+// `end` says what paths do at their end. Returns false if nothing happened. editor->said tells what
+// happened, or why nothing did.
 bool dip_path_editor_edit(DipPathEditor *editor, DipPathEdit edit, const DipCamPath *playing,
                           DipCamPathEnd end);
 
-// Chooses a key and moves the camera there. index: 0 to below the number of keys.
+// Chooses a key and moves the camera there. `index` must be below the number of keys.
 void dip_path_editor_choose(DipPathEditor *editor, size_t index);
 
 // Lets time pass. If the editor moves the camera, sets the pose's position and orientation and

@@ -6,7 +6,7 @@
 
 enum { STEPS_TO_DOUBLE = 4, MOST_STEPS = 40 };
 
-// A drag by the height of a pane turns the camera by these angles.
+// A drag by the height of a pane turns the camera by these angles, about itself or in an orbit.
 static const double look_deg = 90.0;
 static const double orbit_deg = 180.0;
 static const double zoom_per_step = 0.9;
@@ -14,7 +14,7 @@ static const double step_s = 0.25;
 
 static const double courtyard_speed_m_per_s = 3.0;
 static const double seconds_across_model = 4.0;
-static const double least_distance_m = 1.0; // From the camera to the point that it orbits.
+static const double least_distance_m = 1.0; // Distance from the camera to the point that it orbits.
 
 double dip_flight_speed(const DipFlight *flight) {
     return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
@@ -172,7 +172,7 @@ static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose 
         dip_orbit_centre(session, pose, flight->centre_world);
         flight->knows_centre = true;
     }
-    // The scene seems to follow the pointer: what lies before the centre moves with it.
+    // The scene seems to follow the pointer: what lies in front of the centre moves with it.
     dip_camera_orbit(pose, flight->centre_world, orbit_deg * flight->drag_right,
                      orbit_deg * flight->drag_up);
     dip_camera_zoom(pose, flight->centre_world, pow(zoom_per_step, flight->zoom_steps));
@@ -200,13 +200,14 @@ static void forget_mouse(DipFlight *flight) {
     flight->zoom_steps = 0;
 }
 
-// A camera that is free before the first frame has no pose yet.
+// Returns whether the pose is set. A camera that is freed before the first frame has no pose yet.
 static bool has_pose(const DipPose *pose) {
     const double *q = pose->orientation;
     return q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
 }
 
-// Lets the path editor move the camera until the user does.
+// Lets the path editor move the camera. Stops the editor if the user moves the camera or the camera
+// is not free.
 static bool move_by_editor(DipPreviewState *state, bool moved, int64_t elapsed_ns, DipPose *pose) {
     if (!state->editor) {
         return false;

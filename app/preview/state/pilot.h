@@ -10,14 +10,14 @@
 void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                    int64_t now_ns);
 
-// Chooses a key of the path editor, and moves the free camera there.
+// Chooses a key (a pose on the edited path, path_editor.h), and moves the free camera there.
 void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns);
 
 // Moves the camera by steps to the right and forward, and makes it free if it was not. A step takes
 // the camera as far as it flies in a quarter of a second.
 void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_ns);
 
-// Makes the camera free if it follows the path, and says so in a notice.
+// Makes the camera free if it follows the path, and shows a notice about this.
 void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns);
 
 // Returns the speed of the free camera in metres per second. Four steps of the wheel double it.
@@ -35,14 +35,15 @@ bool dip_flight_should_orbit(const DipSession *session);
 // that it lies in the middle of the picture.
 void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]);
 
-// Prepares the free camera for what a session shows.
+// Resets the free camera's speed, and lets dragging orbit or turn the camera as suits the session's
+// scene.
 void dip_pilot_enter(DipFlight *flight, const DipSession *session);
 
 // What the loop gives to dip_pilot_turn.
 typedef struct DipPilotTurn {
     const DipSession *session;
     DipCameraKeys keys;                // What the held keys ask for.
-    const DipControllers *controllers; // NULL: there are none.
+    const DipControllers *controllers; // NULL if there are none.
     double speed_m_per_s;              // Speed of the free camera, not counting the wheel's steps.
     int64_t elapsed_ns;
 } DipPilotTurn;

@@ -34,7 +34,7 @@ static bool read_poses(const char *file, unsigned char **bytes, size_t *size_byt
     return true;
 }
 
-// Appends the pose's line. *bytes may move.
+// Appends the pose as a line of the file's text. *bytes may move.
 static bool append_line(const DipPose *pose, unsigned char **bytes, size_t *size_bytes,
                         const char *file, DipError *err) {
     char numbers[MAX_KEY_LINE - 64];

@@ -47,7 +47,7 @@ static void open_tab(DipPreviewState *state, DipTab tab) {
     tools->tab = tab;
 }
 
-// Chooses the next value of a tool in a ring of `count`, and opens its tab.
+// Returns a tool's next value in a ring of `count` values, and opens the tool's tab.
 static int next_of(DipPreviewState *state, DipTab tab, int value, int count, bool reverse) {
     state->tools.tab = tab;
     state->tools.open = true;
@@ -62,8 +62,8 @@ static void zoom(DipPreviewState *state, bool out) {
     }
 }
 
-// Doubles or halves the brightness of the map that shows or the gain of the difference, or moves
-// the wipe's divider by 5 %.
+// Changes what shows: doubles or halves the brightness of a map or the gain of the difference, or
+// moves the wipe's divider by 5 %.
 static void adjust(DipPreviewState *state, bool down) {
     enum { MAX_GAIN = 64 };
     DipToolState *tools = &state->tools;
@@ -232,7 +232,7 @@ static void choose_next_path(DipPreviewState *state, int direction, int64_t now_
     }
     const int from = state->track->active;
     const DipCamPath *playing = state->track->categories[from].path;
-    const int count = DIP_CAMTRACK_CATEGORIES; // The cameras of the models follow the categories.
+    const int count = DIP_CAMTRACK_CATEGORIES; // Includes the cameras of the models.
     for (int i = 1; i < count; ++i) {
         const int category = (from + direction * i + count * i) % count;
         if (has_path(state, category) && state->track->categories[category].path != playing) {
@@ -261,7 +261,7 @@ void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
     const int64_t span_ns = path ? dip_campath_span_ns(path, state->track->end) : 0;
     const int64_t at_ns = dip_camtrack_time(state->track, state->play_ns);
     const bool once = state->track->end == DIP_CAMPATH_END_once;
-    // Stays in the present round of the path, on its way there.
+    // Stays in the present repetition of the path. On a path there and back, takes the way there.
     const int64_t past_ns = once || span_ns == 0 ? at_ns : (at_ns % span_ns + span_ns) % span_ns;
     const int64_t to_ns = state->play_ns + path_ns - past_ns;
     state->play_ns = to_ns >= 0 ? to_ns : once ? 0 : to_ns + span_ns;

@@ -15,8 +15,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// What a key can ask for. The argument of SETTING is a DipSetting; the argument of PATH is a
-// category of camera paths.
+// What a key can ask for. The argument of SETTING is a DipSetting, and that of PATH is a category
+// of camera paths.
 typedef enum DipAction {
     DIP_ACTION_SETTING,
     DIP_ACTION_NEXT_PANE,
@@ -31,25 +31,25 @@ typedef enum DipAction {
     DIP_ACTION_LOOK,
     DIP_ACTION_CAMERA,
     DIP_ACTION_CAMERA_BACK, // Gives the free camera the pose of the path.
-    DIP_ACTION_ORBIT,       // Dragging turns the free camera about a point, or about itself.
-    DIP_ACTION_SPEED,       // Makes the free camera faster by `argument` steps.
-    DIP_ACTION_PATH_END,    // Chooses the next of the things that paths can do at their end.
-    DIP_ACTION_PATH_EDIT,   // Edits a path; the argument is a DipPathEdit.
+    DIP_ACTION_ORBIT,    // Chooses whether dragging turns the camera about a point or about itself.
+    DIP_ACTION_SPEED,    // Makes the free camera faster by `argument` steps.
+    DIP_ACTION_PATH_END, // Chooses what paths do at their end: the next DipCamPathEnd.
+    DIP_ACTION_PATH_EDIT, // Edits a path; the argument is a DipPathEdit.
     DIP_ACTION_HELP,
     DIP_ACTION_PANEL,
     DIP_ACTION_COSTS,
     DIP_ACTION_ADVICE,
     DIP_ACTION_TAB,    // Opens the dock at the tab `argument`; folds it if that tab shows already.
     DIP_ACTION_DOCK,   // Folds or opens the dock.
-    DIP_ACTION_BARE,   // Shows the panes without anything over or beneath them, or all again.
-    DIP_ACTION_UNDO,   // Takes the last change of settings back; reverse: makes it again.
+    DIP_ACTION_BARE,   // Shows nothing but the panes, or shows everything again.
+    DIP_ACTION_UNDO,   // Takes the last change of settings back or, reversed, makes it again.
     DIP_ACTION_PRESET, // Gives the requested pane a preset; the argument is a DipPreset.
     DIP_ACTION_SEEK,   // Moves the time on the path by `argument` milliseconds.
     DIP_ACTION_LOUPE,
-    DIP_ACTION_ZOOM,       // The loupe's next zoom.
-    DIP_ACTION_COMPARISON, // The next comparison.
-    DIP_ACTION_MAP,        // The next map.
-    DIP_ACTION_ADJUST,     // Moves the divider, or changes gain or brightness of what shows.
+    DIP_ACTION_ZOOM,       // Chooses the loupe's next zoom.
+    DIP_ACTION_COMPARISON, // Chooses the next comparison.
+    DIP_ACTION_MAP,        // Chooses the next map.
+    DIP_ACTION_ADJUST, // Changes the map's brightness, the difference's gain or the wipe's divider.
     DIP_ACTION_BLINK,
     DIP_ACTION_SCREENSHOT,
     DIP_ACTION_SAVE_POSE,
@@ -75,10 +75,10 @@ typedef enum DipPreset {
 typedef struct DipFlight {
     bool orbits;               // Dragging turns the camera about a point; the wheel zooms.
     bool reset;                // The user wants the pose of the camera path. Cleared when done.
-    int speed_steps;           // Steps of the wheel; see dip_flight_speed.
+    int speed_steps;           // Steps of the wheel, which change the speed (pilot.h).
     double base_speed_m_per_s; // Speed at 0 steps. Set by the loop.
-    // What the mouse has done since the last turn of the loop. Dragging counts in heights of a
-    // pane, to the right and upwards; the wheel counts in steps away from the user.
+    // What the mouse has done since the last turn of the loop. Dragging to the right and upwards
+    // counts in heights of a pane. The wheel counts in steps away from the user.
     double drag_right;
     double drag_up;
     int zoom_steps;
@@ -107,18 +107,18 @@ typedef struct DipPreviewState {
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
-    bool manual;             // The user flies the camera; time stands still.
+    bool manual;             // The user flies the camera; the time on the path stands still.
     bool shows_gallery;      // The panes show a scene of the gallery.
-    int scene_step;          // The scene that the user asked for: 1 the next, -1 the one before.
-    int look;                // The scene's variant; numbers past the last variant begin anew.
+    int scene_step;          // Scenes to go forward (below 0: back), as the user asked.
+    int look;                // The scene's variant; numbers past the last variant wrap around.
     const char *scene_title; // Title of the gallery's scene; NULL if the panes show models.
-    const char *scene_look;  // Name of its variant.
+    const char *scene_look;  // Name of the scene's variant; NULL if the panes show models.
     bool help;               // The help shows.
-    char help_words[DIP_HELP_WORDS]; // The help shows only keys with this text.
+    char help_words[DIP_HELP_WORDS]; // If not empty, the help shows only keys with these words.
     bool panel;                      // Each pane shows its times, errors and work.
     const DipCostReport *costs;      // Borrowed; NULL if there is no cost report.
     bool show_costs;                 // The table of costs shows.
-    DipPreviewChoice *choice;        // Borrowed; what can be chosen now, or NULL.
+    DipPreviewChoice *choice;        // What can be chosen now (choice.h). Borrowed; may be NULL.
     // Time within which a frame has to be drawn: one refresh of the display, unless the user has
     // chosen another time.
     double budget_ms;
@@ -136,7 +136,8 @@ typedef struct DipPreviewState {
     bool in_terminal; // The preview shows characters, without the window's tools.
     bool full_screen;
     DipToolState tools;
-    // Settings before each change, the oldest first; behind them, those that UNDO has taken back.
+    // Settings before each change, the oldest first. After them come the settings that UNDO has
+    // taken back.
     DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT];
     int undo_count;
     int redo_count;
@@ -159,20 +160,20 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
 // Returns whether only a window shows what the action does, and a terminal does not.
 bool dip_preview_needs_window(DipAction action);
 
-// Carries out an action. reverse: Shift is held, so that steps and paths go backwards. In a
-// terminal, a notice stands for an action that needs a window.
+// Carries out an action. `reverse` means that Shift is held, so that steps and paths go backwards.
+// In a terminal, an action that needs a window only shows a notice.
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
 
-// In the panes whose settings the keys change, gives a setting a step. If the step does not fit
-// the other settings, a notice says why and nothing changes.
+// Gives a setting a step (one of its values) in the panes whose settings the keys change. If the
+// step does not fit the other settings, a notice says why and nothing changes.
 void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns);
 
 // Gives a pane new settings as one change that UNDO takes back.
 void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
                              int64_t now_ns);
 
-// Enlarges controls by a difference of the factor, which stays within 0.75 and 4.
+// Adds `by` to the factor by which controls are enlarged. The factor stays within 0.75 and 4.
 void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 
 // Finds a preset's settings. The presets up to BEST are chosen among the measured settings that
@@ -180,8 +181,8 @@ void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 // nothing keeps within the budget.
 bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality);
 
-// Says in four lines how to make a cost report of this scene; the second and the fourth one are
-// commands.
+// Writes four lines that tell how to make a cost report of this scene. The second and the fourth
+// line are commands.
 enum { DIP_HOW_TO_LINES = 4 };
 typedef char DipHowTo[DIP_HOW_TO_LINES][DIP_SCENE_WORDS_BYTES + 64];
 void dip_preview_how_to(const DipPreviewState *state, DipHowTo lines);
@@ -189,11 +190,11 @@ void dip_preview_how_to(const DipPreviewState *state, DipHowTo lines);
 // Returns a preset's name for a button ("Balanced").
 const char *dip_preview_preset_name(DipPreset preset);
 
-// Lists the budgets to choose from in milliseconds: those of the report, or those of 240, 120, 60
-// and 30 frames a second. Returns their number.
+// Lists the budgets to choose from, in milliseconds: those of the cost report or, without one, the
+// times of a frame at 240, 120, 60 and 30 frames a second. Returns their number.
 int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_BUDGETS]);
 
-// Chooses another budget, from 1 to 1000 ms; 0: one refresh of the display.
+// Chooses another budget, from 1 to 1000 ms; 0 means the time of one refresh of the display.
 void dip_preview_set_budget(DipPreviewState *state, double budget_ms);
 
 // Moves the budget by steps through the usual frame rates, from 24 to 240 frames a second.
@@ -203,28 +204,29 @@ void dip_preview_step_frame_rate(DipPreviewState *state, int steps);
 // one.
 void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms);
 
-// Sets state->panel by what the dock shows. Call it after a change of state->tools.
+// Sets state->panel to whether the open dock (layout.h) shows the tab of times. Call it after a
+// change of state->tools.
 void dip_preview_follow_dock(DipPreviewState *state);
 
-// Goes to a play time.
+// Sets the time on the path; a time below 0 becomes 0.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
 
-// Returns the path that plays: that of the active category or of category 0.
+// Returns the path that plays: that of the active category or, if it has none, of category 0.
 const DipCamPath *dip_preview_playing_path(const DipPreviewState *state);
 
 // Returns whether all poses of the playing path are the same.
 bool dip_preview_path_stands(const DipPreviewState *state);
 
-// Returns whether camera and scene stand still. flying: the user is moving the free camera.
+// Returns whether camera and scene stand still. `flying` means that the user moves the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);
 
 // Lets time pass. Moves on along the path unless the preview is paused or the user flies the
 // camera. Removes a notice that has ended.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
 
-// Return the time on the active camera path, from 0 to the path's length, and this length; both are
-// 0 without a path. A path that does not loop ends at its last key. On the way back of a path that
-// goes there and back, the time is that of the same place on the way there.
+// The first function returns the time on the active camera path, from 0 to the path's length. The
+// second one returns this length. Both return 0 without a path. A path that does not loop ends at
+// its last key. While the camera goes back along a path, the time decreases.
 int64_t dip_preview_path_ns(const DipPreviewState *state);
 int64_t dip_preview_path_length_ns(const DipPreviewState *state);
 
@@ -238,9 +240,9 @@ void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *form
 // Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
 const char *dip_preview_category_name(int category);
 
-// Return the name and the title of a path of the state's track. The name is that of the path's
-// category or, beyond the categories, that of the model's camera that the path follows. The title
-// is the camera's name, if there is a camera, or else the title of the category.
+// These functions return the name and the title of a path of the state's track. The name is that of
+// the path's category or, past the last category, that of the model's camera whose motion the path
+// is. The title is the name of this camera or, for other paths, the title of the category.
 const char *dip_preview_path_name(const DipPreviewState *state, int category);
 const char *dip_preview_path_title(const DipPreviewState *state, int category);
 
@@ -251,8 +253,8 @@ const char *dip_preview_category_title(int category);
 // Returns the category whose path shows a setting best, or -1 if the setting has no such path.
 int dip_preview_category_of(DipSetting setting);
 
-// Names the settings that differ from their defaults, in full ("Antialiasing 4x, Adaptive AA") or
-// briefly ("AA 4x, adaptive AA"). The text is cut if it does not fit.
+// Writes the names of the settings that differ from their defaults, in full ("Antialiasing 4x,
+// Adaptive AA") or briefly ("AA 4x, adaptive AA"). The text is cut if it does not fit.
 void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes);
 
 #endif

@@ -1,5 +1,5 @@
-// Declares the actions that change settings: state.c dispatches all actions, and state_settings.c
-// carries out these ones.
+// Declares the actions that change settings. state.c dispatches all actions and calls these
+// functions, which state_settings.c defines.
 #ifndef DIP_APP_PREVIEW_STATE_STATE_PRIVATE_H
 #define DIP_APP_PREVIEW_STATE_STATE_PRIVATE_H
 
@@ -7,11 +7,11 @@
 
 static const int64_t dip_state_notice_ns = 2500000000; // How long a notice shows.
 
-// Takes the last change of settings back, or (reverse) does it again.
+// Takes the last change of settings back or, if `reverse`, makes it again.
 void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns);
 // Gives the requested pane the settings of a preset.
 void dip_state_choose_preset(DipPreviewState *state, DipPreset preset, int64_t now_ns);
-// Gives the chosen panes the next valid step of a setting.
+// Gives a setting its next valid step (value) in the panes that the keys change.
 void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool reverse,
                               int64_t now_ns);
 // Chooses the panes that the keys change. The order is the requested pane, the current pane, both,
@@ -20,7 +20,7 @@ void dip_state_choose_pane(DipPreviewState *state, int64_t now_ns);
 // Gives the current pane the requested settings.
 void dip_state_apply(DipPreviewState *state, int64_t now_ns);
 // Gives the requested pane the settings with the least error within a time budget. Repeating the
-// action goes on to the next budget, or (reverse) back to the previous one.
+// action goes on to the next budget or, if `reverse`, back to the previous one.
 void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns);
 
 #endif

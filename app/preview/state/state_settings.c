@@ -1,4 +1,4 @@
-// Changes settings: by steps, presets, advice and undo; and describes them.
+// Changes settings by steps, presets, advice and undo, and describes settings in words.
 #include "app/preview/state/state_private.h"
 
 #include "renderer/base/assert.h"
@@ -19,7 +19,7 @@ int dip_preview_category_of(DipSetting setting) {
     return categories[setting];
 }
 
-// Remembers both panes' settings before a change, and forgets what has been undone.
+// Saves both panes' settings before a change, and forgets the changes that have been undone.
 static void remember(DipPreviewState *state) {
     if (state->undo_count == DIP_UNDO_DEPTH) {
         memmove(state->undo[0], state->undo[1], (DIP_UNDO_DEPTH - 1) * sizeof state->undo[0]);
@@ -54,8 +54,8 @@ void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
     dip_preview_notice(state, now_ns, reverse ? "Made the change again" : "Took the change back");
 }
 
-// Says which step a setting has now. While the camera flies along a path, chooses the path that
-// shows the setting best. While the camera rests, it stays where it is.
+// Shows a notice with the step that a setting has now. While the camera follows a path, switches to
+// the path that shows the setting best. A camera that rests or is free stays where it is.
 static void follow_setting(DipPreviewState *state, DipSetting setting, const char *step,
                            int64_t now_ns) {
     const int category = dip_preview_category_of(setting);
