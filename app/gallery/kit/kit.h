@@ -111,7 +111,7 @@ typedef struct DipGalleryCamera {
     double target[3];
 } DipGalleryCamera;
 
-// A scene. Scenes differ in their data and functions only.
+// The definition of a scene.
 typedef struct DipGalleryScene {
     DipGalleryInfo info;
     DipKitMeshDef meshes[DIP_KIT_MESHES];        // Meshes that the gallery makes.

@@ -77,7 +77,7 @@ static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
-// Shows the characters, green on black, as a screen of the time would.
+// Shows the characters in green on black, as an old terminal does.
 static void shade_chars(DipFragmentBatch *batch) {
     const CharTarget *target = batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
@@ -246,7 +246,7 @@ static int list_objects(const DipGalleryView *view, const DipKitCamera *seen,
     int count = 0;
     bool long_cube_seen = true;
     for (int i = OBJECTS - 1; i >= 0;
-         i--) { // The first cube comes last, since it depends on the others.
+         i--) { // Cube 0 comes last, since its mesh depends on whether cube 1 is in view.
         const DipMatrix to_clip = dip_kit_chain(seen->to_clip, place(i, view->turn));
         const int mesh = i == 2 ? TEXTURED : i == 1 || long_cube_seen ? CUBE : GEM;
         if (!in_view(meshes[mesh], &to_clip)) {

@@ -36,8 +36,8 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    double time_s; // The time and the look for which the prism's mesh was made.
-    int look;
+    double time_s; // Time for which the prism's mesh was made.
+    int look;      // Look for which the prism's mesh was made.
 } Content;
 
 // --- tessellation --------------------------------------------------------------------------------
@@ -105,7 +105,8 @@ static bool prepare_mesh(const DipGalleryView *view, DipError *err) {
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// Colours corner i of a base with n corners by i / n in red and blue, as seed 001 does.
+// Shades the prism, its wireframe and the floor. Around the prism's axis, red grows and blue falls,
+// as in seed 001.
 static void shade(DipFragmentBatch *batch) {
     static const DipKitLight lights[2] = {{.kind = DIP_KIT_DIRECTIONAL,
                                            .direction = {-0.36f, -0.48f, -0.80f},

@@ -30,8 +30,8 @@ extern "C" {
 
 enum { DIP_TIMED_PARTS = 4, DIP_TIMED_MOST_STARTS = 64 };
 
-// A frame whose threads waited for a core for more than this share of its time, summed over the
-// threads, is disturbed.
+// A frame is disturbed if its threads together waited for a core for more than this share of the
+// frame's time.
 #define DIP_TIMED_MOST_WAIT 0.2
 
 // --- which frames a round draws ------------------------------------------------------------------
@@ -88,7 +88,7 @@ typedef struct DipTimes {
 // reference to the times.
 typedef struct DipTimesFit DipTimesFit;
 
-// Fails with DIP_ERROR_MEMORY.
+// Makes a fit, which the caller frees with dip_times_fit_free. Fails with DIP_ERROR_MEMORY.
 DIP_API DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err);
 
 // Makes a fit as if a subject and its base differed in one part of their work only. The subject's
@@ -100,7 +100,7 @@ DIP_API void dip_times_fit_free(DipTimesFit **fit);
 
 // Returns the mean time of a subject's frames divided by the mean time of its base's frames. The
 // ratio is NAN if no block has times of both. It has no interval if there is only one start with
-// one round.
+// one round. The ratio of a base is 1, without an interval.
 DIP_API DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject);
 
 // Returns the mean time of a subject's frames divided by that of another subject with the same
