@@ -38,7 +38,7 @@ static void count_step(void *context) {
 
 // --- pictures ---------------------------------------------------------------------------------
 
-// How the pictures compare that one instruction set and one number of threads have drawn.
+// The result of drawing all pictures with one instruction set and one number of threads.
 typedef struct PictureResult {
     uint64_t differing; // Number of pictures whose hash differs.
     char first[200];    // The first case that differs, or why the pictures could not be drawn.
