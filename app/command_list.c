@@ -1,4 +1,4 @@
-// Lists the commands. To add a command, add its include and its entry here.
+// Lists Diptych's commands. To add a command, add its include and its entry here.
 #include "app/command_list.h"
 
 #include "app/bench/options.h"

@@ -1,5 +1,4 @@
-// The main function of the program, which reads the command line, runs the command and prints what
-// went wrong.
+// Reads the command line, runs the command and prints errors: the main function of the program.
 #include "app/session/session.h"
 #include "app/cli/command_line.h"
 #include "app/command_list.h"
@@ -21,8 +20,8 @@ static int fail(const DipError *err) {
     return err->origin == DIP_ORIGIN_INPUT ? EXIT_BAD_INPUT : EXIT_FAILED;
 }
 
-// Returns the exit code after a session failed to open: EXIT_BAD_INPUT if at least one error is in
-// the user's input, otherwise EXIT_FAILED.
+// Returns the exit code for a session that failed to open: EXIT_BAD_INPUT if at least one error is
+// in the user's input, otherwise EXIT_FAILED.
 static int exit_code_of(const DipErrorList *faults) {
     int code = EXIT_FAILED;
     for (size_t i = 0; i < faults->count; i++) {
@@ -67,7 +66,7 @@ static int run_command(const DipCommandLine *line, int64_t begin_ns) {
     const DipProgramOptions *program = line->options;
     const DipCommand *command = line->command;
     if (command->describe_session) {
-        // Models are imported by another process of this program: `diptych import`.
+        // Another process of this program, `diptych import`, imports the models.
         const DipImporter importer = {.program = "/proc/self/exe",
                                       .command = dip_import_command.name};
         DipSessionDef def = {.importer = &importer, .log = program->log, .begin_ns = begin_ns};

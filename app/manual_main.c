@@ -1,4 +1,4 @@
-// The main function of a program that only the build runs. It prints the manual page.
+// Prints the manual page. Only the build runs this program.
 #include "app/command_list.h"
 #include "app/cli/help.h"
 #include "app/cli/log.h"

@@ -1,5 +1,5 @@
-// The command `diptych dump`, which draws frames and writes pictures, hashes, the record and
-// streams.
+// Implements the command `diptych dump`, which draws frames and writes pictures, hashes, the record
+// (record.h) and streams of video (stream.h).
 #include "app/dump/options.h"
 #include "app/dump/record.h"
 #include "app/dump/stream.h"
@@ -15,9 +15,9 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_STREAMS = 2 }; // --y4m and --raw.
+enum { MOST_STREAMS = 2 }; // One for --y4m and one for --raw.
 
-// What the frames are written to, besides pictures and hashes.
+// The record and the streams to which each frame is added.
 typedef struct Outputs {
     DipRecord *record; // NULL if no record is asked for.
     DipStream *streams[MOST_STREAMS];
@@ -83,12 +83,12 @@ static bool write_record(const DipRecord *record, const DipDumpOptions *options,
     return !options->json || dip_record_write(record, options->json, err);
 }
 
-// Draws the frames of the range, with the progress on standard error.
+// Draws the frames of the range, and shows the progress on standard error.
 static bool dump_frames(DipSession *session, const DipDumpOptions *options, const Outputs *outputs,
                         DipError *err) {
     const DipFrameRange range = options->frames;
     const int total = (range.end - range.first + range.step - 1) / range.step;
-    // Hashes that appear on the terminal are progress enough.
+    // Hashes on the terminal show the progress already.
     const bool shows_progress = !options->hash || !isatty(STDOUT_FILENO);
     DipProgress progress = dip_progress_begin("frames", total);
     bool done = true;
@@ -136,8 +136,8 @@ static bool open_outputs(Outputs *outputs, const DipDumpOptions *options, DipErr
     return opened;
 }
 
-// Closes the streams and frees the record. `done` says whether everything before has succeeded; if
-// not, *err already holds the first error and is left alone.
+// Closes the streams and frees the record. `done` is false if something has failed before; *err
+// then holds that error and is not changed. Returns whether everything has succeeded.
 static bool close_outputs(Outputs *outputs, bool done, DipError *err) {
     for (int i = 0; i < outputs->stream_count; i++) {
         done = dip_stream_close(&outputs->streams[i], done ? err : NULL) && done;

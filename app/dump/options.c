@@ -1,4 +1,4 @@
-// Describes, reads and checks the options of `diptych dump`.
+// Lists the options of `diptych dump`, reads their values and checks them.
 #include "app/dump/options.h"
 
 #include "renderer/base/assert.h"
@@ -12,7 +12,7 @@
 
 enum {
     MAX_FRAME = 1000000,
-    MAX_RATE = 1000,        // Greatest rate, in frames per second; the least is 1 / MAX_RATE.
+    MAX_RATE = 1000,        // Greatest rate, in frames per second. The least rate is 1 / MAX_RATE.
     MAX_RATE_SECONDS = 5000 // A frame's time in nanoseconds must fit into 64 bits.
 };
 
@@ -121,7 +121,7 @@ static bool is_standard_output(const char *file) {
     return file && strcmp(file, "-") == 0;
 }
 
-// Standard output can take only one kind of output.
+// Checks that at most one option writes to standard output, and that no video goes to a terminal.
 static bool check_standard_output(const DipDumpOptions *dump, DipError *err) {
     static const char *const names[] = {"--y4m -", "--raw -", "--json -", "--hash"};
     const bool given[] = {is_standard_output(dump->y4m), is_standard_output(dump->raw),

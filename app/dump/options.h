@@ -16,25 +16,25 @@ typedef struct DipFrameRange {
     int step;
 } DipFrameRange;
 
-// Texts are borrowed from argv. NULL: the option is not given.
+// The options of `diptych dump`. Texts are borrowed from argv, and NULL if the option is not given.
 typedef struct DipDumpOptions {
     DipProgramOptions program;
     DipSessionOptions session;
-    const char *out;  // Folder for the pictures and the record.
-    const char *json; // File for the record; "-" is standard output.
-    const char *y4m;  // File for the frames as YUV4MPEG2; "-" is standard output.
-    const char *raw;  // File for the frames' pixels; "-" is standard output.
-    bool hash;        // Print a hash per picture.
-    bool has_picture;
+    const char *out;          // Folder for the pictures and the record.
+    const char *json;         // File for the record; "-" is standard output.
+    const char *y4m;          // File for the frames as YUV4MPEG2; "-" is standard output.
+    const char *raw;          // File for the frames' pixels; "-" is standard output.
+    bool hash;                // True to print a hash per picture.
+    bool has_picture;         // True if --pane is given.
     DipStreamPicture picture; // What the streams show.
     DipFrameRange frames;
     DipFrameRate rate; // Frame n shows the time n * rate.seconds / rate.frames, in seconds.
 } DipDumpOptions;
 
-extern const DipCommand dip_dump_command; // in dump.c
+extern const DipCommand dip_dump_command; // Defined in dump.c.
 extern const DipOptionParts dip_dump_option_parts;
 
-// Returns the time that a frame shows, in nanoseconds, rounded down.
+// Returns the time of the scene that frame `index` shows, in nanoseconds, rounded down.
 int64_t dip_dump_time_ns(const DipDumpOptions *options, int index);
 
 void dip_dump_options_default(void *options, int argc, char *const *argv);

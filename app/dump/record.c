@@ -1,4 +1,4 @@
-// Writes the record as JSON, with a line for each pane of a frame.
+// Writes the record (record.h) as JSON, with a line for each pane of a frame.
 #include "app/dump/record.h"
 
 #include "app/files/put.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 
 struct DipRecord {
-    FILE *out; // Writes to `text`.
+    FILE *out; // A stream in memory that writes to `text`.
     char *text;
     size_t size; // Bytes of the text.
     int count;   // Number of frames.

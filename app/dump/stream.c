@@ -84,7 +84,7 @@ bool dip_stream_close(DipStream **stream_pointer, DipError *err) {
 
 // --- the header ----------------------------------------------------------------------------------
 
-// Prints the options with which ffmpeg reads the raw stream.
+// Prints to standard error the options with which ffmpeg reads the raw stream.
 static void describe_raw(const DipStream *stream) {
     const DipFrameRate rate = dip_frame_rate_reduce(stream->def.rate);
     dip_log_note("raw video: -pixel_format rgb24 -video_size %dx%d -framerate %" PRId64 "/%" PRId64
@@ -114,8 +114,8 @@ static bool begin(DipStream *stream, const DipFrame *pane, DipError *err) {
 
 // --- pictures ------------------------------------------------------------------------------------
 
-// Copies a pane's picture into the stream's picture, from the column x on. If `other` is not NULL,
-// the copy shows how much each channel differs from that pane.
+// Copies a pane's picture into the stream's picture, from column x on. If `other` is not NULL,
+// writes the absolute difference of the two panes instead, channel by channel.
 static void put_pane(DipStream *stream, const DipFrame *pane, const DipFrame *other, int x) {
     for (int y = 0; y < pane->height; y++) {
         const uint8_t *from = pane->rgba8 + (size_t)y * pane->stride_bytes;

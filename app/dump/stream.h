@@ -12,7 +12,7 @@
 
 #include <stdbool.h>
 
-// What a stream shows, as X(name, "what it means", for the help).
+// Lists what a stream can show, as X(name, "its meaning"). The help prints the meaning.
 #define DIP_STREAM_PICTURE_LIST(X)                                                                 \
     X(current, "shows the left pane")                                                              \
     X(requested, "shows the right pane")                                                           \
@@ -29,17 +29,17 @@ typedef enum DipStreamPicture {
 extern const char *const dip_stream_picture_names[DIP_STREAM_PICTURE_COUNT];
 
 typedef struct DipStreamDef {
-    const char *option; // "--y4m" or "--raw", which is also the name of the stream in messages.
+    const char *option; // "--y4m" or "--raw", by which messages name the stream.
     const char *file;   // The file to write; "-" is standard output. Borrowed.
-    bool y4m;           // True: YUV4MPEG2; false: raw pixels.
+    bool y4m;           // True to write YUV4MPEG2, false to write raw pixels.
     DipStreamPicture picture;
     DipFrameRate rate; // Rate at which the frames are to be played.
 } DipStreamDef;
 
 typedef struct DipStream DipStream;
 
-// Opens the file. From now on, a write to a pipe that nobody reads any more fails instead of ending
-// the program (the signal SIGPIPE is ignored). Fails with IO or MEMORY.
+// Opens the file. From then on, the program ignores the signal SIGPIPE, so that writing to a pipe
+// that nobody reads any more fails instead of ending the program. Fails with IO or MEMORY.
 DipStream *dip_stream_open(const DipStreamDef *def, DipError *err);
 
 // Writes a frame of both panes (current and requested), which have the same size. All frames of a
@@ -47,8 +47,9 @@ DipStream *dip_stream_open(const DipStreamDef *def, DipError *err);
 // program that reads the pipe has ended.
 bool dip_stream_add(DipStream *stream, const DipFrame panes[2], DipError *err);
 
-// Writes what is left, closes the file and frees the stream. Accepts a pointer to NULL. Returns
-// false if something could not be written; the file keeps what was written before.
+// Writes the bytes that are still buffered, closes the file and frees the stream. *stream may be
+// NULL and becomes NULL. Returns false if something could not be written; the file keeps what was
+// written before.
 bool dip_stream_close(DipStream **stream, DipError *err);
 
 #endif

@@ -1,5 +1,6 @@
-// Encodes PNG and JPEG in memory by stb_image_write, and PFM by itself. stb_image_write's encoder
-// of JPEG shifts bits out of a signed int, so the sanitizer of shifts is off in this file.
+// Encodes pictures as PNG and JPEG with the library stb_image_write, and as PFM without it. The
+// library's JPEG encoder shifts bits out of a signed int, so the build turns off the sanitizer of
+// shifts for this file.
 #include "app/files/pictures.h"
 
 #include "app/files/whole_file.h"
@@ -15,8 +16,8 @@
 
 // --- memory for stb_image_write ------------------------------------------------------------------
 
-// stb_image_write does not check whether an allocation succeeds. If one fails, control jumps out of
-// the library, and all blocks that it holds are freed.
+// stb_image_write does not check whether an allocation succeeds. If one fails, a longjmp leaves the
+// library, and all blocks that it has allocated are freed. A Block is the header of such a block.
 typedef struct Block {
     alignas(max_align_t) struct Block *next;
     struct Block *previous;
@@ -27,7 +28,7 @@ typedef struct Memory {
     Block first; // Head of the list of blocks.
 } Memory;
 
-static _Thread_local Memory *memory; // That of the call in progress.
+static _Thread_local Memory *memory; // The memory of the current call of the library.
 
 static void stb_free(void *pointer) {
     if (pointer) {
@@ -97,7 +98,8 @@ static void append(void *context, void *data, int size) {
     buffer->size += (size_t)size;
 }
 
-// Copies the pixels without their alpha, which is 255 everywhere. The copy's rows have no padding.
+// Returns a copy of the pixels without alpha and with packed rows, which the caller frees, or NULL
+// when memory runs out.
 static uint8_t *packed_rgb(const uint8_t *rgba8, size_t stride_bytes, int width, int height) {
     uint8_t *rgb = malloc((size_t)width * (size_t)height * 3);
     for (int y = 0; rgb && y < height; y++) {
@@ -109,7 +111,7 @@ static uint8_t *packed_rgb(const uint8_t *rgba8, size_t stride_bytes, int width,
     return rgb;
 }
 
-// Fills the buffer with a PNG of rows without padding, of 1 or 3 channels. Returns false when
+// Fills the buffer with a PNG. `pixels` has packed rows with 1 or 3 channels. Returns false when
 // memory runs out.
 static bool write_png(Buffer *buffer, const uint8_t *pixels, int width, int height, int channels) {
     Memory own = {.first = {.next = NULL}};
@@ -123,7 +125,7 @@ static bool write_png(Buffer *buffer, const uint8_t *pixels, int width, int heig
            !buffer->failed;
 }
 
-// Encodes a PNG, or a JPEG if the quality is not 0.
+// Encodes a PNG if `quality` is 0, and otherwise a JPEG of this quality.
 static bool encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
                    unsigned char **bytes, size_t *size_bytes) {
     Buffer buffer = {0};
@@ -157,13 +159,13 @@ bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int h
 // Offsets and sizes in a PNG file: the signature, the chunk IHDR, then the next chunk.
 enum {
     PNG_HEADER_TYPE = 12,  // The letters "IHDR".
-    PNG_COLOUR_TYPE = 25,  // Byte of IHDR: 0 for grey, 3 for indices into a palette.
+    PNG_COLOUR_TYPE = 25,  // A byte of IHDR: 0 for grey, 3 for indices into a palette.
     PNG_HEADER_CRC = 29,   // Checksum of the bytes from PNG_HEADER_TYPE on.
-    PNG_AFTER_HEADER = 33, // Where the palette, the chunk PLTE, belongs.
+    PNG_AFTER_HEADER = 33, // End of IHDR, where the palette (the chunk PLTE) belongs.
     PNG_PALETTE_BYTES = 3 * 256,
-    PNG_CHUNK_FRAME = 12,  // Length, type and checksum of a chunk, 4 bytes each.
-    PNG_CHUNK_CONTENT = 8, // Where a chunk's content begins.
-    PNG_TEXT_FIELDS = 5    // Bytes of iTXt between keyword and text.
+    PNG_CHUNK_FRAME = 12,  // Bytes of a chunk's length, type and checksum, 4 each.
+    PNG_CHUNK_CONTENT = 8, // Offset of the content within a chunk.
+    PNG_TEXT_FIELDS = 5    // Bytes between keyword and text in the chunk iTXt.
 };
 
 static void store_u32(unsigned char *to, unsigned value) {
@@ -210,12 +212,13 @@ static size_t most_chunk_bytes(const DipPngText *text) {
     return PNG_CHUNK_FRAME + strlen(text->keyword) + PNG_TEXT_FIELDS + strlen(text->text);
 }
 
-// Writes a text as a chunk and returns the chunk's size. The content of iTXt is the keyword, a 0,
-// the two bytes 0 0 (the text is not compressed), an empty language and an empty translation of the
-// keyword, each with a 0, and the text. The content of tEXt is the keyword, a 0 and the text.
+// Writes a text as a chunk and returns the chunk's size. A text in ASCII becomes the chunk tEXt;
+// its content is the keyword, a 0 and the text. Any other text becomes iTXt; its content is the
+// keyword, a 0, two bytes 0 (the text is not compressed), an empty language and an empty
+// translation of the keyword, each ended by a 0, and the text.
 static size_t write_text_chunk(unsigned char *chunk, const DipPngText *text) {
     const size_t keyword_bytes = strlen(text->keyword);
-    const size_t text_bytes = strlen(text->text); // '?' takes the place of one byte.
+    const size_t text_bytes = strlen(text->text); // dip_utf8_mend keeps the length.
     unsigned char *content = chunk + PNG_CHUNK_CONTENT;
     char *copied = (char *)content + keyword_bytes + PNG_TEXT_FIELDS;
     memcpy(copied, text->text, text_bytes + 1); // The checksum overwrites the final 0.
@@ -227,9 +230,8 @@ static size_t write_text_chunk(unsigned char *chunk, const DipPngText *text) {
     return frame_chunk(chunk, ascii ? "tEXt" : "iTXt", keyword_bytes + fields + text_bytes);
 }
 
-// Inserts texts into a PNG, before its picture: as a chunk tEXt each, or iTXt if the text has
-// characters beyond ASCII. *bytes moves. Returns false, and leaves the PNG as it is, when memory
-// runs out.
+// Inserts texts into a PNG, before its picture. Replaces *bytes by a larger block and frees the old
+// one. When memory runs out, returns false and leaves the PNG as it is.
 static bool add_texts(unsigned char **bytes, size_t *size_bytes, const DipPngText *texts,
                       int count) {
     size_t most_bytes = *size_bytes;
@@ -277,7 +279,7 @@ bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
 
 enum { HEADER_ROOM = 64 };
 
-// Stores values in little-endian order, on any machine.
+// Stores values in little-endian byte order, on any machine.
 static void store_values(unsigned char *to, const float *values, size_t count) {
     for (size_t i = 0; i < count; i++) {
         uint32_t bits;

@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-// A text in a PNG file: what it is, such as "Software", and its content.
+// A text in a PNG file. The keyword says what the text is, for example "Software".
 typedef struct DipPngText {
-    const char *keyword; // 1 to 79 letters of ASCII, words separated by single spaces.
+    const char *keyword; // 1 to 79 ASCII characters: words separated by single spaces.
     const char *text;    // UTF-8. A byte that is not part of valid UTF-8 is written as '?'.
 } DipPngText;
 
@@ -33,19 +33,19 @@ DIP_API bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palet
 DIP_API bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
                              int quality, unsigned char **bytes, size_t *size_bytes);
 
-// Writes a frame to a file, whole or not at all (whole_file.h). Fails with DIP_ERROR_IO or
+// Writes a frame as a PNG file, whole or not at all (whole_file.h). Fails with DIP_ERROR_IO or
 // DIP_ERROR_MEMORY.
 DIP_API bool dip_png_write(const char *file, const DipFrame *frame, DipError *err);
 
-// Does the same and inserts texts into the file, before its picture.
+// Does what dip_png_write does, and inserts texts into the file, before the picture.
 DIP_API bool dip_png_write_with_texts(const char *file, const DipFrame *frame,
                                       const DipPngText *texts, int count, DipError *err);
 
-// Writes 32-bit floating-point values without loss as PFM ("portable float map"), the whole file or
-// none. `rgb` holds three floats per pixel in packed rows, the top row
-// first. The file has the type PF, the scale -1 (little-endian) and, as the format demands, its
-// rows from the bottom up. Fails with DIP_ERROR_IO or DIP_ERROR_MEMORY. Thread-safe for different
-// files.
+// Writes 32-bit floating-point values without loss to a PFM file ("portable float map"), whole or
+// not at all (whole_file.h). `rgb` holds three floats per pixel in packed rows, the top row first.
+// The file has the type PF and the scale -1, which means little-endian. As the format demands, its
+// rows go from the bottom up. Fails with DIP_ERROR_IO or DIP_ERROR_MEMORY. Thread-safe for
+// different files.
 DIP_API bool dip_pfm_write(const char *file, const float *rgb, int width, int height,
                            DipError *err);
 

@@ -1,4 +1,4 @@
-// Escapes text for each form of a report.
+// Writes text and escapes it for HTML, scripts, CSV or a terminal (put.h).
 #include "app/files/put.h"
 
 #include "renderer/base/assert.h"
@@ -10,7 +10,8 @@
 
 enum { SPEC_ROOM = 32, PADDED_ROOM = 1024 };
 
-// A va_list within a struct, because a va_list may be an array, which cannot be passed by pointer.
+// Wraps a va_list, so that a pointer to it can be passed on. A va_list itself may be an array, and
+// a parameter of array type is a pointer.
 typedef struct Arguments {
     va_list list;
 } Arguments;
@@ -23,7 +24,7 @@ static size_t character_bytes(const char *text) {
     return code < ' ' || (code >= 0x7f && code < 0xa0) ? 0 : length;
 }
 
-// A character, and what is written instead of it. An array of escapes ends with the character 0.
+// A character and the text that is written instead. An array of escapes ends with the character 0.
 typedef struct Escape {
     char character;
     const char *instead;
@@ -31,7 +32,7 @@ typedef struct Escape {
 
 static const Escape html_escapes[] = {{'&', "&amp;"},  {'<', "&lt;"},   {'>', "&gt;"},
                                       {'"', "&quot;"}, {'\'', "&#39;"}, {0, NULL}};
-// A script element ends at "</script" wherever that stands, so '<' must not be written.
+// "</script" ends a script element even within a string, so '<' must not be written.
 static const Escape script_escapes[] = {{'&', "\\u0026"},  {'<', "\\u003c"}, {'>', "\\u003e"},
                                         {'\'', "\\u0027"}, {'"', "\\\""},    {'\\', "\\\\"},
                                         {0, NULL}};
@@ -60,8 +61,8 @@ static void put_escaped(FILE *out, const char *text, const Escape *escapes) {
 
 // --- formats -------------------------------------------------------------------------------------
 
-// Copies a conversion such as "%-12.*f" to `spec`, with the widths that '*' stands for. Returns the
-// conversion's last character.
+// Copies a printf conversion such as "%-12.*f" to `spec`, and replaces each '*' by the next
+// argument. Returns a pointer to the conversion's last character.
 static const char *read_spec(const char *format, Arguments *arguments, char spec[SPEC_ROOM]) {
     size_t length = 1;
     spec[0] = '%';

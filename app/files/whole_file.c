@@ -1,5 +1,5 @@
-// Writes a file under a temporary name, then renames it. Makes each missing folder of a path, from
-// the outermost inwards.
+// Writes a file under a temporary name and then renames it. Makes the missing folders of a path,
+// beginning with the outermost one.
 #include "app/files/whole_file.h"
 
 #include <errno.h>

@@ -18,13 +18,13 @@ extern "C" {
 DIP_API bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes,
                                   DipError *err);
 
-// Writes to the file what `print` prints, whole or not at all. Fails as dip_whole_file_write does,
-// and with DIP_ERROR_MEMORY if memory runs out or `print` returns false.
+// Calls `print` and writes the text that it prints to the file, whole or not at all. Fails as
+// dip_whole_file_write does, and with DIP_ERROR_MEMORY if memory runs out or `print` returns false.
 DIP_API bool dip_whole_file_print(const char *file, bool (*print)(const void *context, FILE *out),
                                   const void *context, DipError *err);
 
-// Makes the folder and its missing parents. Fails with DIP_ERROR_OVERSIZED or DIP_ERROR_IO;
-// `option` names the option at fault in the message. Thread-safe.
+// Makes the folder and its missing parents, if they do not exist. Fails with DIP_ERROR_OVERSIZED or
+// DIP_ERROR_IO. The message names `option`, the option that gave the folder. Thread-safe.
 DIP_API bool dip_folder_make(const char *folder, const char *option, DipError *err);
 
 #ifdef __cplusplus

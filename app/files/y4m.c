@@ -1,13 +1,13 @@
-// Converts RGB to the planes of a YUV4MPEG2 stream.
+// Writes the header of a YUV4MPEG2 stream, and converts RGB to the stream's planes Y, Cb and Cr.
 //
-// BT.709 weighs the channels by Kr = .2126, Kg = .7152 and Kb = .0722, so with R, G and B in 0..255
+// BT.709 weighs the channels by Kr = .2126, Kg = .7152 and Kb = .0722. With R, G and B in 0..255,
 // luma is l = (2126 R + 7152 G + 722 B) / 10000, and
 //
 //     Y  =  16 + 219/255 l
 //     Cb = 128 + 224/255 (B - l) / (2 (1 - Kb))
 //     Cr = 128 + 224/255 (R - l) / (2 (1 - Kr))
 //
-// With w = 10000 l, each is a ratio of integers, which is rounded to the nearest integer:
+// With w = 10000 l, each value is a ratio of integers, which is rounded to the nearest integer:
 //
 //     Y  =  16 + 219 w / 2550000
 //     Cb = 128 + 224 (10000 B - w) / 4731780          4731780 = 255 * 10000 * 1.8556
@@ -37,8 +37,8 @@ size_t dip_y4m_header(int width, int height, DipFrameRate rate, char header[DIP_
     return (size_t)length;
 }
 
-// Returns offset + numerator / denominator, rounded. The denominators are even. The offset makes
-// the sum positive, so that the division rounds down.
+// Returns offset + numerator / denominator, rounded to the nearest integer. The denominator is
+// even. The offset makes the dividend positive, so that the integer division rounds down.
 static uint8_t round_ratio(int32_t numerator, int32_t denominator, int32_t offset) {
     return (uint8_t)((numerator + offset * denominator + denominator / 2) / denominator);
 }

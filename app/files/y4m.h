@@ -1,6 +1,6 @@
-// Makes the parts of a YUV4MPEG2 stream ("y4m"), which is video without compression that ffmpeg,
-// mpv and encoders read. A stream is one header, then for each frame the line "FRAME" and three
-// planes of bytes.
+// Makes the parts of a YUV4MPEG2 stream ("y4m"). Such a stream is video without compression, and
+// ffmpeg, mpv and encoders read it. It consists of one header, and of the line "FRAME" and three
+// planes of bytes for each frame.
 //
 // The streams have the format C444: the planes Y, Cb and Cr hold one byte per pixel, so chroma is
 // not subsampled. The matrix is that of ITU-R BT.709, and the range is limited: black is Y = 16,
@@ -27,7 +27,7 @@ typedef struct DipFrameRate {
 // Returns the same rate with the smallest numbers.
 DIP_API DipFrameRate dip_frame_rate_reduce(DipFrameRate rate);
 
-enum { DIP_Y4M_HEADER_SIZE = 160 }; // Bytes that dip_y4m_header writes at most.
+enum { DIP_Y4M_HEADER_SIZE = 160 }; // Greatest number of bytes that dip_y4m_header writes.
 
 // Writes the stream's header with its line feed and a final 0. Returns its length without the 0.
 DIP_API size_t dip_y4m_header(int width, int height, DipFrameRate rate,

@@ -23,8 +23,8 @@ enum { SCENE_COUNT = (int)DIP_ARRAY_COUNT(scenes), MIP_COLOURS = 8 };
 struct DipGallery {
     DipGalleryDef def;
     DipTexture *mip_colours;
-    int open;            // index of the open scene; -1: none
-    DipGalleryRoom room; // of the open scene; without content if none is open
+    int open;            // Index of the open scene; -1 if none is open.
+    DipGalleryRoom room; // Data of the open scene; room.content is NULL if none is open.
     int look;
 };
 
@@ -48,7 +48,7 @@ const DipGalleryInfo *dip_gallery_info(int scene) {
     return &scenes[scene]->info;
 }
 
-// Fails with a message that names the scenes, and the one that the user may have meant.
+// Fails with a message that names all scenes and, if one has a similar name, suggests it.
 static bool refuse_name(const char *name, DipError *err) {
     const char *names[SCENE_COUNT + 1];
     char known[200] = "";
@@ -80,7 +80,7 @@ int64_t dip_gallery_duration_ns(int scene) {
     return scene == DIP_GALLERY_TOUR ? SCENE_COUNT * scene_ns : scene_ns;
 }
 
-// Returns how long before `time_ns` the scene or the tour began for the last time.
+// Returns the time since the scene or the tour last started again.
 static int64_t wrap_time(int scene, int64_t time_ns) {
     const int64_t duration_ns = dip_gallery_duration_ns(scene);
     const int64_t left_ns = time_ns % duration_ns;
@@ -91,7 +91,7 @@ int dip_gallery_scene_at(int scene, int64_t time_ns) {
     return scene == DIP_GALLERY_TOUR ? (int)(wrap_time(scene, time_ns) / scene_ns) : scene;
 }
 
-// Writes the quaternion that takes view space to world space. rows: the matrix that takes world
+// Writes the quaternion that takes view space to world space. `rows` is the matrix that takes world
 // space to view space. Only the largest component comes from a square root, so that no digits are
 // lost.
 static void find_orientation(const double rows[16], double q[4]) {
@@ -107,7 +107,7 @@ static void find_orientation(const double rows[16], double q[4]) {
     const double sums[3] = {rows[9] + rows[6], rows[2] + rows[8], rows[4] + rows[1]};
     const double differences[3] = {rows[6] - rows[9], rows[8] - rows[2], rows[1] - rows[4]};
     for (int i = 0; i < 3; i++) {
-        const int other = 3 - largest - i; // the axis that is neither i nor `largest`
+        const int other = 3 - largest - i; // The axis that is neither i nor `largest`.
         q[i] = largest == 3 ? part * differences[i] : i == largest ? size : part * sums[other];
     }
     q[3] = largest == 3 ? size : part * differences[largest];
@@ -130,8 +130,8 @@ void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose) {
 
 // --- opening and closing -------------------------------------------------------------------------
 
-// Makes a texture whose levels have the colours with which the scene renderer shows mip levels:
-// those for 1024, 512, ... 8 texels, in sRGB.
+// Makes a texture whose levels are the sRGB colours with which the scene renderer shows mip levels
+// of 1024, 512, ... 8 texels.
 static DipTexture *make_mip_colours(DipError *err) {
     static const uint8_t colours[MIP_COLOURS][4] = {
         {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
@@ -168,7 +168,7 @@ static bool open_scene(DipGallery *gallery, int index, DipError *err) {
     }
     close_scene(gallery);
     gallery->open = index;
-    gallery->room.content = calloc(1, scene->content_bytes + 1); // A scene may keep nothing.
+    gallery->room.content = calloc(1, scene->content_bytes + 1); // content_bytes may be 0.
     const bool made =
         gallery->room.content
             ? dip_kit_stock_create(&gallery->room.stock, scene, err) &&
@@ -324,8 +324,8 @@ static DipSampler filter_of(const DipQuality *quality) {
     };
 }
 
-// Fills in a frame with the picture and the work of all passes. The scene renderer's effects never
-// run here.
+// Fills in a frame with the picture, the counters and the times of all passes. The effects of the
+// scene renderer never run in the gallery.
 static void fill_frame(const DipGalleryPane *pane, const DipPipelineCounters *counters,
                        const DipStageTimes *times, DipFrame *frame) {
     static const DipEffect none = {.run = false, .why = "a gallery scene has its own shaders"};

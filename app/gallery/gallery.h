@@ -1,8 +1,8 @@
-// The gallery: scenes that show what the pipeline can do. Each scene is one file in scenes/,
-// written against the public headers of renderer/pipeline and renderer/shapes, and is example code
-// for users of these libraries.
+// Draws the gallery: scenes that show what the pipeline can do. Each scene is one file in scenes/.
+// It uses the public headers of renderer/pipeline and renderer/shapes, and is example code for
+// users of these libraries.
 //
-// A gallery plays one scene, or the tour, which plays all of them in turn. A pane is a picture with
+// A gallery plays one scene, or the tour, which plays all scenes in turn. A pane is a picture with
 // its own size and image-quality settings. The panes of a gallery share the scene's meshes and
 // textures, so only one of them may draw at a time.
 //
@@ -22,7 +22,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Every scene lasts this long; its camera and its motion then start again.
+// Every scene lasts this long. Its camera and its motion then start again.
 enum { DIP_GALLERY_SECONDS = 15 };
 
 // Vertical field of view of the scenes' cameras, in degrees.
@@ -30,30 +30,34 @@ enum { DIP_GALLERY_SECONDS = 15 };
 
 // Describes a scene. All strings are static.
 typedef struct DipGalleryInfo {
-    const char *name;  // "blend"; the name that --scene takes
-    const char *title; // "Blend modes"
-    const char *text;  // what the scene shows, in one or two sentences
-    // The scene's variants, which a key chooses: "flat", "Gouraud", "Phong". At least one.
+    const char *name;  // The name that --scene takes, such as "blend".
+    const char *title; // The name for users, such as "Blend modes".
+    const char *text;  // One or two sentences on what the scene shows.
+    // Names of the looks: the scene's variants, between which a key of the preview changes, such as
+    // "flat", "Gouraud" and "Phong". There is at least one.
     const char *const *looks;
     int look_count;
 } DipGalleryInfo;
 
-enum { DIP_GALLERY_TOUR = -1 }; // stands for the tour instead of the index of a scene
+// In the functions below, `scene` is the index of a scene, 0..dip_gallery_scene_count() - 1. Except
+// for dip_gallery_info, it may also be this value, which stands for the tour.
+enum { DIP_GALLERY_TOUR = -1 };
 
 int dip_gallery_scene_count(void);
-const DipGalleryInfo *dip_gallery_info(int scene); // scene: 0..dip_gallery_scene_count() - 1
+const DipGalleryInfo *dip_gallery_info(int scene);
 
 // Finds a scene by its name, or DIP_GALLERY_TOUR by the name "tour". If there is no such scene,
-// fails with UNKNOWN and names all scenes.
+// fails with UNKNOWN and a message that names all scenes.
 bool dip_gallery_find(const char *name, int *scene, DipError *err);
 
-// Returns the scene that plays at a time: `scene` itself, or the tour's scene at that time.
+// Returns the scene that plays at a time: for the tour, the tour's scene at that time; otherwise
+// `scene` itself.
 int dip_gallery_scene_at(int scene, int64_t time_ns);
 
 // Returns how long `scene` or the tour lasts before it starts again.
 int64_t dip_gallery_duration_ns(int scene);
 
-// Writes the pose of the scene's own camera at a time.
+// Writes the pose of the camera that the scene defines, at a time.
 void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose);
 
 // --- galleries -----------------------------------------------------------------------------------
@@ -61,19 +65,19 @@ void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose);
 typedef struct DipGallery DipGallery;
 
 typedef struct DipGalleryDef {
-    int scene;          // index of a scene, or DIP_GALLERY_TOUR
-    DipPool *pool;      // borrowed; must outlive the gallery
-    DipIsa isa;         // instruction set of all passes of a frame but the one for the picture
-    const char *assets; // folder of the shipped assets; borrowed
+    int scene;          // Index of a scene, or DIP_GALLERY_TOUR.
+    DipPool *pool;      // Borrowed; must outlive the gallery.
+    DipIsa isa;         // Instruction set of the passes that do not draw a pane's picture itself.
+    const char *assets; // Folder of the shipped assets. Borrowed.
 } DipGalleryDef;
 
-// Opens a scene, or the first scene of the tour. Fails as the scene does: MEMORY, or the error of
-// an asset.
+// Creates a gallery and opens the scene, or the first scene of the tour. Fails with MEMORY, or with
+// the error of an asset of the scene.
 DipGallery *dip_gallery_create(const DipGalleryDef *def, DipError *err);
-// Destroys a gallery whose panes are destroyed. *gallery may be NULL and becomes NULL.
+// Destroys a gallery. Its panes must be destroyed before. *gallery may be NULL and becomes NULL.
 void dip_gallery_destroy(DipGallery **gallery);
 
-// Chooses one of the scene's looks. Values beyond the last look begin with the first one again.
+// Chooses one of the scene's looks. The value is taken modulo the number of looks.
 void dip_gallery_set_look(DipGallery *gallery, int look);
 
 // --- panes ---------------------------------------------------------------------------------------
@@ -81,10 +85,10 @@ void dip_gallery_set_look(DipGallery *gallery, int look);
 typedef struct DipGalleryPane DipGalleryPane;
 
 typedef struct DipGalleryPaneDef {
-    DipGallery *gallery; // borrowed
-    DipIsa isa;
-    int width; // pixels, 1..DIP_MAX_FRAME_SIZE
-    int height;
+    DipGallery *gallery; // Borrowed; must outlive the pane.
+    DipIsa isa;          // Instruction set of the passes that draw the picture.
+    int width;           // Pixels, 1..DIP_MAX_FRAME_SIZE.
+    int height;          // Pixels, 1..DIP_MAX_FRAME_SIZE.
     DipQuality quality;
 } DipGalleryPaneDef;
 
@@ -92,7 +96,8 @@ typedef struct DipGalleryPaneDef {
 DipGalleryPane *dip_gallery_pane_create(const DipGalleryPaneDef *def, DipError *err);
 void dip_gallery_pane_destroy(DipGalleryPane **pane);
 
-// Change the settings and the size from the next frame on. If they fail, they change nothing.
+// Change the settings or the size from the next frame on. Fail as dip_gallery_pane_create does, and
+// then change nothing.
 bool dip_gallery_pane_set_quality(DipGalleryPane *pane, const DipQuality *quality, DipError *err);
 bool dip_gallery_pane_resize(DipGalleryPane *pane, int width, int height, DipError *err);
 

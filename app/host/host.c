@@ -1,10 +1,12 @@
-// This sample host is a settings panel in plain Xlib with Diptych's preview inside its window.
+// Shows how another program embeds Diptych's preview. This sample host is a settings panel in plain
+// Xlib, with the preview inside its window.
 //
 // Usage: diptych_host PROGRAM [ARGUMENT]...   for example: diptych_host ./diptych --scene blend
 //
 // The host makes a window with a row of buttons and an area below them. It starts the program with
-// --window-id and --control -, so that the preview fills the area, and requests and replies are
-// lines on two pipes. It prints every line that arrives. docs/embedding.md explains the protocol.
+// --window-id, so that the preview fills the area, and with --control -, so that requests and
+// replies are lines on two pipes. It prints all that arrives. docs/embedding.md explains the
+// protocol. The program in the area is called the guest.
 #include <X11/Xlib.h>
 
 #include <poll.h>
@@ -20,7 +22,7 @@ enum { WIDTH = 642, HEIGHT = 280, BAR_HEIGHT = 40, BUTTON_WIDTH = 80, MAX_ARGUME
 typedef struct Host {
     Display *display;
     Window window;
-    Window area; // The preview's parent. The host must not select button presses on it.
+    Window area; // The parent of the preview's window.
     GC gc;
     pid_t guest;
     int requests; // Write end of the guest's standard input.
@@ -28,7 +30,7 @@ typedef struct Host {
     int next_id;
 } Host;
 
-// Each button sends one request. "change" names only the settings to change.
+// The buttons, and the request that each of them sends. "change" names only the settings to change.
 static const struct {
     const char *label;
     const char *request;
@@ -58,7 +60,7 @@ static void open_window(Host *host) {
     XSelectInput(host->display, host->window, ButtonPressMask | ExposureMask | StructureNotifyMask);
     XMapSubwindows(host->display, host->window);
     XMapWindow(host->display, host->window);
-    XSync(host->display, False); // The guest must find the area.
+    XSync(host->display, False); // The area must exist before the guest starts.
 }
 
 // Starts the preview in the area, with pipes instead of standard input and output.
@@ -106,7 +108,7 @@ static void handle_event(Host *host, const XEvent *event) {
     } else if (event->type == ConfigureNotify && event->xconfigure.window == host->window) {
         const int height = event->xconfigure.height - BAR_HEIGHT;
         XResizeWindow(host->display, host->area, (unsigned)event->xconfigure.width,
-                      height > 1 ? (unsigned)height : 1); // The preview follows.
+                      height > 1 ? (unsigned)height : 1); // The preview adapts to the area.
     } else if (event->type == ButtonPress && event->xbutton.y < BAR_HEIGHT) {
         const int button = (event->xbutton.x - 8) / (BUTTON_WIDTH + 8);
         if (host->replies >= 0 && event->xbutton.x >= 8 && button < BUTTON_COUNT) {

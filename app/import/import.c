@@ -1,5 +1,5 @@
-// Implements the hidden command `import`, which hands its arguments to the importer and ends the
-// process with the importer's exit code.
+// Implements the hidden command `diptych import`, which hands its arguments to the importer
+// (assets/importer.h) and ends the process with the importer's exit code.
 #include "app/import/import.h"
 
 #include "assets/importer.h"
@@ -16,7 +16,8 @@ typedef struct ImportOptions {
 static const DipOptionPart parts[] = {{&dip_program_option_table, 0}};
 static const DipOptionParts all_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
-// Ends the process without the handlers of exit, which free memory that the system frees anyway.
+// Runs the importer. Ends the process with _exit instead of exit, because the handlers of exit only
+// free memory that the system frees anyway.
 static bool run(DipSession *session, const void *all, DipError *err) {
     const ImportOptions *options = all;
     (void)session;

@@ -1,4 +1,4 @@
-// `diptych import`: the hidden command that imports models for another process of Diptych.
+// Declares `diptych import`, the hidden command that imports models for another process of Diptych.
 #ifndef DIP_APP_IMPORT_IMPORT_H
 #define DIP_APP_IMPORT_IMPORT_H
 

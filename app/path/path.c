@@ -1,4 +1,5 @@
-// The commands `diptych path info` and `diptych path convert`, which read and rewrite camera paths.
+// Implements the commands `diptych path info`, which describes a camera path, and `diptych path
+// convert`, which rewrites a camera path in another format.
 #include "app/path/path.h"
 
 #include "campaths/campath.h"
@@ -9,10 +10,10 @@
 
 enum { MAX_FILES = 2 };
 
-// Texts are borrowed from argv.
+// The options and operands of both commands. Texts are borrowed from argv.
 typedef struct PathOptions {
     DipProgramOptions program;
-    const char *files[MAX_FILES]; // The file to read and the file to write.
+    const char *files[MAX_FILES]; // The file to read; for `convert`, also the file to write.
     int file_count;
 } PathOptions;
 

@@ -1,4 +1,5 @@
-// Declares the commands `diptych path info` and `diptych path convert`.
+// Declares the commands `diptych path info` and `diptych path convert`, which describe and rewrite
+// camera paths.
 #ifndef DIP_APP_PATH_PATH_H
 #define DIP_APP_PATH_PATH_H
 

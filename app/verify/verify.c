@@ -1,5 +1,6 @@
-// Draws the shipped pictures with every instruction set, on one thread and on several. Then
-// measures the catalogue of hard cases. Prints a table of each.
+// Implements the command `diptych verify`. Draws pictures with every instruction set, on one thread
+// and on several, and compares them with the hashes that Diptych ships. Then measures the catalogue
+// of hard cases (docs/stability.md). Prints a table of both.
 #include "app/verify/verify.h"
 
 #include "app/cli/machine.h"
@@ -13,16 +14,16 @@
 
 typedef struct VerifyOptions {
     DipProgramOptions program;
-    bool all;     // Run as many cases of each row as ./test does.
-    int threads;  // Greatest number of threads; 0: all processors.
-    bool verbose; // Print a line for every row.
+    bool all;     // True to run as many cases of each row of the catalogue as ./test does.
+    int threads;  // The number of threads to compare with one thread; 0 for all processors.
+    bool verbose; // True to print every row of the catalogue.
 } VerifyOptions;
 
-// A verification in progress.
+// A verification in progress. A row of the catalogue is one promise, with its hard cases.
 typedef struct Verification {
     const VerifyOptions *options;
-    int threads[2];
-    DipPool *pools[2];
+    int threads[2];    // 1, and the number that the options give.
+    DipPool *pools[2]; // A pool with each of these numbers of threads.
     DipProgress progress;
     int64_t done;
     uint64_t differing_pictures;
@@ -37,10 +38,10 @@ static void count_step(void *context) {
 
 // --- pictures ---------------------------------------------------------------------------------
 
-// The result of the pictures with one instruction set and number of threads.
+// The result of drawing all pictures with one instruction set and one number of threads.
 typedef struct PictureResult {
-    uint64_t differing;
-    char first[200]; // The first case that differs, or why the pictures could not be drawn.
+    uint64_t differing; // Number of pictures whose hash differs.
+    char first[200];    // The first case that differs, or why the pictures could not be drawn.
 } PictureResult;
 
 static PictureResult draw_pictures(Verification *verification, DipIsa isa, int pool) {
@@ -86,11 +87,11 @@ static void verify_pictures(Verification *verification) {
 
 // --- hard cases -------------------------------------------------------------------------------
 
-// A row's worst measurement over all instruction sets.
+// The result of a row over all instruction sets.
 typedef struct RowResult {
     bool holds;
-    double worst;
-    char why[400]; // If the row does not hold: the case that breaks it.
+    double worst;  // Greatest error.
+    char why[400]; // Describes the case that breaks the promise, if one does.
 } RowResult;
 
 static RowResult measure_row(const Verification *verification, const StabilityRow *row) {

@@ -1,5 +1,5 @@
-// Declares the command `diptych verify`, which checks that this machine draws the same bits as
-// every other and measures the catalogue of hard cases.
+// Declares the command `diptych verify`. It checks that this machine draws the same bits as every
+// other machine, and measures the catalogue of numerically hard cases.
 #ifndef DIP_APP_VERIFY_VERIFY_H
 #define DIP_APP_VERIFY_VERIFY_H
 

@@ -1,5 +1,5 @@
-// Makes the meshes and painted textures of scenes, their matrices and passes, and has the vertex
-// shader that most scenes use.
+// Implements the kit (kit.h): makes meshes, textures, matrices, passes and samplers for scenes, and
+// has the vertex shader that most scenes use.
 #include "app/gallery/kit/kit.h"
 
 #include "renderer/base/assert.h"
@@ -11,8 +11,8 @@
 
 // --- cameras and passes --------------------------------------------------------------------------
 
-// Returns the rotation from world space to the view space of a camera with this orientation. The
-// quaternion's length must not be 0.
+// Returns the rotation from world space to the view space of a camera whose orientation is the
+// quaternion q. The quaternion's length must not be 0.
 static DipMatrix rotation_to_view(const double q[4]) {
     const double x = q[0];
     const double y = q[1];
@@ -87,7 +87,7 @@ bool dip_kit_draw(const DipGalleryView *view, DipPipeline *pipeline, const DipPa
 
 // --- objects -------------------------------------------------------------------------------------
 
-// Writes row . (x, y, z, w) of each vertex.
+// Writes row . (x, y, z) + last for each vertex. x, y and z are its attributes from `first` on.
 static void transform_row(const DipVertexBatch *batch, int first, const float row[3], float last,
                           float *out) {
     const float *x = batch->in[first];
@@ -260,7 +260,8 @@ void dip_kit_stock_free(DipKitStock *stock) {
     }
 }
 
-// Each level of the texture shows the level of the mip colours that stands for its longer side.
+// For each mip level of the texture, finds the level of the mip colours that stands for the longer
+// side.
 void dip_kit_show_mip_colours(DipSampler *sampler, const DipGalleryView *view) {
     const int last = dip_texture_level_count(sampler->texture) - 1;
     const int last_colour = dip_texture_level_count(view->mip_colours) - 1;

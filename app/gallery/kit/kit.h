@@ -1,6 +1,7 @@
-// What a scene of the gallery consists of, what it gets to draw a frame with, and the kit: what
-// several scenes share. The kit makes meshes and painted textures, turns a pose into matrices and
-// settings into a pass and samplers, and has the vertex shader that most scenes use.
+// Declares the scene: what a scene of the gallery consists of, and what it gets to draw a frame.
+// Also declares the kit, which is the code that several scenes share. It makes meshes and textures,
+// turns a pose into matrices, turns image-quality settings into a pass and samplers, and has the
+// vertex shader that most scenes use.
 #ifndef DIP_APP_GALLERY_KIT_KIT_H
 #define DIP_APP_GALLERY_KIT_KIT_H
 
@@ -16,46 +17,50 @@
 
 typedef enum DipKitShape {
     DIP_KIT_NO_SHAPE, // The scene makes the mesh itself.
-    DIP_KIT_SPHERE,   // radius, slices, stacks
-    DIP_KIT_BOX,      // lengths along x, y and z
-    DIP_KIT_PRISM,    // radius, height, sides, 1 for smooth normals or 0
-    DIP_KIT_PLANE,    // lengths along x and z, columns, rows
-    DIP_KIT_QUAD,     // width, height
-    // The die of seed 001: a cube with edges of length 1. Face i shows the sixth number i of the
-    // texture's width, as the seed computes it. Opposite faces add up to seven.
+    DIP_KIT_SPHERE,   // Arguments: radius, slices, stacks.
+    DIP_KIT_BOX,      // Arguments: lengths along x, y and z.
+    DIP_KIT_PRISM,    // Arguments: radius, height, sides, 1 for smooth normals or 0.
+    DIP_KIT_PLANE,    // Arguments: lengths along x and z, columns, rows.
+    DIP_KIT_QUAD,     // Arguments: width, height.
+    // The die of seed 001 (gallery.h): a cube with edges of length 1 and no arguments. Each face
+    // shows another sixth of the texture's width, which holds the faces of one to six pips side by
+    // side. The pips of opposite faces add up to seven.
     DIP_KIT_DIE
 } DipKitShape;
 
-// A mesh to make: a shape, and the arguments of the shape's function in shapes.h, in its order.
+// A mesh that the gallery makes for a scene: a shape, and the arguments of the function in shapes.h
+// that makes this shape, in the function's order.
 typedef struct DipKitMeshDef {
     DipKitShape shape;
     float arguments[4];
 } DipKitMeshDef;
 
-// Makes the shape DIP_KIT_DIE, as the functions of shapes.h make theirs.
+// Makes the shape DIP_KIT_DIE. The caller frees it (dip_shape_free).
 bool dip_kit_die_shape(DipShape *shape, DipError *err);
 
-// Makes a mesh of a shape's vertices and frees the shape.
+// Makes a mesh from a shape and frees the shape, even if it fails.
 bool dip_kit_mesh(DipMesh **mesh, const char *name, DipShape *shape, DipError *err);
 
 // --- textures ------------------------------------------------------------------------------------
 
-// A texture and its compressed form, which settings with opt=standard or opt=advanced show.
+// A texture and its compressed form, which is drawn with the settings opt=standard and
+// opt=advanced.
 typedef struct DipKitTexture {
     DipTexture *plain;
-    DipTexture *compressed; // NULL for textures that hold no colours
+    DipTexture *compressed; // NULL for textures that hold no colours.
 } DipKitTexture;
 
-// Computes the sRGB colour and the alpha of the texel at u, v, its centre in 0..1. It may use only
-// + - * /, sqrt and functions of the kit, so that all machines have the same texels.
+// A function that computes the sRGB colour and the alpha of the texel with the centre u, v (0..1).
+// All values are 0..1; before the call, rgba is opaque black. The function may use only + - * /,
+// sqrt and functions of the kit, so that all machines have the same texels.
 typedef void DipKitPaint(float u, float v, float rgba[4]);
 
-// A texture to make of painted texels.
+// A texture that the gallery makes for a scene, by computing each texel.
 typedef struct DipKitTextureDef {
     const char *name;
-    int width, height; // texels
+    int width, height; // Texels.
     DipWrap wrap;
-    DipKitPaint *paint; // NULL: the scene makes the texture itself, or there is none.
+    DipKitPaint *paint; // NULL if the scene makes the texture itself or has none.
 } DipKitTextureDef;
 
 // Paints the die's faces: six squares side by side, with one to six pips.
@@ -67,65 +72,67 @@ void dip_kit_paint_die(float u, float v, float rgba[4]);
 
 enum { DIP_KIT_MESHES = 6, DIP_KIT_TEXTURES = 3 };
 
-// Meshes and textures of a scene, which the gallery frees.
+// The meshes and textures of a scene. The gallery frees them.
 typedef struct DipKitStock {
     DipMesh *meshes[DIP_KIT_MESHES];
     DipKitTexture textures[DIP_KIT_TEXTURES];
 } DipKitStock;
 
-// What a scene uses while it exists.
+// The data of a scene, from opening it to closing it.
 typedef struct DipGalleryRoom {
-    const DipGalleryDef *def; // of the gallery
+    const DipGalleryDef *def; // Definition of the gallery.
     DipKitStock stock;
-    void *content; // what else the scene keeps, DipGalleryScene.content_bytes long
+    void *content; // The scene's own data, of DipGalleryScene.content_bytes bytes.
 } DipGalleryRoom;
 
-// A frame that a scene draws. Settings are those of the pane.
+// What a scene gets to draw a frame of a pane.
 typedef struct DipGalleryView {
-    const DipGalleryDef *def; // of the gallery
+    const DipGalleryDef *def; // Definition of the gallery.
     DipKitStock *stock;
-    void *content;
+    void *content; // The scene's own data.
     const DipPose *pose;
-    double time_s; // since the scene began, 0..DIP_GALLERY_SECONDS
-    float turns;   // the same time as a share of DIP_GALLERY_SECONDS, 0..1
-    double turn;   // the same time as the angle that a loop turns by, 0..2 pi
-    int look;      // 0..look_count - 1
-    const DipQuality *quality;
+    double time_s;             // Time since the scene began, 0..DIP_GALLERY_SECONDS.
+    float turns;               // The same time divided by DIP_GALLERY_SECONDS, 0..1.
+    double turn;               // The same time as an angle that makes a full turn in it, 0..2 pi.
+    int look;                  // Index of the look (DipGalleryInfo), 0..look_count - 1.
+    const DipQuality *quality; // The pane's settings.
     DipPatternKind pattern;
-    DipTarget target;              // the picture, format DIP_FORMAT_SRGB8
-    DipPipeline *pipeline;         // of the picture's size
-    DipSampler filter;             // how the settings filter textures; has no texture yet
-    const DipTexture *mip_colours; // level i is a flat colour for mip levels of 1024 >> i texels
+    DipTarget target;              // The pane's picture, of the format DIP_FORMAT_SRGB8.
+    DipPipeline *pipeline;         // A pipeline of the picture's size.
+    DipSampler filter;             // A sampler that filters as the settings say, without a texture.
+    const DipTexture *mip_colours; // Level i has the colour of mip levels of 1024 >> i texels.
     DipPipelineCounters *counters;
     DipStageTimes *times;
 } DipGalleryView;
 
-// Where a scene's camera stands, and the point that it looks at.
+// The position of a scene's camera, and the point at which it looks.
 typedef struct DipGalleryCamera {
     double eye[3];
     double target[3];
 } DipGalleryCamera;
 
+// The definition of a scene.
 typedef struct DipGalleryScene {
     DipGalleryInfo info;
-    DipKitMeshDef meshes[DIP_KIT_MESHES]; // The gallery makes these meshes and textures.
-    DipKitTextureDef textures[DIP_KIT_TEXTURES];
-    size_t content_bytes; // Size of what else the scene keeps; zeroed before the first frame.
-    // turn: the time as an angle, 0..2 pi. Both ends have the same camera.
+    DipKitMeshDef meshes[DIP_KIT_MESHES];        // Meshes that the gallery makes.
+    DipKitTextureDef textures[DIP_KIT_TEXTURES]; // Textures that the gallery makes.
+    size_t content_bytes; // Size of the scene's own data, which is zeroed when the scene opens.
+    // Returns the camera at a time, given as an angle of 0..2 pi. 0 and 2 pi give the same camera.
     DipGalleryCamera (*camera)(double turn);
-    // Makes the other meshes and textures of the stock, and the content. NULL: there are none.
+    // Makes the other meshes and textures of the stock, and the scene's own data. May be NULL.
     bool (*create)(DipGalleryRoom *room, DipError *err);
-    // Frees what the content owns, even if `create` has failed. NULL: it owns nothing.
+    // Frees what the scene's own data owns, even if `create` has failed. May be NULL.
     void (*destroy)(void *content);
+    // Draws a frame.
     bool (*draw)(const DipGalleryView *view, DipError *err);
 } DipGalleryScene;
 
-// Lists the names of a scene's looks (DipGalleryInfo).
+// Sets the names of a scene's looks and their number (DipGalleryInfo).
 #define DIP_KIT_LOOKS(...)                                                                         \
     .looks = (const char *const[]){__VA_ARGS__},                                                   \
     .look_count = (int)(sizeof((const char *const[]){__VA_ARGS__}) / sizeof(const char *))
 
-// The one list of scenes, in the order of the tour.
+// Lists the scenes, in the order of the tour.
 #define DIP_GALLERY_SCENE_LIST(X)                                                                  \
     X(model)                                                                                       \
     X(shadow)                                                                                      \
@@ -149,28 +156,29 @@ DIP_GALLERY_SCENE_LIST(DIP_GALLERY_DECLARE)
 bool dip_kit_stock_create(DipKitStock *stock, const DipGalleryScene *scene, DipError *err);
 void dip_kit_stock_free(DipKitStock *stock);
 
-// Writes the name of an asset's file. Fails with OVERSIZED if the name does not fit; `scene` is the
-// error's key.
+// Writes the name of an asset's file with its folder. Fails with OVERSIZED if the name does not
+// fit; `scene` becomes the error's key.
 bool dip_kit_asset(char *file, size_t size_bytes, const DipGalleryDef *def, const char *asset,
                    const char *scene, DipError *err);
 
-// Makes the memory of a picture, which dip_lines_free frees. Fails with MEMORY; `key` is the
-// error's key, and target->rgba8 is then NULL.
+// Makes a target and allocates its pixels, which dip_lines_free frees. Fails with MEMORY; `key`
+// becomes the error's key, and target->rgba8 is then NULL.
 bool dip_kit_target(DipTarget *target, int width, int height, const char *key, DipError *err);
 
 // --- cameras and passes --------------------------------------------------------------------------
 
 typedef struct DipKitCamera {
     DipMatrix view;
-    DipMatrix to_clip; // from world space
-    float eye[3];      // in world space
+    DipMatrix to_clip; // From world space to clip space.
+    float eye[3];      // Position in world space.
 } DipKitCamera;
 
 // Makes the matrices of the view's pose.
 bool dip_kit_camera(DipKitCamera *camera, const DipGalleryView *view, double near_distance,
                     DipError *err);
 
-// Makes the matrices of a camera, or of a light.
+// Makes the matrices of a camera at from->eye that looks at from->target. It may also stand for a
+// light.
 bool dip_kit_look_at(DipKitCamera *camera, const DipGalleryCamera *from, const DipPerspective *lens,
                      DipError *err);
 
@@ -193,41 +201,41 @@ bool dip_kit_draw(const DipGalleryView *view, DipPipeline *pipeline, const DipPa
 typedef struct DipKitObject {
     float to_clip[16];
     float to_world[16];
-    float normals[9]; // takes normals to world space; the results are not of unit length
-    float eye[3];     // the camera's position in world space
+    float normals[9]; // Takes normals to world space; the results are not of unit length.
+    float eye[3];     // The camera's position in world space.
 } DipKitObject;
 
 // Varyings that dip_kit_vertex writes.
 enum {
-    DIP_KIT_UV = 0,     // u, v
-    DIP_KIT_NORMAL = 2, // x, y, z in world space; not of unit length
-    DIP_KIT_WORLD = 5,  // x, y, z of the position in world space
+    DIP_KIT_UV = 0,     // Texture coordinates u, v.
+    DIP_KIT_NORMAL = 2, // Normal x, y, z in world space, not of unit length.
+    DIP_KIT_WORLD = 5,  // Position x, y, z in world space.
     DIP_KIT_VARYINGS = 8,
-    DIP_KIT_VALUES_ONLY = 6 // normal and position are used without derivatives
+    DIP_KIT_VALUES_ONLY = 6 // The last six, normal and position, have no derivatives.
 };
 
 // Vertex shader for meshes with the attributes of a shape (shapes.h).
 void dip_kit_vertex(const DipVertexBatch *batch);
 
-// Vertex shader for a quad that fills the picture, whose corners are positions in clip space.
+// Vertex shader for a quad that fills the picture. The corners' x and y are in clip space.
 void dip_kit_screen_vertex(const DipVertexBatch *batch);
 
-// For vertex shaders whose first three attributes are a position: takes the position to clip space.
+// Takes the position of each vertex, its first three attributes, to clip space. For vertex shaders.
 void dip_kit_transform(const DipVertexBatch *batch, const float to_clip[16]);
 
-// For vertex shaders: copies `count` attributes to varyings.
+// Copies `count` attributes to varyings. For vertex shaders.
 void dip_kit_copy(const DipVertexBatch *batch, int attribute, int varying, int count);
 
 enum { DIP_KIT_MAX_DRAWS = 32, DIP_KIT_UNIFORM_DOUBLES = 64 };
 
-// The draws of a pass while they are put together, and the camera that sees them. After a failure,
-// a list takes further draws, but dip_kit_show fails. The draws refer to the list's own uniforms,
-// so a list with draws must not be copied.
+// A list of draws to which a scene adds its objects, and the camera that sees them. If adding one
+// fails, more can still be added, but dip_kit_show then fails. The draws point into the list's own
+// uniforms, so a list with draws must not be copied.
 typedef struct DipKitList {
     const DipGalleryView *view;
-    DipKitCamera seen;
+    DipKitCamera seen; // The camera.
     DipDraw draws[DIP_KIT_MAX_DRAWS];
-    double uniforms[DIP_KIT_MAX_DRAWS][DIP_KIT_UNIFORM_DOUBLES]; // of each draw
+    double uniforms[DIP_KIT_MAX_DRAWS][DIP_KIT_UNIFORM_DOUBLES]; // [draw]
     int count;
     bool failed;
     DipError *err; // Filled in by the first failure.
@@ -236,14 +244,14 @@ typedef struct DipKitList {
 // Returns an empty list with the camera of the view's pose.
 DipKitList dip_kit_list(const DipGalleryView *view, double near_distance, DipError *err);
 
-// Adds an object that `model` takes to world space, drawn with dip_kit_vertex, and returns the
-// draw. The list keeps a copy of the uniforms, which begin with a DipKitObject that this function
-// fills in.
+// Adds an object and returns its draw, which the caller may change. `model` takes the object to
+// world space, and the vertex shader is dip_kit_vertex. The list keeps a copy of the uniforms; they
+// begin with a DipKitObject, which this function fills in.
 DipDraw *dip_kit_add_bytes(DipKitList *list, const DipMesh *mesh, const void *uniforms,
                            size_t size_bytes, const DipMatrix *model,
                            DipFragmentShader *fragment_shader);
 
-// The same. uniforms: a pointer to a struct.
+// Does the same with the size of *uniforms. `uniforms` points to a struct.
 #define dip_kit_add(list, mesh, uniforms, model, fragment_shader)                                  \
     dip_kit_add_bytes(list, mesh, uniforms, sizeof *(uniforms), model, fragment_shader)
 
@@ -252,14 +260,14 @@ bool dip_kit_show(const DipKitList *list, const float clear_lin[3]);
 
 // --- shading -------------------------------------------------------------------------------------
 
-// Returns a sampler that reads the texture as the settings of the pane say.
+// Returns a sampler that reads and filters the texture as the pane's settings say.
 DipSampler dip_kit_sampler(const DipGalleryView *view, const DipKitTexture *texture);
 
 // Sets the sampler to show the flat colour of each mip level instead of the texture.
 void dip_kit_show_mip_colours(DipSampler *sampler, const DipGalleryView *view);
 
-// For fragment shaders: reads the first sampler's colours and multiplies them by a colour and by
-// the light at each fragment.
+// Reads the colours of the first sampler, multiplies them by `colour` and by the light at each
+// fragment, and writes them to batch->colour. For fragment shaders.
 void dip_kit_light_texture(DipFragmentBatch *batch, const float colour[3],
                            float (*light)[DIP_FRAGMENT_BATCH]);
 
@@ -278,13 +286,12 @@ static inline DipKitVector dip_kit_vector(const float v[3]) {
     return dip_kit_xyz(v[0], v[1], v[2]);
 }
 
-// Returns element i of three arrays, for example of the varyings from one on: batch->varying +
-// DIP_KIT_NORMAL.
+// Returns element i of three successive arrays, for example of batch->varying + DIP_KIT_NORMAL.
 static inline DipKitVector dip_kit_get(float (*arrays)[DIP_FRAGMENT_BATCH], int i) {
     return dip_kit_xyz(arrays[0][i], arrays[1][i], arrays[2][i]);
 }
 
-// Sets element i of three arrays, for example of batch->colour.
+// Sets element i of three successive arrays, for example of batch->colour.
 static inline void dip_kit_set(float (*arrays)[DIP_FRAGMENT_BATCH], int i, float x, float y,
                                float z) {
     arrays[0][i] = x;
@@ -312,7 +319,8 @@ static inline float dip_kit_dot(DipKitVector a, DipKitVector b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Returns 1 / length. tiny: is added to the length's square, so that a vector of length 0 is safe.
+// Returns 1 / length. `tiny` is added to the square of the length, so that a vector of length 0
+// causes no division by 0.
 static inline float dip_kit_per_length(DipKitVector v, float tiny) {
     return 1.0f / sqrtf(dip_kit_dot(v, v) + tiny);
 }
@@ -347,7 +355,8 @@ static inline float dip_kit_floor(float x) {
     return whole > x ? whole - 1.0f : whole;
 }
 
-// Returns the distance from x to the nearest whole number: to the edge of a tile of size 1.
+// Returns the distance from x to the nearest whole number. If tiles have the size 1, this is the
+// distance to the nearest edge of a tile.
 static inline float dip_kit_to_edge(float x) {
     const float share = x - dip_kit_floor(x);
     return share < 0.5f ? share : 1.0f - share;
@@ -361,10 +370,11 @@ static inline float dip_kit_power(float x, int doublings) {
     return x;
 }
 
-// Returns about sin(2 pi turns), for |turns| < 2^22, with an error below 0.0012. It uses + - *
-// only, so that a loop over a batch becomes vector code with the same bits everywhere.
+// Returns sin(2 pi turns), for |turns| < 2^22, with an error below 0.0012. Uses only + - *, so that
+// a loop over a batch becomes vector code with the same bits on all machines.
 static inline float dip_kit_wave(float turns) {
-    const float t = turns - dip_kit_floor(turns) - 0.5f; // -0.5..0.5; its sine is negated
+    const float t =
+        turns - dip_kit_floor(turns) - 0.5f; // Half a turn less, so the sine is negated.
     const float size = t < 0.0f ? -t : t;
     const float parabola = 8.0f * t - 16.0f * t * size;
     const float height = parabola < 0.0f ? -parabola : parabola;
@@ -379,10 +389,11 @@ static inline float dip_kit_random(int x, int y, int z) {
     return (float)((h ^ h >> 15) >> 8) * (1.0f / 16777216.0f);
 }
 
-// Smooth noise, 0..1. It repeats along x and y after `period` units.
+// Returns smooth noise, 0..1. It repeats along x and y after `period` units.
 float dip_kit_noise(float x, float y, int period, int seed);
 
-// Noise of several octaves, 0..1.
+// Returns the weighted mean of several octaves of noise, 0..1. It repeats along x and y after
+// `period` units.
 float dip_kit_turbulence(float x, float y, int period, int octaves, int seed);
 
 #endif

@@ -1,4 +1,4 @@
-// Shades points with lights, in loops that become vector code.
+// Shades points with lights, in loops that the compiler turns into vector code.
 #include "app/gallery/kit/light.h"
 
 #include "app/gallery/kit/kit.h"
@@ -28,9 +28,10 @@ DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch,
     };
 }
 
+// The ray from each point to a light.
 typedef struct Rays {
-    float toward[3][DIP_FRAGMENT_BATCH]; // unit vectors towards the light
-    float strength[DIP_FRAGMENT_BATCH];  // how much light arrives
+    float toward[3][DIP_FRAGMENT_BATCH]; // Unit vectors towards the light.
+    float strength[DIP_FRAGMENT_BATCH];  // Share of the light that arrives, 0..1.
 } Rays;
 
 static void find_rays(const DipKitLight *light, const DipKitPoints *points, Rays *rays) {
@@ -57,8 +58,9 @@ static void find_parallel_rays(const DipKitLight *light, int count, Rays *rays) 
     }
 }
 
-// Replaces each ray's strength by the diffuse factor and writes the specular factor (Blinn: the
-// cosine between the normal and the half-way vector, raised to a power).
+// Multiplies each ray's strength by the diffuse factor, the cosine between the normal and the ray.
+// Writes the strength times the specular factor: the cosine between the normal and Blinn's half-way
+// vector, raised to a power.
 static void find_factors(const DipKitPoints *points, const DipKitMaterial *material, Rays *rays,
                          float *specular) {
     const DipKitVector eye = dip_kit_vector(points->eye);

@@ -1,5 +1,6 @@
-// Lights and materials. Shades points with the model of Phong and Blinn, in fragment or vertex
-// shaders.
+// Declares lights and materials, and shades points of a surface with the model of Phong and Blinn,
+// in fragment or vertex shaders. Colours are linear light. Positions and directions are in world
+// space.
 #ifndef DIP_APP_GALLERY_KIT_LIGHT_H
 #define DIP_APP_GALLERY_KIT_LIGHT_H
 
@@ -8,59 +9,60 @@
 typedef enum DipKitLightKind {
     DIP_KIT_DIRECTIONAL, // The light comes from one direction everywhere, as the sun's does.
     DIP_KIT_POINT,       // The light comes from a point and weakens with distance.
-    DIP_KIT_SPOT,        // The same as POINT, but the light fills a cone only.
+    DIP_KIT_SPOT,        // The light comes from a point, weakens with distance and fills a cone.
 } DipKitLightKind;
 
 typedef struct DipKitLight {
     DipKitLightKind kind;
-    float position[3];  // point and spot lights, in world space
-    float direction[3]; // unit vector along which directional and spot lights shine
-    float colour[3];    // linear light; may exceed 1
-    float reach;        // point and spot lights: distance at which the light is half as strong
-    float inner_cos;    // spot lights: cosine of the angle within which the light is full
-    float outer_cos;    // spot lights: cosine of the angle beyond which there is no light;
-                        // less than inner_cos
+    float position[3];  // Of point and spot lights.
+    float direction[3]; // Unit vector along which directional and spot lights shine.
+    float colour[3];    // May exceed 1.
+    float reach;        // Distance at which a point or spot light is half as strong.
+    float inner_cos;    // Cosine of the angle within which a spot light is full.
+    float outer_cos;    // Cosine of the angle beyond which a spot light is dark; < inner_cos.
 } DipKitLight;
 
 typedef struct DipKitMaterial {
-    float diffuse[3];     // share of the light that is scattered, 0..1
-    float specular[3];    // share of the light that is mirrored in the highlight
-    int exponent_doubled; // the highlight's exponent is 2 to this power
+    float diffuse[3];     // Share of the light that is scattered, 0..1.
+    float specular[3];    // Share of the light that is mirrored in the highlight.
+    int exponent_doubled; // The highlight's exponent is 2 to the power of this number.
 } DipKitMaterial;
 
-// Points of a surface. Element i of each array belongs to point i.
+// Points of a surface. Element i of each array belongs to point i. All arrays are borrowed.
 typedef struct DipKitPoints {
-    int count; // at most DIP_FRAGMENT_BATCH
+    int count; // At most DIP_FRAGMENT_BATCH.
     const float *position[3];
-    const float *normal[3]; // unit vectors
-    const float *eye;       // the camera's position
+    const float *normal[3]; // Unit vectors.
+    const float *eye;       // The camera's position, x, y and z.
 } DipKitPoints;
 
-// Normalises three arrays of vectors.
+// Normalises `count` vectors, whose x, y and z are in three arrays.
 void dip_kit_normalise(const float *const in[3], int count, float (*out)[DIP_FRAGMENT_BATCH]);
 
-// Writes the sky's light to out[0..2][i]: sky * material where the surface faces upwards. Where it
-// stands upright, only the share `upright` of this light arrives.
+// Writes to out[0..2][i] the light of the sky that point i reflects. A surface that faces upwards
+// gets all the light `sky`; an upright surface gets only the share `upright` of it.
 void dip_kit_light_sky(const float sky[3], float upright, const DipKitMaterial *material,
                        const DipKitPoints *points, float (*out)[DIP_FRAGMENT_BATCH]);
 
-// Adds a light's diffuse and specular part to out[0..2][i]. lit: share of the light that reaches
-// each point, 0..1; NULL means all of it.
+// Adds to out[0..2][i] the diffuse and the specular light that point i reflects. `lit` holds the
+// share of the light that reaches each point, 0..1. If it is NULL, all the light reaches all
+// points.
 void dip_kit_light_add(const DipKitLight *light, const DipKitMaterial *material,
                        const DipKitPoints *points, const float *lit,
                        float (*out)[DIP_FRAGMENT_BATCH]);
 
-// Writes the ambient light, which is the same at all points, and adds the parts of several lights.
+// Writes `ambient` to out[0..2][i] for each point i, and adds what the points reflect of several
+// lights.
 void dip_kit_light_all(const float ambient[3], const DipKitLight *lights, int light_count,
                        const DipKitMaterial *material, const DipKitPoints *points,
                        float (*out)[DIP_FRAGMENT_BATCH]);
 
 // Returns the fragments of a batch as points. The batch has the uniforms and the varyings of
-// dip_kit_vertex. `normals` receives the points' unit normals and must outlive the points.
+// dip_kit_vertex (kit.h). `normals` receives the points' unit normals and must outlive the points.
 DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch,
                                      float (*normals)[DIP_FRAGMENT_BATCH]);
 
-// Does the same as dip_kit_light_all for the fragments of such a batch.
+// Does what dip_kit_light_all does, for the fragments of a batch as dip_kit_fragment_points takes.
 void dip_kit_light_fragments(const DipFragmentBatch *batch, const float ambient[3],
                              const DipKitLight *lights, int light_count,
                              const DipKitMaterial *material, float (*out)[DIP_FRAGMENT_BATCH]);

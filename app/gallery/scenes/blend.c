@@ -1,17 +1,18 @@
-// The gallery scene "blend": the blend modes of seed 001 (gallery.h), side by side.
+// Draws the gallery scene "blend": four blend modes side by side. It comes from seed 001; gallery.h
+// says what a seed is.
 //
-// Four columns show four modes. In each field lie a blue sheet and a yellow one with the seed's
-// colours and alphas, over grey chequers. The upper row draws blue first and yellow second; the
-// lower row draws them the other way round. The two rows look the same where the order does not
-// matter, and differ where it does. All sheets lie in one plane, so they do not test depth: the
-// picture shows submission order alone.
+// Four columns and two rows make eight fields. Each column shows one mode. In each field, a blue
+// and a yellow quad (the sheets) lie over grey chequers. The upper row draws blue first and yellow
+// second; the lower row draws yellow first. The two rows look the same for modes in which the order
+// does not matter. All sheets lie in one plane and do not test depth, so only the order of the
+// draws decides what is on top.
 #include "app/gallery/kit/kit.h"
 
 enum { MODES = 4, ROWS = 2, FIELDS = MODES * ROWS, SHEETS = 2 };
 
 typedef struct Uniforms {
     DipKitObject object;
-    float colour[3]; // linear light
+    float colour[3]; // Linear light.
     float alpha;
 } Uniforms;
 
@@ -30,7 +31,8 @@ static void shade_chequers(DipFragmentBatch *batch) {
     batch->sample_colour(batch, &batch->samplers[0], DIP_KIT_UV, batch->colour);
 }
 
-// A sheet has one colour. Its rim is a little more opaque, so that its shape shows in every mode.
+// Shades a sheet in one colour. The rim is a little more opaque, so that the sheet's shape shows in
+// every mode.
 static void shade_sheet(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
@@ -67,7 +69,8 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.35 * dip_sin(turn), 0.0, 0.0}};
 }
 
-// Returns where a sheet lies in its field: both circle about the field's middle, half a turn apart.
+// Returns the matrix that takes a sheet to world space. The two sheets of a field circle about the
+// field's middle, half a turn apart. x and y are the middle.
 static DipMatrix sheet_matrix(double x, double y, int sheet, double turn) {
     const double angle = 2.0 * turn + DIP_PI * sheet;
     return dip_kit_chain3(

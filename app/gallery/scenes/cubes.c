@@ -1,10 +1,11 @@
-// The gallery scene "cubes": the sample scene of seed 004 (gallery.h).
+// Draws the gallery scene "cubes": three cubes, as a picture or as characters. It is the sample
+// scene of seed 004; gallery.h says what a seed is.
 //
-// Three objects have two kinds of vertices and a shader each: cubes with a colour per corner, and a
-// cube with texture coordinates. Two of them turn in place while the long one moves to the right
-// and leaves the view. Before each pass, bounding boxes decide which objects are drawn; once the
-// long cube is culled, the first cube changes its mesh. The same draws also go to a target of
-// characters: the caller's function stores each pixel as a char, and a second pass shows the chars.
+// Two cubes have a colour per corner, and one has texture coordinates; each kind of vertex has its
+// own shaders. Two cubes turn in place, while the long one moves to the right and leaves the view.
+// Before each pass, bounding boxes decide which cubes are drawn. While the long cube is out of
+// view, the first cube has another mesh. One look draws the cubes into a target of characters: a
+// function of this file stores each pixel as a char, and a second pass shows the chars.
 #include "app/gallery/kit/kit.h"
 #include "renderer/pipeline/cull.h"
 
@@ -18,12 +19,12 @@ typedef struct Uniforms {
     float to_clip[16];
 } Uniforms;
 
-// Characters as a target: one char for each pixel of the pass.
+// A target of characters: one char for each pixel of the pass that draws into it.
 typedef struct CharTarget {
     char *chars;
     int columns;
     int rows;
-    int cell; // pixels of the picture along each side of a character
+    int cell; // Side of a character in the picture, in pixels.
 } CharTarget;
 
 typedef struct Content {
@@ -32,8 +33,8 @@ typedef struct Content {
     Uniforms uniforms[OBJECTS];
 } Content;
 
-// The characters from dark to bright, and how each of them looks in 8 by 8 dots. Bit 7 is the left
-// column.
+// The characters from dark to bright, and the picture of each character: eight rows of eight dots.
+// Bit 7 of a row is the leftmost dot.
 static const char ramp[GLYPHS + 1] = " .:-=+*#%@";
 static const uint8_t glyphs[GLYPHS][CELL] = {
     {0, 0, 0, 0, 0, 0, 0, 0},
@@ -50,13 +51,13 @@ static const uint8_t glyphs[GLYPHS][CELL] = {
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// Vertex shader for the seed's SimpleVertex: a position and a colour.
+// Vertex shader for vertices with a position and a colour, which the seed calls SimpleVertex.
 static void simple_vertex(const DipVertexBatch *batch) {
     dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
     dip_kit_copy(batch, 3, 0, 3);
 }
 
-// Vertex shader for the seed's TextureVertex: a position, and u and v.
+// Vertex shader for vertices with a position and u, v, which the seed calls TextureVertex.
 static void texture_vertex(const DipVertexBatch *batch) {
     dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
     dip_kit_copy(batch, 3, 0, 2);
@@ -76,7 +77,7 @@ static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
-// Shows the characters, green on black, as a screen of the time would.
+// Shows the characters in green on black, as an old terminal does.
 static void shade_chars(DipFragmentBatch *batch) {
     const CharTarget *target = batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
@@ -108,7 +109,7 @@ static void store_chars(void *context, int x, int y, int count, const float *con
 
 // --- content -------------------------------------------------------------------------------------
 
-// Makes a mesh of SimpleVertex: a cube, or the same cube with its faces drawn out to points.
+// Makes a mesh of SimpleVertex: a cube, or a smaller cube with a pyramid on each face (the gem).
 static bool make_simple(DipMesh **mesh, bool gem, DipError *err) {
     static const float size[3] = {2.0f, 2.0f, 2.0f};
     float vertices[SIDES * 5][SIMPLE_ATTRIBUTES];
@@ -188,7 +189,8 @@ static bool create(DipGalleryRoom *room, DipError *err) {
            make_textured(&meshes[TEXTURED], err);
 }
 
-// Makes the characters for a picture of this size, unless the last frame had the same size.
+// Makes the target of characters for the view's picture, unless the last frame had the same number
+// of columns and rows.
 static bool prepare_chars(const DipGalleryView *view, DipError *err) {
     const int width = view->target.width;
     const int height = view->target.height;
@@ -216,7 +218,8 @@ static DipGalleryCamera camera(double turn) {
     return (DipGalleryCamera){.eye = {0.6 * dip_sin(turn), 1.5 + 0.4 * dip_cos(turn), 9.6}};
 }
 
-// Two objects turn in place; the long one, index 1, moves to the right and comes back at the end.
+// Returns the matrix that takes an object to world space. Two objects turn in place. The long one,
+// index 1, moves to the right and comes back at the end of the loop.
 static DipMatrix place(int index, double turn) {
     if (index == 1) {
         const double way = 0.5 - 0.5 * dip_cos(turn);
@@ -243,7 +246,7 @@ static int list_objects(const DipGalleryView *view, const DipKitCamera *seen,
     int count = 0;
     bool long_cube_seen = true;
     for (int i = OBJECTS - 1; i >= 0;
-         i--) { // The first cube comes last, since it depends on the others.
+         i--) { // Cube 0 comes last, since its mesh depends on whether cube 1 is in view.
         const DipMatrix to_clip = dip_kit_chain(seen->to_clip, place(i, view->turn));
         const int mesh = i == 2 ? TEXTURED : i == 1 || long_cube_seen ? CUBE : GEM;
         if (!in_view(meshes[mesh], &to_clip)) {

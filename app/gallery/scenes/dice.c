@@ -1,9 +1,9 @@
-// The gallery scene "dice": textured dice, as in seed 001 (gallery.h).
+// Draws the gallery scene "dice": textured dice that hop over a table. It comes from seed 001;
+// gallery.h says what a seed is.
 //
-// One texture holds the six faces side by side. The texture coordinates of each face are those of a
-// whole picture, mapped to its sixth of the width. Small mip levels therefore mix neighbouring
-// faces, which shows on the far dice with a strong mip bias. The soft shadows on the felt are quads
-// with multiplicative blending.
+// One texture holds the six faces side by side, and each face reads a sixth of the texture's width.
+// Small mip levels therefore mix neighbouring faces, which shows on the far dice if the mip bias is
+// strong. The soft shadows on the felt are quads with multiplicative blending.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 
@@ -14,7 +14,7 @@ enum { DICE = 9, RINGS = 3 };
 typedef struct Uniforms {
     DipKitObject object;
     float colour[3];
-    float height; // shadows: height of the die above the table
+    float height; // Height of the die above the table. Used for shadows.
 } Uniforms;
 
 // --- shaders -------------------------------------------------------------------------------------
@@ -38,7 +38,8 @@ static void shade(DipFragmentBatch *batch) {
     dip_kit_light_texture(batch, ((const Uniforms *)batch->uniforms)->colour, light);
 }
 
-// The target's colour is multiplied by the shader's: less than 1 darkens it.
+// Shades a shadow. Blending multiplies the target's colour by this colour, so values less than 1
+// darken it.
 static void shade_shadow(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float depth = 0.95f / (1.0f + 0.25f * uniforms->height);
@@ -75,7 +76,8 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, 0.5, 0.0}};
 }
 
-// The dice hop over the table in three rings; each turns about its own axes while it is in the air.
+// Returns the matrix that takes a die to world space. The dice hop over the table in three rings
+// and turn about two of their axes.
 static DipMatrix place_die(int index, double turn, double position[3]) {
     const int ring = index % RINGS;
     const double angle = (ring == 1 ? -turn : turn) + 2.0 * DIP_PI * index / DICE;

@@ -1,9 +1,10 @@
-// The gallery scene "model": an MD2 model with key-frame animation, lit in several ways.
+// Draws the gallery scene "model": an MD2 model with key-frame animation, lit in several ways. It
+// comes from seed 000; gallery.h says what a seed is.
 //
-// As in seed 000 (gallery.h), flat, Gouraud and Phong shading differ only in their vertex and
-// fragment shaders. Directional, point and spot lights shine on the model. The looks show it
-// textured, plain, and as a lit wireframe. Each vertex of a mesh holds its positions and normals in
-// two successive key frames, and the vertex shader blends them.
+// Flat, Gouraud and Phong shading differ only in their vertex and fragment shaders. A directional,
+// a point and a spot light shine on the model. The looks (the scene's variants) show it textured,
+// plain, and as a lit wireframe. Each vertex of a mesh holds its positions and normals in two
+// successive key frames, and the vertex shader blends them.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "assets/animation.h"
@@ -13,14 +14,15 @@
 #include <string.h>
 
 enum { MAX_FRAMES = 64, COPIES = 3, LIGHTS = 3 };
-// Attributes: position and normal in a key frame, the same in the next one, and u, v.
+// Attributes of a vertex: position and normal in a key frame, position and normal in the next key
+// frame, and u, v.
 enum { NEXT = 6, UV = 12, ATTRIBUTES = 14 };
 // Varyings of Gouraud and flat shading: u, v, then the light.
 enum { LIGHT = 2, LIT_VARYINGS = 5 };
 
 typedef struct Uniforms {
     DipKitObject object;
-    float blend; // share of the next key frame
+    float blend; // Weight of the next key frame, 0..1.
     DipKitMaterial material;
     DipKitLight lights[LIGHTS];
     bool textured;
@@ -29,13 +31,14 @@ typedef struct Uniforms {
 typedef struct Content {
     DipAnimatedModel *model;
     DipAnimatedPose *pose;
-    // [flat][first key frame of a pair]. Triangles of flat meshes share no vertices.
+    // [0: smooth, 1: flat][key frame]: a mesh for this key frame and the next one. Triangles of
+    // flat meshes share no vertices.
     DipMesh *meshes[2][MAX_FRAMES];
 } Content;
 
 typedef struct Look {
     bool flat;
-    bool gouraud; // light at the vertices; otherwise at the fragments
+    bool gouraud; // True to compute light at the vertices, false to compute it at the fragments.
     bool textured;
     bool wireframe;
 } Look;
@@ -45,7 +48,8 @@ static const Look model_looks[] = {{false, false, true, false}, {false, true, tr
                                    {true, true, false, false},  {false, false, true, true}};
 // --- shaders -------------------------------------------------------------------------------------
 
-// Blends two key frames and takes positions and normals to world space.
+// Blends two key frames, takes positions to clip space, and writes positions and normals in world
+// space.
 static void blend_frames(const DipVertexBatch *batch, float *const world[3],
                          float *const normal[3]) {
     const Uniforms *uniforms = batch->uniforms;
@@ -86,8 +90,8 @@ static void add_lights(const Uniforms *uniforms, const DipKitPoints *points,
 }
 
 // Vertex shader for Gouraud shading: the light is computed at the vertices and becomes a varying.
-// Flat shading is the same with vertices that no two triangles share and that have the normal of
-// their triangle.
+// It also serves flat shading, because each vertex of a flat mesh belongs to one triangle only and
+// has the triangle's normal.
 static void gouraud_vertex(const DipVertexBatch *batch) {
     static const int slice = DIP_FRAGMENT_BATCH;
     const Uniforms *uniforms = batch->uniforms;
@@ -144,8 +148,8 @@ static void shade_gouraud(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Writes a vertex in two key frames. flat_normals: the face's normal in both frames, or NULL for
-// the vertex's own.
+// Writes a vertex in two key frames. `flat_normals` holds the face's normal in both key frames; if
+// it is NULL, the vertex's own normals are written.
 static void write_vertex(const DipAnimatedMesh *mesh, uint32_t v, int frame, int next,
                          const float flat_normals[2][3], float *out) {
     const int frames[2] = {frame, next};
@@ -249,7 +253,8 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, 0.78, 0.0}};
 }
 
-// Sets a white light from above, an orange point that circles, and a blue spot that sweeps.
+// Sets a white light from above, an orange point light that circles, and a blue spot light that
+// sweeps over the floor.
 static void set_lights(DipKitLight lights[LIGHTS], double turn) {
     lights[0] = (DipKitLight){.kind = DIP_KIT_DIRECTIONAL,
                               .direction = {-0.36f, -0.80f, -0.48f},
@@ -282,7 +287,7 @@ static Uniforms uniforms_of(const DipGalleryView *view, bool is_floor) {
     return uniforms;
 }
 
-// Draws one copy of the model. The copies are at different times of the animation.
+// Adds one copy of the model to the list. Each copy shows another time of the animation.
 static DipDraw *add_copy(int copy, DipKitList *list) {
     const DipGalleryView *view = list->view;
     const Content *content = view->content;

@@ -1,9 +1,10 @@
-// The gallery scene "phone": the mobile phone of seed 001 (gallery.h), and a die behind it.
+// Draws the gallery scene "phone": a mobile phone and a die behind it. It comes from seed 001;
+// gallery.h says what a seed is.
 //
-// The phone is a box like the die, with other dimensions; all its faces show the same texture, so
-// its narrow sides stretch it. Its display is a quad of its own just above the box. In the
-// seed, the display shows a picture that the phone took. Here it shows a live one: a first pass
-// draws the die as the phone's camera sees it, and the display's shader samples that target.
+// The phone is a box, as the die is. All faces of the phone show the same texture, which is
+// therefore stretched on the narrow sides. The display is a quad just above the box. In the seed,
+// the display shows a picture that the phone took. Here it shows what the phone's camera sees: a
+// first pass draws the die from there, and the display's shader samples this picture, the photo.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "renderer/base/pages.h"
@@ -17,11 +18,11 @@ static const float body_size[3] = BODY_SIZE;
 
 typedef struct Uniforms {
     DipKitObject object;
-    DipTarget photo; // the display's picture
+    DipTarget photo; // The picture that the display shows.
 } Uniforms;
 
 typedef struct Content {
-    DipPipeline *pipeline; // of the photo's size
+    DipPipeline *pipeline; // Pipeline of the photo's size.
     DipTarget photo;
 } Content;
 
@@ -115,7 +116,8 @@ static DipGalleryCamera camera(double turn) {
                               .target = {0.15, 0.72, 0.0}};
 }
 
-// Returns where an object stands. The phone leans a little and sways; the display lies on it.
+// Returns the matrix that takes an object to world space. The phone turns to and fro, and the
+// display lies on the phone.
 static DipMatrix place(int object, double turn) {
     if (object == TABLE) {
         return dip_matrix_identity();
@@ -131,7 +133,7 @@ static DipMatrix place(int object, double turn) {
                           dip_matrix_translation(0.0, 0.0, lift));
 }
 
-// Adds the first `count` objects. The display has no texture of its own.
+// Adds the first `count` objects to the list. The display has no texture; it shows the photo.
 static void add_objects(DipKitList *list, int count, DipSampler *samplers) {
     const DipGalleryView *view = list->view;
     const Uniforms uniforms = {.photo = ((const Content *)view->content)->photo};
@@ -146,7 +148,8 @@ static void add_objects(DipKitList *list, int count, DipSampler *samplers) {
     }
 }
 
-// Draws the die and the table as the phone's camera sees them, always with four samples.
+// Draws the photo: the die and the table as the phone's camera sees them. Always uses four samples
+// per pixel.
 static bool take_photo(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.30f, 0.38f, 0.50f};
     static const DipGalleryCamera from = {.eye = {-0.45, 1.45, 1.0}, .target = {1.30, 0.80, -1.35}};

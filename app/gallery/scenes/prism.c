@@ -1,8 +1,8 @@
 // Draws the gallery scene "prism": a tessellated and twisted prism. It comes from seed 001;
 // gallery.h says what a seed is.
 //
-// The sides and bases of a plain prism are patches. Tessellation divides them, and the domain
-// function turns each new vertex about the axis by an angle that grows with its height. The factor
+// The triangles of a plain prism are patches. Tessellation divides them, and the domain function
+// turns each new vertex about the axis by an angle that grows with the vertex's height. The factor
 // of the tessellation rises and falls with time. With fractional partitioning, new vertices then
 // slide apart instead of appearing suddenly. A lit wireframe of the same mesh lies over the
 // surface.
@@ -12,9 +12,9 @@
 
 typedef struct Look {
     int sides;
-    float factor; // of the tessellation; 0: it rises and falls with time
+    float factor; // Factor of the tessellation; 0 if it rises and falls with time.
     DipPartitioning partitioning;
-    float line_px; // width of the wireframe's lines in a picture of 480 rows
+    float line_px; // Width of the wireframe's lines in a picture of 480 rows.
 } Look;
 
 static const Look prism_looks[] = {
@@ -31,13 +31,13 @@ static const float height = 3.0f;
 typedef struct Uniforms {
     DipKitObject object;
     float tint[3];
-    float base;     // light without any lamp
-    float line_mix; // share of `tint` in the colour
+    float base;     // Ambient light.
+    float line_mix; // Share of `tint` in the colour, 0..1.
 } Uniforms;
 
 typedef struct Content {
-    double time_s; // The time and the look for which the prism's mesh was made.
-    int look;
+    double time_s; // Time for which the prism's mesh was made.
+    int look;      // Look for which the prism's mesh was made.
 } Content;
 
 // --- tessellation --------------------------------------------------------------------------------
@@ -105,7 +105,8 @@ static bool prepare_mesh(const DipGalleryView *view, DipError *err) {
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// Colours corner i of a base with n corners by i / n in red and blue, as seed 001 does.
+// Shades the prism, its wireframe and the floor. Around the prism's axis, red grows and blue falls,
+// as in seed 001.
 static void shade(DipFragmentBatch *batch) {
     static const DipKitLight lights[2] = {{.kind = DIP_KIT_DIRECTIONAL,
                                            .direction = {-0.36f, -0.48f, -0.80f},

@@ -1,24 +1,25 @@
-// The gallery scene "quads": pictures that fragment shaders compute by themselves, on three quads.
+// Draws the gallery scene "quads": three quads whose pictures fragment shaders compute without any
+// texture. They come from seed 001, where they are called "Horrible trick", "Flame" and "ShaderToy
+// shader"; gallery.h says what a seed is.
 //
-// They come from seed 001 (gallery.h; "Horrible trick", "Flame", "ShaderToy shader"): rings that
-// move outwards, a flame whose light is summed along rays, and a wobbling sphere over a fluid,
-// which are found by marching along rays. No texture is read. Multisampling does not help here,
-// since each pixel is shaded once. Derivatives tell where rings are narrower than two pixels; there
-// they fade out.
+// The first quad shows rings that move outwards. The second shows a flame, whose light is summed
+// along rays. The third shows a wobbling sphere over a fluid, which are found by marching along
+// rays. Multisampling does not help here, since each pixel is shaded once. Instead, derivatives
+// tell where rings are narrower than about two pixels, and the rings fade out there.
 #include "app/gallery/kit/kit.h"
 
 enum { RINGS, FLAME, BOWL, QUADS, FLAME_STEPS = 20, BOWL_STEPS = 36, SHADOW_STEPS = 8 };
 
 typedef struct Uniforms {
     DipKitObject object;
-    float turns; // time as turns of the loop, 0..1
+    float turns; // Time as a share of the loop, 0..1.
 } Uniforms;
 
 typedef float Lanes[DIP_FRAGMENT_BATCH];
 
 // --- rings ---------------------------------------------------------------------------------------
 
-// grey = 1/2 + 1/2 cos(pi * rings * distance from the centre - time)
+// Shades rings: grey = 1/2 + 1/2 cos(pi * rings * distance from the centre - time).
 static void shade_rings(DipFragmentBatch *batch) {
     static const float rings = 44.0f;
     const Uniforms *uniforms = batch->uniforms;
@@ -27,7 +28,8 @@ static void shade_rings(DipFragmentBatch *batch) {
         const float v = batch->varying[DIP_KIT_UV + 1][i] - 0.5f;
         const float distance = sqrtf(u * u + v * v);
         const float wave = dip_kit_wave(0.25f + 0.5f * rings * distance - 12.0f * uniforms->turns);
-        // Turns per pixel, from the derivatives of u and v.
+        // Change of u and of v per pixel. The rings begin to fade out where the wave makes a fifth
+        // of a turn per pixel, and vanish where it makes half a turn.
         const float du =
             fabsf(batch->varying_dx[DIP_KIT_UV][i]) + fabsf(batch->varying_dy[DIP_KIT_UV][i]);
         const float dv = fabsf(batch->varying_dx[DIP_KIT_UV + 1][i]) +
@@ -42,8 +44,8 @@ static void shade_rings(DipFragmentBatch *batch) {
 
 // --- flame ---------------------------------------------------------------------------------------
 
-// Sums the light of a flame along rays that cross it from front to back. The flame is round, wide
-// below and narrow above; waves that rise with time move its surface.
+// Shades a flame: sums its light along rays that cross it from front to back. The flame is round,
+// and wide below and narrow above. Waves that rise with time move its surface.
 static void shade_flame(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float time = uniforms->turns;
@@ -103,17 +105,17 @@ static inline float scene_at(DipKitVector p, float turns) {
     return dip_kit_least(sphere_at(p, turns), above_fluid(p, turns));
 }
 
-// Returns a point that lies on the way from a to b: 0 is a, 1 is b.
+// Returns a point between a and b. If `share` is 0, this is a; if it is 1, this is b.
 static inline DipKitVector point_between(DipKitVector a, DipKitVector b, float share) {
     return dip_kit_plus(a, dip_kit_times(dip_kit_minus(b, a), share));
 }
 
-// Rays that begin at the eye of the fluid's picture.
+// The rays of a batch through the third quad's picture. They begin at bowl_eye.
 typedef struct March {
-    Lanes points[3];    // the points that the rays have reached
-    Lanes rays[3];      // directions, of unit length
-    Lanes shadow;       // share of the light that reaches each point
-    DipKitVector light; // where the light is
+    Lanes points[3];    // Points that the rays have reached.
+    Lanes rays[3];      // Directions of the rays, of unit length.
+    Lanes shadow;       // Share of the light that reaches each point.
+    DipKitVector light; // Position of the light.
 } March;
 
 static const DipKitVector bowl_eye = {0.0f, 0.85f, 3.4f};
@@ -128,7 +130,8 @@ static void begin_march(const DipFragmentBatch *batch, March *march) {
     }
 }
 
-// Steps from each point to the light and keeps how near the sphere came, for soft shadows.
+// Steps from each point to the light and computes a soft shadow from how near to the sphere the
+// steps come.
 static void find_shadows(int count, float turns, March *march) {
     for (int i = 0; i < count; i++) {
         march->shadow[i] = 1.0f;

@@ -1,9 +1,11 @@
-// The gallery scene "shadow": shadow mapping as seed 000 (gallery.h) describes it.
+// Draws the gallery scene "shadow": objects in the light of a moving lamp, with shadow mapping. It
+// comes from seed 000; gallery.h says what a seed is.
 //
-// A first pass draws the scene as the lamp sees it, without a colour target: it leaves only
-// depths. The second pass draws the picture. Its fragment shader takes each point to the lamp's
-// clip space and compares its depth there with the stored one. The looks change the map's
-// resolution and its filter: nearest shows the texels of the map, linear averages four comparisons.
+// A first pass draws the scene as the lamp sees it. It has no colour target and stores only depths,
+// the shadow map. The second pass draws the picture. Its fragment shader takes each point to the
+// lamp's clip space and compares the point's depth there with the stored one. The looks (the
+// scene's variants) change the map's resolution and its filter: the nearest filter shows the texels
+// of the map, and the linear filter averages four comparisons.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 
@@ -22,9 +24,9 @@ static const Look shadow_looks[] = {
     {256, DIP_SHADOW_NEAREST},
     {2048, DIP_SHADOW_NEAREST},
 };
-// The lamp and its shadow map, which all objects share in a frame.
+// The lamp and its shadow map. All objects of a frame share it.
 typedef struct Lamp {
-    float to_clip[16]; // from world space to the lamp's clip space
+    float to_clip[16]; // From world space to the lamp's clip space.
     DipKitLight light;
     DipShadowMap map;
 } Lamp;
@@ -36,7 +38,7 @@ typedef struct Uniforms {
 } Uniforms;
 
 typedef struct Content {
-    DipPipeline *pipeline; // of the shadow map's size
+    DipPipeline *pipeline; // Pipeline of the shadow map's size.
     DipDepth *depth;
 } Content;
 
@@ -83,7 +85,7 @@ static void destroy(void *pointer) {
     dip_depth_destroy(&content->depth);
 }
 
-// Makes the shadow map of the chosen resolution, unless the last frame had the same.
+// Makes a shadow map of texels x texels, unless the last frame had one of this size.
 static bool prepare_map(const DipGalleryView *view, int texels, DipError *err) {
     Content *content = view->content;
     if (content->depth && dip_depth_width(content->depth) == texels) {
@@ -104,7 +106,7 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, 0.7, 0.0}};
 }
 
-// Returns where object `index` stands, and sets its mesh and colour.
+// Returns the matrix that takes object `index` to world space. Sets its mesh and material.
 static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *material) {
     static const float colours[][3] = {
         {0.80f, 0.30f, 0.16f}, {0.18f, 0.42f, 0.72f}, {0.85f, 0.62f, 0.20f}, {0.30f, 0.55f, 0.28f}};
@@ -113,7 +115,7 @@ static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *materi
         *mesh = FLOOR;
         return dip_matrix_identity();
     }
-    if (index < 9) { // a ring of columns
+    if (index < 9) { // A ring of columns.
         const double angle = 2.0 * DIP_PI * (index - 1) / 8.0;
         *mesh = COLUMN;
         return dip_kit_chain(
@@ -132,7 +134,7 @@ static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *materi
         dip_matrix_scaling(size, index == 11 ? 1.1 : size, size));
 }
 
-// Moves the lamp on a circle above the ring, shining at its middle.
+// Sets the lamp, which moves on a circle above the ring of columns and shines at the ring's middle.
 static bool set_lamp(Lamp *lamp, double turn, DipKitCamera *from_lamp, DipError *err) {
     const DipGalleryCamera at = {.eye = {4.4 * dip_cos(-turn), 6.2, 4.4 * dip_sin(-turn)},
                                  .target = {0.0, 0.4, 0.0}};
@@ -160,7 +162,8 @@ static bool set_lamp(Lamp *lamp, double turn, DipKitCamera *from_lamp, DipError 
 static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.015f, 0.02f, 0.035f};
     static const DipKitObject plain;
-    // 2x2 comparisons need this bias: twice the slope, and a few units for rounding.
+    // A comparison with 2x2 texels needs this bias: twice the slope of the surface, and a few units
+    // for rounding.
     static const DipDrawState caster = {.depth_bias = {.slope = -2.0f, .relative = -8.0f}};
     const Look *look = &shadow_looks[view->look];
     const Content *content = view->content;

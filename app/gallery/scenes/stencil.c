@@ -1,11 +1,12 @@
-// The gallery scene "stencil": a mirror and an outline, drawn with stencil masks.
+// Draws the gallery scene "stencil": a mirror and an outline, made with the stencil buffer. It
+// comes from seed 001; gallery.h says what a seed is.
 //
-// Both techniques come from seed 001 (gallery.h). The mirror in the floor is drawn in three steps.
-// Its surface first writes 1 into the stencil buffer and no colour. The objects are then drawn
-// upside down, but only where the stencil value is 1. At last the glass is blended over them. For
-// the outline, the middle object writes 2, and is then drawn a little larger and in one colour
-// where the stencil value is not 2. The inset draws only the masks and fills each value with a
-// colour.
+// The mirror in the floor is drawn in three steps. First, its surface writes 1 into the stencil
+// buffer and no colour. Then the objects are drawn upside down, but only where the stencil value is
+// 1. At last, the glass is blended over them. For the outline, the middle object writes 2, and is
+// then drawn a little larger and in one colour where the stencil value is not 2. A small picture in
+// the corner, the inset, shows the stencil values that the mirror and the middle object write, each
+// value in another colour.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 
@@ -28,8 +29,8 @@ typedef struct Uniforms {
 
 enum { NO_COLOUR = DIP_CHANNEL_RED | DIP_CHANNEL_GREEN | DIP_CHANNEL_BLUE | DIP_CHANNEL_ALPHA };
 
-// Writes the mirror's mask, and leaves the depths at infinity, so that the mirrored objects, which
-// lie below the floor, pass the depth test.
+// Writes the mirror's stencil value but no depth, so that the mirrored objects, which lie below the
+// floor, pass the depth test.
 static const DipDrawState mark_mirror = {
     .kept_channels = NO_COLOUR,
     .keep_depth = true,
@@ -45,7 +46,7 @@ static const DipDrawState outside_object = {
     .keep_depth = true,
     .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_NOT_EQUAL, DIP_STENCIL_KEEP)};
 static const DipDrawState plain_ordered = {.ordered = true};
-// For the inset: each fills the pixels of one stencil value.
+// Fill the pixels with one stencil value each. Used for the inset.
 static const DipDrawState fills[] = {
     {.depth_test = DIP_DEPTH_ALWAYS, .stencil = EQUAL(0)},
     {.depth_test = DIP_DEPTH_ALWAYS, .stencil = EQUAL(MIRROR_VALUE)},
@@ -83,7 +84,7 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, 0.6, 0.0}};
 }
 
-// Returns where object `index` stands, and sets its mesh and material.
+// Returns the matrix that takes object `index` to world space. Sets its mesh and material.
 static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *material) {
     static const float colours[OBJECTS][3] = {{0.80f, 0.16f, 0.13f},
                                               {0.16f, 0.42f, 0.75f},
@@ -103,7 +104,7 @@ static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *materi
                           dip_matrix_rotation(0, 0.5 + 2.0 * turn));
 }
 
-// Appends a draw and returns it.
+// Adds a draw with this state to the list and returns it.
 static DipDraw *add(DipKitList *list, int mesh, const DipMatrix *model, const Uniforms *look,
                     DipFragmentShader *shader, const DipDrawState *state) {
     DipDraw *draw = dip_kit_add(list, list->view->stock->meshes[mesh], look, model, shader);
@@ -111,7 +112,8 @@ static DipDraw *add(DipKitList *list, int mesh, const DipMatrix *model, const Un
     return draw;
 }
 
-// Adds the objects; `outside` is applied to them last. In the mirror they wind the other way round.
+// Adds the objects to the list. `outside` is a matrix that is applied to them last. The triangles
+// of mirrored objects wind the other way round, so front faces are culled.
 static void add_objects(DipKitList *list, DipMatrix outside, bool mirrored) {
     for (int i = OBJECTS - 1; i >= 0; i--) {
         int mesh;
@@ -146,8 +148,8 @@ static bool draw_picture(const DipGalleryView *view, DipError *err) {
     const DipMatrix grown = dip_kit_chain(place(OUTLINED, view->turn, &mesh, &material),
                                           dip_matrix_scaling(1.09, 1.09, 1.09));
     DipKitList list = dip_kit_list(view, 0.1, err);
-    // The mirrored objects lie below the floor. They must be drawn before it, and the glass then
-    // covers their depths, so that the floor around the mirror hides nothing of them.
+    // The mirrored objects lie below the floor, so they must be drawn before it. The glass then
+    // replaces their depths, so that the floor does not hide them.
     add(&list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror);
     add_objects(&list, dip_matrix_reflection(up, 0.0), true);
     add(&list, PLANE, &mirror, &mirror_look, shade_flat, &glass);
@@ -158,8 +160,8 @@ static bool draw_picture(const DipGalleryView *view, DipError *err) {
     return dip_kit_show(&list, clear_lin);
 }
 
-// Draws the masks into a rectangle of the picture: first the stencil values without any colour,
-// then a quad over everything for each value.
+// Shows the stencil values in a rectangle of the picture. First writes the stencil values without
+// any colour, then draws a quad over the whole rectangle for each value.
 static bool draw_mask(const DipGalleryView *view, const DipTargetRegion *inset, DipError *err) {
     static const DipDrawState mark_object_only = {
         .kept_channels = NO_COLOUR,

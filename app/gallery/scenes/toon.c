@@ -1,8 +1,9 @@
-// The gallery scene "toon": toon shading as in seed 001 (gallery.h), with outlines.
+// Draws the gallery scene "toon": toon shading with outlines. It comes from seed 001; gallery.h
+// says what a seed is.
 //
 // The fragment shader replaces the smooth intensity of the light by steps: the seed's four, or a
-// number of equal bands. The highlight has steps, too. Outlines need no stencil: of each object,
-// the back faces are drawn once more, a little larger and in a dark colour.
+// number of equal bands. The highlight has steps, too. Outlines need no stencil: each object's back
+// faces are drawn once more, a little larger and in a dark colour.
 #include "app/gallery/kit/kit.h"
 
 #include <string.h>
@@ -12,21 +13,22 @@ enum { KNOT, SPHERE, COLUMN, FLOOR, OBJECTS = 6, ALONG = 320, AROUND = 24 };
 typedef struct Uniforms {
     DipKitObject object;
     float colour[3];
-    float light[3]; // unit vector towards the light
-    int step_size;  // 256 intensities are divided into bands of this size; 0: the seed's four steps
-    float grow;     // outline: how far vertices move along their normals, at distance 1
+    float light[3]; // Unit vector towards the light.
+    int step_size;  // Size of the bands that divide 256 intensities; 0 for the seed's four steps.
+    float grow;     // How far the outline moves vertices along their normals, at distance 1.
 } Uniforms;
 
 static const int step_sizes[] = {0, 32, 52, 16};
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// The seed's steps, which the author chose by trying.
+// Returns the seed's step for an intensity. The seed's author chose the steps by trying.
 static float four_steps(float intensity) {
     return intensity > 0.95f ? 0.75f : intensity > 0.5f ? 0.7f : intensity > 0.1f ? 0.35f : 0.05f;
 }
 
-// The seed's variable banding: intensity 0..1 becomes one of 256 / step_size values.
+// Rounds an intensity 0..1 down to a multiple of step_size / 256, as the seed's variable banding
+// does.
 static float banded(float intensity, int step_size) {
     const int band = (int)(intensity * 256.0f + 0.1f) / step_size;
     return (float)(band * step_size) / 256.0f;
@@ -43,7 +45,8 @@ static void shade(DipFragmentBatch *batch) {
         const DipKitVector to_eye =
             dip_kit_minus(eye, dip_kit_get(batch->varying + DIP_KIT_WORLD, i));
         const float e = dip_kit_per_length(to_eye, 0.0f);
-        // The eye's vector is compared with the light's mirrored vector, 2 (n.l) n - l.
+        // The highlight depends on the cosine between the vector towards the eye and the mirrored
+        // vector towards the light, 2 (n.l) n - l.
         const float along = unit * dip_kit_dot(normal, to_eye) * e;
         const float across = dip_kit_dot(light, to_eye) * e;
         const float mirrored = 2.0f * toward * along - across;
@@ -65,8 +68,8 @@ static void shade_outline(DipFragmentBatch *batch) {
     }
 }
 
-// Moves each vertex along its normal, farther the farther it is from the eye, so that outlines have
-// the same width everywhere.
+// Moves each vertex along its normal, in proportion to its distance from the eye, so that outlines
+// have the same width everywhere in the picture.
 static void outline_vertex(const DipVertexBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float *m = uniforms->object.to_clip;
@@ -106,7 +109,7 @@ static void cross(const double a[3], const double b[3], double out[3]) {
     }
 }
 
-// Writes a ring of vertices around the centre line at t.
+// Writes a ring of vertices around the point t of the knot's centre line.
 static void knot_ring(double t, float (*vertices)[DIP_SHAPE_ATTRIBUTES]) {
     double middle[3];
     double ahead[3];
@@ -115,7 +118,7 @@ static void knot_ring(double t, float (*vertices)[DIP_SHAPE_ATTRIBUTES]) {
     knot_point(t, middle);
     knot_point(t + 0.001, ahead);
     for (int i = 0; i < 3; i++) {
-        side[i] = ahead[i] + middle[i]; // points away from the knot's middle
+        side[i] = ahead[i] + middle[i]; // Points away from the knot's middle.
         ahead[i] -= middle[i];
     }
     cross(ahead, side, up);

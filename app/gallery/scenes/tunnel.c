@@ -1,11 +1,12 @@
-// The gallery scene "tunnel": a tunnel that shows what anisotropic filtering does.
+// Draws the gallery scene "tunnel", which shows what anisotropic filtering does. Seed 002 asks for
+// the filtering settings; gallery.h says what a seed is.
 //
-// Seed 002 (gallery.h) asks for these filtering settings. The camera flies through a long tube of
-// stone. Its wall meets the picture at every angle, and far away its texels are very long and
-// narrow. The colours show which mip level each pixel reads: red is the sharpest, then orange,
-// yellow, green and blue. With anisotropic filtering the sharp levels reach farther. Without
-// advanced filtering (aaf=off) they reach less far at the diagonals, because the level then depends
-// on the angle. With advanced filtering, every ring has one colour.
+// The camera flies through a long tube of stone. The wall appears in the picture at every angle,
+// and far away its texels look very long and narrow. The colours show which mip level each pixel
+// reads: red is the sharpest, then orange, yellow, green and blue. With anisotropic filtering, the
+// sharp levels reach farther. Without advanced filtering (aaf=off), they reach less far at the
+// diagonals, because the level then depends on the angle. With advanced filtering, every ring has
+// one colour.
 #include "app/gallery/kit/kit.h"
 
 enum { SIDES = 96, ROUND = 6 };
@@ -15,12 +16,13 @@ static const float length = 120.0f;
 
 typedef struct Uniforms {
     DipKitObject object;
-    float tint; // share of the mip colours in the picture
+    float tint; // 0 for stone, 0.5 for mip colours over stone, 1.5 for mip colours.
 } Uniforms;
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// Reads the stone and the mip colours in one call. Light falls off with the distance.
+// Reads the stone's texture and the mip colours in one call. The light weakens with the distance
+// from the camera.
 static void shade(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const DipSampler *const samplers[2] = {&batch->samplers[0], &batch->samplers[1]};
@@ -43,7 +45,7 @@ static void shade(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Paints blocks of stone in courses, with dark joints and a different shade for each block.
+// Paints rows of stone blocks with dark joints. Each block has another brightness.
 static void paint_stone(float u, float v, float rgba[4]) {
     const int course = (int)(v * 4.0f);
     const float along = u * 4.0f + (course % 2 ? 0.5f : 0.0f);
@@ -79,8 +81,8 @@ static bool create(DipGalleryRoom *room, DipError *err) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
-// The camera stands near the middle and looks along the tube, a little to the side. The tube moves
-// instead of the camera, by whole repeats of the texture in a loop.
+// Returns a camera near the axis of the tube that looks along it, a little to the side. The tube
+// moves instead of the camera. In one loop it moves by a whole number of the texture's repeats.
 static DipGalleryCamera camera(double turn) {
     return (DipGalleryCamera){.eye = {0.25 * dip_cos(turn), 0.25 * dip_sin(turn), 0.0},
                               .target = {0.6 * dip_sin(turn), 0.4 * dip_sin(2.0 * turn), -10.0}};

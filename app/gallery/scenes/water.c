@@ -1,10 +1,10 @@
-// The gallery scene "water": the pools of the courtyard's fountain, seen through.
+// Draws the gallery scene "water": the transparent water in the courtyard's fountain.
 //
-// The first pass draws the courtyard with its light map, and a mosaic on the floor of the pool. Its
-// depths are kept. The second pass starts from these depths and draws the water, either blended
-// over the picture, or with refraction: the water's shader then reads the first pass's picture a
-// little beside the pixel, by as much as the waves of a normal map say. Fresnel's term mixes in the
-// sky.
+// The first pass draws the courtyard with its light map, and a mosaic on the floor of the pool. The
+// second pass keeps the depths of the first one and draws the water, either blended over the
+// picture or with refraction. With refraction, the water's shader reads the first pass's picture a
+// little beside the pixel; the waves of a normal map determine how far. Fresnel's term mixes in the
+// colour of the sky.
 #include "app/gallery/kit/kit.h"
 #include "assets/model.h"
 #include "renderer/base/pages.h"
@@ -13,22 +13,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Attributes of the courtyard's vertices: the position, the texture coordinates of the colours, and
-// those of the light map.
+// Attributes of the courtyard's vertices: the position, the texture coordinates for the colour
+// texture, and the texture coordinates for the light map.
 enum { UV0 = 3, UV1 = 5, ATTRIBUTES = 7, VARYINGS = 4 };
-// Varyings of the water: two layers of waves, then the position.
+// Varyings of the water: texture coordinates of two layers of waves, then the position.
 enum { WAVE0 = 0, WAVE1 = 2, POSITION = 4, WATER_VARYINGS = 7 };
 
 typedef struct Uniforms {
     float to_clip[16];
     float colour[3];
-    float light_scale; // 0: there is no light map
+    float light_scale; // Factor of the light map; 0 if there is no light map.
     float cutoff;      // Fragments with less alpha are clipped.
-    float turns;       // for the floor of the pool: the time as turns of the loop, 0..1
+    float turns;       // Time as a share of the loop, 0..1. Used for the floor of the pool.
 } Uniforms;
 
-// An object of the courtyard. From frame to frame only its uniforms' matrix and its first sampler
-// change.
+// An object of the courtyard. Only uniforms.to_clip and samplers[0] change from frame to frame.
 typedef struct Object {
     DipMatrix model;
     const DipMaterialDef *material;
@@ -39,26 +38,26 @@ typedef struct Object {
 
 enum { POOL_FLOOR, SCREEN }; // Meshes of the stock.
 
-// What the shaders of the water need.
+// Uniforms of the water, and of the quad that copies the first pass's picture.
 typedef struct Water {
     float to_clip[16];
     float eye[3];
-    float scroll[2]; // how far each of the two layers of waves has moved
-    DipTarget picture;
+    float scroll[2];   // How far each of the two layers of waves has moved.
+    DipTarget picture; // The first pass's picture.
     bool refracts;
 } Water;
 
 typedef struct Content {
     DipModel *model;
-    const DipSceneDef *def; // belongs to the model
-    DipTexture **textures;  // as in `def`, then their compressed forms
-    DipTexture **compressed;
+    const DipSceneDef *def;  // Belongs to the model.
+    DipTexture **textures;   // The textures of `def`, followed by their compressed forms.
+    DipTexture **compressed; // Points to the compressed forms in `textures`.
     DipMesh **meshes;
     Object *objects;
-    DipDraw *draws; // of one pass: all objects and a quad
+    DipDraw *draws; // The draws of one pass, at most all objects and a quad.
     Uniforms pool_floor;
-    DipTarget picture;                     // drawn by the first pass
-    DipDepth *depths[DIP_MAX_SAMPLES + 1]; // [number of samples]; drawn by the first pass
+    DipTarget picture;                     // The first pass's picture.
+    DipDepth *depths[DIP_MAX_SAMPLES + 1]; // [number of samples]: the first pass's depths.
     Water water;
 } Content;
 
@@ -94,8 +93,7 @@ static void clip_court(DipFragmentBatch *batch) {
     }
 }
 
-// Shades a clear sky, brighter towards the horizon. The texture coordinates of the dome give the
-// height.
+// Shades the sky with soft clouds, which depend on the texture coordinates.
 static void shade_sky(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         const float u = batch->varying[0][i];
@@ -107,7 +105,7 @@ static void shade_sky(DipFragmentBatch *batch) {
     }
 }
 
-// Shades the mosaic under water, with the light that the waves focus on it.
+// Shades the mosaic under water, with the bright lines where waves focus the light (caustics).
 static void shade_pool_floor(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float turns = uniforms->turns;
@@ -143,14 +141,15 @@ static void water_vertex(const DipVertexBatch *batch) {
     }
 }
 
-// Returns the share of the light that water reflects: Schlick's approximation, seen from air.
+// Returns the share of the light that water reflects, by Schlick's approximation. `cosine` is that
+// of the angle between the normal and the vector towards the eye, which is above the water.
 static inline float fresnel(float cosine) {
     const float left = 1.0f - dip_kit_clamp(cosine, 0.0f, 1.0f);
     return 0.02f + 0.98f * left * left * left * left * left;
 }
 
-// Writes the colours under the water. Each is read from the picture beside its fragment, as far
-// away as the fragment's wave says.
+// Writes to `under` the colour that each fragment shows through the water. Reads it from the
+// picture beside the fragment, at a distance that is proportional to the slope of the waves.
 static void refract_picture(DipFragmentBatch *batch, const Water *water,
                             float (*waves)[DIP_FRAGMENT_BATCH],
                             float (*under)[DIP_FRAGMENT_BATCH]) {
@@ -167,7 +166,7 @@ static void refract_picture(DipFragmentBatch *batch, const Water *water,
 
 static void shade_water(DipFragmentBatch *batch) {
     static const float deep[3] = {0.015f, 0.075f, 0.085f};
-    static const float pass_share[3] = {0.62f, 0.86f, 0.88f}; // light that the water lets through
+    static const float pass_share[3] = {0.62f, 0.86f, 0.88f}; // Share of light that gets through.
     static const float sun[3] = {0.46f, 0.72f, 0.52f};
     const Water *water = batch->uniforms;
     float waves[3][DIP_FRAGMENT_BATCH];
@@ -197,7 +196,7 @@ static void shade_water(DipFragmentBatch *batch) {
         const float glint = dip_kit_power(dip_kit_greatest(toward, 0.0f), 8);
         const float up = dip_kit_clamp(mirrored.y, 0.0f, 1.0f);
         const float sky[3] = {0.62f - 0.42f * up, 0.70f - 0.34f * up, 0.80f - 0.18f * up};
-        // The bowls above the pool have no floor of their own, so their water is deep.
+        // The bowls above the pool have no floor that could be drawn, so their water looks deep.
         const float seen = batch->varying[POSITION + 1][i] > 1.0f ? 0.25f : 1.0f;
         for (int c = 0; c < 3; c++) {
             const float through = dip_kit_mix(deep[c], under[c][i] * pass_share[c], 0.92f * seen);
@@ -213,7 +212,8 @@ static void shade_screen(DipFragmentBatch *batch) {
     const Water *water = batch->uniforms;
     float u[DIP_FRAGMENT_BATCH];
     float v[DIP_FRAGMENT_BATCH];
-    for (int i = 0; i < batch->count; i++) { // At an edge, a fragment need not lie in the middle.
+    // At an edge, a fragment need not lie in the middle of its pixel.
+    for (int i = 0; i < batch->count; i++) {
         u[i] = (dip_kit_floor(batch->x[i]) + 0.5f) / (float)water->picture.width;
         v[i] = (dip_kit_floor(batch->y[i]) + 0.5f) / (float)water->picture.height;
     }
@@ -222,7 +222,7 @@ static void shade_screen(DipFragmentBatch *batch) {
 
 // --- content -------------------------------------------------------------------------------------
 
-// Paints rings of tiles around the pedestal: white and blue, with a wave in gold.
+// Paints rings of square tiles around the pedestal: white, blue, turquoise and one ring in gold.
 static void paint_mosaic(float u, float v, float rgba[4]) {
     const float tiles = 44.0f;
     const float x = u * tiles;
@@ -289,8 +289,8 @@ static bool make_mesh(DipMesh **mesh, const DipMeshDef *def, DipError *err) {
     return *mesh != NULL;
 }
 
-// Makes the floor of the pool: an eight-sided prism, of which only the upper base is seen. Its
-// vertices begin with the courtyard's attributes.
+// Makes the floor of the pool: a flat eight-sided prism. The attributes of its vertices begin with
+// those of the courtyard's vertices.
 static bool make_pool_floor(DipMesh **mesh, DipError *err) {
     DipShape prism;
     if (!dip_shape_prism(&prism, 2.74f, 0.02f, 8, false, err)) {
@@ -400,8 +400,8 @@ static bool create(DipGalleryRoom *room, DipError *err) {
     return made;
 }
 
-// Makes the first pass's picture and depths, unless a frame of this size and number of samples had
-// them already.
+// Makes the first pass's picture and depths. Keeps those of earlier frames if they have this size
+// and number of samples.
 static bool prepare_target(Content *content, const DipTarget *size, int samples, DipError *err) {
     DipTarget *picture = &content->picture;
     if (picture->width != size->width || picture->height != size->height) {
@@ -427,7 +427,7 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.45 * dip_cos(angle), 0.62, -0.45 * dip_sin(angle)}};
 }
 
-// Lists everything but the water. Returns the number of draws.
+// Writes the draws of all objects but the water to content->draws. Returns their number.
 static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipSampler *mosaic) {
     Content *content = view->content;
@@ -458,7 +458,7 @@ static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
     return count;
 }
 
-// Lists the water's draws after those in `draws`. Returns their number.
+// Writes the water's draws to `draws`. Returns their number.
 static int list_water(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipDrawState *state, DipSampler *waves, DipDraw *draws) {
     Content *content = view->content;

@@ -1,5 +1,5 @@
-// The smallest client of app/measure/. It compares the time and the error of two ways to fill a
-// picture. It links only dip_measure and uses none of Diptych's commands.
+// Shows how to use the library dip_measure (app/measure/). Compares the time and the error of two
+// ways to fill a picture. The program links only dip_measure and uses none of Diptych's commands.
 #include "app/measure/metrics/flip.h"
 #include "app/measure/metrics/metrics.h"
 #include "app/measure/timing/driver.h"
@@ -9,7 +9,8 @@
 
 enum { WIDTH = 128, HEIGHT = 96, FRAMES = 2, ROUNDS = 12 };
 
-// FULL_AGAIN is FULL under another index (A/A): the ratio of their times shows the machine's noise.
+// The subjects that are timed. FULL_AGAIN draws the same as FULL, so the ratio of their times shows
+// the machine's noise.
 enum { FULL, FULL_AGAIN, EVERY_OTHER, SUBJECTS };
 
 static uint8_t pictures[SUBJECTS][WIDTH * HEIGHT * 4];
@@ -18,7 +19,8 @@ static uint8_t shade(int x, int y, int frame) {
     return (uint8_t)(127.5 + 127.0 * sin(0.001 * x * y + 0.1 * frame));
 }
 
-// FULL computes every pixel. EVERY_OTHER computes every second pixel and repeats it.
+// Draws a frame. FULL and FULL_AGAIN compute every pixel. EVERY_OTHER computes every second pixel
+// and repeats it.
 static bool fill(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     (void)context;
     (void)timed;

@@ -36,9 +36,9 @@ typedef struct DipMapSum {
     double pixel_count;
 } DipMapSum;
 
-// Adds to a sum those of the next pixel_count pixels of a map that `mask` selects. A map that is
-// added in parts gives the same result as a map that is added at once. Values that are not a number
-// (SSIM near the border) are skipped and not counted.
+// Adds the next pixel_count pixels of a map to a sum, but only those that `mask` selects. A map
+// that is added in parts gives the same result as a map that is added at once. Values that are not
+// a number (SSIM near the border) are skipped and not counted.
 DIP_API void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_count,
                              DipPixelMask mask);
 

@@ -34,7 +34,7 @@ void dip_flicker_restart(DipFlicker *flicker) {
     flicker->pair_squares = 0.0;
 }
 
-// Uses Welford's update, which finds mean and deviation without subtracting large sums.
+// Uses Welford's update, which computes mean and variance without subtracting large sums.
 void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count) {
     double *mean = flicker->mean + flicker->added;
     double *deviation = flicker->deviation + flicker->added;

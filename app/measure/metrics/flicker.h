@@ -1,10 +1,10 @@
 // Splits the error over time into a part that stays constant and a part that flickers.
 //
-// Let e = test - truth be the difference of a tested picture from the converged picture (the truth)
-// of the same instant, per pixel and channel, in linear light. Over a burst (a few successive
-// frames), the mean of e^2 equals the square of the mean of e plus the variance of e. Averaged over
-// the whole picture, the first term is the squared static error and the second term is the squared
-// flicker:
+// For each pixel and channel, let e = test - truth be the difference, in linear light, of a tested
+// picture from the converged picture (the truth) of the same instant. Over a burst (a few
+// successive frames), the mean of e^2 equals the square of the mean of e plus the variance of e.
+// Averaged over the whole picture, the first term is the squared static error and the second term
+// is the squared flicker:
 //     rms^2 = static^2 + flicker^2.
 #ifndef DIP_APP_MEASURE_METRICS_FLICKER_H
 #define DIP_APP_MEASURE_METRICS_FLICKER_H
@@ -20,11 +20,11 @@ extern "C" {
 
 // Running sums over a burst of successive frames. Owns its arrays. Use one per thread.
 typedef struct DipFlicker {
-    double *mean;      // Mean of e so far, per value.
-    double *deviation; // Sum of squared deviations of e from its mean, per value.
-    float *last;       // e of the previous frame.
-    size_t value_count;
-    size_t added; // Number of values that the unfinished frame has so far.
+    double *mean;       // [value_count]: mean of e so far.
+    double *deviation;  // [value_count]: sum of squared deviations of e from its mean.
+    float *last;        // e of the previous frame.
+    size_t value_count; // Values of a frame.
+    size_t added;       // Number of values that the unfinished frame has so far.
     int frame_count;
     double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.
     double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and pairs of frames.
@@ -38,8 +38,8 @@ DIP_API void dip_flicker_free(DipFlicker *flicker);
 // Begins a new burst.
 DIP_API void dip_flicker_restart(DipFlicker *flicker);
 
-// Adds the next values of a frame, as dip_difference_lin writes them. A frame may come in parts; it
-// ends with its value number value_count.
+// Adds the next `count` values of a frame, in the order in which dip_difference_lin writes them. A
+// frame may be added in parts and is complete after value_count values.
 DIP_API void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count);
 
 // Mean squares over all values of the burst. A single frame has no previous frame, so its
@@ -48,7 +48,8 @@ typedef struct DipFlickerResult {
     double squared_static;  // Square of the mean of e over time.
     double squared_flicker; // Variance of e over time.
     double squared_step;    // Squared change of e from one frame to the next.
-    // Square of the mean of two successive frames' e. A viewer of a fast display sees this mean.
+    // Square of the mean of e in two successive frames. On a fast display, a viewer sees the mean
+    // of two frames.
     double squared_two_mean;
 } DipFlickerResult;
 

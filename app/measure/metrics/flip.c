@@ -36,14 +36,15 @@ enum {
 
 // --- memory ------------------------------------------------------------------------------------
 
-// A block with its margin has six planes for filtering, and the planes of its analysis.
+// The scratch memory holds, for one block with its margin, six planes for filtering and the planes
+// of the analysis.
 enum { SCRATCH_PLANES = 6 + PLANE_COUNT };
 
 static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
-// Returns the size of the largest block with its margin.
+// Return the width in pixels, and the number of pixels, of the largest block with its margin.
 static size_t block_width(const DipFlip *flip) {
     return (size_t)smaller(flip->width, DIP_PICTURE_BLOCK + 2 * flip->reach_px);
 }
@@ -149,7 +150,8 @@ static void to_lab(float luma, float red_green, float blue, float lab[3]) {
     lab[2] = 200.0f * (f[1] - f[2]) * (0.01f * lab[0]);
 }
 
-// A block while it is analysed, with its margin. Planes are packed.
+// A block that is being analysed, and its planes in the scratch memory. A plane has one value for
+// each pixel of the block with its margin, rows packed.
 typedef struct Block {
     DipPixelRect own;   // Without the margin.
     DipPixelRect whole; // With the margin.
@@ -202,17 +204,20 @@ static void analyse_features(const DipFlipKernels *k, const Block *b) {
     dip_convolve_columns(&k->point, b->rows, b->whole.width, b->whole.height, out[PLANE_POINT_Y]);
 }
 
-// Returns where row `y` of the picture begins within the block, without the margin on the left.
+// Returns the index, in a plane of the block, of the block's own first pixel (without the margin)
+// in row `y` of the picture.
 static size_t row_in_block(const Block *b, int y) {
     return (size_t)(y - b->whole.y) * (size_t)b->whole.width + (size_t)(b->own.x - b->whole.x);
 }
 
-// Returns where row `y` of the block begins within the picture.
+// Returns the index, in a plane of the picture, of the block's own first pixel in row `y` of the
+// picture.
 static size_t row_in_picture(const DipFlip *flip, const Block *b, int y) {
     return (size_t)y * (size_t)flip->width + (size_t)b->own.x;
 }
 
-// Fills in the planes of the block. Only its own pixels have CIELab colours.
+// Fills in the planes of the block. Converts only the block's own pixels, not those of the margin,
+// to CIELab.
 static void analyse(const DipFlip *flip, const DipSrgbPicture *picture, const Block *b) {
     size_t i = 0;
     for (int y = b->whole.y; y < b->whole.y + b->whole.height; y++) {
@@ -281,8 +286,9 @@ static float length(float x, float y) {
     return sqrtf(x * x + y * y);
 }
 
-// Maps the colour distance of a pixel to 0..1. Distances up to `share` times the greatest one map
-// to 0..used, and greater distances to used..1.
+// Maps the colour distance of a pixel, raised to colour_exponent, to 0..1. Values up to `share`
+// times the greatest one map to 0..used, and greater values to used..1. The pixel is pixel i of `a`
+// and pixel k of `b`.
 static float colour_error(const DipFlipAnalysis *a, size_t i, const DipFlipAnalysis *b, size_t k,
                           float greatest) {
     const float share = 0.4f, used = 0.95f;
@@ -327,8 +333,8 @@ void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFli
 
 // --- the palette of maps -------------------------------------------------------------------------
 
-// This is Matplotlib's palette "magma" (public domain), approximated by one polynomial of sixth
-// degree per channel. Its 8-bit results differ from Matplotlib's table by at most 4.
+// Approximates Matplotlib's palette "magma" (public domain) by one polynomial of sixth degree per
+// channel. The 8-bit results differ from Matplotlib's table by at most 4.
 void dip_magma(float error, uint8_t rgb[3]) {
     static const float coefficients[7][3] = {
         {-0.002136485f, -0.000749655f, -0.005386128f},

@@ -1,6 +1,6 @@
-// LDR-FLIP 1.6 (Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild, "FLIP: A
-// Difference Evaluator for Alternating Images", 2020): how different two pictures look to a viewer
-// who alternates between them. FLIP gives each pixel a value in 0..1.
+// Computes FLIP: how different two pictures look to a viewer who alternates between them, as a
+// value in 0..1 for each pixel. This is LDR-FLIP 1.6 (Andersson, Nilsson, Akenine-Moller,
+// Oskarsson, Astrom, Fairchild, "FLIP: A Difference Evaluator for Alternating Images", 2020).
 //
 // Each picture is analysed on its own, so that a picture is filtered once and can be compared with
 // many others. The work is done in blocks (picture.h). Each block is filtered with a margin as wide
@@ -18,7 +18,8 @@
 extern "C" {
 #endif
 
-// The default is for a screen that is 0.7 m and 3840 pixels wide, seen from a distance of 0.7 m.
+// Resolutions at which a picture is seen: the usual value and the limits. The usual value is that
+// of a screen 0.7 m and 3840 pixels wide, seen from a distance of 0.7 m.
 #define DIP_FLIP_PIXELS_PER_DEGREE     67.0206451
 #define DIP_FLIP_MIN_PIXELS_PER_DEGREE 5.0
 #define DIP_FLIP_MAX_PIXELS_PER_DEGREE 500.0
@@ -29,7 +30,7 @@ typedef struct DipFlip {
     int width;
     int height;
     int reach_px;     // Greatest distance, along x or y, at which a pixel influences another one.
-    float *scratch;   // Owned; for one block with its margin.
+    float *scratch;   // Owned; memory for filtering one block with its margin.
     float light[256]; // Linear light of each 8-bit sRGB value.
 } DipFlip;
 
@@ -41,8 +42,9 @@ typedef struct DipFlipAnalysis {
     float *memory; // Owned; holds all planes.
 } DipFlipAnalysis;
 
-// pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions
-// return false when memory runs out. Even then, the caller must free the object.
+// Create a DipFlip and an analysis. pixels_per_degree lies in DIP_FLIP_MIN_PIXELS_PER_DEGREE..
+// DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions return false when memory runs out. Even then, the
+// caller must free the object.
 DIP_API bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree);
 DIP_API bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
 DIP_API void dip_flip_free(DipFlip *flip);
@@ -54,9 +56,9 @@ DIP_API void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture,
 DIP_API void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                                     DipFlipAnalysis *analysis);
 
-// Compares a picture, or a block of it, with a picture that was analysed. Writes the FLIP value of
-// each pixel to `map`, which has width * height values; the value is 0 where the pictures look the
-// same. Exchanging the pictures does not change the values.
+// Compares a picture, or a block of it, with the analysed picture `with`. Writes the FLIP value of
+// each pixel to `map`, which has width * height values. The value is 0 where the pictures look the
+// same. Exchanging the two pictures does not change the values.
 DIP_API void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture,
                               const DipFlipAnalysis *with, float *map);
 DIP_API void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,

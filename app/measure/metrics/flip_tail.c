@@ -1,4 +1,5 @@
-// Counts FLIP values in a histogram and searches for the worst block.
+// Counts FLIP values in a histogram, computes percentiles from it, and searches for the worst
+// block.
 #include "app/measure/metrics/flip_tail.h"
 
 #include <stddef.h>
@@ -37,7 +38,8 @@ static double mean_of_block(const float *map, int width, int x, int y, int block
     return sum / (block_width * block_height);
 }
 
-// Returns where block `index` begins along an axis.
+// Returns the first pixel of block `index` along an axis. `block` is the block's side, and `size`
+// is the picture's.
 static int start_of_block(int index, int block, int size) {
     const int start = index * block;
     return start + block <= size ? start : size - block;
@@ -75,8 +77,8 @@ void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int
     meter->frames++;
 }
 
-// Returns the middle of the bin up to which at least this share of the values lies. The first bin
-// counts as 0, since most of its values are 0.
+// Returns the middle of the first bin such that this bin and the bins below it hold at least
+// `share` of the `total` values. Returns 0 for the lowest bin, since most of its values are 0.
 static double percentile(const DipFlipTailMeter *meter, double total, double share) {
     double below = 0.0;
     for (int bin = 0; bin < BINS; bin++) {

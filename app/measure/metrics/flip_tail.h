@@ -1,6 +1,6 @@
-// Finds how FLIP is distributed over the pixels of a burst (a series of successive frames,
-// flicker.h), and in which part of the pictures it is worst. A mean over a picture hides small
-// parts that look bad.
+// Computes the percentiles of the FLIP values of all pixels of a burst (a series of successive
+// frames, flicker.h), and finds the part of the pictures where FLIP is worst. A mean over a picture
+// hides small parts that look bad.
 #ifndef DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
 #define DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
 
@@ -16,19 +16,19 @@ extern "C" {
 // Side of the blocks among which the worst one is found, in pixels.
 enum { DIP_FLIP_TAIL_BLOCK = 32 };
 
-// Holds doubles only, so that it can be written and read as an array of DIP_FLIP_TAIL_COUNT
-// numbers.
+// The result for a burst. Holds doubles only, so that it can be written and read as an array of
+// DIP_FLIP_TAIL_COUNT numbers.
 typedef struct DipFlipTail {
-    // Percentiles: at least this share of all pixels of all frames has at most this FLIP. They are
-    // exact to 1 / 65536.
+    // Percentiles: at least 50, 95 and 99 % of all pixels of all frames have at most this FLIP.
+    // They are exact to 1 / 65536.
     double p50;
     double p95;
     double p99;
-    double worst;       // Mean FLIP of the worst block. 0: no picture differs from the truth.
+    double worst;       // Mean FLIP of the worst block; 0 if no picture differs from the truth.
     double worst_frame; // Index of the frame with the worst block.
     double worst_x;     // Left edge of the worst block, in pixels.
-    double worst_y;     // Top edge.
-    double worst_width; // 0 if nothing was measured.
+    double worst_y;     // Top edge of the worst block, in pixels.
+    double worst_width; // In pixels; 0 if nothing was measured.
     double worst_height;
 } DipFlipTail;
 
@@ -49,12 +49,13 @@ DIP_API void dip_flip_tail_free(DipFlipTailMeter *meter);
 DIP_API void dip_flip_tail_restart(DipFlipTailMeter *meter);
 
 // Adds a picture: width * height FLIP values in 0..1. The picture is divided into blocks of 32 x 32
-// pixels from the top left on. The last block of a row or a column ends at the edge of the picture,
-// so it may overlap with the one before. A picture that is smaller than a block is one block.
+// pixels from the top left on. The last block of a row or a column ends at the edge of the picture
+// and has the full size, so it may overlap with the block before. If a picture is narrower or lower
+// than 32 pixels, its blocks are, too.
 DIP_API void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int height);
 
-// Returns the distribution of everything added since the burst began, and the worst block. Of equal
-// blocks, it returns the first one.
+// Returns the percentiles of all values that were added since the burst began, and the worst block.
+// If several blocks are equally bad, returns the first of them.
 DIP_API DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter);
 
 #ifdef __cplusplus

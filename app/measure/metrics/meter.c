@@ -1,6 +1,6 @@
-// Computes every metric over every region of a picture: first FLIP and SSIM block by block, then
-// all sums band by band. Sums are added up in pixel order, so that their bits do not depend on
-// blocks and bands.
+// Computes the metrics of each region of a picture: first the maps of FLIP and SSIM block by block,
+// then all sums band by band (a band is a few rows). Sums are added up in pixel order, so their
+// bits do not depend on blocks and bands.
 #include "app/measure/metrics/meter.h"
 
 #include "app/measure/metrics/ssim.h"
@@ -86,7 +86,8 @@ static bool measure_flip(DipMeter *meter, int block) {
     return true;
 }
 
-// A block with its margin holds every window around its own pixels.
+// Computes SSIM for a block. A margin of DIP_SSIM_RADIUS makes room for the windows around the
+// block's outermost pixels.
 static bool measure_ssim(DipMeter *meter, int block) {
     enum { SIDE = DIP_PICTURE_BLOCK + 2 * DIP_SSIM_RADIUS };
     float map[SIDE * SIDE];
@@ -110,8 +111,9 @@ static bool measure_ssim(DipMeter *meter, int block) {
 // Index of a sum among the doubles of DipMetricRegionSums.
 #define SUM(name) (offsetof(DipMetricRegionSums, name) / sizeof(double))
 
-// Adds `count` values of a map, from pixel `first` on, to a sum of each region. Adds the number of
-// these pixels to the sum `pixels`, unless it is negative.
+// Adds `count` values to the sum with index `sum` of each region. map[0] is the value of pixel
+// `first`. Adds the number of these pixels to the sum with index `pixels`, if `pixels` is not
+// negative.
 static void add_map(DipMeter *meter, const float *map, size_t first, size_t count, size_t sum,
                     int pixels) {
     const int regions = meter->kind >= DIP_METER_PICTURES ? DIP_METRIC_REGION_COUNT : 1;

@@ -1,6 +1,7 @@
-// A meter judges pictures: it computes their metrics by comparing each with another picture (the
-// standard). It works in steps of a few milliseconds, so that a caller can pause between two of
-// them. Commands step to the end. Use one meter per thread.
+// Computes the metrics of pictures by comparing each with another picture, which is called the
+// standard and usually is the truth (truth.h). A meter works in steps of a few milliseconds, so
+// that the preview can pause between two of them. Commands step to the end. Use one meter per
+// thread.
 #ifndef DIP_APP_MEASURE_METRICS_METER_H
 #define DIP_APP_MEASURE_METRICS_METER_H
 
@@ -15,7 +16,7 @@
 extern "C" {
 #endif
 
-// Says how far stepwise work has come.
+// What a step of some work returns.
 typedef enum DipStep {
     DIP_STEP_WORKING,
     DIP_STEP_RESULT, // There is a result, and more work may follow.
@@ -23,25 +24,26 @@ typedef enum DipStep {
     DIP_STEP_FAILED
 } DipStep;
 
-// What is measured. Each kind measures what those before it do.
+// What a meter measures. Each kind also measures all that the kinds before it do.
 typedef enum DipMeterKind {
     DIP_METER_DIFFERENCES, // Squared differences of whole pictures.
     DIP_METER_FLIP,        // FLIP of whole pictures.
-    DIP_METER_PICTURES,    // All metrics, by region, of bursts of one frame.
-    DIP_METER_BURSTS       // All metrics, by region, of bursts of several frames (flicker.h).
+    DIP_METER_PICTURES,    // All metrics of each region (metrics.h), of bursts of one frame.
+    DIP_METER_BURSTS       // The same metrics, of bursts of several frames (flicker.h).
 } DipMeterKind;
 
-// The picture that others are compared with. Everything is borrowed and may be shared by threads.
+// The picture with which others are compared. All data is borrowed and may be shared by threads.
 typedef struct DipMeterStandard {
     DipSrgbPicture picture;
-    // The same picture in linear light, 3 values per pixel. NULL: squared differences in linear
-    // light are not measured.
+    // The same picture in linear light, 3 values per pixel. If it is NULL, squared differences in
+    // linear light are not measured.
     const float *rgb_lin;
-    const DipFlipAnalysis *analysis; // The same picture, analysed. NULL: the meter analyses it.
+    const DipFlipAnalysis *analysis; // FLIP's analysis of the picture; if NULL, the meter makes it.
     const uint8_t *classes; // What each pixel shows (DipSeen). Kinds without regions ignore it.
 } DipMeterStandard;
 
-// Owns everything it points to but the pictures.
+// A meter and the picture that it measures. The fields are private. A meter owns all that its
+// fields point to, except the pictures.
 typedef struct DipMeter {
     DipMeterKind kind;
     int width;
@@ -49,17 +51,18 @@ typedef struct DipMeter {
     DipFlip flip;
     DipFlipAnalysis analysis; // Analysis of the standard, if the meter makes it.
     int analysed;             // Blocks of the standard that the meter has analysed.
-    DipFlicker flicker;       // Only for bursts of several frames.
+    DipFlicker flicker;       // Used only for bursts of several frames.
     double squared_static;    // For bursts of one frame: the frame's squared static error.
     DipFlipTailMeter tail;    // The distribution of FLIP in the burst so far.
     float *flip_map;          // FLIP of each pixel of the last picture.
     float *ssim_map;
-    float *band; // Three values for each pixel of a band, which is a few rows.
+    float *band; // Scratch: three values for each pixel of a band, which is a few rows.
     DipSrgbPicture test;
     const float *test_lin;
     DipMeterStandard standard;
-    int steps;          // Steps taken for the picture.
-    DipMetricSums sums; // Of the picture. Complete once the picture is done; without its burst.
+    int steps;          // Number of steps taken for the current picture.
+    DipMetricSums sums; // Sums of the current picture, complete after its last step. The sums of
+                        // bursts are 0.
 } DipMeter;
 
 // Returns false when memory runs out; *meter then owns nothing.
@@ -67,20 +70,20 @@ DIP_API bool dip_meter_init(DipMeter *meter, DipMeterKind kind, int width, int h
                             double pixels_per_degree);
 DIP_API void dip_meter_free(DipMeter *meter);
 
-// Begins a burst, a series of successive frames (flicker.h). A new meter has begun its first burst.
+// Begins a burst, a series of successive frames (flicker.h). dip_meter_init begins the first one.
 DIP_API void dip_meter_begin_burst(DipMeter *meter);
 
-// Sets the standard of the next pictures. A standard that the meter has to analyse is analysed
-// once, with the first of these pictures.
+// Sets the standard with which the next pictures are compared. If the standard has no analysis, the
+// meter analyses it while it measures the first of these pictures.
 DIP_API void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard);
 
-// Begins the next picture of the burst. Forgets a picture whose last step was not taken. If the
-// caller has more precise values than the 8-bit codes of `test`, test_lin is the picture in linear
-// light; otherwise it is NULL. Picture and standard are borrowed until the last step.
+// Begins the next picture of the burst. If the last picture is not complete, forgets it. test_lin
+// is the picture in linear light, if the caller has values more precise than the 8-bit codes of
+// `test`; otherwise it is NULL. Picture and standard are borrowed until the last step.
 DIP_API void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin);
 
-// Measures a block or a band of the picture. The values are to the bit those of the whole picture.
-// Returns DONE after the last one, and FAILED when memory runs out.
+// Measures the next block or band of the picture. The results have the same bits as if the whole
+// picture were measured at once. Returns DONE after the last step, and FAILED when memory runs out.
 DIP_API DipStep dip_meter_step(DipMeter *meter);
 
 // Sets the standard, begins a picture, steps to its end and adds its sums to *sums. Returns false

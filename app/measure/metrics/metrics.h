@@ -1,8 +1,8 @@
 // Computes the metrics by which pictures are judged, from sums over their pixels.
 //
-// A burst is a series of successive frames (flicker.h). Sums can be added, also if they come from
-// several pictures, bursts or machines. The metrics of the total are then means over all pixels of
-// all pictures. All functions are thread-safe.
+// A burst is a series of successive frames (flicker.h). Sums of several pictures, bursts or
+// machines can be added. The metrics of the total are then means over all pixels of all pictures.
+// All functions are thread-safe.
 #ifndef DIP_APP_MEASURE_METRICS_METRICS_H
 #define DIP_APP_MEASURE_METRICS_METRICS_H
 
@@ -13,8 +13,8 @@
 extern "C" {
 #endif
 
-// Region 0 is the whole picture. Region 1 + c holds the pixels of class c (DipSeen: what a pixel
-// shows).
+// Metrics are computed for several regions of a picture. Region 0 is the whole picture. Region
+// 1 + c holds the pixels of class c; a class (DipSeen) is a kind of thing that a pixel shows.
 enum { DIP_METRIC_REGION_COUNT = 1 + DIP_SEEN_COUNT };
 
 // The regions by name: "all", "edges", ...
@@ -30,8 +30,8 @@ typedef struct DipMetricRegionSums {
     double flip;          // Sum of FLIP values.
 } DipMetricRegionSums;
 
-// Holds doubles only, so that it can be added, written and read as an array of
-// DIP_METRIC_SUM_COUNT numbers.
+// The sums of all regions and bursts. Holds doubles only, so that it can be added, written and read
+// as an array of DIP_METRIC_SUM_COUNT numbers.
 typedef struct DipMetricSums {
     DipMetricRegionSums regions[DIP_METRIC_REGION_COUNT];
     // Number of bursts. Each field below is the sum, over the bursts, of the mean square with the
@@ -45,6 +45,7 @@ typedef struct DipMetricSums {
 
 enum { DIP_METRIC_SUM_COUNT = sizeof(DipMetricSums) / sizeof(double) };
 
+// Adds each number of *sums to the same number of *to.
 DIP_API void dip_metric_sums_add(DipMetricSums *to, const DipMetricSums *sums);
 
 // Metrics of one region. A region without pixels has rmse_lin 0, flip 0, ssim 1 and an infinite

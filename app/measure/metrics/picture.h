@@ -30,8 +30,9 @@ typedef struct DipPixelRect {
     int height;
 } DipPixelRect;
 
-// Pictures are judged in blocks, so that the work can pause between two blocks. Blocks are counted
-// row by row. The picture's border cuts off the last block of a row and of a column.
+// Pictures are judged in square blocks, so that the work can pause between two blocks. Blocks are
+// numbered row by row from the top left. The last block of a row or of a column may be smaller,
+// because it ends at the picture's border.
 enum { DIP_PICTURE_BLOCK = 96 }; // Side, pixels.
 
 DIP_API int dip_picture_block_count(int width, int height);
@@ -40,11 +41,11 @@ DIP_API DipPixelRect dip_picture_block(int width, int height, int block);
 // Returns the block and the pixels around it up to a distance of margin_px, within the picture.
 DIP_API DipPixelRect dip_picture_block_with_margin(int width, int height, int block, int margin_px);
 
-// Returns the part of a picture that lies within a rectangle.
+// Returns a view of the part of a picture that lies within a rectangle. Copies no pixels.
 DIP_API DipSrgbPicture dip_picture_part(const DipSrgbPicture *picture, const DipPixelRect *rect);
 
-// Selects the pixels whose class equals `wanted`, or all pixels if `classes` is NULL. `classes`
-// holds one byte per pixel, rows packed, and is borrowed.
+// Selects the pixels whose class (DipSeen: what a pixel shows) equals `wanted`, or all pixels if
+// `classes` is NULL. `classes` holds one byte per pixel, rows packed, and is borrowed.
 typedef struct DipPixelMask {
     const uint8_t *classes;
     uint8_t wanted;

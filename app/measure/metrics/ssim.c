@@ -1,4 +1,5 @@
-// Computes means, variances and the covariance of every window with separable filters.
+// Computes SSIM from the means, the variances and the covariance of every window, which it computes
+// with separable filters.
 #include "app/measure/metrics/ssim.h"
 
 #include "app/measure/metrics/internal/filters.h"
@@ -6,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOMENTS = 5 }; // planes of a, b, a^2, b^2 and ab
+enum { MOMENTS = 5 }; // Planes of a, b, a^2, b^2 and ab; a and b are the lumas of the pictures.
 
 static DipKernel1D window(void) {
     const double sigma = 1.5;

@@ -1,9 +1,9 @@
 // Computes structural similarity (Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From
 // Error Visibility to Structural Similarity", 2004) on the luma of sRGB codes.
 //
-// Windows are Gaussian, 11x11, with a standard deviation of 1.5; K1 = 0.01, K2 = 0.03, L = 255;
-// luma is 0.299 R + 0.587 G + 0.114 B, not rounded. As in the authors' implementation, only windows
-// that lie wholly within the picture count.
+// The windows have 11 x 11 pixels with Gaussian weights of standard deviation 1.5. The constants
+// are K1 = 0.01, K2 = 0.03 and L = 255. Luma is 0.299 R + 0.587 G + 0.114 B, not rounded. As in the
+// authors' implementation, only windows that lie wholly within the picture count.
 #ifndef DIP_APP_MEASURE_METRICS_SSIM_H
 #define DIP_APP_MEASURE_METRICS_SSIM_H
 

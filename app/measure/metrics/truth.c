@@ -1,5 +1,5 @@
-// Draws the two halves of a truth (truth.h) tile by tile, computes their mean and difference, and
-// keeps what it has drawn in the cache.
+// Draws the two halves of a truth (truth.h) tile by tile, computes their mean and their difference,
+// and stores the truth in the cache.
 #include "app/measure/metrics/truth.h"
 
 #include "app/files/whole_file.h"
@@ -22,36 +22,36 @@ enum {
     HALVES = 2,
     TILES_AT_ONCE = 128,       // Tiles that one step of a job with a pool draws.
     PIXELS_AT_ONCE = 1 << 14,  // Pixels for which one step computes the mean of the halves.
-    LIVE_CACHE_BYTES = 1 << 30 // A live job adds nothing to a cache that holds more than this.
+    LIVE_CACHE_BYTES = 1 << 30 // A live job (truth.h) adds nothing to a cache larger than this.
 };
 
 const int dip_truth_level_samples[DIP_TRUTH_LEVELS] = {4, 16, DIP_TRUTH_SAMPLES};
 
-// What the next step does.
+// What the next step of a job does.
 typedef enum Phase { LOAD, PREPARE, DRAW, JOIN, MEASURE_FLOOR, STORE, END } Phase;
 
-// One half of a truth, as it is drawn, and as the meter compares it with the other half.
+// One half of a truth, in the form in which it is drawn and in those that the meter compares.
 typedef struct Half {
     double *lin;    // Linear light. Owned; the other arrays lie in the same memory.
-    float *rounded; // The same in floats.
-    uint8_t *rgba8; // The same, encoded to sRGB.
+    float *rounded; // The same values as floats.
+    uint8_t *rgba8; // The same values, encoded to 8-bit sRGB.
 } Half;
 
 struct DipTruthJob {
     DipTruthDef def;
-    const char *cache; // NULL: none.
+    const char *cache; // NULL if there is no cache.
     DipPool *pool;
     bool live;
     Phase phase;
     int level; // Index in dip_truth_level_samples; the last level has the samples of the def.
     DipSrgbEncodeTable encode;
-    DipConvergence *convergence; // NULL if the def draws.
+    DipConvergence *convergence; // NULL if the def's function `draw` draws.
     Half halves[HALVES];
     int drawn;      // Tiles of the level drawn so far, in both halves together.
-    size_t joined;  // Pixels whose mean is computed.
+    size_t joined;  // Number of pixels for which the mean of the halves is computed.
     DipMeter meter; // Compares the halves.
     DipTruth truth;
-    bool has_truth; // True if `truth` is that of the last level that is complete.
+    bool has_truth; // True if `truth` holds the truth of the last complete level.
 };
 
 static bool out_of_memory(DipError *err) {
@@ -89,13 +89,13 @@ static void find_key(const DipTruthDef *def, char key[33]) {
     dip_hash_integer(&hash, def->width);
     dip_hash_integer(&hash, def->height);
     dip_hash_integer(&hash, def->samples);
-    dip_hash_number(&hash, def->pixels_per_degree); // the noise floor's FLIP depends on this number
+    dip_hash_number(&hash, def->pixels_per_degree); // The noise floor's FLIP depends on it.
     dip_hash_hex(&hash, key);
 }
 
-// A file holds the truth's arrays one after the other, then its floor, and then 32 digits of the
-// hash of all this. The arrays lie in memory as they do in the file, with room for the rest behind
-// them. Byte order and layout are those of the machine that wrote the file.
+// A file holds the truth's arrays one after the other, then its floor, and then a hash of all these
+// bytes as 32 digits. The arrays lie in memory in the same order, followed by room for the floor
+// and the hash. Byte order and layout are those of the machine that wrote the file.
 static size_t arrays_size(const DipTruth *truth) {
     return (size_t)truth->width * (size_t)truth->height * (3 * sizeof(float) + 4 + 1);
 }
@@ -115,8 +115,8 @@ static void hash_contents(const unsigned char *bytes, size_t size, char hex[33])
     dip_hash_hex(&hash, hex);
 }
 
-// Reads the truth, whose key, size and arrays are set. Returns false if there is no such file or if
-// the file is damaged.
+// Reads the contents of a truth, whose key, size and arrays are set before. Returns false if there
+// is no such file or if the file is damaged.
 static bool load_file(DipTruth *truth, const char *cache) {
     char name[PATH_MAX], hex[33];
     unsigned char *bytes;
@@ -180,7 +180,7 @@ static int samples_of_level(const DipTruthJob *job) {
                                              : job->def.samples;
 }
 
-// Steps over levels that are not coarser than the last one.
+// Goes to the next level. Skips levels that are not coarser than the last one.
 static void next_level(DipTruthJob *job) {
     do {
         job->level++;
@@ -263,7 +263,7 @@ static DipStep prepare(DipTruthJob *job, DipError *err) {
     return made ? DIP_STEP_WORKING : DIP_STEP_FAILED;
 }
 
-// Parts in which a half is drawn.
+// Returns the number of parts in which a half is drawn: tiles, or 1 if the def's function draws.
 static int part_count(const DipTruthJob *job) {
     return job->convergence ? dip_convergence_tile_count(job->convergence) : 1;
 }
@@ -316,7 +316,8 @@ static DipStep draw(DipTruthJob *job, DipError *err) {
 
 // --- the mean and the floor ----------------------------------------------------------------------
 
-// Writes linear light as floats, and encoded to 8-bit sRGB (clamped to 0..1) with alpha 255.
+// Writes linear light twice: as floats, and clamped to 0..1 and encoded to 8-bit sRGB with alpha
+// 255.
 static void round_light(const DipTruthJob *job, const double *lin, size_t pixels, float *rounded,
                         uint8_t *rgba8) {
     for (size_t i = 0; i < pixels; i++) {
@@ -334,8 +335,8 @@ static DipSrgbPicture half_picture(const DipTruthJob *job, int half) {
                             job->def.height};
 }
 
-// Prepares the comparison of the halves. Levels that are not the last one have only the floor of
-// the squared differences.
+// Prepares the comparison of the halves. For all levels but the last one, only squared differences
+// are measured.
 static bool begin_floor(DipTruthJob *job, DipError *err) {
     const DipTruthDef *def = &job->def;
     const bool last = job->level == DIP_TRUTH_LEVELS - 1;
@@ -405,7 +406,7 @@ static DipStep load(DipTruthJob *job) {
     return job->has_truth ? DIP_STEP_RESULT : DIP_STEP_WORKING;
 }
 
-// A live job can do without the cache.
+// Writes the truth to the cache. A live job does not fail if this fails.
 static DipStep store(DipTruthJob *job, DipError *err) {
     job->phase = END;
     if (job->live && cache_bytes(job->cache) > LIVE_CACHE_BYTES) {

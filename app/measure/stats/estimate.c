@@ -1,4 +1,4 @@
-// Computes Student's t, intervals of logarithms, and order statistics.
+// Computes Student's t distribution, estimates with intervals, percentiles and medians.
 #include "app/measure/stats/estimate.h"
 
 #include "renderer/base/assert.h"
@@ -62,7 +62,7 @@ DipEstimate dip_estimate_make(double value, double log_error, double degrees) {
     }
     const double half = dip_student_quantile(0.975, degrees) * log_error;
     DipEstimate estimate = {value, value * exp(-half), value * exp(half), log_error, degrees};
-    if (isinf(estimate.high)) { // The value may be anything, so it has no interval.
+    if (isinf(estimate.high)) { // An interval without an upper end says nothing.
         estimate.low = NAN;
         estimate.high = NAN;
     }

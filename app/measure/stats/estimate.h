@@ -1,5 +1,5 @@
-// Computes estimates, the median and percentiles. An estimate is a value and how well it is known.
-// All functions are thread-safe.
+// Computes estimates, medians and percentiles. An estimate is a value with its error. All functions
+// are thread-safe.
 #ifndef DIP_APP_MEASURE_STATS_ESTIMATE_H
 #define DIP_APP_MEASURE_STATS_ESTIMATE_H
 
@@ -11,13 +11,13 @@
 extern "C" {
 #endif
 
-// `low` and `high` are NAN if they are not known. No function returns an interval of length 0: a
-// value about whose error nothing is known has no interval.
+// The interval from `low` to `high` holds the true value with a probability of 95 %. If the error
+// of a value is not known, all fields but `value` are NAN. No interval has the length 0.
 typedef struct DipEstimate {
     double value;
-    double low;       // The interval from low to high holds the true value with a probability of
-    double high;      // 95 %.
-    double log_error; // Standard error of the value's logarithm, more than 0; NAN: not known.
+    double low;
+    double high;
+    double log_error; // Standard error of the value's logarithm, more than 0.
     double degrees;   // Degrees of freedom of log_error; INFINITY for a normal distribution.
 } DipEstimate;
 
@@ -26,26 +26,26 @@ DIP_API DipEstimate dip_estimate_unknown(double value);
 
 // Returns an estimate with low = value * exp(-t * log_error) and high = value * exp(t * log_error).
 // Here t is the 97.5 % quantile of Student's t for the degrees of freedom (1 or more; INFINITY for
-// a normal distribution). An error that is NAN, infinite or 0 gives dip_estimate_unknown.
+// a normal distribution). Returns dip_estimate_unknown(value) if the error is NAN, infinite or 0.
+// If `high` overflows, `low` and `high` are NAN.
 DIP_API DipEstimate dip_estimate_make(double value, double log_error, double degrees);
 
-// Returns the estimate with another error of its logarithm added in quadrature, for example an
-// error that several estimates share. The degrees of freedom stay.
+// Returns the estimate with a greater error: adds `log_error`, for example an error that several
+// estimates share, to its own in quadrature. The degrees of freedom do not change.
 DIP_API DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error);
 
-// Returns the probability that the true value is at most `limit`: Student's t of the logarithm.
-// `common_error` is added to the estimate's own in quadrature. Returns NAN if the estimate's error
-// is not known.
+// Returns the probability that the true value is at most `limit`. The logarithm of the value is
+// taken to have Student's t distribution. `common_error` is added to the estimate's log_error in
+// quadrature. Returns NAN if the estimate's error is not known.
 DIP_API double dip_estimate_chance_below(const DipEstimate *estimate, double limit,
                                          double common_error);
 
-// Returns the value that a variable with Student's t distribution and this number of degrees of
-// freedom (1 or more; INFINITY for a normal distribution) does not exceed with the given
-// probability (.5 to .9999).
+// Returns the quantile of Student's t distribution for a probability in 0.5..0.9999. `degrees` is
+// the number of degrees of freedom (1 or more; INFINITY for a normal distribution).
 DIP_API double dip_student_quantile(double probability, double degrees);
 
-// Returns the value below which the given share (0 to 1) of count >= 1 values lies, linear between
-// order statistics. Sorts the values.
+// Returns the value below which the given share (0 to 1) of count >= 1 values lies. Interpolates
+// linearly between the sorted values. Sorts the array.
 DIP_API double dip_percentile(double *values, int count, double share);
 
 // Returns what dip_percentile returns, but leaves the values in their order. `scratch` has room for

@@ -9,8 +9,8 @@
 
 enum { MAX = DIP_LEAST_SQUARES_MAX_TERMS };
 
-// A term depends on the terms before it if this share of its square is left once they are taken
-// out.
+// A term counts as linearly dependent on the terms before it if at most this share of its squared
+// length is left after the projection onto them is subtracted.
 static const double dependent = 1e-10;
 
 void dip_normal_equations_begin(DipNormalEquations *equations, int terms, const double *scale) {
@@ -35,8 +35,8 @@ void dip_normal_equations_add(DipNormalEquations *equations, const double *amoun
     }
 }
 
-// Solves the equations of the terms that are used, by Cholesky's decomposition. Other terms, and
-// terms that depend on those before them, get 0.
+// Solves the equations for the terms that are used, by Cholesky decomposition. All other terms get
+// 0, as do terms that depend on terms before them.
 static void solve(const DipNormalEquations *equations, const bool *used, double ridge,
                   double *solution) {
     double lower[MAX][MAX];
@@ -90,7 +90,8 @@ void dip_least_squares_ridge(const DipNormalEquations *equations, double ridge, 
     unscale(equations, solution);
 }
 
-// Returns the unused term whose price would lessen the error most if it rose from 0, or -1.
+// Returns the unused term whose price reduces the error most steeply as it rises from 0. Returns -1
+// if there is none.
 static int steepest_term(const DipNormalEquations *equations, const bool *used, const bool *failed,
                          const double *prices) {
     int best = -1;
@@ -110,8 +111,8 @@ static int steepest_term(const DipNormalEquations *equations, const bool *used, 
     return best;
 }
 
-// Moves the prices towards a solution until the first price reaches 0. Terms at 0 leave the set.
-// Returns true if the whole way was possible.
+// Moves the prices towards the solution until the first price reaches 0. Terms whose price reaches
+// 0 become unused. Returns true if the prices reached the solution.
 static bool move(int terms, bool *used, const double *solution, double *prices) {
     double way = 1.0;
     for (int i = 0; i < terms; i++) {
@@ -133,7 +134,7 @@ static bool move(int terms, bool *used, const double *solution, double *prices) 
 void dip_least_squares_nonnegative(const DipNormalEquations *equations, double *prices) {
     const int terms = equations->terms;
     bool used[MAX] = {false};
-    bool failed[MAX] = {false}; // Terms that left the set at once, since rounding made their slope.
+    bool failed[MAX] = {false}; // Terms whose slope was only rounding error: their price is 0.
     double solution[MAX];
     memset(prices, 0, (size_t)terms * sizeof *prices);
     for (int round = 0; round < 10 * terms; round++) {
@@ -162,7 +163,7 @@ typedef struct Design {
     const double *matrix;
     int rows, terms;
     double scale[MAX];
-    double inverse[MAX][MAX]; // Of the information that the chosen rows give.
+    double inverse[MAX][MAX]; // Inverse of the information matrix of the chosen rows.
 } Design;
 
 static void read_row(const Design *design, int row, double amounts[MAX]) {
@@ -189,7 +190,7 @@ static double dot(const double *a, const double *b, int count) {
     return sum;
 }
 
-// Adds a row's information: the formula of Sherman and Morrison.
+// Adds a row to the inverse, by the formula of Sherman and Morrison.
 static void add_information(Design *design, int row) {
     double amounts[MAX], product[MAX];
     read_row(design, row, amounts);
@@ -241,7 +242,7 @@ void dip_design_choose(const double *matrix, int rows, int terms, int given, int
         }
     }
     for (int i = 0; i < terms; i++) {
-        design.inverse[i][i] = 1000.0; // Before the first row, next to nothing is known.
+        design.inverse[i][i] = 1000.0; // Almost no information before the first row.
     }
     for (int i = 0; i < count; i++) {
         if (i >= given) {

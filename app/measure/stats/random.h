@@ -1,4 +1,4 @@
-// A small deterministic generator for shuffling and resampling; not for cryptography.
+// Generates repeatable random numbers for shuffling. They are not safe for cryptography.
 #ifndef DIP_APP_MEASURE_STATS_RANDOM_H
 #define DIP_APP_MEASURE_STATS_RANDOM_H
 
@@ -15,7 +15,8 @@ static inline uint32_t dip_random_next(uint64_t *state) {
     return (uint32_t)(*state >> 33);
 }
 
-// Returns a number that is uniform in 0..count - 1, with a bias below count / 2^31.
+// Returns a number in 0..count - 1. All are equally likely, to within a relative error of
+// count / 2^31.
 static inline int dip_random_below(uint64_t *state, int count) {
     return (int)(dip_random_next(state) % (uint32_t)count);
 }

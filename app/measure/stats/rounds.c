@@ -1,4 +1,5 @@
-// Deals frames to rounds, and makes the estimates of a fit.
+// Deals frames to rounds, and computes the estimates that rounds.h declares from a fit. A unit is a
+// start of the program, or a round if there is one start (rounds_fit_private.h).
 #include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/random.h"
@@ -12,8 +13,9 @@ static bool out_of_memory(DipError *err) {
 
 // --- which frames a round draws ------------------------------------------------------------------
 
-// In each stretch of successive frames, copy k of a frame goes to the round that stands k steps
-// further in a shuffled list of the rounds, with steps that differ between copies.
+// Cuts the path into stretches of as many frames as there are rounds. In each stretch, copy 0 deals
+// the frames to the rounds in shuffled order. Each other copy uses the same order, shifted by a
+// random distance that no other copy has.
 bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *round_of,
                      DipError *err) {
     DIP_ASSERT(frames > 0 && rounds > 0 && copies > 0 && copies <= rounds);
@@ -54,8 +56,8 @@ static Variance add_variance(Variance a, Variance b) {
     return (Variance){sum, parts > 0.0 ? sum * sum / parts : INFINITY};
 }
 
-// Returns the variance that a subject contributes to a unit, drawn towards the mean of all subjects
-// of the base.
+// Returns the variance between units that a subject contributes: the mean of its own value and of
+// `pooled`, the mean over all subjects of the base, weighted by their degrees of freedom.
 static Variance own_variance(const DipTimesFit *fit, const DipTimesBase *base, double own,
                              double pooled) {
     const double degrees = fit->units - 1 + base->pooled_degrees;
@@ -69,7 +71,7 @@ static Variance base_variance(const DipTimesFit *fit, const DipTimesBase *base, 
     return (Variance){base->variance[v], fit->units - 1 + DIP_TIMES_BASE_DEGREES};
 }
 
-// Returns the estimate of a logarithm from the variance of units.
+// Returns the estimate of exp(log_value). `of_unit` is the variance of log_value between units.
 static DipEstimate estimate_of(const DipTimesFit *fit, double log_value, Variance of_unit) {
     if (fit->units < 2) {
         return dip_estimate_unknown(exp(log_value));
@@ -100,7 +102,7 @@ DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other) {
     Variance variance;
     if (subject == a->base || other == a->base) {
         variance = variance_of(fit, subject == a->base ? other : subject, DIP_TIMES_RATIO);
-    } else { // What the base contributes cancels.
+    } else { // The base's contribution to the two ratios is the same, so it cancels.
         double squares = 0.0;
         for (int unit = 0; unit < fit->units; unit++) {
             const double move = dip_times_moves(fit, subject, unit)[DIP_TIMES_RATIO] -
@@ -120,7 +122,7 @@ double dip_times_spread(const DipTimesFit *fit, int subject) {
     return fit->subjects[subject].spread;
 }
 
-// Returns an estimate in milliseconds, to which the error of the base's level adds.
+// Returns a value of the subject in milliseconds. Its error includes that of the base's mean time.
 static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
     const DipTimesSubject *s = &fit->subjects[subject];
     const DipTimesBase *base = &fit->bases[s->base];
@@ -130,7 +132,8 @@ static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
     }
     const Variance level = {fit->excess * fit->units * base->level_error * base->level_error,
                             base->level_degrees};
-    // The slowest frames lie side by side, so that smoothing misses them all alike.
+    // The slowest frames lie side by side, so the errors that smoothing makes at them do not cancel
+    // out, as they do in the mean of all frames.
     const double doubt = v == DIP_TIMES_RATIO ? 0.0 : s->doubt;
     const Variance smoothed = {fit->excess * fit->units * doubt, INFINITY};
     const Variance all = variance.value > 0.0 ? add_variance(variance, level) : level;

@@ -1,5 +1,5 @@
-// Fits subjects beside their bases, from all units and with each unit left out
-// (rounds_fit_private.h).
+// Fits the times of subjects relative to those of their bases, once from all units and once for
+// each unit (rounds_fit_private.h).
 #include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/estimate.h"
@@ -8,20 +8,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-// If a subject has more visits, their median is taken instead of Hodges and Lehmann's estimate.
+// If a subject has more visits than this, the median of the visits replaces Hodges and Lehmann's
+// estimate, whose work grows with the square of the number.
 enum { MOST_VISITS = 512 };
 
 // A subject's variance is drawn towards the mean variance of all subjects of its base. That mean
 // counts for at most this many degrees of freedom, since some subjects are noisier than others.
 static const double most_pooled_degrees = 12.0;
 
-// Where frames are dealt to rounds, the jackknife's variance is too great by about this factor: a
-// unit that is left out takes with it the only times of its frames (test_rounds).
+// If frames are dealt to rounds, the jackknife's variance is too great by about this factor,
+// because leaving out a unit removes the only times of its frames. test_rounds simulates such logs.
 static const double excess_of_dealt_frames = 1.25;
 
 // --- order of the log ----------------------------------------------------------------------------
 
-// Compares two elements of DipTimesWork.sorted by subject, round, block and frame.
+// Compares two elements of DipTimesWork.sorted by subject, start, round, block and frame.
 static int compare_places(const void *a, const void *b) {
     const DipTimed *x = *(const DipTimed *const *)a, *y = *(const DipTimed *const *)b;
     const int of_x[] = {x->subject, x->start, x->round, x->block, x->frame};
@@ -33,7 +34,7 @@ static int compare_places(const void *a, const void *b) {
     return side;
 }
 
-// The same. Frames with equal places keep their order.
+// Compares like compare_places, and elements that are equal there by their order in the log.
 static int compare_times(const void *a, const void *b) {
     const DipTimed *x = *(const DipTimed *const *)a, *y = *(const DipTimed *const *)b;
     const int side = compare_places(a, b);
@@ -60,7 +61,7 @@ static void sort_times(DipTimesWork *w) {
 
 // --- a subject's ratios along the path -----------------------------------------------------------
 
-// Returns the base's time of the same frame in the same block, or NULL.
+// Returns the base's time of the same frame in the same block, or NULL if there is none.
 static const DipTimed *beside(const DipTimesWork *w, int base, const DipTimed *timed) {
     DipTimed wanted = *timed;
     wanted.subject = base;
@@ -84,8 +85,8 @@ static int compare_pairs(const void *a, const void *b) {
     return x->frame != y->frame ? x->frame - y->frame : x->visit - y->visit;
 }
 
-// Lists the subject's frames beside its base in path order. Leaves out disturbed ones, unless most
-// are disturbed.
+// Lists the pairs of a subject and its base in path order. Leaves out pairs with a disturbed frame,
+// unless these are most.
 static void list_pairs(DipTimesWork *w, int subject, DipTimesSubject *to) {
     const DipTimes *times = w->times;
     for (int pass = 0; pass < 2; pass++) {
@@ -118,8 +119,8 @@ static void list_pairs(DipTimesWork *w, int subject, DipTimesSubject *to) {
     qsort(w->pairs, (size_t)w->pair_count, sizeof *w->pairs, compare_pairs);
 }
 
-// The median of the means of all pairs of values, each value paired with itself, too (Hodges and
-// Lehmann 1963).
+// Returns the median of the means of all pairs of values, including each value paired with itself
+// (Hodges and Lehmann 1963).
 static double hodges_lehmann(const double *values, int count, double *means) {
     int pairs = 0;
     for (int i = 0; i < count; i++) {
@@ -130,7 +131,7 @@ static double hodges_lehmann(const double *values, int count, double *means) {
     return dip_median(means, pairs);
 }
 
-// Index of the first of `count` sorted values that is not less than `value`.
+// Returns the index of the first of `count` sorted values that is not less than `value`.
 static int find_sorted(const double *sorted, int count, double value) {
     int low = 0, high = count;
     while (low < high) {
@@ -140,15 +141,16 @@ static int find_sorted(const double *sorted, int count, double value) {
     return low;
 }
 
-// Returns the median of sorted values, without the one with index `without` (count: with all).
+// Returns the median of sorted values without the value at index `without`. If `without` is
+// `count`, no value is left out.
 static double median_of_sorted(const double *sorted, int count, int without) {
     const int rest = count - (without < count);
     const int below = (rest - 1) / 2, above = rest / 2;
     return 0.5 * (sorted[below + (below >= without)] + sorted[above + (above >= without)]);
 }
 
-// Writes for each value the median of the window / 2 values on either side, with or without the
-// value itself.
+// Writes for each value the median of its neighbours, up to window / 2 on either side. `without`
+// leaves out the value itself.
 static void running_median(const double *values, int count, int window, bool without, double *to,
                            double *sorted) {
     const int side = window / 2 < count ? window / 2 : count;
@@ -171,9 +173,9 @@ static void running_median(const double *values, int count, int window, bool wit
     }
 }
 
-// Returns the window of the running median that predicts each value best from its neighbours, which
-// were timed in other rounds. Longer ones are preferred, since most settings cost alike all along
-// the path.
+// Returns the window with which the running median best predicts each value from its neighbours,
+// which were timed in other rounds. A shorter window must be 3 % better than a longer one, since
+// the relative cost of most settings is the same along the whole path.
 static int choose_window(DipTimesWork *w, const double *values, int count) {
     const int windows[] = {2 * count + 1, 31, 15, 7};
     int best = windows[0];
@@ -183,7 +185,8 @@ static int choose_window(DipTimesWork *w, const double *values, int count) {
         for (int i = 0; i < count; i++) {
             w->rest[i] = fabs(values[i] - w->smooth[i]);
         }
-        // A large miss comes from a disturbed visit, so it counts like a smaller one.
+        // A very wrong prediction comes from a disturbed visit, so its error counts for no more
+        // than 3 times the median error.
         double sum = 0.0;
         const double typical = dip_median(w->rest, count);
         for (int i = 0; i < count; i++) {
@@ -211,9 +214,10 @@ static void median_of_frames(const double *values, const int *frames, int count,
     }
 }
 
-// Returns what smoothing leaves in common to all pairs: Hodges and Lehmann's estimate of the
-// medians of the visits. Writes to w->spread how far these medians lie apart. What speeds up or
-// slows down one frame of a visit does so with the others, so a visit counts once.
+// Returns the offset that all pairs have in common after the smoothed log ratios were subtracted:
+// Hodges and Lehmann's estimate from the medians of the visits. Writes to w->spread how far these
+// medians lie apart. A visit counts once, since what slows down one of its frames slows down its
+// other frames, too.
 static double common_rest(DipTimesWork *w, int count, const int *visits, const double *rest) {
     int found = 0;
     double *of_visits = w->logs; // No longer needed.
@@ -241,8 +245,9 @@ static double common_rest(DipTimesWork *w, int count, const int *visits, const d
                                 : dip_median(of_visits, found);
 }
 
-// Noise makes the times of frames differ more than they do in truth, so that a percentile would be
-// too high. Draws the times together by as much as noise adds. Their mean stays.
+// Moves the times of frames closer to their mean, so that the variance of their logarithms falls by
+// noise_variance. Noise makes the times differ more than the true times do, so percentiles would be
+// too high. Keeps the mean.
 static void take_off_noise(double *ms, int frames, double noise_variance) {
     double mean = 0.0, squares = 0.0, before = 0.0, after = 0.0;
     for (int f = 0; f < frames; f++) {
@@ -262,8 +267,8 @@ static void take_off_noise(double *ms, int frames, double noise_variance) {
     }
 }
 
-// Estimates the log ratio of each frame, w->ratio, from the first `count` pairs in use. Returns the
-// variance of the noise of these log ratios.
+// Estimates the log ratio of each frame from the first `count` elements of w->logs, and writes it
+// to w->ratio. Returns the variance of the noise in w->ratio.
 static double fit_ratios(DipTimesWork *w, int count) {
     if (w->repeats) {
         median_of_frames(w->logs, w->pair_frames, count, w->smooth, w->of_visit);
@@ -281,16 +286,18 @@ static double fit_ratios(DipTimesWork *w, int count) {
     }
     dip_times_fill_gaps(w->ratio, w->times->frames);
     const double joined = w->repeats ? (double)count / w->times->frames : fmin(w->window, count);
-    return 1.5 / (joined + 0.5) * noise * noise; // The variance of a median.
+    return 1.5 / (joined + 0.5) * noise * noise; // Variance of a median of `joined` values.
 }
 
-// Set -1 has the times of all units. Each other set lacks the unit of its index, or has it alone.
+// Returns whether a unit's times belong to a set. Set -1 holds the times of all units. Set n >= 0
+// holds only those of unit n if w->is_alone, and otherwise those of all units but n.
 static bool is_in_set(const DipTimesWork *w, int set, int unit) {
     return set < 0 || (unit == set) == w->is_alone;
 }
 
-// Computes the logarithms of a subject's values from a set, and its frames' times in w->time. If
-// the set has no times, returns false, and the values are NAN.
+// Computes from the times of a set (is_in_set) the logarithms of a subject's values, and writes the
+// times of its frames to w->time. If the set has no times, sets the logarithms to NAN and returns
+// false.
 static bool find_values(DipTimesWork *w, int set, double logs[DIP_TIMES_VALUE_COUNT]) {
     const int frames = w->times->frames;
     const int lacking = w->is_alone && !w->is_base ? 0 : set + 1;
@@ -328,7 +335,7 @@ static bool find_values(DipTimesWork *w, int set, double logs[DIP_TIMES_VALUE_CO
     take_off_noise(w->time, frames, noise - missing);
     for (int f = 0; f < frames; f++) {
         worst = fmax(worst, w->time[f]);
-        w->ratio[f] = w->time[f]; // To be sorted.
+        w->ratio[f] = w->time[f]; // Copied, since dip_percentile sorts its input.
     }
     logs[DIP_TIMES_RATIO] = log(total / base_total);
     logs[DIP_TIMES_P95] = log(dip_percentile(w->ratio, frames, 0.95) * frames / base_total);
@@ -338,7 +345,8 @@ static bool find_values(DipTimesWork *w, int set, double logs[DIP_TIMES_VALUE_CO
 
 // --- a subject -----------------------------------------------------------------------------------
 
-// Finds which shares of the subject's time its parts take. Disturbed frames count only if most are.
+// Computes which share of the subject's time each part of its work takes. Leaves out disturbed
+// frames, unless most are disturbed.
 static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) {
     const bool all = w->is_base || 2 * subject->kept < subject->timed;
     double total = 0.0;
@@ -357,9 +365,9 @@ static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) 
     }
 }
 
-// Finds how far each unit moves the values. This is units - 1 times the difference that leaving the
-// unit out makes (the jackknife). If sets have one unit alone, it is how far that unit is from the
-// mean of the units; units without times then take no part.
+// Computes how far each unit moves the values. If a set lacks one unit, this is units - 1 times the
+// difference that leaving out the unit makes (the jackknife). If a set has one unit alone, this is
+// the difference of that unit from the mean of all units that have times.
 static void find_moves(DipTimesWork *w, int s) {
     DipTimesFit *fit = w->fit;
     const int units = fit->units;
@@ -419,8 +427,8 @@ static int list_members(const DipTimesWork *w, int base) {
     return count;
 }
 
-// Divides the variance of units into two parts: what the base contributes, which moves all subjects
-// alike, and what each subject contributes on its own.
+// Divides the variance between units into two parts. The part of the base moves all its subjects by
+// the same amount; the part of a subject moves that subject only.
 static void divide_variance(DipTimesFit *fit, DipTimesBase *base, const int *members, int count,
                             int v) {
     const int units = fit->units;

@@ -1,7 +1,10 @@
-// Declares what the files of the fit share: intermediate values and memory. Private to this folder.
+// Declares a fit (rounds.h) with its intermediate values, for the files that compute it. Private to
+// this folder.
 //
-// A unit is a start of the program, or a round if there is one start. Estimates are made anew with
-// each unit left out; how far they move shows how well they are known (the jackknife).
+// A unit is a start of the program, or a round if there is one start. Each estimate is computed
+// again with each unit left out; how far the results differ shows how well the estimate is known
+// (the jackknife). The level of a base's frame is the logarithm of the time, in ms, that the frame
+// takes at the machine's usual speed.
 #ifndef DIP_APP_MEASURE_STATS_ROUNDS_FIT_PRIVATE_H
 #define DIP_APP_MEASURE_STATS_ROUNDS_FIT_PRIVATE_H
 
@@ -9,8 +12,8 @@
 
 #include <math.h>
 
-// The values that are fitted: the mean, the 95th percentile and the worst of the times of a
-// subject's frames, each divided by the base's mean time.
+// Names the values that are fitted: the mean, the 95th percentile and the greatest of the times of
+// a subject's frames, each divided by the base's mean time.
 typedef enum DipTimesValue {
     DIP_TIMES_RATIO,
     DIP_TIMES_P95,
@@ -18,60 +21,61 @@ typedef enum DipTimesValue {
     DIP_TIMES_VALUE_COUNT
 } DipTimesValue;
 
-// A timed frame of a subject beside its base.
+// A frame that a subject and its base drew in the same block.
 typedef struct DipTimesPair {
     int frame;
     int visit; // Equal for the frames of one visit.
     int unit;
-    double log_ratio;
+    double log_ratio; // Logarithm of the subject's time / the base's time.
 } DipTimesPair;
 
-// The base's times of one frame in one moment.
+// The base's time of one frame in one moment (DipTimesMoment).
 typedef struct DipTimesCell {
     int frame;
     int moment;
     int visit;
     int unit;
     double log_ms;
-    double weight; // More for more visits.
-    double trust;  // 0 to 1: how well it agrees with the fit.
+    double weight; // Weight in the fit; grows with the number of visits.
+    double trust;  // Further weight, 0 to 1, by how well the time agrees with the fit.
 } DipTimesCell;
 
-// A moment: those visits of the base in a round that draw the same frames.
+// A moment is the set of all visits of the base in one round that draw the same frames.
 typedef struct DipTimesMoment {
-    int round;       // Counted over all starts.
+    int round;       // Index of the round among those of all starts.
     int first_frame; // The first frame that the visits draw.
 } DipTimesMoment;
 
+// What the fit finds for a base. Variances are those of a value's logarithm between units.
 typedef struct DipTimesBase {
-    double level_ms; // Mean over the frames.
-    double level_error;
-    double level_degrees;
-    // Mean over the subjects of the variance that each contributes to a unit.
+    double level_ms;      // Mean time of the base's frames.
+    double level_error;   // Standard error of the logarithm of level_ms; NAN if it is not known.
+    double level_degrees; // Degrees of freedom of level_error.
+    // Mean over the subjects of DipTimesSubject.variance.
     double pooled[DIP_TIMES_VALUE_COUNT];
-    double pooled_degrees;                  // For how many degrees of freedom `pooled` counts.
-    double variance[DIP_TIMES_VALUE_COUNT]; // Variance that the base contributes to a unit.
+    double pooled_degrees;                  // Degrees of freedom for which `pooled` counts.
+    double variance[DIP_TIMES_VALUE_COUNT]; // Part of the variance that the base contributes.
 } DipTimesBase;
 
 typedef struct DipTimesSubject {
     int base;
-    int timed, kept;
+    int timed, kept;                        // See DipAlong.
     double spread;                          // See dip_times_spread.
-    double doubt;                           // Variance of what is not known of a single frame.
+    double doubt;                           // Variance of the error of one frame's log time.
     double logs[DIP_TIMES_VALUE_COUNT];     // Logarithms of the values.
-    double variance[DIP_TIMES_VALUE_COUNT]; // Variance that the subject contributes to a unit.
-    double shares[DIP_TIMED_PARTS];
+    double variance[DIP_TIMES_VALUE_COUNT]; // Part of the variance that the subject contributes.
+    double shares[DIP_TIMED_PARTS];         // See dip_times_shares.
 } DipTimesSubject;
 
 struct DipTimesFit {
     int frames;
     int units;     // Number of starts, or of rounds if there is one start.
-    double excess; // Factor by which the variance of units is too great.
+    double excess; // Factor by which the jackknife overestimates the variance between units.
     DipTimesSubject *subjects;
-    DipTimesBase *bases; // [subject]; only those of bases are used.
+    DipTimesBase *bases; // [subject]; only the elements of bases are used.
     double *frame_ms;    // [subject * frames + frame]
-    // How far a unit moves a value, as a logarithm: [(subject * units + unit) *
-    // DIP_TIMES_VALUE_COUNT + v].
+    // How far each unit moves the logarithm of each value, at the index
+    // (subject * units + unit) * DIP_TIMES_VALUE_COUNT + value.
     double *moves;
 };
 
@@ -79,38 +83,40 @@ struct DipTimesFit {
 typedef struct DipTimesWork {
     const DipTimes *times;
     DipTimesFit *fit;
-    int part;      // The part of the times in which subjects differ; -1: they differ in all parts.
-    bool is_alone; // True if a set has the pairs of one unit alone; otherwise it lacks them.
-    const DipTimed **sorted; // [count]: the times by subject, round, block and frame.
+    int part;                // See dip_times_fit_part; -1 if subjects differ in all parts.
+    bool is_alone;           // True to compute a unit's values from its pairs alone, false to
+                             // compute them from the pairs of all other units.
+    const DipTimed **sorted; // [count]: the times by subject, start, round, block and frame.
     int *first_of;           // [subjects + 1]: where a subject's times begin in `sorted`.
-    int *members;            // [subjects]: those of a base whose moves are known.
+    int *members;            // [subjects]: the subjects of one base whose moves are known.
     DipTimesCell *cells;
     int cell_count;
     DipTimesPair *pairs;
     int pair_count, visit_count;
-    int window;      // Frames of the running median of the subject's log ratios.
+    int window;      // Number of frames in the running median of the subject's log ratios.
     bool repeats;    // True if most frames were timed several times.
     bool is_base;    // True if the subject is the base itself, which has no pairs.
-    double *level;   // [(1 + units) * frames]: log ms, with all units, then with each left out.
-    double *missing; // [1 + units]: how much greater the variance of the true levels is.
-    double spread;   // Of the subject's visits.
-    double doubt;    // Of the subject's frames.
+    double *level;   // [(1 + units) * frames]: levels from all units, then with each left out.
+    double *missing; // [1 + units]: variance of the true levels less that of the fitted levels.
+    double spread;   // As in DipTimesSubject.
+    double doubt;    // As in DipTimesSubject.
     DipTimesMoment *moments; // [count]
     int moment_count, base_visits;
-    double *speed;                           // [count]: of moments.
-    double *weights;                         // [the greater of count and frames]
-    int *visits, *pair_frames;               // [count]: of the pairs in use.
-    double *logs, *smooth, *rest, *of_visit; // [count] each.
+    double *speed;                           // [count]: log speed of each moment.
+    double *weights;                         // [the greater of count and frames]: scratch.
+    int *visits, *pair_frames;               // [count]: visits and frames of the pairs in use.
+    double *logs, *smooth, *rest, *of_visit; // [the greater of count and frames]: scratch.
     double *means;                           // Scratch for Hodges and Lehmann's estimate.
     double *ratio;                           // [frames]: smoothed log ratio.
-    double *time;                            // [frames]
+    double *time;                            // [frames]: ms, or scratch.
 } DipTimesWork;
 
-// A base is expected to vary as much as the other subjects do. This expectation counts as much as
-// this many units.
+// The estimated variance of a base is averaged with the mean variance of its subjects. That mean
+// counts like this many degrees of freedom.
 #define DIP_TIMES_BASE_DEGREES 1.0
 
-// An error that repetition within one log never shows, as a logarithm.
+// Standard error of a logarithm that is added to every estimate. It stands for errors that are the
+// same in all units of a log, so that no difference between units shows them.
 #define DIP_TIMES_LEAST_ERROR 0.001
 
 // The standard deviation of normally distributed values is this many times the median of their
@@ -135,11 +141,12 @@ static inline double *dip_times_moves(const DipTimesFit *fit, int subject, int u
            ((size_t)subject * (size_t)fit->units + (size_t)unit) * DIP_TIMES_VALUE_COUNT;
 }
 
-// Fills values that are NAN from their neighbours: linear between them, constant beyond.
+// Replaces values that are NAN: interpolates linearly between the nearest known values, and repeats
+// the first and last known values at the ends.
 void dip_times_fill_gaps(double *values, int count);
 
-// Fits the levels of a base's frames and the speeds of its rounds. Fills w->level, w->missing and,
-// in the fit's bases[base], all about the level.
+// Fits the levels of a base's frames. Fills w->level, w->missing, and the level_... fields of
+// w->fit->bases[base].
 void dip_times_fit_levels(DipTimesWork *w, int base);
 
 #endif

@@ -1,4 +1,5 @@
-// Fits the levels of a base: how long each of its frames takes at the machine's usual speed.
+// Fits the levels of a base. The level of a frame is the logarithm of the time that the frame takes
+// at the machine's usual speed. Units, moments and cells are explained in rounds_fit_private.h.
 #include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/estimate.h"
@@ -7,8 +8,8 @@
 #include <string.h>
 
 enum {
-    SWEEPS = 40,     // Of the fit of levels and speeds.
-    SPEED_GROUPS = 4 // Groups of rounds whose speeds are compared, if there is one start.
+    SWEEPS = 40,     // Number of times that levels and speeds are fitted in turn.
+    SPEED_GROUPS = 4 // If there is one start, this many groups of rounds are compared by speed.
 };
 
 static int compare_cells(const void *a, const void *b) {
@@ -18,8 +19,8 @@ static int compare_cells(const void *a, const void *b) {
                                   : x->visit - y->visit;
 }
 
-// Lists the base's times as cells and returns their number. Leaves out disturbed times, unless most
-// are disturbed.
+// Lists the base's times as cells of one time each and returns their number. Leaves out disturbed
+// times, unless most are disturbed.
 static int list_base_times(DipTimesWork *w, int base) {
     const DipTimes *times = w->times;
     const int from = w->first_of[base], end = w->first_of[base + 1];
@@ -58,8 +59,7 @@ static int list_base_times(DipTimesWork *w, int base) {
     return count;
 }
 
-// Returns the end of the run of times that begins at `first` and belongs to one frame in one
-// moment.
+// Returns the index after the last cell that has the same frame and moment as cell `first`.
 static int end_of_cell(const DipTimesWork *w, int first, int count) {
     int end = first;
     while (end < count && w->cells[end].moment == w->cells[first].moment &&
@@ -69,8 +69,8 @@ static int end_of_cell(const DipTimesWork *w, int first, int count) {
     return end;
 }
 
-// Joins the times of one frame in one moment to one cell: their median over the visits, after the
-// speed of each visit was taken out.
+// Joins all times of one frame in one moment to one cell. Its time is the median over the visits,
+// from which the speed of each visit was subtracted before.
 static void join_cells(DipTimesWork *w, int count) {
     double *speed = w->rest;   // [visit]
     double *sum = w->of_visit; // [visit]
@@ -100,7 +100,8 @@ static void join_cells(DipTimesWork *w, int count) {
         end = end_of_cell(w, first, count);
         w->cells[cell] = w->cells[first];
         w->cells[cell].log_ms = w->smooth[cell];
-        // More visits make the differences between a moment's frames better known, not its speed.
+        // More visits make only the differences between a moment's frames better known, not the
+        // moment's speed. The weight therefore grows less than the number of visits.
         w->cells[cell].weight = (end - first) / (1.0 + 0.2 * (end - first - 1));
     }
 }
@@ -109,7 +110,8 @@ static double rest_of(const DipTimesWork *w, const DipTimesCell *cell, const dou
     return cell->log_ms - level[cell->frame] - w->speed[cell->moment];
 }
 
-// Weights cells by their distance from the fit: Tukey's biweight of 6 times the typical distance.
+// Sets the trust of each cell by its distance from the fit, with Tukey's biweight: 1 at distance 0,
+// falling to 0 at 6 times the median distance.
 static void trust_cells(DipTimesWork *w, int left_out, const double *level) {
     int count = 0;
     for (int i = 0; i < w->cell_count; i++) {
@@ -126,8 +128,9 @@ static void trust_cells(DipTimesWork *w, int left_out, const double *level) {
     }
 }
 
-// Sets the levels of frames, or the speeds of moments, to the weighted means of what `other`, the
-// other of the two, leaves of the times.
+// Sets the levels of frames (is_level), or the speeds of moments, to weighted means: levels to
+// those of log ms - speed, and speeds to those of log ms - level. `other` holds the values that are
+// subtracted. Leaves out the cells of the unit `left_out`.
 static void fit_side(DipTimesWork *w, int left_out, double *to, int count, const double *other,
                      bool is_level) {
     memset(to, 0, (size_t)count * sizeof *to);
@@ -163,8 +166,8 @@ void dip_times_fill_gaps(double *values, int count) {
     }
 }
 
-// Fits log ms = level(frame) + speed(moment) + rest, without the cells of one unit (-1: with all).
-// Levels of frames that have no cell are NAN.
+// Fits log ms = level(frame) + speed(moment) + rest, without the cells of the unit `left_out`; -1
+// leaves out none. Levels of frames that have no cell are NAN.
 static void fit_levels(DipTimesWork *w, int left_out, double *level) {
     const int frames = w->times->frames;
     memset(w->speed, 0, (size_t)w->moment_count * sizeof *w->speed);
@@ -180,10 +183,11 @@ static void fit_levels(DipTimesWork *w, int left_out, double *level) {
     }
 }
 
-// Returns the variance of the noise that the levels of single frames have, beyond the noise that
-// all frames have in common. It shows in how far levels move when a unit is left out. The jackknife
-// of a median is twice too large (Efron 1982, The Jackknife, the Bootstrap and Other Resampling
-// Plans, chapter 3), and a robust fit to few cells is like a median.
+// Returns the variance of the noise in the levels of single frames, without the noise that all
+// frames have in common. Computes it from how far levels move when a unit is left out (the
+// jackknife), and halves the result: for a median, the jackknife's variance is twice too large
+// (Efron 1982, The Jackknife, the Bootstrap and Other Resampling Plans, chapter 3), and a robust
+// fit to few cells is like a median.
 static double noise_of_levels(const DipTimesWork *w) {
     const int frames = w->times->frames, units = w->fit->units;
     double squares = 0.0;
@@ -204,9 +208,9 @@ static double noise_of_levels(const DipTimesWork *w) {
     return 0.5 * squares * (units - 1.0) / units;
 }
 
-// Predicts the level of each frame as the mean of its neighbours: up to `reach` frames on either
-// side, as many on one side as on the other. At the path's ends, the only neighbour predicts.
-// Returns the mean square of how far the predictions miss the levels.
+// Predicts the level of each frame as the mean of its neighbours' levels: up to `reach` frames on
+// either side, as many on one side as on the other. The first and the last frame of the path get
+// the level of their only neighbour. Returns the mean squared difference of predictions and levels.
 static double predict_levels(const double *level, int frames, int reach, double *to) {
     double squares = 0.0;
     for (int f = 0; f < frames; f++) {
@@ -222,7 +226,7 @@ static double predict_levels(const double *level, int frames, int reach, double 
     return squares;
 }
 
-// Returns how many neighbours on either side predict the levels best.
+// Returns the number of neighbours on either side that predicts the levels best.
 static int choose_reach(DipTimesWork *w, const double *level) {
     int best = 1;
     double least = INFINITY;
@@ -236,14 +240,14 @@ static int choose_reach(DipTimesWork *w, const double *level) {
     return best;
 }
 
-// Joins each level with what its neighbours predict, each weighted by the inverse of its variance.
-// A prediction misses because the neighbours are noisy and because the path changes. Both show in
-// how far predictions miss the levels, which were timed in other rounds. `noise` is the variance of
-// the levels' noise. Returns how much greater the variance of the true levels is than that of the
-// joined ones.
+// Replaces each level by the weighted mean of the level and the prediction from its neighbours. The
+// weights are the inverse variances of the two. `noise` is the variance of the levels' noise. A
+// prediction is wrong because the neighbours are noisy and because the levels change along the
+// path; its variance is estimated as the mean squared difference from the levels less `noise`.
+// Returns by how much the variance of the true levels exceeds that of the new levels.
 static double join_neighbours(DipTimesWork *w, int reach, double noise, double *level) {
     const int frames = w->times->frames;
-    if (frames < 3 || !(noise > 0.0)) { // Nothing tells how noisy the levels are.
+    if (frames < 3 || !(noise > 0.0)) { // It is not known how noisy the levels are.
         return 0.0;
     }
     const double squares = predict_levels(level, frames, reach, w->time);
@@ -266,8 +270,8 @@ static double deviation(const double *values, int count) {
     return sqrt(squares / (count - 1));
 }
 
-// Returns how much slower than their levels the base's frames were in a round: the median of the
-// logarithms; NAN if the round has none of these frames.
+// Returns how much slower than their levels the base's frames were in a round: the median of log ms
+// - level. Returns NAN if the round has no frames of the base.
 static double speed_of_round(DipTimesWork *w, int base, int round, const double *level) {
     int count = 0;
     for (int i = w->first_of[base]; i < w->first_of[base + 1]; i++) {
@@ -279,8 +283,9 @@ static double speed_of_round(DipTimesWork *w, int base, int round, const double 
     return count > 0 ? dip_median(w->logs, count) : NAN;
 }
 
-// Finds the speeds of the rounds and relates the levels to the usual speed, their median. Finds
-// from the starts, or from groups of successive rounds, how far off the levels' mean can be.
+// Computes the speeds of the rounds. Adds their median, the usual speed, to all levels. Computes
+// the error of the levels' mean from how much the speeds differ between the starts, or between
+// groups of successive rounds if there is only one start.
 static void judge_speeds(DipTimesWork *w, int b) {
     const DipTimes *times = w->times;
     DipTimesBase *base = &w->fit->bases[b];

@@ -1,4 +1,5 @@
-// Starts another program and talks with it through pipes.
+// Starts another program, sends it requests for frames and reads its answers through pipes. Also
+// holds the child's side, which answers.
 #include "app/measure/timing/child.h"
 
 #include "app/measure/timing/thread_use.h"
@@ -21,11 +22,11 @@ enum { LINE_SIZE = 1024 };
 extern char **environ;
 
 struct DipChild {
-    DipChildDef def; // Its texts are borrowed.
-    pid_t pid;       // 0 if there is no process.
-    FILE *to;
-    FILE *from;
-    DipThreadWatch *watch; // NULL if the machine does not tell.
+    DipChildDef def;       // Its texts are borrowed.
+    pid_t pid;             // 0 if there is no process.
+    FILE *to;              // The child's standard input.
+    FILE *from;            // The child's standard output.
+    DipThreadWatch *watch; // NULL if the system does not tell the threads' times.
 };
 
 // --- starting ----------------------------------------------------------------------------------
@@ -160,8 +161,8 @@ void dip_child_stop(DipChild **child_pointer, bool at_once) {
 
 // --- asking ------------------------------------------------------------------------------------
 
-// Writes how the threads of the child spent the time of a frame. timed->wait is in milliseconds for
-// now; NAN if it is not known.
+// Writes how long the threads ran and waited during a frame. timed->wait is in milliseconds here,
+// and the caller divides it by the frame's time; it is NAN if it is not known.
 static void set_use(DipTimed *timed, const DipThreadUse *before, const DipThreadUse *after) {
     timed->wait = after->has_wait ? 1e-6 * (double)(after->wait_ns - before->wait_ns) : NAN;
     timed->cpu_ms = 1e-6 * (double)(after->cpu_ns - before->cpu_ns);
@@ -211,8 +212,9 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
         return false;
     }
     const DipThreadUse after = dip_thread_watch_read(child->watch);
-    // Newer builds answer how long their threads waited. For older ones, the watch's figures stand,
-    // which include the wait until the child reads the request.
+    // Newer builds answer how long their threads waited, which replaces these values. For older
+    // builds, the watch's values are used, although they include the wait until the child reads the
+    // request.
     set_use(timed, &before, &after);
     char *rest = NULL;
     for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {

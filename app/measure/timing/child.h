@@ -1,10 +1,11 @@
-// Times frames in another process: another build of this program, or this one started anew. The
-// process runs as a child, `PROGRAM ... --serve`, and is controlled through two pipes.
+// Times frames in another process, which runs another build of this program or this program again.
+// The process is a child, started as `PROGRAM ... --serve` and controlled through two pipes.
 //
 // The protocol consists of lines of text. The child first sends the greeting "diptych-WHAT 1
-// COMBINATIONS FRAMES". It answers each request for a frame with "total_ms=1.5 geometry_ms=...
-// hash=...", or writes an error to standard error and ends. Unknown names are ignored, so that
-// builds with different stages can be compared.
+// COMBINATIONS FRAMES": the command that it runs, the version of the protocol, the number of
+// combinations of settings and the number of frames. It answers each request for a frame with
+// "total_ms=1.5 geometry_ms=... hash=...", or writes an error to standard error and ends. Unknown
+// names are ignored, so that builds with different stages can be compared.
 #ifndef DIP_APP_MEASURE_TIMING_CHILD_H
 #define DIP_APP_MEASURE_TIMING_CHILD_H
 
@@ -18,36 +19,37 @@ extern "C" {
 
 typedef struct DipChild DipChild;
 
-// Texts are borrowed while the child lives.
+// Describes a child. Texts are borrowed until dip_child_stop.
 typedef struct DipChildDef {
     const char *program; // File to run.
-    char *const *argv;   // Its command line; argv[0] is replaced, and --serve is added.
+    char *const *argv;   // Arguments of the file. argv[0] is replaced, and --serve is added.
     int argc;
-    const char *what; // The command: "bench".
-    int count;        // Combinations that the greeting must state.
-    int frames;       // Frames that the greeting must state.
-    const char *key;  // The key of errors.
+    const char *what; // The command that the greeting must name, such as "bench".
+    int count;        // Number of combinations that the greeting must state.
+    int frames;       // Number of frames that the greeting must state.
+    const char *key;  // Key of the errors (DipError).
 } DipChildDef;
 
-// Starts a program and its watch. Fails if the program cannot be started or does not send the
-// expected greeting.
+// Starts a program and a watch of its threads (thread_use.h). Fails if the program cannot be
+// started or does not send the expected greeting. Ignores the signal SIGPIPE from now on.
 DIP_API DipChild *dip_child_start(const DipChildDef *def, DipError *err);
 
-// Returns the number of the child's threads; 0 if the machine does not tell.
+// Returns the number of the child's threads; 0 if the system does not tell it.
 DIP_API int dip_child_thread_count(const DipChild *child);
 
-// Closes the child's standard input and waits until the child has ended. at_once: sends the child a
-// signal to end first. Its answer is then no longer read, so it must not complain that it cannot
-// write one.
+// Closes the child's standard input and waits until the child has ended. If at_once is true, first
+// sends the child SIGTERM, so that it ends silently instead of reporting that nobody reads its
+// answer.
 DIP_API void dip_child_stop(DipChild **child, bool at_once);
 
-// Asks for a frame. Writes the frame's time, the parts of this time, and how long the child's
-// threads waited (NAN if the machine does not tell).
+// Asks the child for a frame with a line of text and reads the answer. Writes the frame's time, the
+// times of its stages, and how long the child's threads waited (NAN if the system does not tell).
+// Fails if the child has ended or answers without a time.
 DIP_API bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample,
                             DipTimed *timed, DipError *err);
 
-// Runs in the child: answers requests on standard input until standard input is closed. `draw` gets
-// the line of a request.
+// Runs in the child. Sends the greeting, then answers the requests on standard input until it is
+// closed. `draw` gets the line of a request and draws the frame. Fails with the error of `draw`.
 DIP_API bool dip_child_serve(const char *what, int count, int frames,
                              bool (*draw)(void *context, const char *request,
                                           DipBenchSample *sample, DipError *err),

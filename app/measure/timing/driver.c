@@ -1,4 +1,5 @@
-// Plans starts and rounds as lists of frames. Each step draws the next frame of a list.
+// Plans each start and each round of a measurement (driver.h explains these words) as a list of
+// frames. Each step draws the next frame of the list.
 #include "app/measure/timing/driver.h"
 
 #include "app/measure/stats/random.h"
@@ -14,7 +15,7 @@
 enum { SETTLE_RUNS = 5, SETTLE_TRIES = 20 };
 static const double settle_tolerance = 0.02;
 
-// A frame of a plan.
+// A frame to draw, in a plan.
 typedef struct Draw {
     DipDriverPhase phase;
     int subject;
@@ -23,60 +24,62 @@ typedef struct Draw {
     bool begins_visit;
 } Draw;
 
+// A block of a round: a few subjects and their base.
 typedef struct Block {
     int base;
     int first;       // Index of its first subject in DipDriver.members.
-    int count;       // Subjects besides the base.
-    int number;      // Differs between the blocks of a round and those of its repetition.
-    int nth_of_base; // The round has of_base blocks of this base, and this is the nth of them.
-    int of_base;
+    int count;       // Number of subjects besides the base.
+    int number;      // Unlike that of any other block of the round or of the round's repetition.
+    int nth_of_base; // Index of this block among those of its base in the round.
+    int of_base;     // Number of blocks of this base in the round.
 } Block;
 
 // What the next step does.
 typedef enum Stage { PLAN, WARM_UP, SETTLE, DRAW, DONE, FAILED } Stage;
 
 struct DipDriver {
-    DipDriverDef def; // Its starts and rounds change if starts take long.
+    DipDriverDef def; // `starts` and `rounds` change if starts take long (most_start).
     DipDriverCalls calls;
-    DipThreadWatch *watch; // NULL if the caller has its own, or if the machine does not tell.
-    int *base_of;          // Owned; the other arrays of numbers lie in the same memory.
-    int *deal; // [copy * frames + frame]: the round that draws it; NULL if every round draws all
-               // frames.
+    DipThreadWatch *watch; // NULL if the caller has a function for it, or if the machine does not
+                           // tell how long threads wait.
+    int *base_of;          // Owned; the other arrays of int lie in the same memory.
+    int *deal; // [copy * frames + frame]: the round that draws the frame (dip_rounds_deal); NULL if
+               // every round draws all frames.
     Stage stage;
-    int start; // The start that has begun; -1: none.
-    // The round that is drawn next, counted over all starts. Rounds that repeat the others follow
-    // them.
+    int start; // The last start that has begun; -1 if there is none.
+    // The round that is drawn next, counted over all starts. From round_count on, the rounds are
+    // repetitions of the rounds from 0 on.
     int round;
-    bool starts_are_fixed;
+    bool starts_are_fixed; // True once the number of starts cannot change any more.
 
-    // The plan of the start or of the round.
+    // The plan of the start or round that is being drawn.
     Draw *plan;
     int plan_count, plan_room;
     bool plan_failed; // Memory ran out.
-    int next;         // Index of the draw of the next step.
+    int next;         // Index in `plan` of the frame that the next step draws.
     int *members;     // Subjects of the round, grouped by base.
-    Block *blocks;    // In the order in which they are drawn.
+    Block *blocks;    // Blocks of the round, in the order in which they are drawn.
     int *order;       // Scratch for shuffling.
-    int *frames;      // Frames of the round, then those that only the base draws.
-    int frame_count, all_frame_count;
-    int *is_needed; // [subject]: 1 if the round draws it.
-    int *score;     // [subject]: undisturbed frames less three times the disturbed ones.
+    int *frames;      // First the frames that all subjects draw, then those that only bases draw.
+    int frame_count, all_frame_count; // Number of the first, and of both.
+    int *is_needed;                   // [subject]: 1 if the round draws the subject.
+    int *score; // [subject]: undisturbed frames less three times the disturbed ones.
 
     DipTimed *fresh; // Frames of the incomplete round.
     int fresh_count;
     DipTimed *log;     // Frames of all complete rounds.
-    double *base_wait; // [log]: how long the base's frame beside it waited.
+    double *base_wait; // [index in `log`]: `wait` of the base's frame in the same block.
     int log_count;
-    int *log_begin; // [round]: index of its first frame in the log.
+    int *log_begin; // [round]: index in `log` of the round's first frame.
 
     double settle_ms[SETTLE_RUNS];
-    double settle_last_ms; // Median of the runs before.
+    double settle_last_ms; // Median of the SETTLE_RUNS times before the current ones.
     int settle_runs;
 
     int64_t origin_ns, visit_ns, start_begin_ns, round_begin_ns, start_ns;
     bool has_begun;
-    int64_t drawn;                  // Frames of starts and rounds so far.
-    int64_t left;                   // Frames of rounds that are still to come.
+    int64_t drawn;                  // As in DipDriverProgress.
+    int64_t left;                   // Number of frames of rounds that are still to be drawn.
     double wait_ms, cpu_ms, run_ms; // Sums over all timed frames.
     bool has_wait, settled;
     int repeated;
@@ -94,7 +97,8 @@ static bool is_base(const DipDriver *d, int subject) {
     return d->base_of[subject] == subject;
 }
 
-// Returns the round whose frames the driver's round draws, for the first time or again.
+// Returns the round that the driver draws now. For a repetition, this is the round that is
+// repeated.
 static int first_round_of(const DipDriver *d) {
     return d->round % round_count(d);
 }
@@ -104,7 +108,7 @@ static int round_of(const DipDriver *d, const DipTimed *timed) {
     return timed->start * d->def.rounds + timed->round;
 }
 
-// Returns whether the driver's round repeats another one.
+// Returns whether the round that the driver draws now repeats an earlier one.
 static bool repeats(const DipDriver *d) {
     return d->round >= round_count(d);
 }
@@ -156,8 +160,8 @@ static void list_frames(DipDriver *d, int round) {
     d->frame_count = copies == 1 ? d->all_frame_count : d->frame_count;
 }
 
-// Finds the subjects that the round draws. A repetition draws those with a disturbed frame in it if
-// less than three quarters of their frames are undisturbed.
+// Finds the subjects that the round draws. A repetition draws a subject if it has a disturbed frame
+// in the round and if less than three quarters of all its frames are undisturbed.
 static void find_needed(DipDriver *d, int round) {
     for (int s = 0; s < d->def.subjects; s++) {
         d->is_needed[s] = !repeats(d);
@@ -174,7 +178,8 @@ static void find_needed(DipDriver *d, int round) {
     }
 }
 
-// Lists the base's subjects that the round draws, in random order, and cuts them into blocks.
+// Appends to d->members, from index `first` on, the subjects of the base that the round draws, in
+// random order. Divides them into blocks. Returns the index after the last subject.
 static int add_blocks(DipDriver *d, int base, int first, int *block_count, uint64_t *random) {
     int count = 0;
     for (int s = 0; s < d->def.subjects; s++) {
@@ -183,7 +188,7 @@ static int add_blocks(DipDriver *d, int base, int first, int *block_count, uint6
         }
     }
     dip_random_shuffle(random, d->members + first, count);
-    const bool alone = count == 0 && !repeats(d); // A base that nothing is compared with.
+    const bool alone = count == 0 && !repeats(d); // No subject is compared with this base.
     for (int at = 0; at < count || (alone && at == 0); at += d->def.block_subjects) {
         const int rest = count - at;
         const int size = rest < d->def.block_subjects ? rest : d->def.block_subjects;
@@ -201,7 +206,7 @@ static void plan_visit(DipDriver *d, int subject, const Block *block) {
     for (int f = 0; f < d->frame_count; f++) {
         add_draw(d, DIP_DRIVER_TIMED, subject, block->number, d->frames[f], false);
     }
-    // The blocks of a base share the frames that only the base draws.
+    // The frames that only the base draws are divided evenly among its blocks.
     for (int f = d->frame_count + block->nth_of_base; is_base(d, subject) && f < d->all_frame_count;
          f += block->of_base) {
         add_draw(d, DIP_DRIVER_TIMED, subject, block->number, d->frames[f], false);
@@ -234,7 +239,7 @@ static void shuffle_blocks(DipDriver *d, int count, uint64_t *random) {
     }
 }
 
-// Numbers the blocks, and counts those of each base.
+// Numbers the blocks, and counts the blocks of each base.
 static void number_blocks(DipDriver *d, int count) {
     for (int b = 0; b < count; b++) {
         Block *block = &d->blocks[b];
@@ -247,7 +252,8 @@ static void number_blocks(DipDriver *d, int count) {
     }
 }
 
-// Each round has a seed of its own, so that its order does not depend on which rounds were known.
+// Plans a round. Each round has a seed of its own, so that its order is the same if earlier rounds
+// were resumed instead of drawn.
 static bool plan_round(DipDriver *d) {
     const int round = first_round_of(d);
     uint64_t random = d->def.seed * UINT64_C(0x9e3779b97f4a7c15) +
@@ -276,8 +282,8 @@ static void add_to_log(DipDriver *d, const DipTimed *timed, double base_wait) {
     d->base_wait[d->log_count++] = base_wait;
 }
 
-// Returns the index of the base's fresh frame that was drawn beside fresh frame `at`. A base's
-// frame counts as beside itself.
+// Returns the index in d->fresh of the base's frame in the same block as frame `at`. For a frame of
+// a base, this is `at` itself.
 static int find_beside(const DipDriver *d, int at) {
     const DipTimed *timed = &d->fresh[at];
     const int base = d->base_of[timed->subject];
@@ -299,8 +305,8 @@ static int find_in_log(const DipDriver *d, const DipTimed *timed) {
     return i;
 }
 
-// Returns whether a base's frame of a repetition is in the log already, because another subject's
-// frame beside it was kept.
+// Returns whether a base's frame of a repetition is in the log already. It is if the new time of
+// another subject in the same block was kept.
 static bool is_in_log(const DipDriver *d, const DipTimed *timed) {
     bool found = false;
     for (int i = d->log_begin[round_count(d)]; i < d->log_count && !found; i++) {
@@ -311,8 +317,8 @@ static bool is_in_log(const DipDriver *d, const DipTimed *timed) {
     return found;
 }
 
-// Replaces disturbed frames of the log by those of a repetition that waited less. Adds the base's
-// frames beside them to the log.
+// Replaces disturbed frames in the log by the frames of a repetition whose threads waited less.
+// Adds the base's frames of the same blocks to the log.
 static void keep_better(DipDriver *d) {
     for (int at = 0; at < d->fresh_count; at++) {
         const DipTimed *timed = &d->fresh[at];
@@ -363,8 +369,8 @@ static bool use_two_starts(DipDriver *d) {
     return true;
 }
 
-// Decides on the number of starts after the first round, which belongs to the first start in any
-// case.
+// Decides on the number of starts (most_start). This happens after the first round, which belongs
+// to the first start in any case.
 static void fix_starts(DipDriver *d, int64_t round_ns) {
     const double room_ns = d->def.most_start * (double)round_ns * d->def.rounds;
     if (!d->starts_are_fixed && d->def.starts > 2 && d->def.most_start > 0.0 && d->start == 0 &&
@@ -374,7 +380,7 @@ static void fix_starts(DipDriver *d, int64_t round_ns) {
     d->starts_are_fixed = true;
 }
 
-// Returns whether a known frame is the one that the round plans to draw.
+// Returns whether a frame given to dip_driver_resume is the one that the plan of the round has.
 static bool is_of_draw(const DipDriver *d, const DipTimed *timed, const Draw *draw) {
     return timed->subject == draw->subject && timed->block == draw->block &&
            timed->frame == draw->frame && round_of(d, timed) == first_round_of(d) &&
@@ -384,7 +390,7 @@ static bool is_of_draw(const DipDriver *d, const DipTimed *timed, const Draw *dr
 
 bool dip_driver_resume(DipDriver *d, const DipTimed *known, int count) {
     DIP_ASSERT(d->stage == PLAN && d->start < 0);
-    // A first start with more rounds shows that there are only two.
+    // If the first start has more rounds than defined, the earlier measurement used two starts.
     for (int i = 0; i < count && !d->starts_are_fixed; i++) {
         d->starts_are_fixed =
             known[i].start == 0 && known[i].round >= d->def.rounds && use_two_starts(d);
@@ -431,7 +437,7 @@ static void rest(int64_t ns) {
     nanosleep(&time, NULL);
 }
 
-// Draws a frame. *timed gets its times.
+// Draws a frame and writes its times to *timed.
 static bool draw_frame(DipDriver *d, const Draw *draw, DipTimed *timed, DipError *err) {
     const bool in_round = draw->phase >= DIP_DRIVER_UNTIMED;
     const int round = first_round_of(d);
@@ -448,7 +454,7 @@ static bool draw_frame(DipDriver *d, const Draw *draw, DipTimed *timed, DipError
     const DipThreadUse before = thread_use(d);
     const int64_t begin_ns = now_ns(d);
     if (!d->has_begun) {
-        d->origin_ns += begin_ns; // It was 0, or less by the time that the known rounds took.
+        d->origin_ns += begin_ns; // It was 0, or minus the duration of the resumed rounds.
         d->has_begun = true;
     }
     d->visit_ns = draw->begins_visit ? begin_ns : d->visit_ns;
@@ -521,7 +527,7 @@ static bool begin_round(DipDriver *d, DipError *err) {
         if (!plan_round(d)) {
             return out_of_memory(err);
         }
-        d->round += d->plan_count == 0; // A repetition for which there is no need.
+        d->round += d->plan_count == 0; // Nothing is disturbed in this round.
     } while (d->plan_count == 0);
     const int start = !repeats(d)     ? d->round / d->def.rounds
                       : d->start >= 0 ? d->start
@@ -545,7 +551,8 @@ static bool complete_round(DipDriver *d, DipError *err) {
     return !d->calls.keep || d->calls.keep(d->calls.context, d->fresh, d->fresh_count, err);
 }
 
-// Plans and draws. *step stays as it is unless a round is complete or all work is done.
+// Plans what comes next if the plan is done, and draws a frame. Writes to *step only if a round is
+// complete or all work is done.
 static bool take_step(DipDriver *d, DipDriverStep *step, DipError *err) {
     while (d->stage == PLAN || (d->stage == WARM_UP && d->next == d->plan_count)) {
         if (d->stage == WARM_UP) {

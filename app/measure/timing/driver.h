@@ -1,28 +1,28 @@
-// The only loop that times frames: many subjects, each timed next to its base, a frame per step.
+// Times frames. Every command that times frames uses this loop.
 //
 // A subject is anything that draws the frames of a path, for example the renderer with one set of
-// quality settings. Each subject has a base, another subject with which it is compared; a base is
-// its own base. Subjects without anything to compare with are all bases. A measurement runs these
-// phases:
-//   1. Start. Where memory lies and which cores the threads get makes a whole start faster or
-//      slower, so a measurement may have several starts, each with as many rounds. The caller may
-//      start a new process for each. When a start begins, each subject draws its first frames
-//      untimed.
-//   2. Settling, once. Subject 0 draws frame 0 until two successive medians of five times agree
-//      within 2 %, but for at most 20 medians.
-//   3. Rounds. Frames are dealt to rounds at random (app/measure/stats/rounds.h), or each round
-//      draws them all. A round puts the subjects of a base into blocks: a few subjects and the
-//      base, in an order that is shuffled from the seed. The blocks of all bases are shuffled, too.
-//      A block visits each of its subjects once. A visit draws the round's frames of one subject in
-//      order and times each; before them it draws the first one untimed, because the previous
-//      subject has used the caches.
-//   4. Repetition. A frame is disturbed if its threads, or those of its base, waited too long for a
-//      core. As long as a subject has fewer than three quarters of its frames undisturbed, the
-//      blocks of its disturbed rounds are drawn again, each round at most once. A frame's new times
-//      are kept if they waited less.
+// quality settings. Each subject is compared with another one, its base. A base is its own base, as
+// is a subject that is not compared with any other. A measurement has these phases:
+//   1. Start. A start is a new process, or just a new beginning in this one. Where memory lies and
+//      which cores the threads get makes a whole start faster or slower, so a measurement may have
+//      several starts, each with the same number of rounds. When a start begins, each subject draws
+//      its first frames untimed.
+//   2. Settling, once. Subject 0 draws frame 0 again and again. The median of each five times is
+//      taken. The phase ends when two successive medians agree within 2 %, or after 20 medians.
+//   3. Rounds. A round draws some or all frames of the path with every subject. Frames are dealt to
+//      rounds at random (app/measure/stats/rounds.h), or each round draws all of them. In each
+//      round, the subjects of a base are divided at random into blocks. A block consists of a few
+//      subjects and the base, in random order. A visit draws the round's frames of one subject in
+//      path order and times each. Before them, it draws the first frame untimed, because the
+//      previous subject has used the caches. A block visits each of its subjects once.
+//   4. Repetition. A frame is disturbed if its threads, or those that drew the same frame of the
+//      base, waited too long for a core. While fewer than three quarters of a subject's frames are
+//      undisturbed, the driver draws the subject again in the rounds that have disturbed frames,
+//      next to its base, each round at most once. It keeps the new time of a frame if its threads
+//      waited less.
 //
-// A driver draws one frame per step, so the preview can stop between any two. Commands step until
-// the driver is done.
+// A driver draws one frame per step, so the preview can stop between any two frames. Commands step
+// until the driver is done.
 #ifndef DIP_APP_MEASURE_TIMING_DRIVER_H
 #define DIP_APP_MEASURE_TIMING_DRIVER_H
 
@@ -38,37 +38,41 @@
 extern "C" {
 #endif
 
+// Describes a measurement.
 typedef struct DipDriverDef {
     int subjects;
-    const int *base_of; // [subject]; borrowed. NULL: every subject is a base.
-    int block_subjects; // Subjects of a block besides the base, at least 1.
+    const int *base_of; // [subject]: index of its base. Borrowed. If NULL, all subjects are bases.
+    int block_subjects; // Greatest number of subjects in a block besides the base, at least 1.
     int starts;         // At least 1.
     int rounds;         // Rounds of each start, at least 1.
     int frames;         // Frames of the path.
-    // In how many rounds each frame of a base is timed, at most all. Each frame of another subject
-    // is timed in one of these rounds, and `frames` is at least starts * rounds. 0: every round
-    // draws all frames of all subjects.
+    // 0 if every round draws all frames of all subjects. Otherwise frames are dealt to rounds: each
+    // frame of a base is timed in this many rounds (at most starts * rounds), and each frame of
+    // another subject in one of these. `frames` must then be at least starts * rounds.
     int base_copies;
     int warm_frames; // Frames that each subject draws untimed when a start begins.
-    uint64_t seed;   // Equal seeds lead to equal orders.
+    uint64_t seed;   // Seed of all random orders.
     bool settle;     // True to run phase 2.
-    // The visits of a block take turns at every frame, in an order that is shuffled for each frame.
-    // Every frame then follows another subject's, so none finds warm caches, and none is untimed.
+    // True if the subjects of a block take turns after every frame, in an order that is shuffled
+    // for each frame. Each frame then follows a frame of another subject, so that none finds warm
+    // caches. A visit then has one frame, and no frame is drawn untimed before it.
     bool in_turn;
-    int64_t rest_ns; // Rest before each timed frame, in which another process' threads fall asleep.
-    // A frame is disturbed if its threads waited for more than this share of its time, summed over
-    // the threads. 0: no frame is disturbed.
+    int64_t
+        rest_ns; // Pause before each timed frame, so that threads of other processes fall asleep.
+    // A frame is disturbed if its threads together waited for a core for more than this share of
+    // the frame's time. If it is 0, no frame counts as disturbed.
     double most_wait;
-    // If a start takes more than this share of its rounds' time, as the first start and round show,
-    // there are only 2 starts, with as many rounds in all. 0: there are always `starts`.
+    // If the first start takes more than this share of the time of its rounds (estimated from the
+    // first round), there are only 2 starts with the same total number of rounds. If it is 0, there
+    // are always `starts`.
     double most_start;
 } DipDriverDef;
 
 typedef enum DipDriverPhase {
-    DIP_DRIVER_WARM_UP, // The start has begun.
-    DIP_DRIVER_SETTLE,  // Phase 2.
-    DIP_DRIVER_UNTIMED, // The first frame of a visit.
-    DIP_DRIVER_TIMED
+    DIP_DRIVER_WARM_UP, // A first frame of a start, untimed.
+    DIP_DRIVER_SETTLE,  // A frame of phase 2.
+    DIP_DRIVER_UNTIMED, // The untimed frame before a visit.
+    DIP_DRIVER_TIMED    // A timed frame of a round.
 } DipDriverPhase;
 
 // A frame to draw.
@@ -76,26 +80,28 @@ typedef struct DipDriverTurn {
     DipDriverPhase phase;
     int subject;
     int start;
-    int round; // Index of the round within its start; -1 before the rounds.
+    int round; // Index of the round within its start; -1 in the phases WARM_UP and SETTLE.
     int frame;
 } DipDriverTurn;
 
 // Functions of the caller. Those that return false, with *err filled, end the measurement.
 typedef struct DipDriverCalls {
-    // Draws a frame. Writes timed->parts_ms if parts of the time are known. A frame that is drawn
-    // in another process also has ms, wait, cpu_ms and switches written; wait is NAN if the machine
-    // does not tell. ms stays NAN for frames of this process, whose times the driver takes itself.
+    // Draws a frame. Writes timed->parts_ms if the times of the parts are known. If another process
+    // draws the frame, the function also writes ms, wait, cpu_ms and switches; wait is NAN if the
+    // machine does not tell it. If this process draws the frame, the function leaves ms NAN, and
+    // the driver takes the time itself.
     bool (*draw)(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err);
 
-    // Begins a start, for example a new process. NULL: all starts are this process.
+    // Begins a start, for example by starting a process. May be NULL.
     bool (*start)(void *context, int start, DipError *err);
 
-    // Receives the frames of a complete round, for a journal. NULL: nobody wants them.
+    // Receives the timed frames of each round when it is complete, for example to write them to a
+    // journal. May be NULL.
     bool (*keep)(void *context, const DipTimed *timed, int count, DipError *err);
 
-    int64_t (*clock_ns)(void *context);        // NULL: the monotonic clock.
-    DipThreadUse (*thread_use)(void *context); // NULL: a watch of this process' threads.
-    void *context;
+    int64_t (*clock_ns)(void *context);        // If NULL, the driver reads the monotonic clock.
+    DipThreadUse (*thread_use)(void *context); // If NULL, the driver watches this process' threads.
+    void *context;                             // Passed to the functions.
 } DipDriverCalls;
 
 // Not thread-safe. Two drivers may work at the same time, but they disturb each other's times.
@@ -108,42 +114,47 @@ typedef enum DipDriverStep {
     DIP_DRIVER_FAILED
 } DipDriverStep;
 
-// Makes a driver. Call it after the threads that draw exist: it watches how long they wait. Fails
-// with DIP_ERROR_MEMORY.
+// Makes a driver, which watches the threads of this process. The threads that draw must exist
+// before. Fails with DIP_ERROR_MEMORY.
 DIP_API DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCalls *calls,
                                      DipError *err);
 DIP_API void dip_driver_destroy(DipDriver **driver);
 
-// Takes the frames that `keep` received from a driver with the same definition, in the same order,
-// before the first step. Returns false from the first round on that is not a round of this
-// definition, which is drawn like all later ones, or if memory runs out.
+// Continues an earlier measurement with the same definition. `known` holds the frames that its
+// function `keep` received, in the same order. Call this before the first step. Returns false if
+// memory runs out, or if some frames are not those of a complete round of this definition; the
+// driver then draws this round and all later ones.
 DIP_API bool dip_driver_resume(DipDriver *driver, const DipTimed *known, int count);
 
-// Draws at most one frame. Fails with DIP_ERROR_MEMORY and as the caller's functions do.
+// Draws at most one frame. Fails with DIP_ERROR_MEMORY, or with the error of a function of the
+// caller.
 DIP_API DipDriverStep dip_driver_step(DipDriver *driver, DipError *err);
 
-// Forgets the frames of the incomplete round, which is drawn anew from its beginning.
+// Forgets the frames of the incomplete round. The next step begins this round anew.
 DIP_API void dip_driver_drop_round(DipDriver *driver);
 
 // Returns the frames of all complete rounds. Borrowed until the next step.
 DIP_API DipTimes dip_driver_times(const DipDriver *driver);
 
+// How much of a measurement is done. Frames of settling and of repetitions do not count, nor do
+// frames that dip_driver_resume took.
 typedef struct DipDriverProgress {
-    int64_t drawn; // Frames of starts and rounds so far, without those that were resumed.
-    int64_t total; // The same and all that are to come, but without settling and repetitions.
-    int rounds;    // Complete rounds of all starts, without repetitions.
-    int searched;  // Rounds that were searched for disturbed frames to draw again.
-    int all_rounds;
+    int64_t drawn;  // Number of frames drawn so far.
+    int64_t total;  // Number of frames drawn so far and still to be drawn.
+    int rounds;     // Number of complete rounds of all starts.
+    int searched;   // Number of rounds whose disturbed frames were drawn again, if there were any.
+    int all_rounds; // Number of all rounds of all starts.
 } DipDriverProgress;
 
 DIP_API DipDriverProgress dip_driver_progress(const DipDriver *driver);
 
 // What the measurement tells about the machine.
 typedef struct DipDriverMachine {
-    bool settled;  // The time was steady before the rounds; true if settling was not asked for.
-    bool has_wait; // The machine tells how long threads wait. If not, no frame is disturbed, and
-                   // wait is 1 - processor time / (time * threads).
-    double wait;   // Waiting time of all timed frames / (their time * threads).
+    bool settled;  // True if the times settled in phase 2, or if there was no such phase.
+    bool has_wait; // True if the machine tells how long threads wait for a core. If it is false, no
+                   // frame counts as disturbed.
+    double wait;   // Sum of the waiting times of all frames / (sum of their times * threads). If
+                   // has_wait is false, 1 - processor time / (time * threads) stands in for it.
     int repeated;  // Number of frames that were drawn again.
 } DipDriverMachine;
 

@@ -1,4 +1,4 @@
-// Takes the times and counters of a frame.
+// Copies the times and counters of a frame into a sample, and hashes the picture.
 #include "app/measure/timing/sample.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-// A sample is what one drawing of a frame gives: times of stages, counters, and the hash of the
-// picture.
+// Declares the sample: the times of the renderer's stages, the work counters and the hash of the
+// picture that are taken when a frame is drawn once.
 #ifndef DIP_APP_MEASURE_TIMING_SAMPLE_H
 #define DIP_APP_MEASURE_TIMING_SAMPLE_H
 
@@ -31,16 +31,17 @@ enum {
 
 extern DIP_API const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
 
-// The measurements of one drawing of a frame.
+// A sample of one drawing of a frame.
 typedef struct DipBenchSample {
-    double ms[DIP_BENCH_STAGE_COUNT];
+    double ms[DIP_BENCH_STAGE_COUNT]; // [DipBenchStage]
     DipCounters counters;
     char hash[33]; // Hash of the pixels, or "" if no hash was requested.
 } DipBenchSample;
 
+// Fills in the sample of a frame that was just drawn. `hash` says whether to compute the hash.
 DIP_API void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
 
-// Writes the sample's time, and those of its stages as the parts of the time.
+// Writes the sample's total time to timed->ms and the times of its stages to timed->parts_ms.
 DIP_API void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed);
 
 // Adds a frame's counters to sums in the order of DIP_COUNTER_LIST. All sums are whole numbers, so

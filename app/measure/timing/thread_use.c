@@ -1,5 +1,5 @@
-// Reads /proc/PID/task/*/schedstat and getrusage.
-#define _DEFAULT_SOURCE 1 // for getrusage's ru_nivcsw with every C library
+// Reads the processor times of threads from /proc/PID/task/*/schedstat and from getrusage.
+#define _DEFAULT_SOURCE 1 // Declares getrusage's ru_nivcsw with every C library.
 #include "app/measure/timing/thread_use.h"
 
 #include <dirent.h>
@@ -46,8 +46,8 @@ static bool add_thread(DipThreadWatch *watch, const char *folder, const char *th
     return read_thread(file, &sum);
 }
 
-// Returns whether a thread has less priority than the calling one. Such a thread draws no timed
-// frame, so how long it waits tells nothing about a frame.
+// Returns whether a thread has a lower priority than the calling one. Such a thread draws no timed
+// frame, so its waiting time says nothing about a frame.
 static bool is_background(const char *thread) {
     return getpriority(PRIO_PROCESS, (id_t)strtoul(thread, NULL, 10)) >
            getpriority(PRIO_PROCESS, 0);

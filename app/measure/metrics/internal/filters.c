@@ -1,5 +1,5 @@
-// Convolves planes with kernels, and fills the kernels of FLIP: the eye's contrast sensitivity, and
-// the detectors of edges and points.
+// Convolves planes with kernels, and computes the kernels of FLIP: the eye's contrast sensitivity,
+// and the detectors of edges and points.
 #include "app/measure/metrics/internal/filters.h"
 
 #include <math.h>
@@ -7,8 +7,9 @@
 
 // --- convolving ----------------------------------------------------------------------------------
 
-// Adds weights[k] * rows[k] to out for every k, in order, in loops over whole rows that the
-// compiler turns into vector code. Handles four rows at a time, so that sums stay in registers.
+// Adds weights[k] * rows[k] to out for every k, in order. The loops run over whole rows, so that
+// the compiler turns them into vector code. Handles four rows at a time, so that sums stay in
+// registers.
 static void add_taps(const float *const *rows, const float *weights, int count, int width,
                      float *restrict out) {
     int k = 0;
@@ -62,8 +63,9 @@ void dip_convolve_columns(const DipKernel1D *kernel, const float *in, int width,
 
 static const double pi = 3.14159265358979323846;
 
-// Fills a kernel with factor * exp(-pi^2 x^2 / b), x in degrees: the spatial form of a Gaussian
-// contrast sensitivity. `factor` includes the a * sqrt(pi / b) of FLIP's paper (flip.h).
+// Fills a kernel with factor * exp(-pi^2 x^2 / b), where x is in degrees: the spatial form of a
+// Gaussian contrast sensitivity. `factor` includes the a * sqrt(pi / b) of FLIP's paper (flip.h).
+// `ppd` is the number of pixels per degree.
 static void fill_gaussian(DipKernel1D *kernel, int radius, double ppd, double factor, double b) {
     kernel->radius = radius;
     for (int i = -radius; i <= radius; i++) {
@@ -118,7 +120,7 @@ static void normalise_lobes(const double *weights, DipKernel1D *kernel) {
 }
 
 static void make_features(DipFlipKernels *kernels, double ppd) {
-    const double sigma = 0.5 * 0.082 * ppd; // half the width of a visible edge, 0.082 degrees
+    const double sigma = 0.5 * 0.082 * ppd; // Half the width of a visible edge, 0.082 degrees.
     const int radius = (int)ceil(3.0 * sigma);
     double gauss[2 * DIP_KERNEL_MAX_RADIUS + 1];
     double edge[2 * DIP_KERNEL_MAX_RADIUS + 1];
@@ -133,7 +135,7 @@ static void make_features(DipFlipKernels *kernels, double ppd) {
     normalise_lobes(gauss, &kernels->gauss);
     normalise_lobes(edge, &kernels->edge);
     normalise_lobes(point, &kernels->point);
-    kernels->edge.weights[radius] = 0.0f; // the middle weight of a first derivative is 0
+    kernels->edge.weights[radius] = 0.0f; // The middle weight of a first derivative is 0.
 }
 
 DipFlipKernels dip_flip_kernels(double pixels_per_degree) {

@@ -1,5 +1,5 @@
-// Separable filters over planes of floats, and the filters of FLIP for one number of pixels per
-// degree. Thread-safe: no state.
+// Filters planes of floats with separable kernels, and computes the kernels of FLIP (flip.h). All
+// functions are thread-safe.
 #ifndef DIP_APP_MEASURE_METRICS_INTERNAL_FILTERS_H
 #define DIP_APP_MEASURE_METRICS_INTERNAL_FILTERS_H
 
@@ -20,8 +20,8 @@ void dip_convolve_rows(const DipKernel1D *kernel, const float *in, int width, in
 void dip_convolve_columns(const DipKernel1D *kernel, const float *in, int width, int height,
                           float *out);
 
-// All filters are applied along x and along y. They are defined in sections 4.1.1 (contrast
-// sensitivity) and 4.2 (features) of the paper that flip.h names.
+// The kernels of FLIP. Each filter is applied along x and along y. Sections 4.1.1 (contrast
+// sensitivity) and 4.2 (features) of the paper that flip.h names define them.
 typedef struct DipFlipKernels {
     DipKernel1D luma;      // Contrast sensitivity of Y.
     DipKernel1D red_green; // Contrast sensitivity of Cx.
@@ -31,6 +31,8 @@ typedef struct DipFlipKernels {
     DipKernel1D point;     // Second derivative, which finds points and lines.
 } DipFlipKernels;
 
+// Returns the kernels for a resolution in DIP_FLIP_MIN_PIXELS_PER_DEGREE..
+// DIP_FLIP_MAX_PIXELS_PER_DEGREE.
 DipFlipKernels dip_flip_kernels(double pixels_per_degree);
 
 #endif
