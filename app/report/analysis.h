@@ -10,9 +10,10 @@
 
 enum { DIP_COST_MAX_INTERACTIONS = DIP_SETTING_COUNT * (DIP_SETTING_COUNT - 1) / 2 };
 
-// How the last steps of two settings act together. This is a mean over the combinations of the
-// other settings for which four combinations were measured: with neither step, with that of a, with
-// that of b, and with both. Both settings are at their first step where they are not at their last.
+// How the last steps of two settings act together. Four rows that differ only in these settings
+// show it: `neither` has both at their first step; `a` and `b` have only the one setting at its
+// last step; `both` has both at their last step. `flip` and `time` are means over all combinations
+// of the other settings for which these four rows were measured.
 typedef struct DipCostInteraction {
     DipSetting a;
     DipSetting b;

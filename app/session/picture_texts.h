@@ -6,9 +6,12 @@
 //     Time                 "3.25 s", the time that the picture shows
 //     Pose                 "x y z qx qy qz qw", as --pose takes it
 //     Field of view        "55", vertical, in degrees, as --fov takes it
-//     Current settings     "aa=4,...", for each pane in the picture
+//     Current settings     "aa=4,..."
 //     Current size         "640x480", of the drawn frame
 //     Current hash         hash of the drawn frame, as `dump --hash` prints it
+//
+// A picture has the last three texts for each pane that it shows. For the requested pane, their
+// names begin with "Requested".
 #ifndef DIP_APP_SESSION_PICTURE_TEXTS_H
 #define DIP_APP_SESSION_PICTURE_TEXTS_H
 

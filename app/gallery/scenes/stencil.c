@@ -46,7 +46,7 @@ static const DipDrawState outside_object = {
     .keep_depth = true,
     .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_NOT_EQUAL, DIP_STENCIL_KEEP)};
 static const DipDrawState plain_ordered = {.ordered = true};
-// Fill the pixels with one stencil value each. Used for the inset.
+// The states that draw the inset. Each fills the pixels that have one particular stencil value.
 static const DipDrawState fills[] = {
     {.depth_test = DIP_DEPTH_ALWAYS, .stencil = EQUAL(0)},
     {.depth_test = DIP_DEPTH_ALWAYS, .stencil = EQUAL(MIRROR_VALUE)},

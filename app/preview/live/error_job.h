@@ -51,8 +51,8 @@ typedef struct DipErrorJob DipErrorJob;
 
 // Creates a job. It borrows all arguments and sets the reference renderer's time to the time of
 // each still. Through the folder `cache`, it shares the last level of each truth with `diptych
-// cost`. There, scene_hash (app/cost/plan.h) stands for the scene. If `cache` is NULL, there is no
-// cache.
+// cost`. The cache identifies the scene by `scene_hash`, which dip_cost_scene_hash
+// (app/cost/plan.h) computes. If `cache` is NULL, there is no cache.
 DipErrorJob *dip_error_job_create(DipReference *reference, const char *scene_hash,
                                   const char *cache, DipError *err);
 void dip_error_job_destroy(DipErrorJob **job);

@@ -7,7 +7,8 @@
 
 // Rough prices are measured for about this time in each turn.
 static const double price_budget_ms = 8.0;
-static const int least_truth_samples = 32; // A coarser truth is too noisy for prices.
+// A truth (converged picture) with fewer samples per pixel is too noisy for prices.
+static const int least_truth_samples = 32;
 
 void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
     dip_maps_set_errors(&preview->tools->maps, reading,
@@ -44,9 +45,10 @@ static bool shows_errors(const DipPreview *preview) {
 }
 
 // Returns the samples per pixel of the finest truth that may be drawn now. Times and truths take
-// turns, the cheapest useful one first: rough times, then the first truth that is good enough for
-// prices and the errors against it, then better times, then finer truths. While the user looks at
-// errors, that first truth comes before the times.
+// turns, the cheapest useful one first. Rough times come first. Next comes a truth of
+// least_truth_samples, together with the settings' errors against it. Better times follow, and then
+// finer truths. While the user looks at errors, the truth of least_truth_samples comes before the
+// rough times.
 static int truth_limit(const DipPreview *preview) {
     if (!wants_prices(preview)) {
         return INT_MAX;

@@ -1,4 +1,5 @@
-// Makes the preview's choice from a report or from live prices, and puts it into words.
+// Chooses settings for the preview (choice.h) by a report or by live prices, and puts the advice
+// into words.
 #include "app/preview/prices/choice.h"
 
 #include "app/preview/prices/price_text.h"
@@ -9,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Shares of the gain (choice.h) of the presets below DIP_PRESET_BEST, in the order of DipPreset.
+// The share of the possible gain (choice.h) that each preset before DIP_PRESET_BEST must reach, in
+// the order of DipPreset.
 static const double shares[DIP_MEASURED_PRESETS - 1] = {0.5, 0.8, 0.95};
 
 static void take_candidates(DipPreviewChoice *choice, const DipPrices *prices) {

@@ -172,7 +172,7 @@ static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose 
         dip_orbit_centre(session, pose, flight->centre_world);
         flight->knows_centre = true;
     }
-    // The scene seems to follow the pointer: what lies in front of the centre moves with it.
+    // What lies between the camera and the centre seems to move with the pointer.
     dip_camera_orbit(pose, flight->centre_world, orbit_deg * flight->drag_right,
                      orbit_deg * flight->drag_up);
     dip_camera_zoom(pose, flight->centre_world, pow(zoom_per_step, flight->zoom_steps));
@@ -200,7 +200,8 @@ static void forget_mouse(DipFlight *flight) {
     flight->zoom_steps = 0;
 }
 
-// Returns whether the pose is set. A camera that is freed before the first frame has no pose yet.
+// Returns whether the pose is set. It is not set yet if the user takes the camera off its path
+// before the first frame.
 static bool has_pose(const DipPose *pose) {
     const double *q = pose->orientation;
     return q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;

@@ -1,4 +1,4 @@
-// Makes the lists of lines, and derives the fields of a line.
+// Lists rows of a cost report as lines of tables (lines.h), and derives the fields of a line.
 #include "app/report/format/lines.h"
 
 #include <math.h>
@@ -102,8 +102,8 @@ static const void *derive_time(const DipFieldAt *at, DipFieldScratch *scratch) {
                      : NULL;
 }
 
-// Derives the change of FLIP from the previous candidate on the front. Viewpoints differ from each
-// other more than settings do, so the interval comes from the changes at the single viewpoints.
+// Derives the change of FLIP from the previous candidate on the front. FLIP differs more between
+// viewpoints than between settings, so the interval is computed from the change at each viewpoint.
 static const void *derive_change_flip(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipCostLine *line = at->item;
     return line->before
