@@ -1,7 +1,7 @@
 // Computes the metrics of pictures by comparing each with another picture, which is called the
 // standard and usually is the truth (truth.h). A meter works in steps of a few milliseconds, so
-// that the preview can pause between two of them. Commands step to the end. Use one meter per
-// thread.
+// that the preview can pause between two of them. `diptych cost` takes all steps of a picture
+// without a pause (dip_meter_add). Use one meter per thread.
 #ifndef DIP_APP_MEASURE_METRICS_METER_H
 #define DIP_APP_MEASURE_METRICS_METER_H
 
@@ -28,8 +28,8 @@ typedef enum DipStep {
 typedef enum DipMeterKind {
     DIP_METER_DIFFERENCES, // Squared differences of whole pictures.
     DIP_METER_FLIP,        // FLIP of whole pictures.
-    DIP_METER_PICTURES,    // All metrics of each region (metrics.h), of bursts of one frame.
-    DIP_METER_BURSTS       // The same metrics, of bursts of several frames (flicker.h).
+    DIP_METER_PICTURES,    // All metrics of each region (metrics.h); a burst is a single picture.
+    DIP_METER_BURSTS       // The same metrics; a burst is a series of several frames (flicker.h).
 } DipMeterKind;
 
 // The picture with which others are compared. All data is borrowed and may be shared by threads.
@@ -61,8 +61,8 @@ typedef struct DipMeter {
     const float *test_lin;
     DipMeterStandard standard;
     int steps;          // Number of steps taken for the current picture.
-    DipMetricSums sums; // Sums of the current picture, complete after its last step. The sums of
-                        // bursts are 0.
+    DipMetricSums sums; // Sums of the current picture, complete after its last step. The fields
+                        // about bursts stay 0; dip_meter_end_burst writes its results elsewhere.
 } DipMeter;
 
 // Returns false when memory runs out; *meter then owns nothing.

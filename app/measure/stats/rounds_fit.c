@@ -16,8 +16,9 @@ enum { MOST_VISITS = 512 };
 // counts for at most this many degrees of freedom, since some subjects are noisier than others.
 static const double most_pooled_degrees = 12.0;
 
-// If frames are dealt to rounds, the jackknife's variance is too great by about this factor,
-// because leaving out a unit removes the only times of its frames. test_rounds simulates such logs.
+// If each round draws only the frames that dip_rounds_deal gives it, the jackknife's variance is
+// too great by about this factor: a subject draws each frame in one unit only, so leaving out the
+// unit removes all times of these frames. test_rounds simulates such logs.
 static const double excess_of_dealt_frames = 1.25;
 
 // --- order of the log ----------------------------------------------------------------------------
@@ -34,7 +35,7 @@ static int compare_places(const void *a, const void *b) {
     return side;
 }
 
-// Compares like compare_places, and elements that are equal there by their order in the log.
+// Compares like compare_places. Elements that are equal there keep their order in the log.
 static int compare_times(const void *a, const void *b) {
     const DipTimed *x = *(const DipTimed *const *)a, *y = *(const DipTimed *const *)b;
     const int side = compare_places(a, b);
@@ -365,9 +366,10 @@ static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) 
     }
 }
 
-// Computes how far each unit moves the values. If a set lacks one unit, this is units - 1 times the
-// difference that leaving out the unit makes (the jackknife). If a set has one unit alone, this is
-// the difference of that unit from the mean of all units that have times.
+// Computes how far each unit moves the values. If find_values leaves out the unit, the move is
+// units - 1 times the difference that this makes (the jackknife). If find_values uses the times of
+// this unit alone, the move is the difference of the unit's values from their mean over all units
+// that have times, scaled up if some units have none.
 static void find_moves(DipTimesWork *w, int s) {
     DipTimesFit *fit = w->fit;
     const int units = fit->units;

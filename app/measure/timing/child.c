@@ -212,9 +212,9 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
         return false;
     }
     const DipThreadUse after = dip_thread_watch_read(child->watch);
-    // Newer builds answer how long their threads waited, which replaces these values. For older
-    // builds, the watch's values are used, although they include the wait until the child reads the
-    // request.
+    // Sets timed->wait, cpu_ms and switches from the watch. A newer build measures these three
+    // itself, and store_word then replaces them by the build's answer. For older builds, the
+    // watch's values are used, although they include the wait until the child reads the request.
     set_use(timed, &before, &after);
     char *rest = NULL;
     for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {

@@ -117,8 +117,8 @@ typedef struct DipLoupe {
 
 void dip_loupe_free(DipLoupe *loupe);
 
-// Tells the loupe of which pixels the crops and boxes need the samples. The loupe's tab calls it
-// while the window is drawn.
+// Tells the loupe that the crops and boxes need the samples of the pixels in a region. The loupe's
+// tab calls it while the window is drawn.
 void dip_loupe_want(DipLoupe *loupe, DipTargetRegion region);
 
 // Reads the wanted samples if the panes' pictures stand still and the samples are not known yet.

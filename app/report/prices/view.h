@@ -1,5 +1,5 @@
-// Declares what the files of this folder share: the view of a report, whole times of combinations,
-// and the two combinations whose difference is a price. Private to this folder.
+// Declares what the files of this folder share: the view of a report, the time and error of a
+// combination, and the two combinations whose difference is a price. Private to this folder.
 #ifndef DIP_APP_REPORT_PRICES_VIEW_H
 #define DIP_APP_REPORT_PRICES_VIEW_H
 
@@ -64,8 +64,9 @@ DipPriceWhole dip_price_known(const DipPriceView *view, const DipPriceEntry *ent
 bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPriceWhole *whole);
 
 // Returns a predicted time with an error that follows from the misses of similar predictions. The
-// standard error is that of a normal distribution, 90 % of which lies as close to 0 as 90 % of the
-// misses. It has as many degrees of freedom as there are misses. Without misses it is not known.
+// standard error is so great that 90 % of a normal distribution lies within log(1 + misses->p90) of
+// its mean, but it has a fixed minimum. It has as many degrees of freedom as there are misses.
+// Without misses it is not known.
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 
 // --- questions -----------------------------------------------------------------------------------
