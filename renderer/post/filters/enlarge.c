@@ -8,19 +8,23 @@
 // Rows of the source that a band of the result needs: the band's own, and those around it.
 enum { WINDOW_ROWS = DIP_POST_BAND + 4 };
 
+enum { PADDING = 16 }; // values after an array that vectors read
+
 // --- places --------------------------------------------------------------------------------------
 
 static DipPostPlaces take_places(DipPostArena *arena, int count) {
     DipPostPlaces places;
-    places.first = dip_post_take(arena, (size_t)count + 16, sizeof *places.first);
-    places.part = dip_post_take(arena, (size_t)count + 16, sizeof *places.part);
+    places.first = dip_post_take(arena, (size_t)count + PADDING, sizeof *places.first);
+    places.part = dip_post_take(arena, (size_t)count + PADDING, sizeof *places.part);
     return places;
 }
 
+// Beyond the end, a vector reads the last place again.
 static void fill_places(const DipPostPlaces *places, int from, int to) {
-    for (int i = 0; i < to; i++) {
+    for (int i = 0; i < to + PADDING; i++) {
         // The place is numerator / (2 * to).
-        const int64_t numerator = (2 * (int64_t)i + 1) * from - to;
+        const int64_t pixel = i < to ? i : to - 1;
+        const int64_t numerator = (2 * pixel + 1) * from - to;
         const int64_t divisor = 2 * (int64_t)to;
         const int64_t whole = (numerator + divisor) / divisor - 1; // rounds down from -1 on
         places->first[i] = (int32_t)whole;
@@ -80,7 +84,8 @@ static void take_separable(DipPost *post, DipPostArena *arena) {
         post->spread[c] = take_windows(post, arena, post->def.to_width);
     }
     for (int t = 0; t < taps; t++) {
-        post->weights_x[t] = dip_post_take(arena, (size_t)post->def.to_width + 16, sizeof(float));
+        post->weights_x[t] =
+            dip_post_take(arena, (size_t)post->def.to_width + PADDING, sizeof(float));
         post->weights_y[t] = dip_post_take(arena, (size_t)post->def.to_height, sizeof(float));
     }
     post->light = dip_post_take(arena, 256, sizeof *post->light);

@@ -9,12 +9,9 @@ typedef struct Pick {
     Vi offset; // places of all lanes, relative to it
 } Pick;
 
-VEC_INLINE Pick pick_of(const int32_t *first, int x, int left) {
-    int32_t lanes[DIP_LANES];
-    for (int i = 0; i < DIP_LANES; i++) {
-        lanes[i] = first[x + (i < left ? i : left - 1)] - first[x];
-    }
-    return (Pick){first[x], vi_load(lanes)};
+// `first` may be read a vector's length from x on.
+VEC_INLINE Pick pick_of(const int32_t *first, int x) {
+    return (Pick){first[x], vi_load(first + x) - first[x]};
 }
 
 VEC_INLINE Vf pick(const float *row, Pick places, int tap) {
@@ -30,7 +27,7 @@ VEC_INLINE Vf pick(const float *row, Pick places, int tap) {
 
 void DIP_KERNEL(dip_kernel_spread_row)(const DipSpreadRow *row) {
     for (int x = 0; x < row->width; x += DIP_LANES) {
-        const Pick places = pick_of(row->first, x, row->width - x);
+        const Pick places = pick_of(row->first, x);
         Vf sum = vf_splat(0.0f);
         for (int t = 0; t < row->taps; t++) {
             sum += vf_load(row->weights[t] + x) * pick(row->row, places, t);
@@ -59,7 +56,7 @@ void DIP_KERNEL(dip_kernel_blend_row)(const DipBlendRow *row) {
                 sum += vf_load(row->rows[t][c] + x) * row->weights[t];
             }
             if (row->taps == 4) {
-                const Pick places = pick_of(row->first, x, row->width - x);
+                const Pick places = pick_of(row->first, x);
                 sum = within_nearest(sum, row->nearest[0][c], row->nearest[1][c], places);
             }
             const Vf light = vf_min(vf_max(sum, vf_splat(0.0f)), vf_splat(1.0f));
@@ -137,7 +134,7 @@ void DIP_KERNEL(dip_kernel_easu_row)(const DipEasuRow *row) {
                                     {-1, 1}, {0, 1},  {1, 1},  {2, 1}, {0, 2}, {1, 2}};
     const Vf py = vf_splat(row->part_y);
     for (int x = 0; x < row->width; x += DIP_LANES) {
-        const Pick places = pick_of(row->first, x, row->width - x);
+        const Pick places = pick_of(row->first, x);
         const Vf px = vf_load(row->part + x);
         const Ellipse ellipse = ellipse_at(row, places, px, py);
         Vf sums[3] = {vf_splat(0.0f), vf_splat(0.0f), vf_splat(0.0f)};

@@ -16,7 +16,7 @@ typedef struct DipPostPlane {
 } DipPostPlane;
 
 // A bit for each pixel of a picture, with a border of zeros: DIP_POST_MARGIN rows above and below,
-// and a word before and after each row.
+// and a word before each row and two after it.
 enum { DIP_POST_MARGIN = 4 };
 typedef struct DipPostBits {
     uint64_t *at; // word of pixel (0, 0)
@@ -61,6 +61,8 @@ struct DipPost {
     uint64_t *edges_found;  // of each worker, in the current run
     DipPostBits edges_left; // pixels with an edge at their left side
     DipPostBits edges_top;
+    DipPostBits edges_left_by_y; // the same, transposed
+    DipPostBits edges_top_by_y;
     uint32_t *weights; // of SMAA, (height + 1) * (width + 1)
     DipSmaaAreas *areas;
 

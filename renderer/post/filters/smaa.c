@@ -9,7 +9,7 @@ static const float luma_weights[3] = {0.2126f, 0.7152f, 0.0722f};
 static const float corner_rounding = 0.25f; // share of the blending that remains at corners
 
 static DipPostBits take_bits(DipPostArena *arena, int width, int height) {
-    DipPostBits bits = {.stride = (width + 63) / 64 + 2};
+    DipPostBits bits = {.stride = (width + 63) / 64 + 3};
     const size_t rows = (size_t)height + 2 * DIP_POST_MARGIN;
     uint64_t *memory = dip_post_take(arena, rows * (size_t)bits.stride, sizeof(uint64_t));
     bits.at = memory ? memory + (size_t)DIP_POST_MARGIN * (size_t)bits.stride + 1 : NULL;
@@ -23,6 +23,8 @@ static void take(DipPost *post, DipPostArena *arena) {
     post->edges_found = dip_post_take(arena, (size_t)post->worker_count, sizeof *post->edges_found);
     post->edges_left = take_bits(arena, width, height);
     post->edges_top = take_bits(arena, width, height);
+    post->edges_left_by_y = take_bits(arena, height, width);
+    post->edges_top_by_y = take_bits(arena, height, width);
     post->weights =
         dip_post_take(arena, ((size_t)width + 1) * ((size_t)height + 1), sizeof *post->weights);
     post->areas = dip_post_take(arena, 1, sizeof *post->areas);
@@ -44,6 +46,45 @@ static void find_edges(void *context, int band, int worker) {
     }
 }
 
+// --- transposing the edges -----------------------------------------------------------------------
+
+// Transposes a square of 64 x 64 bits: swaps its two off-diagonal quarters, then those of each
+// quarter, and so on.
+static void transpose_square(uint64_t rows[64]) {
+    uint64_t mask = 0x00000000ffffffffu;
+    for (int size = 32; size; size /= 2, mask ^= mask << size) {
+        for (int i = 0; i < 64; i = (i + size + 1) & ~size) {
+            const uint64_t swap = (rows[i] >> size ^ rows[i + size]) & mask;
+            rows[i] ^= swap << size;
+            rows[i + size] ^= swap;
+        }
+    }
+}
+
+// Writes 64 columns of a picture's bits as rows.
+static void transpose_columns(const DipPostBits *from, const DipPostBits *to, int word, int width,
+                              int height) {
+    for (int y0 = 0; y0 < height; y0 += 64) {
+        uint64_t rows[64] = {0};
+        for (int i = 0; i < 64 && y0 + i < height; i++) {
+            rows[i] = from->at[(ptrdiff_t)(y0 + i) * from->stride + word];
+        }
+        transpose_square(rows);
+        for (int i = 0; i < 64 && 64 * word + i < width; i++) {
+            to->at[(ptrdiff_t)(64 * word + i) * to->stride + y0 / 64] = rows[i];
+        }
+    }
+}
+
+static void transpose(void *context, int word, int worker) {
+    (void)worker;
+    DipPost *post = context;
+    const int width = post->def.from_width;
+    const int height = post->def.from_height;
+    transpose_columns(&post->edges_left, &post->edges_left_by_y, word, width, height);
+    transpose_columns(&post->edges_top, &post->edges_top_by_y, word, width, height);
+}
+
 // --- the edges around a pixel --------------------------------------------------------------------
 
 // A pixel may lie up to 64 pixels before or after its row and DIP_POST_MARGIN rows above or below
@@ -53,42 +94,51 @@ static int bit_at(const DipPostBits *bits, int x, int y) {
     return (int)(word >> (x & 63) & 1);
 }
 
+// Returns 64 pixels from (x, y) on, the first in bit 0.
+static uint64_t bits_from(const DipPostBits *bits, int x, int y) {
+    const uint64_t *word = bits->at + (ptrdiff_t)y * bits->stride + (x >> 6);
+    const int shift = x & 63;
+    return shift ? word[0] >> shift | word[1] << (64 - shift) : word[0];
+}
+
 // Edges along one axis, so that edges along x and along y are searched by the same code: `line` are
-// the edges that are followed, and `crossing` those that cross them. A place is a distance along
-// the line and the number of the line.
+// the edges that are followed, and `crossing` those that cross them. For edges along y, both are
+// transposed. A place is a distance along the line and the number of the line.
 typedef struct Axis {
     const DipPostBits *line;
     const DipPostBits *crossing;
-    bool along_y;
 } Axis;
 
-static int line_at(const Axis *axis, int along, int number) {
-    return axis->along_y ? bit_at(axis->line, number, along) : bit_at(axis->line, along, number);
-}
-
 static int crossing_at(const Axis *axis, int along, int number) {
-    return axis->along_y ? bit_at(axis->crossing, number, along)
-                         : bit_at(axis->crossing, along, number);
+    return bit_at(axis->crossing, along, number);
 }
 
-// Returns whether an edge crosses the line at the near side of a place, on either side of the line.
-static bool is_crossed(const Axis *axis, int along, int number) {
-    return crossing_at(axis, along, number) || crossing_at(axis, along, number - 1);
+// Returns 64 places from `along` on: whether an edge crosses the line at the near side of the
+// place, on either side of the line.
+static uint64_t crossings_from(const Axis *axis, int along, int number) {
+    return bits_from(axis->crossing, along, number) | bits_from(axis->crossing, along, number - 1);
+}
+
+// Returns how many places beyond `along` the line goes on before it ends or is crossed.
+static int distance_right(const Axis *axis, int along, int number) {
+    const uint64_t line = bits_from(axis->line, along + 1, number);
+    const uint64_t ends = crossings_from(axis, along + 1, number) | ~line;
+    const int distance = ends ? __builtin_ctzll(ends) : 64;
+    return distance < DIP_SMAA_STRAIGHT ? distance : DIP_SMAA_STRAIGHT;
+}
+
+static int distance_left(const Axis *axis, int along, int number) {
+    const uint64_t line = bits_from(axis->line, along - 64, number);
+    const uint64_t ends = crossings_from(axis, along - 63, number) | ~line;
+    const int distance = ends ? __builtin_clzll(ends) : 64;
+    return distance < DIP_SMAA_STRAIGHT ? distance : DIP_SMAA_STRAIGHT;
 }
 
 // Writes the shares of the pixel below the line and of the pixel above it.
 static void straight_shares(const DipSmaaAreas *areas, const Axis *axis, int along, int number,
                             float shares[2]) {
-    int left = 0;
-    while (left < DIP_SMAA_STRAIGHT && !is_crossed(axis, along - left, number) &&
-           line_at(axis, along - left - 1, number)) {
-        left++;
-    }
-    int right = 0;
-    while (right < DIP_SMAA_STRAIGHT && !is_crossed(axis, along + right + 1, number) &&
-           line_at(axis, along + right + 1, number)) {
-        right++;
-    }
+    const int left = distance_left(axis, along, number);
+    const int right = distance_right(axis, along, number);
     const int start = along - left;
     const int end = along + right + 1;
     const int pattern = crossing_at(axis, start, number) * DIP_SMAA_LEFT_BELOW +
@@ -182,7 +232,7 @@ static uint32_t weights_at(const DipPost *post, int x, int y) {
     float across_left[2] = {0.0f, 0.0f};
     bool left = bit_at(&post->edges_left, x, y);
     if (bit_at(&post->edges_top, x, y)) {
-        const Axis axis = {&post->edges_top, &post->edges_left, false};
+        const Axis axis = {&post->edges_top, &post->edges_left};
         diagonal_shares(post, x, y, across_top);
         if (across_top[0] + across_top[1] == 0.0f) {
             straight_shares(post->areas, &axis, x, y, across_top);
@@ -191,7 +241,7 @@ static uint32_t weights_at(const DipPost *post, int x, int y) {
         }
     }
     if (left) {
-        const Axis axis = {&post->edges_left, &post->edges_top, true};
+        const Axis axis = {&post->edges_left_by_y, &post->edges_top_by_y};
         straight_shares(post->areas, &axis, y, x, across_left);
     }
     return byte_of(across_top[0]) | byte_of(across_top[1]) << 8 | byte_of(across_left[0]) << 16 |
@@ -241,6 +291,7 @@ static void blend(void *context, int band, int worker) {
 static void run(DipPost *post) {
     dip_post_fill_luma(post, luma_weights);
     dip_post_run_bands(post, post->def.from_height, find_edges);
+    dip_pool_run(post->def.pool, (post->def.from_width + 63) / 64, transpose, post);
     dip_post_run_bands(post, post->def.from_height, find_weights);
     dip_post_run_bands(post, post->def.to_height, blend);
 }
