@@ -2,6 +2,7 @@
 #include "app/command_list.h"
 
 #include "app/bench/options.h"
+#include "app/compare/compare.h"
 #include "app/cost/command.h"
 #include "app/dump/options.h"
 #include "app/import/import.h"
@@ -14,7 +15,7 @@ static const DipCommand *const commands[] = {
     &dip_preview_command,      &dip_dump_command,         &dip_bench_command,
     &dip_cost_command,         &dip_cost_merge_command,   &dip_cost_diff_command,
     &dip_cost_advise_command,  &dip_cost_predict_command, &dip_path_info_command,
-    &dip_path_convert_command, &dip_verify_command,
+    &dip_path_convert_command, &dip_compare_command,      &dip_verify_command,
 };
 
 static const DipCommand *const hidden[] = {&dip_import_command};

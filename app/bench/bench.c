@@ -1,6 +1,5 @@
 // Runs the command `diptych bench`: makes the pools, scenes and renderers that the plan (plan.h)
 // needs, and measures this program, or two programs in turn.
-#include "app/bench/enlarge.h"
 #include "app/bench/measure.h"
 #include "app/bench/plots.h"
 #include "app/bench/synthetic.h"
@@ -10,6 +9,7 @@
 #include "app/measure/timing/child.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
+#include "renderer/post/post.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +30,8 @@ typedef struct View {
 typedef struct Drawer {
     DipGallery *gallery; // NULL unless the session shows the gallery
     DipPainter *painter;
-    DipEnlarger *enlarger; // NULL if the render scale is 1
+    DipPost *enlarger; // NULL if the render scale is 1
+    uint8_t *enlarged; // its picture
     const View *view;
 } Drawer;
 
@@ -103,6 +104,26 @@ static DipPool *pool_of(Context *bench, int threads_index, DipError *err) {
     return bench->pools[threads_index];
 }
 
+// Makes what enlarges the picture that the painter draws.
+static bool make_enlarger(Drawer *drawer, const DipBenchValues *v, const DipRendererDef *def,
+                          DipError *err) {
+    const DipPostDef post = {
+        .filter = DIP_POST_BILINEAR,
+        .from_width = v->drawn.width,
+        .from_height = v->drawn.height,
+        .to_width = v->size.width,
+        .to_height = v->size.height,
+        .isa = def->isa,
+        .pool = def->pool,
+    };
+    drawer->enlarger = dip_post_create(&post, err);
+    drawer->enlarged = malloc((size_t)v->size.width * (size_t)v->size.height * 4);
+    if (drawer->enlarger && !drawer->enlarged) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
+    }
+    return drawer->enlarger != NULL;
+}
+
 static bool make_renderer(Context *bench, int index, const DipSession *session, DipError *err) {
     const DipBenchValues v = dip_bench_values(bench->plan, index);
     const DipRendererDef def = {
@@ -123,10 +144,7 @@ static bool make_renderer(Context *bench, int index, const DipSession *session, 
     }
     drawer->painter = def.pool ? dip_painter_create(&def, drawer->gallery, err) : NULL;
     if (drawer->painter && v.scale < 1.0) {
-        const DipEnlargerDef enlarger = {v.drawn.width, v.drawn.height, v.size.width, v.size.height,
-                                         def.pool};
-        drawer->enlarger = dip_enlarger_create(&enlarger, err);
-        return drawer->enlarger != NULL;
+        return make_enlarger(drawer, &v, &def, err);
     }
     return drawer->painter != NULL;
 }
@@ -139,7 +157,8 @@ static void destroy_context(Context **context_pointer) {
     for (int i = 0; bench->drawers && i < bench->plan->count; i++) {
         dip_painter_destroy(&bench->drawers[i].painter);
         dip_gallery_destroy(&bench->drawers[i].gallery);
-        dip_enlarger_destroy(&bench->drawers[i].enlarger);
+        dip_post_destroy(&bench->drawers[i].enlarger);
+        free(bench->drawers[i].enlarged);
     }
     for (int i = 0; i < bench->view_count; i++) {
         dip_scene_destroy(&bench->views[i].own_scene);
@@ -180,12 +199,15 @@ static Context *create_context(const DipBenchPlan *plan, const DipSession *sessi
 
 // Enlarges the picture to its full size (--scale). Adds the time to the frame's total time, but to
 // no stage.
-static void enlarge(DipEnlarger *enlarger, DipOptionSize size, DipFrame *picture) {
+static void enlarge(const Drawer *drawer, DipOptionSize size, DipFrame *picture) {
     const int64_t begin_ns = dip_clock_ns();
-    picture->rgba8 = dip_enlarger_run(enlarger, picture->rgba8, picture->stride_bytes);
+    const size_t stride_bytes = (size_t)size.width * 4;
+    dip_post_run(drawer->enlarger, picture->rgba8, picture->stride_bytes, drawer->enlarged,
+                 stride_bytes);
+    picture->rgba8 = drawer->enlarged;
     picture->width = size.width;
     picture->height = size.height;
-    picture->stride_bytes = (size_t)size.width * 4;
+    picture->stride_bytes = stride_bytes;
     picture->stages.total_ms += 1e-6 * (double)(dip_clock_ns() - begin_ns);
 }
 
@@ -204,7 +226,7 @@ static bool draw_frame(Context *bench, int combination, int frame, DipFrame *pic
         return false;
     }
     if (drawer->enlarger) {
-        enlarge(drawer->enlarger, dip_bench_values(bench->plan, combination).size, picture);
+        enlarge(drawer, dip_bench_values(bench->plan, combination).size, picture);
     }
     return true;
 }

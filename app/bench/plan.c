@@ -2,9 +2,9 @@
 // combinations.
 #include "app/bench/plan.h"
 
-#include "app/bench/enlarge.h"
 #include "app/cli/machine.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -80,6 +80,32 @@ int dip_bench_same_pictures(const DipBenchPlan *plan, int combination) {
     return combination - combination % (plan->options.isa_count * plan->options.threads_count);
 }
 
+static int divisor(int a, int b) {
+    while (b != 0) {
+        const int rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+static int scaled(int size, double scale) {
+    const int rounded = (int)(size * scale + 0.5);
+    return rounded > 0 ? rounded : 1;
+}
+
+void dip_bench_drawn_size(int width, int height, double scale, int *to_width, int *to_height) {
+    // The number of sizes up to width x height that have exactly this aspect ratio.
+    const int steps = divisor(width, height);
+    const int step = scaled(steps, scale);
+    *to_width = width / steps * step;
+    *to_height = height / steps * step;
+    if (fabs(*to_width - scale * width) > 0.02 * scale * width) {
+        *to_width = scaled(width, scale);
+        *to_height = scaled(height, scale);
+    }
+}
+
 DipBenchValues dip_bench_values(const DipBenchPlan *plan, int combination) {
     const DipBenchOptions *options = &plan->options;
     const int *at = plan->at[combination];
@@ -91,8 +117,8 @@ DipBenchValues dip_bench_values(const DipBenchPlan *plan, int combination) {
         .isa = options->isas[at[DIP_BENCH_AXIS_ISA]],
         .threads = options->threads[at[DIP_BENCH_AXIS_THREADS]],
     };
-    dip_enlarger_source_size(values.size.width, values.size.height, values.scale,
-                             &values.drawn.width, &values.drawn.height);
+    dip_bench_drawn_size(values.size.width, values.size.height, values.scale, &values.drawn.width,
+                         &values.drawn.height);
     return values;
 }
 

@@ -52,6 +52,12 @@ typedef struct DipBenchValues {
     int threads;
 } DipBenchValues;
 
+// Writes the size at which a picture of width x height pixels is drawn if the render scale is
+// `scale`, at most 1. This is the nearest size with exactly the same aspect ratio, so that
+// enlarging does not stretch the picture. If its width is more than 2 % away from scale * width,
+// the size is scale * width and scale * height, rounded.
+void dip_bench_drawn_size(int width, int height, double scale, int *to_width, int *to_height);
+
 DipBenchValues dip_bench_values(const DipBenchPlan *plan, int combination);
 
 // Writes a combination's value on an axis: "640x480", "2 threads", "aa=4". Writes "" for the axis

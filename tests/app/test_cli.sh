@@ -49,7 +49,7 @@ check "help lists every command" grep -q 'path convert' out.txt
 check "help lists settings" grep -q 'miplod' out.txt
 expect 0 '' "$diptych" dump --help
 check "help on dump gives an example" grep -q 'dump --out out --frames 0:8' out.txt
-for word in preview dump bench cost "cost merge" "cost diff" "cost advise" "cost predict" "path info" "path convert" verify; do
+for word in preview dump bench cost "cost merge" "cost diff" "cost advise" "cost predict" "path info" "path convert" compare verify; do
     expect 0 '' "$diptych" $word --help
     check "help on $word gives its usage and an example" sh -c \
         "grep -q '^Usage: diptych $word' out.txt && grep -q '^  diptych' out.txt"

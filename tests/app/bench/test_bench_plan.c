@@ -125,6 +125,28 @@ static void render_scales_are_named_with_the_size_that_is_drawn(void **state) {
     assert_string_equal(name, "scale 0.5 (32x24)");
 }
 
+static void scaled_pictures_keep_their_shape(void **state) {
+    (void)state;
+    static const struct {
+        int width, height;
+        double scale;
+        int to_width, to_height;
+    } rows[] = {
+        {640, 480, 0.5, 320, 240},     {640, 480, 0.7071, 452, 339},
+        {640, 480, 1.0, 640, 480},     {640, 480, 0.1, 64, 48},
+        {1920, 1080, 0.85, 1632, 918}, {1280, 720, 0.7071, 912, 513},
+        {641, 479, 0.5, 321, 240}, // No smaller size has exactly this shape.
+        {641, 479, 1.0, 641, 479},     {1, 1, 0.1, 1, 1},
+        {1, 700, 0.5, 1, 350},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        int width, height;
+        dip_bench_drawn_size(rows[i].width, rows[i].height, rows[i].scale, &width, &height);
+        assert_int_equal(width, rows[i].to_width);
+        assert_int_equal(height, rows[i].to_height);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_axis_changes_fastest),
@@ -133,6 +155,7 @@ int main(void) {
         cmocka_unit_test(grids_are_named_by_their_triangles),
         cmocka_unit_test(rows_know_with_which_rows_they_are_compared),
         cmocka_unit_test(render_scales_are_named_with_the_size_that_is_drawn),
+        cmocka_unit_test(scaled_pictures_keep_their_shape),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,10 @@
+// Declares the command `diptych compare`, which measures how much two pictures differ, after a
+// filter if one is named.
+#ifndef DIP_APP_COMPARE_COMPARE_H
+#define DIP_APP_COMPARE_COMPARE_H
+
+#include "app/cli/command.h"
+
+extern const DipCommand dip_compare_command;
+
+#endif
