@@ -1,6 +1,5 @@
 // Tests what the writers and readers of reports do when memory runs out: a file is written whole or
 // stays as it was, and a journal never loses a measurement.
-#include "app/bench/enlarge.h"
 #include "app/cost/advise/common_advice.h"
 #include "app/cost/diff/diff.h"
 #include "app/report/format/formats.h"
@@ -86,15 +85,6 @@ static bool write_pfm(void *context, DipError *err) {
     static const float rgb[3 * 8 * 6] = {0.25f, 0.5f};
     (void)context;
     return dip_pfm_write(w.file, rgb, 8, 6, err);
-}
-
-static bool enlarge(void *context, DipError *err) {
-    (void)context;
-    const DipEnlargerDef def = {32, 24, 64, 48, NULL};
-    DipEnlarger *enlarger = dip_enlarger_create(&def, err);
-    const bool made = enlarger && dip_enlarger_run(enlarger, w.rgba8, 4 * 64);
-    dip_enlarger_destroy(&enlarger);
-    return made;
 }
 
 // Encoders of pictures in memory have no error of their own.
@@ -303,8 +293,6 @@ static void pictures_are_encoded_whole_or_not_at_all(void **state) {
     (void)state;
     dip_out_of_memory_check(
         &(DipOutOfMemory){.name = "pictures in memory", .run = encode_pictures});
-    dip_out_of_memory_check(
-        &(DipOutOfMemory){.name = "enlarging", .run = enlarge, .needs_every_allocation = true});
 }
 
 // --- reading a report ----------------------------------------------------------------------------
