@@ -31,6 +31,7 @@ static const char *const complete[] = {
     "cost predict x",
     "path info x",
     "path convert x y.pth",
+    "compare x y",
     "verify",
 };
 
