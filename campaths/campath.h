@@ -144,13 +144,18 @@ DIP_API int64_t dip_campath_span_ns(const DipCamPath *path, DipCamPathEnd end);
 
 // An orbit about a model's bounding box: one full turn at constant speed, from +Z over +X. The
 // camera looks at the middle of the box from 15 degrees above the horizon, from the shortest
-// distance that keeps the whole box in the picture.
+// distance that keeps the whole silhouette in the picture all the way round.
 typedef struct DipCamOrbitDef {
     double min_world[3]; // min <= max, within DIP_CAMPATH_MAX_POSITION / 100
     double max_world[3];
     double fov_y_deg;    // vertical field of view, 1..170
     double aspect;       // width / height of the picture, 0.01..100
     int64_t duration_ns; // time of a turn; rounded down to a multiple of 100 ns
+    // The silhouette: the box is divided into slices of equal height, from the lowest on, and each
+    // slice has the greatest distance of its content from the vertical axis through the middle of
+    // the box; a negative number for an empty slice. NULL: the whole box is kept in the picture.
+    const double *radii;
+    int radius_count;
 } DipCamOrbitDef;
 
 // Returns an orbit of 20 s about a unit cube at the origin, with a field of view of 50 degrees and

@@ -72,6 +72,35 @@ static double framing_distance(const double half[3], double tan_x, double tan_y)
     return distance * MARGIN;
 }
 
+// Returns the distance at which a circle about the vertical axis lies in the picture. `y` is its
+// height above the middle. Over all points of the circle, the sum of what lies toward the camera
+// and of |x| / tan_x is greatest as that of two orthogonal parts; the sum with |y| / tan_y is
+// greatest where the circle is nearest to the camera or farthest from it.
+static double circle_distance(double radius, double y, double tan_x, double tan_y) {
+    const double s = dip_sin(ELEVATION_RAD);
+    const double c = dip_cos(ELEVATION_RAD);
+    double distance = y * s + radius * sqrt(c * c + 1.0 / (tan_x * tan_x));
+    for (int side = -1; side <= 1; side += 2) {
+        const double toward = y * s + side * radius * c;
+        distance = fmax(distance, toward + fabs(y * c - side * radius * s) / tan_y);
+    }
+    return distance;
+}
+
+// Returns the distance from the middle at which the silhouette lies in the picture everywhere on
+// the orbit. Each slice counts as a cylinder.
+static double silhouette_distance(const DipCamOrbitDef *def, double half_height, double tan_x,
+                                  double tan_y) {
+    double distance = 0.0;
+    for (int i = 0; i < def->radius_count; i++) {
+        for (int end = 0; end < 2 && def->radii[i] >= 0.0; end++) {
+            const double y = half_height * (2.0 * (i + end) / def->radius_count - 1.0);
+            distance = fmax(distance, circle_distance(def->radii[i], y, tan_x, tan_y));
+        }
+    }
+    return distance * MARGIN;
+}
+
 static bool check(const DipCamOrbitDef *def, DipError *err) {
     const double limit = DIP_CAMPATH_MAX_POSITION / 100.0;
     for (int i = 0; i < 3; i++) {
@@ -111,7 +140,9 @@ bool dip_campath_orbit(const DipCamOrbitDef *def, DipCamPath **path, DipError *e
         half[0] = half[1] = half[2] = MIN_RADIUS_M;
     }
     const double tan_y = dip_tan(def->fov_y_deg * (DIP_PI / 360.0));
-    const double distance = framing_distance(half, tan_y * def->aspect, tan_y);
+    const double distance = def->radii && largest > 0.0
+                                ? silhouette_distance(def, half[1], tan_y * def->aspect, tan_y)
+                                : framing_distance(half, tan_y * def->aspect, tan_y);
     DipCamKey keys[ORBIT_KEYS];
     for (int k = 0; k < ORBIT_KEYS; k++) {
         const double yaw = 2.0 * DIP_PI * k / ORBIT_KEYS;

@@ -75,6 +75,8 @@
     KEY(NEAR, near_m, NUMBER, "0.1", 0.001, 100, "distance of the near plane, metres")             \
     KEY(BACKGROUND, background, COLOR, "64,64,64", 0, 255,                                         \
         "colour where no surface is seen: red, green, blue, sRGB")                                 \
+    KEY(GROUND, ground, FLAG, "false", 0, 0,                                                       \
+        "true: models without a ground stand on a plain one in the colour of the background")      \
     KEY(SKY_OVERCAST, sky_overcast, NUMBER, "0.5", 0, 1,                                           \
         "how much of the sky is cloud; 0: none, 1: all")                                           \
     KEY(SKY_COLOR, sky_color, COLOR, "88,135,199", 0, 255,                                         \

@@ -279,6 +279,7 @@ void dip_session_close(DipSession *session) {
     free(session->assets);
     dip_session_free_paths(session);
     dip_scene_destroy(&session->scene);
+    dip_ground_destroy(&session->ground);
     dip_model_destroy(&session->model);
     dip_pool_destroy(&session->pool);
     dip_config_free(&session->config);

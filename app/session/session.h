@@ -7,6 +7,7 @@
 #define DIP_APP_SESSION_SESSION_H
 
 #include "app/gallery/gallery.h"
+#include "app/session/ground.h"
 #include "app/session/painter.h"
 #include "app/session/session_options.h"
 #include "assets/importer.h"
@@ -87,10 +88,14 @@ typedef struct DipSession {
     DipReflectionDef reflection;
     bool force_all_effects;
     DipModel *model;       // NULL unless the session keeps it for the reference renderer.
-    DipSceneDef scene_def; // The model's scene with its background and sky. Points into `model`.
-    DipCamTrack track;     // The camera path of each category.
-    DipCamPath **paths;    // The paths of files, of --pose and of the orbit. A file that two
-                           // categories name is loaded once.
+    DipGround *ground;     // The ground below that model; NULL if it has none.
+    DipSceneDef scene_def; // The model's scene with its background and sky, and with the ground.
+                           // Points into `model` and `ground`.
+    DipExtent extent;      // The extent and the silhouette of the models, without the ground.
+    DipSilhouette silhouette;
+    DipCamTrack track;  // The camera path of each category.
+    DipCamPath **paths; // The paths of files, of --pose and of the orbit. A file that two
+                        // categories name is loaded once.
     int path_count;
     // The cameras of the models. The track has as many of them as fit, from the index
     // DIP_CATEGORY_COUNT on.

@@ -113,6 +113,9 @@ static const DipOptionRow scene_rows[] = {
      .text = "Show the N-th variant of the gallery's scene, such as another resolution of the "
              "shadow map. The first one is 1, which is also the default; docs/gallery.md lists "
              "them."},
+    {"--no-ground", NULL, DIP_OPTION_FLAG, FIELD(no_ground),
+     .text = "Do not put a ground below the models of --model. Without this option, models get a "
+             "plain ground with a soft shade, unless they have a ground, water or a sky."},
     {"--up", "AXIS", DIP_OPTION_CHOICE, FIELD(up), .names = dip_up_axis_names, .most = DIP_UP_COUNT,
      .accepted = "an axis; give one of auto|y|z",
      .text = "The axis of the model files that points up:" UP_AXES " The default is auto."},

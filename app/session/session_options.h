@@ -19,7 +19,8 @@ typedef struct DipSessionOptions {
     const char *config;
     const char *models[DIP_MAX_MODELS];
     int model_count;
-    DipUpAxis up; // Axis of the model files that points up.
+    DipUpAxis up;   // Axis of the model files that points up.
+    bool no_ground; // Models of the command line get no ground.
     bool has_shading;
     DipModelShading shading; // Where the light of lit surfaces is computed.
     int look;                // Variant of the gallery's scene, counted from 0.

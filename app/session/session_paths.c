@@ -220,33 +220,31 @@ static bool make_pose(DipSession *session, DipErrorList *faults) {
 // Refuses a model that is too small to be drawn. The orbit fills the picture with the model, so the
 // camera would come nearer to it than the least distance of a near plane (DIP_MIN_NEAR_M). Accepts
 // a model that is a single point, because the orbit treats it as if it had a size.
-static bool check_extent(const float low[3], const float high[3], const char *file,
-                         DipErrorList *faults) {
+static bool check_extent(const DipExtent *extent, const char *file, DipErrorList *faults) {
     const double least = 5e-9;
-    double extent = 0.0;
+    double size = 0.0;
     for (int axis = 0; axis < 3; axis++) {
-        extent = fmax(extent, (double)high[axis] - low[axis]);
+        size = fmax(size, extent->high[axis] - extent->low[axis]);
     }
-    if (extent == 0.0 || extent >= least) {
+    if (size == 0.0 || size >= least) {
         return true;
     }
     return dip_session_refuse(
         faults, DIP_ERROR_RANGE, file, 0, "box",
-        "the model's size is %.3g, but Diptych needs at least %g; scale the model up", extent,
-        least);
+        "the model's size is %.3g, but Diptych needs at least %g; scale the model up", size, least);
 }
 
 static bool make_orbit(DipSession *session, DipErrorList *faults) {
-    float low[3];
-    float high[3];
-    dip_scene_bounds(session->scene, low, high);
+    const DipExtent *extent = &session->extent;
     DipCamOrbitDef def = dip_campath_default_orbit();
     const DipConfigSize size = session->pane_size;
     def.aspect = fmin(fmax((double)size.width / size.height, 0.01), 100.0);
     for (int axis = 0; axis < 3; axis++) {
-        def.min_world[axis] = low[axis];
-        def.max_world[axis] = high[axis];
+        def.min_world[axis] = extent->low[axis];
+        def.max_world[axis] = extent->high[axis];
     }
+    def.radii = session->silhouette.radius;
+    def.radius_count = DIP_SILHOUETTE_SLICES;
     const char *file = session->config.file;
     if (session->options->model_count) {
         file = session->options->models[0];
@@ -256,7 +254,7 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
     def.fov_y_deg = dip_session_fov(session, def.fov_y_deg);
     DipCamPath *path;
     DipError err;
-    if (!check_extent(low, high, file, faults)) {
+    if (!check_extent(extent, file, faults)) {
         return false;
     }
     if (!dip_campath_orbit(&def, &path, &err)) {

@@ -43,13 +43,19 @@ static bool has_sky(const DipSceneDef *def) {
     return found;
 }
 
+// The background of models that have no surroundings of their own: a light grey, before which dark
+// and bright models stand out. It is the colour of their ground, too.
+static const DipConfigColor plain_background = {{172, 174, 178}};
+
 // Sets the background, the sky and the near plane. For the ini's models, all three come from the
-// ini. A model given with --model keeps its own. If such a model has a sky, the colour of the sky's
-// horizon becomes the background, so that gaps beside the sky do not show.
+// ini. A model given with --model keeps its own near plane. If such a model has a sky, the colour
+// of the sky's horizon becomes the background, so that gaps beside the sky do not show.
 static void set_surroundings(const DipSession *session, DipSceneDef *def) {
     if (session->options->model_count) {
         if (has_sky(def)) {
             memcpy(def->background_lin, def->sky.horizon_lin, sizeof def->background_lin);
+        } else {
+            set_colour(&plain_background, 1.0, def->background_lin);
         }
         return;
     }
@@ -164,6 +170,23 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
     return model;
 }
 
+// Adds a ground to the scene if the models need one and it is wanted. Fails only if memory runs
+// out.
+static bool add_ground(const DipSession *session, const DipExtent *extent, DipSceneDef *def,
+                       DipGround **ground, DipError *err) {
+    const bool wanted =
+        session->options->model_count ? !session->options->no_ground : session->config.ground;
+    *ground = NULL;
+    if (!wanted || !dip_ground_is_missing(def, extent)) {
+        return true;
+    }
+    *ground = dip_ground_create(def, extent, err);
+    if (*ground) {
+        *def = (*ground)->def;
+    }
+    return *ground != NULL;
+}
+
 const char *dip_session_scene_file(const DipSession *session) {
     if (session->shows_gallery) {
         return session->gallery_scene == DIP_GALLERY_TOUR
@@ -184,6 +207,10 @@ bool dip_session_keep_model(DipSession *session, DipError *err) {
         DipErrorList warnings = {0}; // The first load has already reported these warnings.
         session->model = load_model(session, &warnings, &session->scene_def, err);
         dip_error_list_free(&warnings);
+        if (session->model &&
+            !add_ground(session, &session->extent, &session->scene_def, &session->ground, err)) {
+            dip_model_destroy(&session->model);
+        }
     }
     return session->model != NULL;
 }
@@ -191,15 +218,22 @@ bool dip_session_keep_model(DipSession *session, DipError *err) {
 bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults) {
     DipError err = {0};
     DipSceneDef def;
+    DipGround *ground = NULL;
     DipModel *model = load_model(session, faults, &def, &err);
     if (model) {
-        session->scene = dip_scene_create(&def, session->pool, &err);
+        session->extent = dip_extent_of(&def);
+        session->silhouette = dip_silhouette_of(&def, &session->extent);
+        session->scene = add_ground(session, &session->extent, &def, &ground, &err)
+                             ? dip_scene_create(&def, session->pool, &err)
+                             : NULL;
         session->times.import_ms = dip_model_times(model).import_ms;
         session->times.pictures_ms = dip_model_times(model).pictures_ms;
         if (session->scene && keep_model) {
             session->model = model;
+            session->ground = ground;
             session->scene_def = def;
         } else {
+            dip_ground_destroy(&ground);
             dip_model_destroy(&model);
         }
     }

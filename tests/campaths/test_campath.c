@@ -478,6 +478,63 @@ static void the_orbit_shows_the_whole_box(void **context) {
     }
 }
 
+// The greatest |x| or |y| of a circle of the silhouette, seen from a pose.
+static double reach_of_circle(const DipCamOrbitDef *def, const DipPose *pose, double radius,
+                              double y) {
+    const double tan_y = tan(def->fov_y_deg * PI / 360.0);
+    double reach = 0.0;
+    for (int i = 0; i < 360; i++) {
+        const double p[3] = {
+            0.5 * (def->min_world[0] + def->max_world[0]) + radius * sin(i * PI / 180.0), y,
+            0.5 * (def->min_world[2] + def->max_world[2]) + radius * cos(i * PI / 180.0)};
+        double v[3];
+        to_camera(pose, p, v);
+        assert_true(v[2] < 0.0);
+        reach = fmax(reach, fabs(v[1]) / (-v[2] * tan_y));
+        reach = fmax(reach, fabs(v[0]) / (-v[2] * tan_y * def->aspect));
+    }
+    return reach;
+}
+
+// With a silhouette, the picture is filled by what is there and not by the corners of its box.
+static void the_orbit_shows_the_whole_silhouette(void **context) {
+    (void)context;
+    static const struct {
+        double radii[4]; // From below; a negative number is an empty slice.
+        double fov_y_deg, aspect;
+    } cases[] = {
+        {{1, 1, 1, 1}, 50, 4.0 / 3.0}, {{-1, 0.2, 3, 0.1}, 50, 4.0 / 3.0}, {{0, 0, 0, 5}, 30, 0.5},
+        {{8, -1, -1, 0}, 90, 2.0},     {{0.1, 0.1, 0.1, 0.1}, 50, 1.5},    {{1, 2, 3, 4}, 150, 0.2},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        DipCamOrbitDef def = dip_campath_default_orbit();
+        const double size[3] = {9, 2, 9};
+        for (int i = 0; i < 3; i++) {
+            def.min_world[i] = 3 - size[i];
+            def.max_world[i] = 3 + size[i];
+        }
+        def.fov_y_deg = cases[c].fov_y_deg;
+        def.aspect = cases[c].aspect;
+        def.radii = cases[c].radii;
+        def.radius_count = 4;
+        DipCamPath *path;
+        assert_true(dip_campath_orbit(&def, &path, NULL));
+        const DipPose pose = sample(path, 7 * SECOND);
+        double widest = 0.0;
+        for (int slice = 0; slice < 4; slice++) {
+            for (int end = 0; end < 2 && def.radii[slice] >= 0; end++) {
+                const double y = def.min_world[1] + (slice + end) * 1.0;
+                widest = fmax(widest, reach_of_circle(&def, &pose, def.radii[slice], y));
+            }
+        }
+        // The border is 5 % of the distance, so less than that of the picture near the camera.
+        if (!(widest < 1.0 && widest > 0.83)) {
+            fail_msg("case %zu: the silhouette reaches to %.3f of the picture", c, widest);
+        }
+        dip_campath_destroy(&path);
+    }
+}
+
 static void the_orbit_begins_in_front_and_turns_over_plus_x(void **context) {
     (void)context;
     const DipCamOrbitDef def = dip_campath_default_orbit();
@@ -683,6 +740,7 @@ int main(void) {
         cmocka_unit_test(a_comma_locale_changes_nothing),
         cmocka_unit_test(errors_name_files_that_cannot_be_read_or_written),
         cmocka_unit_test(the_orbit_shows_the_whole_box),
+        cmocka_unit_test(the_orbit_shows_the_whole_silhouette),
         cmocka_unit_test(the_orbit_begins_in_front_and_turns_over_plus_x),
         cmocka_unit_test(bad_orbits_and_keys_are_refused),
         cmocka_unit_test(orbits_accept_their_ranges_and_no_more),

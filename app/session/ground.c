@@ -1,0 +1,422 @@
+// Makes the ground below a model. Its shade is a texture: the model's lowest surfaces are drawn
+// into a grid of heights, and from the heights follows how much light from above is kept from the
+// ground. Computes with + - * / alone, so that the texture has the same bits on every machine.
+#include "app/session/ground.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { GRID = 256 }; // Texels of the shade, and cells of the grid of heights, along each side.
+
+// The ground lies this share of the model's size below the model, so that both do not lie in one
+// plane.
+static const double gap = 5e-4;
+
+// How far light is kept away. A surface at a height of less than `reach` times the model's size
+// darkens the ground around it by up to `strength`, less the higher it is. Near surfaces leave a
+// small dark shade and high ones a wide faint one.
+static const struct {
+    double reach;
+    double strength;
+} layers[] = {{0.015, 0.42}, {0.05, 0.36}, {0.15, 0.30}, {0.40, 0.25}};
+enum { LAYERS = sizeof layers / sizeof *layers };
+
+// --- the scene's triangles -----------------------------------------------------------------------
+
+typedef struct Point {
+    double at[3];
+} Point;
+
+static Point vertex_of(const DipObjectDef *object, const DipMeshDef *mesh, uint32_t index) {
+    const float *p = mesh->positions + 3 * (size_t)index;
+    Point point;
+    for (int i = 0; i < 3; i++) {
+        const float *row = object->transform + 4 * i;
+        point.at[i] =
+            (double)row[0] * p[0] + (double)row[1] * p[1] + (double)row[2] * p[2] + (double)row[3];
+    }
+    return point;
+}
+
+static DipSurface surface_of(const DipSceneDef *def, const DipObjectDef *object) {
+    return def->materials[def->meshes[object->mesh].material].surface;
+}
+
+// Calls a function for each triangle of the scene that is not sky.
+typedef void (*Visit)(void *context, const Point corners[3]);
+
+static void visit_triangles(const DipSceneDef *def, Visit visit, void *context) {
+    for (int o = 0; o < def->object_count; o++) {
+        const DipObjectDef *object = &def->objects[o];
+        const DipMeshDef *mesh = &def->meshes[object->mesh];
+        if (surface_of(def, object) == DIP_SURFACE_SKY) {
+            continue;
+        }
+        for (uint32_t i = 0; i + 2 < mesh->index_count; i += 3) {
+            Point corners[3];
+            for (uint32_t c = 0; c < 3; c++) {
+                corners[c] = vertex_of(object, mesh, mesh->indices[i + c]);
+            }
+            visit(context, corners);
+        }
+    }
+}
+
+// --- extent and silhouette -----------------------------------------------------------------------
+
+typedef struct ExtentJob {
+    DipExtent extent;
+    bool found;
+} ExtentJob;
+
+static void extend(void *context, const Point corners[3]) {
+    ExtentJob *job = context;
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < 3; i++) {
+            const double at = corners[c].at[i];
+            job->extent.low[i] = job->found ? fmin(job->extent.low[i], at) : at;
+            job->extent.high[i] = job->found ? fmax(job->extent.high[i], at) : at;
+        }
+        job->found = true;
+    }
+}
+
+DipExtent dip_extent_of(const DipSceneDef *def) {
+    ExtentJob job = {.found = false};
+    visit_triangles(def, extend, &job);
+    return job.extent;
+}
+
+typedef struct SilhouetteJob {
+    DipSilhouette silhouette;
+    const DipExtent *extent;
+} SilhouetteJob;
+
+static void widen(void *context, const Point corners[3]) {
+    SilhouetteJob *job = context;
+    const double *low = job->extent->low;
+    const double *high = job->extent->high;
+    const double height = high[1] - low[1];
+    for (int c = 0; c < 3; c++) {
+        const double x = corners[c].at[0] - 0.5 * (low[0] + high[0]);
+        const double z = corners[c].at[2] - 0.5 * (low[2] + high[2]);
+        const double share = height > 0.0 ? (corners[c].at[1] - low[1]) / height : 0.0;
+        const int slice = (int)fmin(share * DIP_SILHOUETTE_SLICES, DIP_SILHOUETTE_SLICES - 1);
+        double *radius = &job->silhouette.radius[slice];
+        *radius = fmax(*radius, sqrt(x * x + z * z));
+    }
+}
+
+DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent) {
+    SilhouetteJob job = {.extent = extent};
+    for (int i = 0; i < DIP_SILHOUETTE_SLICES; i++) {
+        job.silhouette.radius[i] = -1.0;
+    }
+    visit_triangles(def, widen, &job);
+    return job.silhouette;
+}
+
+// --- a grid of heights ---------------------------------------------------------------------------
+
+// Square cells in the plane of the ground. Along z, the rows go from the least z on.
+typedef struct Grid {
+    double low[2];             // Least x and z.
+    double cell;               // Size of a cell.
+    double floor;              // The height that counts as 0.
+    double most;               // Surfaces that lie higher are left out.
+    bool facing_up;            // Only surfaces that face up by their winding count.
+    float height[GRID * GRID]; // Height of each cell's lowest surface; more than `most` if none.
+} Grid;
+
+static int cell_at(const Grid *grid, int axis, double at) {
+    const double cell = (at - grid->low[axis == 2]) / grid->cell;
+    return cell < 0.0 ? 0 : cell >= GRID ? GRID - 1 : (int)cell;
+}
+
+static void lower(Grid *grid, int column, int row, double height) {
+    float *cell = &grid->height[GRID * row + column];
+    if (height >= 0.0 && height < (double)*cell) {
+        *cell = (float)height;
+    }
+}
+
+// Lowers the cells whose centres lie below a triangle, and the cells of its corners, so that no
+// triangle is too small to count.
+static void draw_triangle(void *context, const Point p[3]) {
+    Grid *grid = context;
+    const double x1 = p[1].at[0] - p[0].at[0], z1 = p[1].at[2] - p[0].at[2];
+    const double x2 = p[2].at[0] - p[0].at[0], z2 = p[2].at[2] - p[0].at[2];
+    const double area = x1 * z2 - x2 * z1; // Negative if the triangle faces up.
+    int from[2] = {GRID, GRID};
+    int to[2] = {-1, -1};
+    double lowest = INFINITY;
+    if (grid->facing_up && area >= 0.0) {
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        const int column = cell_at(grid, 0, p[c].at[0]);
+        const int row = cell_at(grid, 2, p[c].at[2]);
+        from[0] = column < from[0] ? column : from[0];
+        from[1] = row < from[1] ? row : from[1];
+        to[0] = column > to[0] ? column : to[0];
+        to[1] = row > to[1] ? row : to[1];
+        lowest = fmin(lowest, p[c].at[1] - grid->floor);
+        lower(grid, column, row, p[c].at[1] - grid->floor);
+    }
+    if (lowest > grid->most || area == 0.0) {
+        return;
+    }
+    for (int row = from[1]; row <= to[1]; row++) {
+        for (int column = from[0]; column <= to[0]; column++) {
+            const double x = grid->low[0] + (column + 0.5) * grid->cell - p[0].at[0];
+            const double z = grid->low[1] + (row + 0.5) * grid->cell - p[0].at[2];
+            const double second = (x * z2 - x2 * z) / area;
+            const double third = (x1 * z - x * z1) / area;
+            if (second >= 0.0 && third >= 0.0 && second + third <= 1.0) {
+                lower(grid, column, row,
+                      p[0].at[1] + second * (p[1].at[1] - p[0].at[1]) +
+                          third * (p[2].at[1] - p[0].at[1]) - grid->floor);
+            }
+        }
+    }
+}
+
+static void fill_grid(Grid *grid, const DipSceneDef *def) {
+    for (int i = 0; i < GRID * GRID; i++) {
+        grid->height[i] = INFINITY;
+    }
+    visit_triangles(def, draw_triangle, grid);
+}
+
+// --- where a ground is missing -------------------------------------------------------------------
+
+static double width_of(const DipExtent *extent) {
+    return fmax(extent->high[0] - extent->low[0], extent->high[2] - extent->low[2]);
+}
+
+static double height_of(const DipExtent *extent) {
+    return extent->high[1] - extent->low[1];
+}
+
+// The size by which lengths on the ground are measured.
+static double size_of(const DipExtent *extent) {
+    return fmax(width_of(extent), 0.7 * height_of(extent));
+}
+
+// Returns whether surfaces that face up cover most of the rectangle below the model, near its
+// lowest point.
+static bool has_ground(const DipSceneDef *def, const DipExtent *extent) {
+    Grid *grid = malloc(sizeof *grid);
+    if (!grid) {
+        return true; // A model without a ground is better than none.
+    }
+    const double lowest = 0.04 * size_of(extent);
+    *grid = (Grid){.low = {extent->low[0], extent->low[2]},
+                   .cell = width_of(extent) / GRID,
+                   .floor = extent->low[1],
+                   .most = lowest,
+                   .facing_up = true};
+    fill_grid(grid, def);
+    int covered = 0;
+    for (int i = 0; i < GRID * GRID; i++) {
+        covered += (double)grid->height[i] <= lowest;
+    }
+    const double cells = (extent->high[0] - extent->low[0]) * (extent->high[2] - extent->low[2]) /
+                         (grid->cell * grid->cell);
+    free(grid);
+    return covered >= 0.6 * cells;
+}
+
+bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent) {
+    for (int o = 0; o < def->object_count; o++) {
+        const DipSurface surface = surface_of(def, &def->objects[o]);
+        if (surface == DIP_SURFACE_SKY || surface == DIP_SURFACE_WATER) {
+            return false;
+        }
+    }
+    // A flat scene is a ground. A scene far from the origin leaves no room for the gap below it.
+    const double size = size_of(extent);
+    const double far = fmax(fabs(extent->low[1]), fabs(extent->high[1]));
+    return width_of(extent) > 0.0 && height_of(extent) > 0.05 * width_of(extent) &&
+           far < 1e3 * size && !has_ground(def, extent);
+}
+
+// --- shade ---------------------------------------------------------------------------------------
+
+// Replaces each value of a line by the mean of those up to `reach` places away. Beyond the ends,
+// values are 0.
+static void blur_line(const float *from, float *to, size_t step, int reach) {
+    double sum = 0.0;
+    for (int i = 0; i < reach && i < GRID; i++) {
+        sum += (double)from[(size_t)i * step];
+    }
+    for (int i = 0; i < GRID; i++) {
+        if (i + reach < GRID) {
+            sum += (double)from[(size_t)(i + reach) * step];
+        }
+        if (i - reach - 1 >= 0) {
+            sum -= (double)from[(size_t)(i - reach - 1) * step];
+        }
+        to[(size_t)i * step] = (float)(sum / (2 * reach + 1));
+    }
+}
+
+// Blurs a square along both axes. Three means along an axis come near to a Gaussian.
+static void blur(float *values, float *scratch, int reach) {
+    for (int pass = 0; pass < 3; pass++) {
+        for (size_t row = 0; row < GRID; row++) {
+            blur_line(values + GRID * row, scratch + GRID * row, 1, reach);
+        }
+        for (size_t column = 0; column < GRID; column++) {
+            blur_line(scratch + column, values + column, GRID, reach);
+        }
+    }
+}
+
+// 1 in the middle of the ground, falling to 0 before its border, so that the border is not seen.
+static double fading(int column, int row) {
+    const double x = (column + 0.5) / GRID * 2.0 - 1.0;
+    const double z = (row + 0.5) / GRID * 2.0 - 1.0;
+    const double distance = sqrt(x * x + z * z);
+    const double t = distance < 0.6 ? 0.0 : distance > 0.98 ? 1.0 : (distance - 0.6) / 0.38;
+    return 1.0 - t * t * (3.0 - 2.0 * t);
+}
+
+// Writes the share of light that each texel gets, as linear values. Returns false when memory runs
+// out.
+static bool fill_shade(const Grid *grid, double size, uint8_t *rgba8) {
+    float *layer = malloc(3 * sizeof *layer * GRID * GRID);
+    if (!layer) {
+        return false;
+    }
+    float *scratch = layer + GRID * GRID;
+    float *light = scratch + GRID * GRID;
+    for (int i = 0; i < GRID * GRID; i++) {
+        light[i] = 1.0f;
+    }
+    for (int l = 0; l < LAYERS; l++) {
+        const double reach = layers[l].reach * size;
+        const int cells = (int)(0.5 * reach / grid->cell);
+        for (int i = 0; i < GRID * GRID; i++) {
+            const double height = (double)grid->height[i];
+            layer[i] = height < reach ? (float)(1.0 - height / reach) : 0.0f;
+        }
+        blur(layer, scratch, cells > 1 ? cells : 1);
+        for (int i = 0; i < GRID * GRID; i++) {
+            light[i] *= (float)(1.0 - layers[l].strength * fmin(2.0 * (double)layer[i], 1.0));
+        }
+    }
+    for (int i = 0; i < GRID * GRID; i++) {
+        const double dark = (1.0 - (double)light[i]) * fading(i % GRID, i / GRID);
+        const uint8_t code = (uint8_t)(255.0 * (1.0 - dark) + 0.5);
+        memset(rgba8 + 4 * (size_t)i, code, 3);
+        rgba8[4 * i + 3] = 255;
+    }
+    free(layer);
+    return true;
+}
+
+// --- the scene with the ground -------------------------------------------------------------------
+
+// Returns a copy of an array with room for one more item.
+static void *longer(const void *items, int count, size_t item_bytes) {
+    void *copy = malloc(((size_t)count + 1) * item_bytes);
+    if (copy && count) {
+        memcpy(copy, items, (size_t)count * item_bytes);
+    }
+    return copy;
+}
+
+static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+
+// Fills in the last texture, material, mesh and object.
+static void add_square(DipGround *ground, const Grid *grid, double level) {
+    DipSceneDef *def = &ground->def;
+    const double size = grid->cell * GRID;
+    for (int i = 0; i < 4; i++) {
+        const int right = i == 1 || i == 2;
+        const int front = i < 2; // Seen from above, the corners run counter-clockwise.
+        ground->positions[i][0] = (float)(grid->low[0] + right * size);
+        ground->positions[i][1] = (float)level;
+        ground->positions[i][2] = (float)(grid->low[1] + front * size);
+        ground->uv[i][0] = (float)right;
+        ground->uv[i][1] = (float)front;
+    }
+    ((DipTextureDef *)def->textures)[def->texture_count] =
+        (DipTextureDef){.name = "shade of the ground",
+                        .width = GRID,
+                        .height = GRID,
+                        .rgba8 = ground->shade_rgba8,
+                        .encoding = DIP_ENCODING_LINEAR,
+                        .wrap_u = DIP_WRAP_CLAMP,
+                        .wrap_v = DIP_WRAP_CLAMP};
+    DipMaterialDef material = {.name = "ground",
+                               .surface = DIP_SURFACE_OPAQUE,
+                               .colour_texture = def->texture_count,
+                               .light_map = DIP_NO_TEXTURE,
+                               .normal_map = DIP_NO_TEXTURE};
+    memcpy(material.base_colour_lin, def->background_lin, sizeof material.base_colour_lin);
+    ((DipMaterialDef *)def->materials)[def->material_count] = material;
+    ((DipMeshDef *)def->meshes)[def->mesh_count] = (DipMeshDef){.name = "ground",
+                                                                .vertex_count = 4,
+                                                                .positions = ground->positions[0],
+                                                                .uv0 = ground->uv[0],
+                                                                .index_count = 6,
+                                                                .indices = indices,
+                                                                .material = def->material_count};
+    ((DipObjectDef *)def->objects)[def->object_count] =
+        (DipObjectDef){.name = "ground",
+                       .mesh = def->mesh_count,
+                       .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    def->texture_count++;
+    def->material_count++;
+    def->mesh_count++;
+    def->object_count++;
+}
+
+DipGround *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err) {
+    DipGround *ground = calloc(1, sizeof *ground);
+    Grid *grid = malloc(sizeof *grid);
+    if (ground) {
+        ground->def = *def;
+        ground->def.textures = longer(def->textures, def->texture_count, sizeof *def->textures);
+        ground->def.materials = longer(def->materials, def->material_count, sizeof *def->materials);
+        ground->def.meshes = longer(def->meshes, def->mesh_count, sizeof *def->meshes);
+        ground->def.objects = longer(def->objects, def->object_count, sizeof *def->objects);
+        ground->shade_rgba8 = malloc((size_t)4 * GRID * GRID);
+    }
+    const double size = size_of(extent);
+    const double half = 0.5 * width_of(extent) + 0.8 * size;
+    bool made = ground && grid && ground->def.textures && ground->def.materials &&
+                ground->def.meshes && ground->def.objects && ground->shade_rgba8;
+    if (made) {
+        *grid = (Grid){.low = {0.5 * (extent->low[0] + extent->high[0]) - half,
+                               0.5 * (extent->low[2] + extent->high[2]) - half},
+                       .cell = 2.0 * half / GRID,
+                       .floor = extent->low[1],
+                       .most = layers[LAYERS - 1].reach * size};
+        fill_grid(grid, def);
+        made = fill_shade(grid, size, ground->shade_rgba8);
+    }
+    if (made) {
+        add_square(ground, grid, extent->low[1] - gap * size);
+    } else {
+        dip_ground_destroy(&ground);
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "ground", "out of memory");
+    }
+    free(grid);
+    return ground;
+}
+
+void dip_ground_destroy(DipGround **ground) {
+    if (*ground) {
+        free((void *)(*ground)->def.textures);
+        free((void *)(*ground)->def.materials);
+        free((void *)(*ground)->def.meshes);
+        free((void *)(*ground)->def.objects);
+        free((*ground)->shade_rgba8);
+        free(*ground);
+        *ground = NULL;
+    }
+}
