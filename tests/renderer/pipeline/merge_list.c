@@ -4,6 +4,9 @@
 static DipDrawState random_state(Random *random) {
     DipDrawState state = {.ordered = random_int(random, 0, 9) == 0};
     if (random_int(random, 0, 3) == 0) {
+        // One of these alone makes the draw ordered.
+        state.kept_samples = random_int(random, 0, 3) ? 0 : (uint8_t)random_int(random, 0, 255);
+        state.reads_front = random_int(random, 0, 3) == 0;
         return state;
     }
     DipBlend *blend = &state.blend;
