@@ -169,6 +169,20 @@ static void rows_have_the_errors_of_their_own_pictures(void **state) {
     close_cost(true);
 }
 
+// The same pictures have other errors against other truths, so their hash is another one.
+static void hashes_of_errors_depend_on_the_truths(void **state) {
+    (void)state;
+    char hashes[2][33];
+    for (int i = 0; i < 2; i++) {
+        open_cost(SIDE, 0);
+        report.options.samples = i ? 9 : 4;
+        assert_true(dip_cost_judge(&cost, NULL));
+        memcpy(hashes[i], report.rows[BASE].pictures[0], sizeof hashes[i]);
+        close_cost(true);
+    }
+    assert_string_not_equal(hashes[0], hashes[1]);
+}
+
 static void floors_are_sums_over_the_bursts(void **state) {
     (void)state;
     open_cost(SIDE, 0);
@@ -356,6 +370,7 @@ static void a_few_combinations_are_timed_at_half_the_size(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_have_the_errors_of_their_own_pictures),
+        cmocka_unit_test(hashes_of_errors_depend_on_the_truths),
         cmocka_unit_test(floors_are_sums_over_the_bursts),
         cmocka_unit_test(a_part_judges_only_its_viewpoints),
         cmocka_unit_test(an_interrupted_report_goes_on_where_it_was),
