@@ -1,8 +1,8 @@
 // Imports models in a child process, the importer, so that a fault in the libraries that read model
 // files and pictures cannot hurt the program. The importer loads the files and hands over the
 // finished scene description in memory that it can no longer change. The program checks the whole
-// description before it uses it (scene_pack.h). If the importer crashes, hangs or needs too much
-// memory or time, the load fails like that of any other bad file.
+// description before it uses it (pack/scene_pack.h). If the importer crashes, hangs or needs too
+// much memory or time, the load fails like that of any other bad file.
 //
 // An importer is any program that calls dip_importer_run. Mostly this is the program itself: its
 // main function compares its first argument with a word of its choice and, on a match, does nothing

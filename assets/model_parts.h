@@ -9,7 +9,7 @@
 
 #include "assets/model.h"
 #include "assets/picture.h"
-#include "assets/scene_pack.h"
+#include "assets/pack/scene_pack.h"
 #include "renderer/scene/scene.h"
 
 #include <stdbool.h>

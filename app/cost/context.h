@@ -19,7 +19,7 @@
 typedef struct DipCostContext {
     const DipSession *session;
     DipCostReport *report;
-    DipCostJournal *journal; // NULL for no journal.
+    DipCostJournal *journal; // NULL if no rows are judged or timed (steps.h).
     const char *cache;       // Folder of the cached truths; NULL or "" for no cache.
     DipReference *reference; // NULL for scenes of the gallery, and without truths.
     DipGallery *gallery;     // NULL for models.

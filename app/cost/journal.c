@@ -13,6 +13,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum {
@@ -72,6 +74,32 @@ static bool read_file(DipCostJournal *journal, DipError *err) {
     return truncate(journal->file, (off_t)whole) == 0 || io_fault(journal, err);
 }
 
+// Opens the file for writing and locks it, so that no other run writes to it. The lock ends with
+// the process, however that ends. A run that has just finished may have removed the file between
+// its opening and its locking here; then a new one is opened.
+static bool open_file(DipCostJournal *journal, const char *folder, DipError *err) {
+    struct stat status = {.st_nlink = 0};
+    while (status.st_nlink == 0) {
+        if (journal->out) {
+            fclose(journal->out);
+        }
+        journal->out = fopen(journal->file, "ae"); // Child processes do not inherit the lock.
+        if (!journal->out) {
+            return io_fault(journal, err);
+        }
+        // Where files cannot be locked, runs are not kept apart.
+        if (flock(fileno(journal->out), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            return dip_error_set_runtime(err, DIP_ERROR_CONFLICT, folder, 0, "--out",
+                                         "another run writes into this folder; wait until it has "
+                                         "ended, or give another folder");
+        }
+        if (fstat(fileno(journal->out), &status) != 0) {
+            return io_fault(journal, err);
+        }
+    }
+    return true;
+}
+
 DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipError *err) {
     DipCostJournal *journal = calloc(1, sizeof *journal);
     if (!journal) {
@@ -80,15 +108,11 @@ DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipE
     }
     const int length = snprintf(journal->file, sizeof journal->file, "%s/cost.state", folder);
     snprintf(journal->plan, sizeof journal->plan, "%s", plan);
-    bool opened = length >= 0 && (size_t)length < sizeof journal->file;
+    const bool opened = length >= 0 && (size_t)length < sizeof journal->file;
     if (!opened) {
         dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
     }
-    if (opened && (opened = read_file(journal, err))) {
-        journal->out = fopen(journal->file, "a");
-        opened = journal->out || io_fault(journal, err);
-    }
-    if (!opened) {
+    if (!opened || !open_file(journal, folder, err) || !read_file(journal, err)) {
         dip_cost_journal_close(&journal, false);
     }
     return journal;
@@ -100,10 +124,10 @@ void dip_cost_journal_close(DipCostJournal **state_pointer, bool finished) {
         return;
     }
     if (journal->out) {
-        fclose(journal->out);
         if (finished) {
             remove(journal->file);
         }
+        fclose(journal->out); // Ends the lock.
     }
     free(journal->text);
     free(journal);

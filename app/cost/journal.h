@@ -24,7 +24,8 @@ typedef struct DipCostBurstErrors {
 typedef struct DipCostJournal DipCostJournal;
 
 // Opens folder/cost.state, or creates it. `plan` is the hash of everything that times depend on
-// (dip_cost_plan_hash). Rounds that were stored with another hash are ignored.
+// (dip_cost_plan_hash). Rounds that were stored with another hash are ignored. Fails with CONFLICT
+// while another journal of the folder is open, in this process or in another one.
 DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipError *err);
 
 // Closes the journal. Removes its file if the report is finished.

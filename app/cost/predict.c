@@ -302,16 +302,19 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
 static void judge_predictions(DipCostReport *report, int first_row) {
     DipCostPredictions *predicted = &report->predicted;
     double times[DIP_COST_MAX_ROWS], errors[DIP_COST_MAX_ROWS];
-    int count = 0;
+    int time_count = 0, error_count = 0;
     for (int i = 0; i < predicted->count; i++) {
         const DipCostPrediction *p = &predicted->list[i];
         if (p->row >= first_row) {
-            times[count] = fabs(p->ms / dip_cost_ms(report, p->row) - 1.0);
-            errors[count++] = fabs(p->flip / dip_cost_row_metrics(report, p->row, 0).flip - 1.0);
+            const double flip = dip_cost_row_metrics(report, p->row, 0).flip;
+            times[time_count++] = fabs(p->ms / dip_cost_ms(report, p->row) - 1.0);
+            if (flip > 0.0) { // A row that equals the truth has no relative error.
+                errors[error_count++] = fabs(p->flip / flip - 1.0);
+            }
         }
     }
-    predicted->times = dip_cost_misses_of(times, count);
-    predicted->errors = dip_cost_misses_of(errors, count);
+    predicted->times = dip_cost_misses_of(times, time_count);
+    predicted->errors = dip_cost_misses_of(errors, error_count);
 }
 
 bool dip_cost_predict(DipCostContext *cost, DipError *err) {

@@ -11,8 +11,7 @@ extern "C" {
 // Work done, as X(name, "what it counts"). A sample group is a set of samples of one pixel that
 // adaptive antialiasing clips and shades together (pattern.h). A patch is a small group of
 // triangles that join smoothly (patch.h). A probe is one bilinear read of a mip level.
-// The counts are exact: they are the same for any thread count, SIMD
-// width and machine.
+// The counts are exact: they are the same for any thread count, SIMD width and machine.
 #define DIP_PIPELINE_COUNTER_LIST(X)                                                               \
     X(passes, "render passes drawn")                                                               \
     X(tiles_drawn, "64x64-pixel tiles drawn in these passes")                                      \

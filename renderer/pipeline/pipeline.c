@@ -7,6 +7,7 @@
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/geometry/geometry.h"
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/merge/merge_tile.h"
 #include "renderer/pipeline/run/pass_check.h"
 #include "renderer/pipeline/run/tile_worker.h"
 
@@ -186,19 +187,18 @@ static void add_tile_counters(const DipTileWork *work, DipPipelineCounters *coun
     }
 }
 
-// Returns the bytes that storing a pixel of the target writes.
+// Returns the bytes that the pass writes to each pixel of its target.
 static uint64_t stored_bytes(const DipPass *pass) {
-    const DipTarget *target = &pass->target;
-    if (pass->attachments.keep_target) {
+    if (!dip_pass_stores_target(pass)) {
         return 0;
     }
-    switch (target->format) {
+    switch (pass->target.format) {
     case DIP_FORMAT_RGBA32F:
-        return target->floats ? 16 : 0;
+        return 16;
     case DIP_FORMAT_CALLER:
         return 0; // the caller's memory is not known
     default:
-        return target->rgba8 ? 4 : 0;
+        return 4;
     }
 }
 
@@ -356,6 +356,33 @@ static bool check_shaders(const DipPipeline *pipeline, DipError *err) {
     return !fault.code;
 }
 
+// Whether a pass may change its depths or stencil values, or leave them undefined.
+static bool changes_depth(const DipAttachments *attachments) {
+    return attachments->depth_store != DIP_STORE_REVERT ||
+           attachments->stencil_store != DIP_STORE_REVERT;
+}
+
+// Checks that two passes that are drawn at once, and so have no order, do not draw into the same
+// samples, depths or stencil values.
+static bool check_shared_attachments(const DipPassWork *works, int first, int second,
+                                     DipError *err) {
+    const DipAttachments *a = &works[first].pass->attachments;
+    const DipAttachments *b = &works[second].pass->attachments;
+    if (a->samples && a->samples == b->samples) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.samples",
+                             "passes %d and %d draw into the same samples, accepted different "
+                             "ones for passes that are drawn at once",
+                             first, second);
+    }
+    if (a->depth && a->depth == b->depth && (changes_depth(a) || changes_depth(b))) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.depth",
+                             "passes %d and %d draw into the same depths, accepted different ones "
+                             "for passes that are drawn at once, or passes that revert them",
+                             first, second);
+    }
+    return true;
+}
+
 // Checks whether works[index] may be drawn at once with the works before it.
 static bool check_work(const DipPassWork *works, int index, DipError *err) {
     const DipPipeline *pipeline = works[index].pipeline;
@@ -366,7 +393,6 @@ static bool check_work(const DipPassWork *works, int index, DipError *err) {
     if (!dip_pass_check(works[index].pass, pipeline->width, pipeline->height, err)) {
         return false;
     }
-    const DipSamples *samples = works[index].pass->attachments.samples;
     for (int i = 0; i < index; i++) {
         if (works[i].pipeline == pipeline || works[i].pipeline->pool != pipeline->pool) {
             return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "pipeline",
@@ -374,11 +400,8 @@ static bool check_work(const DipPassWork *works, int index, DipError *err) {
                                  "pipelines of one pool",
                                  i, index);
         }
-        if (samples && samples == works[i].pass->attachments.samples) {
-            return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.samples",
-                                 "passes %d and %d draw into the same samples, accepted different "
-                                 "ones for passes that are drawn at once",
-                                 i, index);
+        if (!check_shared_attachments(works, i, index, err)) {
+            return false;
         }
     }
     return true;

@@ -199,7 +199,9 @@ enum { DIP_MAX_PASSES_AT_ONCE = 8 };
 // once for all passes, and its time and counters are added to each pass. The stages that run per
 // tile are timed for each pass separately.
 // Fails as dip_pipeline_draw does. Also fails with RANGE if count is out of range, and with
-// CONFLICT if two passes have the same pipeline or their pipelines use different pools.
+// CONFLICT if two passes have the same pipeline, the same attachments.samples, or the same
+// attachments.depth while one of them does not revert its depths and stencil values
+// (DIP_STORE_REVERT), or if their pipelines use different pools.
 DIP_API bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geometry,
                                       DipError *err);
 

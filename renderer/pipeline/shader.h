@@ -26,7 +26,7 @@ enum {
     DIP_VERTEX_BATCH = 256,
     DIP_MAX_VARYINGS = 12,   // floats interpolated from the vertices to a fragment
     DIP_MAX_ATTRIBUTES = 16, // floats per vertex
-    DIP_MAX_SAMPLERS = 4,
+    DIP_MAX_SAMPLERS = 16,
 };
 
 // A vertex shader reads in[a][i]: float a of vertex i's attributes in the mesh, and 0 for the
@@ -97,6 +97,9 @@ struct DipFragmentBatch {
     float varying_dy[DIP_MAX_VARYINGS][DIP_FRAGMENT_BATCH];
     float x[DIP_FRAGMENT_BATCH]; // the shaded position, in pixels from the target's top left corner
     float y[DIP_FRAGMENT_BATCH];
+    // 1 if the fragment lies on a front face (DipCull in pipeline.h), and 0 if it lies on a back
+    // face. Only draws whose state sets reads_front (state.h) have it; for others it is 0.
+    uint8_t front[DIP_FRAGMENT_BATCH];
     const DipSampler *samplers; // samplers of the draw
     const void *uniforms;       // uniforms of the draw
     DipSampleColour *sample_colour;

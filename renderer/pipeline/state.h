@@ -124,13 +124,15 @@ typedef enum DipDepthTest {
 
 // Moves surfaces towards the eye (positive) or away from it (negative), for the depth test and for
 // the depth that is stored. The depth z of a sample becomes
-//     z + slope * max(|dz/dx|, |dz/dy|) + relative * 2^-23 * z
+//     z + slope * max(|dz/dx|, |dz/dy|) + constant + relative * 2^-23 * z
 // with dz/dx and dz/dy per pixel, and is then clamped to 0..1. With reversed depth, `relative`
 // moves a surface by the same share of its distance everywhere: its units are units in the last
-// place of the sample's own depth, which are not the constant units of OpenGL and Direct3D.
+// place of the sample's own depth. `constant` moves all surfaces by the same depth, as the constant
+// bias of Direct3D 9 does; OpenGL and later versions of Direct3D count it in units of their format.
 typedef struct DipDepthBias {
     float slope;
     float relative;
+    float constant;
 } DipDepthBias;
 
 // --- stencil -------------------------------------------------------------------------------------
@@ -165,6 +167,12 @@ typedef struct DipStencil {
     uint8_t write_mask;
     DipStencilFace front; // for triangles that wind counter-clockwise on the screen
     DipStencilFace back;
+    // If true, the three values below replace those above for back faces. If false, both faces
+    // share those above.
+    bool back_has_values;
+    uint8_t back_reference;
+    uint8_t back_read_mask;
+    uint8_t back_write_mask;
 } DipStencil;
 
 // --- the state -----------------------------------------------------------------------------------
@@ -191,6 +199,13 @@ typedef struct DipDrawState {
     DipStencil stencil;
     DipFill fill;
     float line_width; // of wireframes, in pixels, 0..DIP_MAX_LINE_WIDTH; 0 means 1
+    // Bit s: the draw leaves sample s of each pixel as it is, with its colour, depth and stencil
+    // value. Bits of samples that the pass does not have change nothing. The position at which a
+    // fragment is shaded does not depend on these bits, only on the samples that the triangle
+    // covers. A fragment of which no sample can change is not shaded.
+    uint8_t kept_samples;
+    // The draw's shaders read which fragments lie on front faces (DipFragmentBatch.front).
+    bool reads_front;
 } DipDrawState;
 
 #define DIP_MAX_LINE_WIDTH 64.0f

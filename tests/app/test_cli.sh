@@ -368,6 +368,14 @@ expect 2 'the parts show "square.gltf", and the pictures of the page would be dr
     "$diptych" cost merge --out x part0 part1
 check "the report has errors" test "$(wc -l <once.txt)" -gt 50
 check "merged parts have the same errors as one run" cmp once.txt merged.txt
+# A cache whose files cannot be written: folders stand in their places.
+cp -r truths unwritable
+for truth in unwritable/truth-*.bin; do
+    rm "$truth"
+    mkdir -p "$truth/full"
+done
+expect 1 'truth-[0-9a-f]*.bin: \[--cache\] cannot be written: ' $cost --cache unwritable --out x \
+    --errors-only --combine none --pictures none
 expect 0 '' $cost --out phone --part 0:1 --errors-only --combine none --viewing phone --pictures none
 check "a way of viewing sets the pixels per degree" grep -q '"pixels_per_degree":94.2,' phone/cost.json
 expect 0 '' $cost --out one-thread --errors-only --combine aa --threads 1 --isa scalar

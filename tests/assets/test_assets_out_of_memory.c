@@ -2,7 +2,7 @@
 // at all, in this process and through the importer. This program is also its own importer.
 #include "assets/animation.h"
 #include "assets/importer.h"
-#include "assets/scene_pack.h"
+#include "assets/pack/scene_pack.h"
 #include "tests/assets/fixture.h"
 #include "tests/assets/same_scene.h"
 #include "tests/support/out_of_memory.h"

@@ -5,7 +5,7 @@
 #include "assets/animation.h"
 #include "assets/cameras.h"
 #include "assets/importer.h"
-#include "assets/scene_pack.h"
+#include "assets/pack/scene_pack.h"
 #include "campaths/camtrack.h"
 #include "config/config.h"
 #include "renderer/base/hash.h"

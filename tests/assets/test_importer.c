@@ -3,7 +3,7 @@
 #define _GNU_SOURCE // F_ADD_SEALS
 #include "assets/importer.h"
 #include "assets/importer_private.h"
-#include "assets/scene_pack.h"
+#include "assets/pack/scene_pack.h"
 #include "renderer/base/clock.h"
 #include "tests/assets/fixture.h"
 #include "tests/assets/same_scene.h"

@@ -1,7 +1,7 @@
 // Tests of scene packs: a pack gives back the scene that was written, and no damage to a pack makes
 // the reader crash or accept something that points outside.
-#include "assets/scene_pack.h"
-#include "assets/scene_pack_private.h"
+#include "assets/pack/scene_pack.h"
+#include "assets/pack/scene_pack_layout.h"
 #include "renderer/base/error.h"
 #include "tests/assets/fixture.h"
 #include "tests/assets/same_scene.h"

@@ -21,7 +21,7 @@ without_floats='
 
 # Declarations, not mentions in comments.
 functions=$(sed 's|//.*||' assets/animation.h assets/cameras.h assets/importer.h assets/model.h \
-    assets/picture.h assets/scene_pack.h campaths/campath.h campaths/camtrack.h config/config.h |
+    assets/picture.h assets/pack/scene_pack.h campaths/campath.h campaths/camtrack.h config/config.h |
     grep -oE '\bdip_[a-z0-9_]+\(' | tr -d '(' | sort -u)
 if test "$(echo "$functions" | wc -l)" -lt 50; then
     echo "only $(echo "$functions" | wc -l) functions found; have the headers moved?"

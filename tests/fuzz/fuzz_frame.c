@@ -1,7 +1,7 @@
 // Fuzzes drawing: the renderer must draw every scene that it accepts. An input is a pose, settings,
 // and a scene pack. The picture has the same bits with the scalar kernels and with the machine's
 // best.
-#include "assets/scene_pack.h"
+#include "assets/pack/scene_pack.h"
 #include "renderer/scene/renderer.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/mutate_pack.h"

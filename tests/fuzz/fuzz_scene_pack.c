@@ -2,7 +2,7 @@
 // a bad model file. Everything that an accepted pack points to lies inside of it; the scene is the
 // same when it is written and read again; and the renderer accepts the scene or refuses it.
 #define _GNU_SOURCE // memfd_create
-#include "assets/scene_pack.h"
+#include "assets/pack/scene_pack.h"
 #include "tests/assets/same_scene.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/mutate_pack.h"

@@ -1,7 +1,7 @@
 // Mutates scene packs: changes numbers at places where packs have numbers.
 #include "tests/fuzz/mutate_pack.h"
 
-#include "assets/scene_pack_private.h"
+#include "assets/pack/scene_pack_layout.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <string.h>

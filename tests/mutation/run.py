@@ -8,6 +8,7 @@ build/mutation/, writes a line per mutant to a journal, and skips mutants that t
 that it can be stopped and started again. Mutants that survived are tested again after a commit.
 
     tests/mutation/run.py --count 60 --seed 1     random mutants
+    tests/mutation/run.py --count 9 --folder app/control    random mutants of one folder
     tests/mutation/run.py --guards                the mutants of guards.txt
     tests/mutation/run.py --report                prints the journal as a table
 """
@@ -26,7 +27,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 WORK = TOP / "build" / "mutation"
 TREE = WORK / "tree"
 BUILD = TREE / "build" / "ci"
-FOLDERS = ("renderer", "campaths", "config")
+FOLDERS = ("renderer", "campaths", "config", "assets", "app/measure", "app/control")
 # The tests that run last, since most mutants fail a quicker one.
 SLOW_TESTS = "stability_|against_reference|determinism|test_live|error_thread|cli"
 
@@ -81,10 +82,10 @@ def code_lines(path):
         yield number, line
 
 
-def all_mutants():
-    """Lists every mutant of the tree as (file, line number, rule name, start, new line)."""
+def all_mutants(folders=FOLDERS):
+    """Lists every mutant below some folders as (file, line number, rule name, start, new line)."""
     mutants = []
-    for folder in FOLDERS:
+    for folder in folders:
         for path in sorted((TREE / folder).rglob("*.[ch]")):
             name = str(path.relative_to(TREE))
             if "/example/" in name:
@@ -265,6 +266,8 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=0, help="number of random mutants that change the code")
     parser.add_argument("--seed", type=int, default=1, help="seed of the random choice")
+    parser.add_argument("--folder", action="append", choices=FOLDERS,
+                        help="take random mutants from this folder only; may be given several times")
     parser.add_argument("--guards", action="store_true", help="test the mutants of guards.txt")
     parser.add_argument("--report", action="store_true", help="only print what the journal holds")
     parser.add_argument("--list", action="store_true", help="only list the mutants")
@@ -282,7 +285,7 @@ def main():
                             text.replace(old, new, 1) if old in text else None))
     count = len(mutants) + options.count
     if options.count:
-        chosen = all_mutants()
+        chosen = all_mutants(options.folder or FOLDERS)
         random.Random(options.seed).shuffle(chosen)
         for name, number, rule, _, changed in chosen:
             identity = "%s:%d: %s: %s" % (name, number + 1, rule, changed.strip())

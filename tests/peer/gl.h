@@ -75,6 +75,7 @@
     X(ShaderSource, SHADERSOURCE)                                                                  \
     X(StencilFuncSeparate, STENCILFUNCSEPARATE)                                                    \
     X(StencilMask, STENCILMASK)                                                                    \
+    X(StencilMaskSeparate, STENCILMASKSEPARATE)                                                    \
     X(StencilOpSeparate, STENCILOPSEPARATE)                                                        \
     X(TexImage2D, TEXIMAGE2D)                                                                      \
     X(TexParameteri, TEXPARAMETERI)                                                                \

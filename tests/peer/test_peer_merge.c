@@ -23,7 +23,7 @@ typedef float Picture[MODEL_HEIGHT][MODEL_WIDTH][4];
 static int list_count = 60;
 static DipGl gl;
 static GLuint program;
-static GLint colour_place, clips_place;
+static GLint colour_place, clips_place, reads_front_place;
 
 // --- our pipeline --------------------------------------------------------------------------------
 
@@ -40,15 +40,17 @@ static void fragment_shader(DipFragmentBatch *batch) {
     const ModelDraw *draw = batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
         for (int c = 0; c < 3; c++) {
-            batch->colour[c][i] = (float)model_shade(draw, (int)batch->x[i], (int)batch->y[i], c);
+            batch->colour[c][i] =
+                (float)model_shade(draw, batch->front[i], (int)batch->x[i], (int)batch->y[i], c);
         }
-        batch->alpha[i] = (float)model_shade(draw, (int)batch->x[i], (int)batch->y[i], 3);
+        batch->alpha[i] =
+            (float)model_shade(draw, batch->front[i], (int)batch->x[i], (int)batch->y[i], 3);
     }
 }
 
 static void clip_shader(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
-        batch->keep[i] = model_keeps((int)batch->x[i], (int)batch->y[i]);
+        batch->keep[i] = model_keeps(batch->front[i], (int)batch->x[i], (int)batch->y[i]);
     }
 }
 
@@ -129,14 +131,17 @@ static void make_program(void) {
                                 "#version 330 core\n"
                                 "uniform vec4 colour;\n"
                                 "uniform int clips;\n"
+                                "uniform int reads_front;\n"
                                 "out vec4 pixel;\n"
                                 "void main() {\n"
                                 "    int x = int(gl_FragCoord.x);\n"
                                 "    int y = int(gl_FragCoord.y);\n"
-                                "    if (clips != 0 && ((x ^ y) & 2) == 0) {\n"
+                                "    bool front = reads_front != 0 && gl_FrontFacing;\n"
+                                "    if (clips != 0 && ((x ^ y) & (front ? 4 : 2)) == 0) {\n"
                                 "        discard;\n"
                                 "    }\n"
-                                "    pixel = colour * (1.0 + float((x + 3 * y) & 3)) / 4.0;\n"
+                                "    float share = (1.0 + float((x + 3 * y) & 3)) / 4.0;\n"
+                                "    pixel = colour * (front ? 0.5 * share : share);\n"
                                 "}\n"));
     gl.BindAttribLocation(program, 0, "position");
     gl.LinkProgram(program);
@@ -145,6 +150,7 @@ static void make_program(void) {
     assert_true(linked);
     colour_place = gl.GetUniformLocation(program, "colour");
     clips_place = gl.GetUniformLocation(program, "clips");
+    reads_front_place = gl.GetUniformLocation(program, "reads_front");
     gl.UseProgram(program);
 }
 
@@ -238,12 +244,14 @@ static void set_stencil(const DipStencil *stencil) {
     const GLenum names[2] = {GL_FRONT, GL_BACK};
     set_enabled(GL_STENCIL_TEST, stencil->enabled);
     for (int i = 0; i < 2; i++) {
-        gl.StencilFuncSeparate(names[i], compares[faces[i]->function], stencil->reference,
-                               stencil->read_mask);
+        const bool own = i == 1 && stencil->back_has_values;
+        gl.StencilFuncSeparate(names[i], compares[faces[i]->function],
+                               own ? stencil->back_reference : stencil->reference,
+                               own ? stencil->back_read_mask : stencil->read_mask);
+        gl.StencilMaskSeparate(names[i], own ? stencil->back_write_mask : stencil->write_mask);
         gl.StencilOpSeparate(names[i], stencil_ops[faces[i]->stencil_failed],
                              stencil_ops[faces[i]->depth_failed], stencil_ops[faces[i]->passed]);
     }
-    gl.StencilMask(stencil->write_mask);
 }
 
 static void set_state(const ModelDraw *draw) {
@@ -281,11 +289,15 @@ static void draw_theirs(const ModelList *list, Picture picture) {
         // A plain draw writes the alpha 1.
         const bool plain = !dip_state_is_ordered(&draw->state);
         float vertices[VERTICES][3];
+        if (draw->state.kept_samples & 1) {
+            continue; // With one sample per pixel, the draw changes nothing.
+        }
         vertices_of(draw, vertices);
         gl.BufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STREAM_DRAW);
         set_state(draw);
         gl.Uniform4fv(colour_place, 1, draw->colour);
         gl.Uniform1i(clips_place, draw->clips);
+        gl.Uniform1i(reads_front_place, draw->state.reads_front);
         if (plain) {
             gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
         }
@@ -299,10 +311,12 @@ static void draw_theirs(const ModelList *list, Picture picture) {
 // --- comparing -----------------------------------------------------------------------------------
 
 // The lists for OpenGL: draws that write another alpha than their shader's do not exist there, so
-// every draw is ordered.
+// every draw is ordered. OpenGL counts the constant part of a depth bias in units that depend on
+// the depth, so no draw has one.
 static void order_all(ModelList *list) {
     for (int d = 0; d < MODEL_DRAWS; d++) {
         list->draws[0][d].state.ordered = true;
+        list->draws[0][d].state.depth_bias.constant = 0.0f;
     }
 }
 

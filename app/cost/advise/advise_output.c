@@ -25,21 +25,27 @@ DIP_DERIVE(derive_number, DIP_MADE(int, (at->index + 1)))
 DIP_DERIVE(derive_name, advised_of(at)->common->names[at->index])
 #define SHOWN(KIND, MEMBER) DIP_FACT(KIND, DipCostReport, MEMBER)
 static const DipField report_fields[] = {
-    {"number", "report", NULL, "Its number.", .kind = DIP_FIELD_WHOLE, .derive = derive_number},
-    {"name", NULL, NULL, "The file or folder.", DIP_DERIVED(TEXT, derive_name)},
-    {"scene", NULL, NULL, "Name of the scene.", SHOWN(TEXT, scene)},
-    {"path", NULL, NULL, "The camera path.", SHOWN(TEXT, paths[0])},
-    {"width", NULL, "px", "Width of the pictures.", SHOWN(WHOLE, width)},
-    {"height", NULL, "px", "Height of the pictures.", SHOWN(WHOLE, height)},
-    {"processor", NULL, NULL, "The processor.", SHOWN(TEXT, processor)},
-    {"threads", NULL, NULL, "Number of threads.", SHOWN(WHOLE, threads)},
-    {"verdict", "machine", NULL, "How quiet the machine was.", SHOWN(NAMED, verdict),
-     .names = dip_cost_verdict_names},
-    {"combinations", NULL, NULL, "Number of its combinations with times and errors.",
+    {"number", "report", NULL, "Number of the report, in the order of the command line, from 1 on.",
+     .kind = DIP_FIELD_WHOLE, .derive = derive_number},
+    {"name", NULL, NULL, "File or folder of the report, as the command line names it.",
+     DIP_DERIVED(TEXT, derive_name)},
+    {"scene", NULL, NULL, "Name of the scene that the report measured.", SHOWN(TEXT, scene)},
+    {"path", NULL, NULL, "First camera path of the report, on which its combinations are timed.",
+     SHOWN(TEXT, paths[0])},
+    {"width", NULL, "px", "Width of the report's pictures.", SHOWN(WHOLE, width)},
+    {"height", NULL, "px", "Height of the report's pictures.", SHOWN(WHOLE, height)},
+    {"processor", NULL, NULL, "Name of the processor on which the report was measured.",
+     SHOWN(TEXT, processor)},
+    {"threads", NULL, NULL, "Number of threads that drew the report's frames.",
+     SHOWN(WHOLE, threads)},
+    {"verdict", "machine", NULL, "How quiet the report's machine was: green, amber or red.",
+     SHOWN(NAMED, verdict), .names = dip_cost_verdict_names},
+    {"combinations", NULL, NULL,
+     "Number of the report's combinations that have a time and an error.",
      SHOWN(WHOLE, choice.candidates.count)},
 };
-static const DipRecord report_record =
-    DIP_RECORD("advised report", "A report that was given.", report_fields, DipCostReport, NULL);
+static const DipRecord report_record = DIP_RECORD(
+    "advised report", "A report that the command line names.", report_fields, DipCostReport, NULL);
 
 DIP_GET_ITEM(get_report, &advised_of(at)->common->reports[index])
 static int count_reports(const DipFieldAt *at) {
@@ -103,28 +109,37 @@ static const void *derive_alone(const DipFieldAt *at, DipFieldScratch *scratch) 
 
 static const DipField alone_fields[] = {
     {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCandidate, quality)},
-    {"ms", NULL, "ms", "Their time, of the kind that the budget is meant for.",
+    {"ms", NULL, "ms",
+     "Time of these settings in this report, of the kind that the budget is meant for.",
      DIP_FACT(ESTIMATE, DipCandidate, time)},
-    {"flip", NULL, NULL, "Their mean FLIP in this report.", DIP_FACT(NUMBER, DipCandidate, flip)},
+    {"flip", NULL, NULL, "Mean FLIP of these settings in this report.",
+     DIP_FACT(NUMBER, DipCandidate, flip)},
 };
-static const DipRecord alone_record = DIP_RECORD(
-    "choice alone", "What a report alone would choose.", alone_fields, DipCandidate, NULL);
+static const DipRecord alone_record =
+    DIP_RECORD("choice alone", "The settings that would be chosen from one report alone.",
+               alone_fields, DipCandidate, NULL);
 
 static const DipField line_fields[] = {
-    {"number", "report", NULL, "Its number.", .kind = DIP_FIELD_WHOLE, .derive = derive_number},
-    {"ms", "time", "ms", "Time of the chosen settings, of the kind that the budget is meant for.",
+    {"number", "report", NULL, "Number of the report, in the order of the command line, from 1 on.",
+     .kind = DIP_FIELD_WHOLE, .derive = derive_number},
+    {"ms", "time", "ms",
+     "Time of the chosen settings in this report, of the kind that the budget is meant for.",
      DIP_FACT(ESTIMATE, Line, chosen.time), .digits = 2},
-    {"flip", "FLIP", NULL, "FLIP of the chosen settings.", DIP_FACT(NUMBER, Line, chosen.flip),
-     .digits = 4},
-    {"alone", NULL, NULL, "What this report alone would choose.", DIP_FACT(RECORD, Line, alone),
-     .record = &alone_record, .known = has_alone},
-    {"loss", NULL, "%", "Share by which the chosen settings have more FLIP than that.",
+    {"flip", "FLIP", NULL, "Mean FLIP of the chosen settings in this report.",
+     DIP_FACT(NUMBER, Line, chosen.flip), .digits = 4},
+    {"alone", NULL, NULL,
+     "The settings that would be chosen from this report alone; null if none is within the budget.",
+     DIP_FACT(RECORD, Line, alone), .record = &alone_record, .known = has_alone},
+    {"loss", NULL, "%",
+     "Share by which the chosen settings have more FLIP than those chosen from this report alone.",
      DIP_FACT(NUMBER, Line, loss), .digits = 1, .scale = 100.0},
-    {"other", "this report alone would choose", NULL, "The same for people.",
+    {"other", "this report alone would choose", NULL,
+     "The settings that would be chosen from this report alone, as one text.",
      .kind = DIP_FIELD_TEXT, .derive = derive_alone},
 };
-static const DipRecord line_record =
-    DIP_RECORD("choice in a report", "What a report says about a budget.", line_fields, Line, NULL);
+static const DipRecord line_record = DIP_RECORD(
+    "choice in a report", "What one report says about the settings that are chosen for a budget.",
+    line_fields, Line, NULL);
 
 DIP_GET_ITEM(get_line, DIP_MADE(Line, (line_of(advised_of(at)->common, at->item, index))))
 
@@ -144,15 +159,17 @@ DIP_DERIVE(derive_fits,
            DIP_MADE(double, dip_candidate_fits(at->item, all_of(at->owner)->budget_ms)))
 static const DipField choice_fields[] = {
     {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCandidate, quality)},
-    {"mean_flip", NULL, NULL, "FLIP, as a mean over the reports.",
+    {"mean_flip", NULL, NULL, "Mean FLIP of these settings, as a mean over the reports.",
      DIP_FACT(NUMBER, DipCandidate, flip)},
-    {"fits", NULL, NULL, "Probability of being within the budget in every report.",
+    {"fits", NULL, NULL, "Probability that these settings are within the budget in every report.",
      DIP_DERIVED(NUMBER, derive_fits)},
-    {"limited_by_report", NULL, NULL, "Index of the report in which it may take longest.",
+    {"limited_by_report", NULL, NULL,
+     "Index of the report in which these settings may take longest, from 0 on.",
      DIP_FACT(WHOLE, DipCandidate, report)},
 };
 static const DipRecord choice_record =
-    DIP_RECORD("common choice", "Settings for all reports.", choice_fields, DipCandidate, NULL);
+    DIP_RECORD("common choice", "Settings that are chosen from all reports together.",
+               choice_fields, DipCandidate, NULL);
 
 DIP_DERIVE(derive_chosen, candidate_at(at, all_of(at)->chosen))
 DIP_DERIVE(derive_next, candidate_at(at, all_of(at)->next))
@@ -175,22 +192,30 @@ static const DipField tie_element = {.kind = DIP_FIELD_SETTINGS};
 static const DipField budget_fields[] = {
     {"budget_ms", NULL, "ms", "The time that a frame may take.",
      DIP_FACT(NUMBER, DipCostCommonAdvice, all.budget_ms)},
-    {"chosen", NULL, NULL, "What to choose; null if nothing surely fits.",
+    {"chosen", NULL, NULL,
+     "The settings to choose; null if none are surely within the budget in every report.",
      DIP_DERIVED(RECORD, derive_chosen), .record = &choice_record},
-    {"ties", NULL, NULL, "Up to eight others that are as good.", .kind = DIP_FIELD_LIST,
-     .where = DIP_FIELD_JSON,
+    {"ties", NULL, NULL,
+     "Up to eight other combinations of settings that are as good as the chosen one.",
+     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON,
      .list = &(const DipFieldList){.element = &tie_element, .count = count_ties, .item = get_tie}},
-    {"tie_count", NULL, NULL, "Number of all that are as good.",
+    {"tie_count", NULL, NULL, "Number of all combinations that are as good as the chosen one.",
      DIP_FACT(WHOLE, DipCostCommonAdvice, all.tie_count)},
     {"next_better", NULL, NULL,
-     "What is clearly better, or the fastest if nothing is chosen; null if there is none.",
+     "The next clearly better combination, or the fastest one if none is chosen; null if there is "
+     "none.",
      DIP_DERIVED(RECORD, derive_next), .record = &choice_record},
-    {"next_ms", NULL, "ms", "How much longer that takes than the chosen one, or than the budget.",
+    {"next_ms", NULL, "ms",
+     "How much longer the next better combination takes than the chosen one, or than the budget if "
+     "none is chosen.",
      DIP_FACT(NUMBER, DipCostCommonAdvice, all.next_ms), .known = has_next},
-    {"reports", NULL, NULL, "What each report says.", LIST(line_record, count_reports, get_line)},
+    {"reports", NULL, NULL,
+     "What each report says about the chosen settings, in the order of the command line.",
+     LIST(line_record, count_reports, get_line)},
 };
-static const DipRecord budget_record = DIP_RECORD("budget", "What to choose for one time budget.",
-                                                  budget_fields, DipCostCommonAdvice, NULL);
+static const DipRecord budget_record =
+    DIP_RECORD("budget", "The settings to choose for one time budget.", budget_fields,
+               DipCostCommonAdvice, NULL);
 
 DIP_DERIVE(derive_budget_of, dip_time_kind_names[advised_of(at)->common->candidates.kind])
 DIP_DERIVE(derive_combinations, &advised_of(at)->common->candidates.count)
@@ -200,13 +225,17 @@ static int count_budgets(const DipFieldAt *at) {
 
 DIP_GET_ITEM(get_budget, &advised_of(at)->list[index])
 static const DipField advised_fields[] = {
-    {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
+    {"format", NULL, NULL, "Number of the file's format.",
+     DIP_DERIVED(WHOLE, dip_cost_derive_format)},
     {"budget_of", NULL, NULL, "The time that budgets are meant for: p95, mean or worst.",
      DIP_DERIVED(TEXT, derive_budget_of)},
-    {"combinations", NULL, NULL, "Number of combinations that are in every report.",
+    {"combinations", NULL, NULL,
+     "Number of combinations that every report holds with a time and an error.",
      DIP_DERIVED(WHOLE, derive_combinations)},
-    {"reports", NULL, NULL, "The reports.", LIST(report_record, count_reports, get_report)},
-    {"advice", NULL, NULL, "The budgets.", LIST(budget_record, count_budgets, get_budget)},
+    {"reports", NULL, NULL, "The reports, in the order of the command line.",
+     LIST(report_record, count_reports, get_report)},
+    {"advice", NULL, NULL, "What to choose for each time budget.",
+     LIST(budget_record, count_budgets, get_budget)},
 };
 const DipRecord dip_cost_common_record = DIP_RECORD(
     "common advice", "What `diptych cost advise --json` writes.", advised_fields, Advised, NULL);

@@ -18,15 +18,20 @@ DIP_DERIVE(derive_verdict, dip_cost_verdict_names[diff_of(at)->verdicts[at->inde
 #define OF_SIDE(member)                                                                            \
     DIP_COMPUTED(TEXT, DipCostDiff, member[0]), .stride = sizeof *((DipCostDiff *)0)->member
 static const DipField side_fields[] = {
-    {"name", NULL, NULL, "As on the command line.", DIP_DERIVED(TEXT, derive_name)},
-    {"build", NULL, NULL, "Hash of the program's file.", OF_SIDE(builds)},
-    {"machine", NULL, NULL, "Processor, threads and instruction set.", OF_SIDE(machines)},
-    {"verdict", NULL, NULL, "How quiet the machine was; null without times.",
+    {"name", NULL, NULL, "Name of the report or program, as on the command line.",
+     DIP_DERIVED(TEXT, derive_name)},
+    {"build", NULL, NULL, "Hash of the file of the program that was measured.", OF_SIDE(builds)},
+    {"machine", NULL, NULL,
+     "Processor, number of threads and instruction set with which this side was measured.",
+     OF_SIDE(machines)},
+    {"verdict", NULL, NULL,
+     "How quiet this side's machine was: green, amber or red; null without times.",
      DIP_DERIVED(TEXT, derive_verdict), .known = has_times},
-    {"reason", NULL, NULL, "What the verdict comes from.", OF_SIDE(reasons), .known = has_times},
+    {"reason", NULL, NULL, "The measured figures from which the verdict comes.", OF_SIDE(reasons),
+     .known = has_times},
 };
-static const DipRecord side_record =
-    DIP_RECORD_OF_ARRAYS("side", "A report or a program.", side_fields, NULL);
+static const DipRecord side_record = DIP_RECORD_OF_ARRAYS(
+    "side", "One side of the comparison: a report or a program.", side_fields, NULL);
 
 DIP_OF_ITEM(int, count_sides, 2)
 
@@ -39,14 +44,18 @@ typedef struct Difference {
 
 DIP_DERIVE(derive_quantity, ((const Difference *)at->item)->quantity)
 static const DipField difference_fields[] = {
-    {"quantity", NULL, NULL, "What differs.", DIP_DERIVED(TEXT, derive_quantity)},
-    {"a", NULL, NULL, "Its value in A.", DIP_FACT(NUMBER, Difference, a)},
-    {"b", NULL, NULL, "Its value in B.", DIP_FACT(NUMBER, Difference, b)},
-    {"growth", NULL, NULL, "By what share it grew from A to B; of PSNR and SSIM, the error.",
+    {"quantity", NULL, NULL, "Name of the quantity that differs.",
+     DIP_DERIVED(TEXT, derive_quantity)},
+    {"a", NULL, NULL, "Value of the quantity in A.", DIP_FACT(NUMBER, Difference, a)},
+    {"b", NULL, NULL, "Value of the quantity in B.", DIP_FACT(NUMBER, Difference, b)},
+    {"growth", NULL, NULL,
+     "Share by which the quantity grew from A to B; for PSNR and SSIM, the share by which their "
+     "error grew.",
      DIP_FACT(NUMBER, Difference, growth)},
 };
 static const DipRecord difference_record =
-    DIP_RECORD("difference", "A quantity that differs.", difference_fields, Difference, NULL);
+    DIP_RECORD("difference", "A quantity whose values in A and B differ.", difference_fields,
+               Difference, NULL);
 
 static int count_differences(const DipFieldAt *at) {
     int count = 0;
@@ -87,26 +96,30 @@ static const DipRecord stage_record = DIP_RECORD(
 
 #define ROW(KIND, member) DIP_FACT(KIND, DipCostDiffRow, member)
 static const DipField row_fields[] = {
-    {"settings", NULL, NULL, "The settings that are off their defaults.",
+    {"settings", NULL, NULL, "The row's settings that are off their defaults.",
      DIP_DERIVED(TEXT, derive_settings)},
-    {"path", NULL, NULL, "The camera path.", ROW(TEXT, path)},
-    {"mark", NULL, NULL, "Whether B is the same, surely slower or surely faster.", ROW(NAMED, mark),
+    {"path", NULL, NULL, "Name of the camera path along which the frames were drawn.",
+     ROW(TEXT, path)},
+    {"mark", NULL, NULL,
+     "Whether B takes the same time as A, or is surely slower or surely faster.", ROW(NAMED, mark),
      .names = mark_names, .known = is_timed},
     {"a_ms", NULL, "ms", "Mean time of a frame in A.", ROW(NUMBER, ms[0]), .known = is_timed},
     {"b_ms", NULL, "ms", "Mean time of a frame in B.", ROW(NUMBER, ms[1]), .known = is_timed},
-    {"change", NULL, NULL, "How many times as long B takes.", ROW(ESTIMATE, change),
+    {"change", NULL, NULL, "Time of B divided by the time of A.", ROW(ESTIMATE, change),
      .known = is_timed},
     {"a_ratio", NULL, NULL, "A's time divided by its baseline's; reports only.",
      ROW(ESTIMATE, ratios[0]), .known = has_ratios},
     {"b_ratio", NULL, NULL, "B's time divided by its baseline's; reports only.",
      ROW(ESTIMATE, ratios[1]), .known = has_ratios},
-    {"stages", NULL, NULL, "The change in each stage; programs only.", .kind = DIP_FIELD_RECORD,
-     .where = DIP_FIELD_JSON, .record = &stage_record, .known = has_stages},
+    {"stages", NULL, NULL,
+     "Time of B divided by the time of A in each stage of the pipeline; programs only.",
+     .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON, .record = &stage_record,
+     .known = has_stages},
     {"differences", NULL, NULL, "Errors, pictures and counters that differ.",
      DIP_LIST(.record = &difference_record, .count = count_differences, .item = get_difference)},
 };
-static const DipRecord row_record =
-    DIP_RECORD("row", "Settings that both sides have.", row_fields, DipCostDiffRow, NULL);
+static const DipRecord row_record = DIP_RECORD(
+    "row", "A combination of settings that both sides have.", row_fields, DipCostDiffRow, NULL);
 
 DIP_DERIVE(derive_busy, DIP_MADE(bool, dip_cost_diff_is_busy(diff_of(at))))
 
@@ -114,9 +127,11 @@ DIP_DERIVE(derive_busy, DIP_MADE(bool, dip_cost_diff_is_busy(diff_of(at))))
 static const DipField note_element = {
     .kind = DIP_FIELD_TEXT, .size = DIP_COST_DIFF_NOTE, .stride = DIP_COST_DIFF_NOTE};
 static const DipField diff_fields[] = {
-    {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
-    {"sides", NULL, NULL, "A and B.", DIP_LIST(.record = &side_record, .count = count_sides)},
-    {"notes", NULL, NULL, "Differences of a whole side.",
+    {"format", NULL, NULL, "Number of the file's format.",
+     DIP_DERIVED(WHOLE, dip_cost_derive_format)},
+    {"sides", NULL, NULL, "The two sides of the comparison, first A and then B.",
+     DIP_LIST(.record = &side_record, .count = count_sides)},
+    {"notes", NULL, NULL, "Texts that say in what both sides differ as a whole.",
      DIP_LIST(.element = &note_element, DIP_ARRAY(DipCostDiff, notes, note_count))},
     {"busy", NULL, NULL, "Whether a machine was too busy for its times to be believed.",
      DIP_DERIVED(FLAG, derive_busy)},
@@ -128,7 +143,7 @@ static const DipField diff_fields[] = {
      DIFF(WHOLE, failed_errors)},
     {"cause", NULL, NULL, "The likely cause of a slowdown; \"\" if nothing is sure.",
      DIFF(TEXT, cause)},
-    {"rows", NULL, NULL, "The rows.",
+    {"rows", NULL, NULL, "The combinations that both sides have.",
      DIP_LIST(.record = &row_record, DIP_ARRAY(DipCostDiff, rows, row_count), .points = true)},
 };
 const DipRecord dip_cost_diff_record = DIP_RECORD(

@@ -195,12 +195,13 @@ const DipCommand dip_cost_merge_command = {
     .name = "cost merge",
     .summary = "join the parts of a report that several machines measured",
     .usage = "--out DIR PART/cost.json...",
-    .text = "Cost merge joins reports that have the same scene, size, settings, number of "
-            "viewpoints (--places) and samples. Each report has the errors of some of the "
-            "viewpoints (--part). The times come from the first report that has times, because "
-            "times of different machines cannot be mixed. If several reports have times, a table "
-            "compares their machines. The pictures of the page are drawn from the scene, which you "
-            "name as for `cost`; with --pictures none no scene is needed.",
+    .text = "Cost merge joins reports (each a cost.json, or a folder that has one) that have the "
+            "same scene, size, settings, number of viewpoints (--places) and samples. Each report "
+            "has the errors of some of the viewpoints (--part). The times come from the first "
+            "report that has times, because times of different machines cannot be mixed. If "
+            "several reports have times, a table compares their machines. The pictures of the page "
+            "are drawn from the scene, which you name as for `cost`; with --pictures none no scene "
+            "is needed.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),
     .parts = &option_parts,

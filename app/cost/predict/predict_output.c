@@ -25,17 +25,24 @@ DIP_DERIVE(derive_role, timed_of(at) < 0                                ? "predi
 DIP_DERIVE(derive_timed, timed_of(at) >= 0 ? &prediction_of(at)->timed[timed_of(at)] : NULL)
 
 static const DipField place_fields[] = {
-    {"width", NULL, "px", "Width of the pictures.", DIP_FACT(WHOLE, DipCostReport, width)},
-    {"height", NULL, "px", "Height of the pictures.", DIP_FACT(WHOLE, DipCostReport, height)},
-    {"path", NULL, NULL, "The camera path.", DIP_FACT(TEXT, DipCostReport, paths[0])},
-    {"threads", NULL, NULL, "Number of threads.", DIP_FACT(WHOLE, DipCostReport, threads)},
-    {"isa", NULL, NULL, "Instruction set.", DIP_FACT(TEXT, DipCostReport, isa)},
+    {"width", NULL, "px", "Width of the pictures that are drawn there.",
+     DIP_FACT(WHOLE, DipCostReport, width)},
+    {"height", NULL, "px", "Height of the pictures that are drawn there.",
+     DIP_FACT(WHOLE, DipCostReport, height)},
+    {"path", NULL, NULL, "Camera path along which the frames are drawn.",
+     DIP_FACT(TEXT, DipCostReport, paths[0])},
+    {"threads", NULL, NULL, "Number of threads that draw the frames.",
+     DIP_FACT(WHOLE, DipCostReport, threads)},
+    {"isa", NULL, NULL, "Instruction set with which the frames are drawn.",
+     DIP_FACT(TEXT, DipCostReport, isa)},
 };
-static const DipRecord place_record =
-    DIP_RECORD("place", "Where something is drawn.", place_fields, DipCostReport, NULL);
+static const DipRecord place_record = DIP_RECORD(
+    "place",
+    "The place of a measurement: size of the pictures, camera path, threads and instruction set.",
+    place_fields, DipCostReport, NULL);
 
 static const DipField there_fields[] = {
-    {"settings", "combination", NULL, "All quality settings.",
+    {"settings", "combination", NULL, "All quality settings of the combination.",
      DIP_FACT(SETTINGS, DipCostPredictedThere, quality)},
     {"role", NULL, NULL, "Whether the combination was predicted, timed or checked.",
      DIP_DERIVED(TEXT, derive_role)},
@@ -45,13 +52,15 @@ static const DipField there_fields[] = {
      DIP_FACT(NUMBER, DipCostPredictedThere, as_is_ms), .digits = 2},
     {"ms", "predicted", "ms", "Mean time predicted from the report and from what was timed there.",
      DIP_FACT(NUMBER, DipCostPredictedThere, ms), .digits = 2},
-    {"timed", NULL, NULL, "What was timed there; null otherwise.",
+    {"timed", NULL, NULL,
+     "Mean time that was timed there; null if the combination was not timed there.",
      DIP_DERIVED(RECORD, derive_timed), .record = &dip_cost_elsewhere_record},
-    {"there", NULL, NULL, "The place.", .kind = DIP_FIELD_RECORD, .derive = derive_there,
-     .record = &place_record},
+    {"there", NULL, NULL, "The place for which the times are predicted.", .kind = DIP_FIELD_RECORD,
+     .derive = derive_there, .record = &place_record},
 };
-static const DipRecord there_record = DIP_RECORD(
-    "combination there", "A combination of the report.", there_fields, DipCostPredictedThere, NULL);
+static const DipRecord there_record =
+    DIP_RECORD("combination there", "A combination of the report, with its times there.",
+               there_fields, DipCostPredictedThere, NULL);
 
 #define MISSES(name, MEMBER, means)                                                                \
     {                                                                                              \
@@ -59,35 +68,46 @@ static const DipRecord there_record = DIP_RECORD(
             .record = &dip_cost_misses_record                                                      \
     }
 static const DipField misses_fields[] = {
-    MISSES("report_rows_left_out", fit, "Each row of the report predicted from the others."),
-    MISSES("timed_by_report_alone", timed_as_is, "What was timed, predicted by the report alone."),
-    MISSES("timed_left_out", timed_left_out, "Each that was timed, predicted from the others."),
+    MISSES("report_rows_left_out", fit,
+           "Misses of the report's rows, each predicted from all others."),
+    MISSES("timed_by_report_alone", timed_as_is,
+           "Misses of the combinations that were timed there, predicted from the report alone."),
+    MISSES("timed_left_out", timed_left_out,
+           "Misses of the combinations that were timed there, each predicted from the report and "
+           "the others."),
     MISSES("checked_by_report_alone", checked_as_is,
-           "What was checked, predicted by the report alone."),
-    MISSES("checked", checked_fitted, "What was checked, predicted from all."),
+           "Misses of the combinations that were timed only as a check, predicted from the report "
+           "alone."),
+    MISSES("checked", checked_fitted,
+           "Misses of the combinations that were timed only as a check, predicted from the report "
+           "and what was timed there."),
 };
 static const DipRecord misses_record =
-    DIP_RECORD("misses there", "How well it did.", misses_fields, DipCostElsewherePrediction, NULL);
+    DIP_RECORD("misses there", "How far the predictions lie from what was timed.", misses_fields,
+               DipCostElsewherePrediction, NULL);
 
 static const DipField prediction_fields[] = {
-    {"what", NULL, NULL, "The command.", DIP_DERIVED(TEXT, derive_what)},
-    {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
-    {"scene", NULL, NULL, "Name of the scene.",
+    {"what", NULL, NULL, "Name of the command that wrote the file.",
+     DIP_DERIVED(TEXT, derive_what)},
+    {"format", NULL, NULL, "Number of the file's format.",
+     DIP_DERIVED(WHOLE, dip_cost_derive_format)},
+    {"scene", NULL, NULL, "Name of the scene that is drawn.",
      DIP_FACT(TEXT, DipCostElsewherePrediction, report.scene)},
-    {"scene_hash", NULL, NULL, "Hash of the scene.",
+    {"scene_hash", NULL, NULL, "Hash of the scene that is drawn.",
      DIP_FACT(TEXT, DipCostElsewherePrediction, report.scene_hash)},
     {"report", NULL, NULL, "Where the report was measured.",
      DIP_FACT(RECORD, DipCostElsewherePrediction, report), .record = &place_record},
-    {"there", NULL, NULL, "What is predicted.", DIP_FACT(RECORD, DipCostElsewherePrediction, there),
-     .record = &place_record},
-    {"factor", NULL, NULL, "How many times as long as the report alone predicts it takes there.",
+    {"there", NULL, NULL, "The place for which the times are predicted.",
+     DIP_FACT(RECORD, DipCostElsewherePrediction, there), .record = &place_record},
+    {"factor", NULL, NULL, "How many times as long frames take there as the report alone predicts.",
      DIP_FACT(NUMBER, DipCostElsewherePrediction, factor)},
-    {"wait", NULL, NULL, "Share of their time that threads waited for a processor.",
+    {"wait", NULL, NULL,
+     "Share of their time for which the threads waited for a processor, in what was timed there.",
      DIP_FACT(NUMBER, DipCostElsewherePrediction, wait)},
-    {"misses", NULL, NULL, "How well it did.", .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON,
-     .record = &misses_record},
-    {"combinations", NULL, NULL, "The combinations.", .kind = DIP_FIELD_LIST,
-     .where = DIP_FIELD_JSON,
+    {"misses", NULL, NULL, "How far the predictions lie from what was timed.",
+     .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON, .record = &misses_record},
+    {"combinations", NULL, NULL, "The combinations of the report, with their times there.",
+     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON,
      .list = &(const DipFieldList){.record = &there_record,
                                    .items = offsetof(DipCostElsewherePrediction, list),
                                    .points = true,

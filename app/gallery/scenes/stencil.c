@@ -161,7 +161,8 @@ static bool draw_picture(const DipGalleryView *view, DipError *err) {
 }
 
 // Shows the stencil values in a rectangle of the picture. First writes the stencil values without
-// any colour, then draws a quad over the whole rectangle for each value.
+// any colour, then draws a quad over the whole rectangle for each value. The quads replace the
+// colour of every sample, so the pass need not know what the rectangle showed before.
 static bool draw_mask(const DipGalleryView *view, const DipTargetRegion *inset, DipError *err) {
     static const DipDrawState mark_object_only = {
         .kept_channels = NO_COLOUR,
@@ -183,7 +184,7 @@ static bool draw_mask(const DipGalleryView *view, const DipTargetRegion *inset, 
         add(&list, QUAD, &front, &looks[value], shade_flat, &fills[value]);
     }
     DipPass pass = dip_kit_pass(view, list.draws, list.count, black);
-    pass.attachments.colour_load = DIP_LOAD_KEEP;
+    pass.attachments.colour_load = DIP_LOAD_DISCARD;
     pass.viewport = pass.scissor = pass.region = *inset;
     return !list.failed && dip_kit_draw(view, view->pipeline, &pass, err);
 }

@@ -1,10 +1,11 @@
 // Draws the gallery scene "water": the transparent water in the courtyard's fountain.
 //
-// The first pass draws the courtyard with its light map, and a mosaic on the floor of the pool. The
-// second pass keeps the depths of the first one and draws the water, either blended over the
-// picture or with refraction. With refraction, the water's shader reads the first pass's picture a
-// little beside the pixel; the waves of a normal map determine how far. Fresnel's term mixes in the
-// colour of the sky.
+// The courtyard is drawn with its light map, and a mosaic on the floor of the pool. The water is
+// drawn last, either blended over the picture or with refraction. With refraction, it is drawn in a
+// second pass, whose shader reads the first pass's picture a little beside the pixel; the waves of
+// a normal map determine how far. Fresnel's term mixes in the colour of the sky. The second pass
+// keeps the depths and the colours of all samples of the first one, so that edges which the water
+// crosses are as smooth as in one pass.
 #include "app/gallery/kit/kit.h"
 #include "assets/model.h"
 #include "renderer/base/pages.h"
@@ -36,9 +37,9 @@ typedef struct Object {
     DipSampler samplers[2];
 } Object;
 
-enum { POOL_FLOOR, SCREEN }; // Meshes of the stock.
+enum { POOL_FLOOR }; // Mesh of the stock.
 
-// Uniforms of the water, and of the quad that copies the first pass's picture.
+// Uniforms of the water.
 typedef struct Water {
     float to_clip[16];
     float eye[3];
@@ -54,10 +55,12 @@ typedef struct Content {
     DipTexture **compressed; // Points to the compressed forms in `textures`.
     DipMesh **meshes;
     Object *objects;
-    DipDraw *draws; // The draws of one pass, at most all objects and a quad.
+    DipDraw *draws; // The draws of a frame, at most all objects and the floor of the pool.
     Uniforms pool_floor;
-    DipTarget picture;                     // The first pass's picture.
-    DipDepth *depths[DIP_MAX_SAMPLES + 1]; // [number of samples]: the first pass's depths.
+    DipTarget picture; // The first pass's picture.
+    // The first pass's depths and colours, each with an entry per number of samples.
+    DipDepth *depths[DIP_MAX_SAMPLES + 1];
+    DipSamples *samples[DIP_MAX_SAMPLES + 1];
     Water water;
 } Content;
 
@@ -207,19 +210,6 @@ static void shade_water(DipFragmentBatch *batch) {
     }
 }
 
-// Copies the first pass's picture, pixel by pixel.
-static void shade_screen(DipFragmentBatch *batch) {
-    const Water *water = batch->uniforms;
-    float u[DIP_FRAGMENT_BATCH];
-    float v[DIP_FRAGMENT_BATCH];
-    // At an edge, a fragment need not lie in the middle of its pixel.
-    for (int i = 0; i < batch->count; i++) {
-        u[i] = (dip_kit_floor(batch->x[i]) + 0.5f) / (float)water->picture.width;
-        v[i] = (dip_kit_floor(batch->y[i]) + 0.5f) / (float)water->picture.height;
-    }
-    batch->sample_target(batch, &water->picture, u, v, batch->colour);
-}
-
 // --- content -------------------------------------------------------------------------------------
 
 // Paints rings of square tiles around the pedestal: white, blue, turquoise and one ring in gold.
@@ -245,6 +235,7 @@ static void paint_mosaic(float u, float v, float rgba[4]) {
 static void forget_size(Content *content) {
     for (int s = 0; s <= DIP_MAX_SAMPLES; s++) {
         dip_depth_destroy(&content->depths[s]);
+        dip_samples_destroy(&content->samples[s]);
     }
     dip_lines_free(content->picture.rgba8);
     content->picture = (DipTarget){0};
@@ -400,8 +391,8 @@ static bool create(DipGalleryRoom *room, DipError *err) {
     return made;
 }
 
-// Makes the first pass's picture and depths. Keeps those of earlier frames if they have this size
-// and number of samples.
+// Makes the first pass's picture, depths and colours of samples. Keeps those of earlier frames if
+// they have this size and number of samples.
 static bool prepare_target(Content *content, const DipTarget *size, int samples, DipError *err) {
     DipTarget *picture = &content->picture;
     if (picture->width != size->width || picture->height != size->height) {
@@ -414,7 +405,11 @@ static bool prepare_target(Content *content, const DipTarget *size, int samples,
     if (!content->depths[samples]) {
         content->depths[samples] = dip_depth_create(size->width, size->height, samples, err);
     }
-    return content->depths[samples] != NULL;
+    if (!content->samples[samples]) {
+        content->samples[samples] =
+            dip_samples_create(size->width, size->height, samples, size->format, err);
+    }
+    return content->depths[samples] && content->samples[samples];
 }
 
 // --- drawing -------------------------------------------------------------------------------------
@@ -492,45 +487,47 @@ static int list_water(const DipGalleryView *view, const DipKitCamera *seen,
     return count;
 }
 
+// Draws the courtyard into content->picture, then the courtyard and the refracting water into the
+// view's picture. content->draws holds the draws of the court, and after them those of the water.
+static bool draw_refracted(const DipGalleryView *view, int court_count, int water_count,
+                           const float clear_lin[3], DipError *err) {
+    Content *content = view->content;
+    const int samples = dip_quality_sample_count(view->quality);
+    DipPass court = dip_kit_pass(view, content->draws, court_count, clear_lin);
+    DipPass water = dip_kit_pass(view, content->draws + court_count, water_count, clear_lin);
+    court.attachments.samples = content->samples[samples];
+    court.attachments.depth = content->depths[samples];
+    court.target = content->picture;
+    water.attachments = court.attachments;
+    water.attachments.colour_load = DIP_LOAD_KEEP;
+    water.attachments.depth_load = DIP_LOAD_KEEP;
+    water.attachments.colour_store = DIP_STORE_DISCARD;
+    water.attachments.depth_store = DIP_STORE_DISCARD;
+    return dip_kit_draw(view, view->pipeline, &court, err) &&
+           dip_kit_draw(view, view->pipeline, &water, err);
+}
+
 static bool draw(const DipGalleryView *view, DipError *err) {
     static const float clear_lin[3] = {0.30f, 0.42f, 0.62f};
-    static const DipDrawState copies = {.depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true};
     static const DipDrawState blended = {.blend = DIP_BLEND_MODE_ALPHA, .keep_depth = true};
     Content *content = view->content;
     const bool refracts = view->look == 0;
-    const int samples = dip_quality_sample_count(view->quality);
     const DipSampler mosaic = dip_kit_sampler(view, &view->stock->textures[0]);
     DipKitCamera seen;
-    if (!prepare_target(content, &view->target, samples, err) ||
+    if ((refracts &&
+         !prepare_target(content, &view->target, dip_quality_sample_count(view->quality), err)) ||
         !dip_kit_camera(&seen, view, 0.1, err)) {
         return false;
     }
-    const int court_count = list_court(view, &seen, &mosaic);
-    DipPass court = dip_kit_pass(view, content->draws, court_count, clear_lin);
-    court.attachments.depth = content->depths[samples];
-    if (refracts) {
-        court.target = content->picture;
-    }
-    if (!dip_kit_draw(view, view->pipeline, &court, err)) {
-        return false;
-    }
     DipSampler waves;
-    content->draws[0] = (DipDraw){.mesh = view->stock->meshes[SCREEN],
-                                  .vertex_shader = dip_kit_screen_vertex,
-                                  .fragment_shader = shade_screen,
-                                  .uniforms = &content->water,
-                                  .state = &copies};
-    const int first = refracts ? 1 : 0;
-    const int count =
-        list_water(view, &seen, refracts ? NULL : &blended, &waves, content->draws + first);
-    DipPass water = dip_kit_pass(view, content->draws, first + count, clear_lin);
-    water.attachments = (DipAttachments){
-        .colour_load = refracts ? DIP_LOAD_DISCARD : DIP_LOAD_KEEP,
-        .depth = content->depths[samples],
-        .depth_load = DIP_LOAD_KEEP,
-        .stencil_load = DIP_LOAD_KEEP,
-    };
-    return dip_kit_draw(view, view->pipeline, &water, err);
+    const int court = list_court(view, &seen, &mosaic);
+    const int water =
+        list_water(view, &seen, refracts ? NULL : &blended, &waves, content->draws + court);
+    if (refracts) {
+        return draw_refracted(view, court, water, clear_lin, err);
+    }
+    const DipPass both = dip_kit_pass(view, content->draws, court + water, clear_lin);
+    return dip_kit_draw(view, view->pipeline, &both, err);
 }
 
 const DipGalleryScene dip_gallery_water = {
@@ -540,7 +537,6 @@ const DipGalleryScene dip_gallery_water = {
                  "The fountain's pool over a mosaic, with waves that refract it, or blended over "
                  "it.",
              DIP_KIT_LOOKS("refracted", "blended")},
-    .meshes = {[SCREEN] = {DIP_KIT_QUAD, {2.0f, 2.0f}}},
     .textures = {{"mosaic", 512, 512, DIP_WRAP_CLAMP, paint_mosaic}},
     .content_bytes = sizeof(Content),
     .camera = camera,

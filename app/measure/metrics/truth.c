@@ -140,15 +140,18 @@ static bool load_file(DipTruth *truth, const char *cache) {
 
 static bool store_file(const DipTruth *truth, const char *cache, DipError *err) {
     char name[PATH_MAX], hex[33];
+    DipError fault;
     unsigned char *bytes = (unsigned char *)truth->rgb_lin;
     const size_t size = file_size(truth);
     memcpy(bytes + arrays_size(truth), &truth->floor, sizeof truth->floor);
     hash_contents(bytes, size - 32, hex);
     memcpy(bytes + size - 32, hex, 32);
-    return (file_name(truth, cache, name) ||
-            dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, cache, 0, "--cache",
-                                  "the name is too long")) &&
-           dip_whole_file_write(name, bytes, size, err);
+    if (!file_name(truth, cache, name)) {
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, cache, 0, "--cache",
+                                     "the name is too long");
+    }
+    return dip_whole_file_write(name, bytes, size, &fault) ||
+           dip_error_set_runtime(err, fault.code, name, 0, "--cache", "%s", fault.message);
 }
 
 static int64_t cache_bytes(const char *cache) {

@@ -161,8 +161,9 @@ void dip_child_stop(DipChild **child_pointer, bool at_once) {
 
 // --- asking ------------------------------------------------------------------------------------
 
-// Writes how long the threads ran and waited during a frame. timed->wait is in milliseconds here,
-// and the caller divides it by the frame's time; it is NAN if it is not known.
+// Writes how long the threads ran and waited during a frame. timed->wait becomes a time in
+// milliseconds, or NAN if it is not known. dip_child_draw later divides it by the frame's time, so
+// that it becomes a share; dip_child_serve sends it to the parent as it is.
 static void set_use(DipTimed *timed, const DipThreadUse *before, const DipThreadUse *after) {
     timed->wait = after->has_wait ? 1e-6 * (double)(after->wait_ns - before->wait_ns) : NAN;
     timed->cpu_ms = 1e-6 * (double)(after->cpu_ns - before->cpu_ns);

@@ -64,7 +64,7 @@ void dip_costs_make(DipCosts *costs, const DipCostReport *report) {
 
 static bool read_report(DipCostReport *report, DipPrices *prices, const char *file,
                         const char *scene, DipError *err) {
-    return dip_cost_read_json(report, file, err) &&
+    return dip_cost_read_report(file, report, err) &&
            (strcmp(report->scene, scene) == 0 ||
             dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
                           "is a report of %s, accepted a report of %s", report->scene, scene)) &&

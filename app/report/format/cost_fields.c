@@ -5,6 +5,7 @@
 #include "app/report/choice.h"
 #include "app/report/analysis.h"
 
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -83,19 +84,19 @@ static const void *derive_share(const DipFieldAt *at, DipFieldScratch *scratch) 
 static const DipField region_fields[] = {
     {"pixels", NULL, NULL, "Number of pixels of this class, over all judged pictures.",
      DIP_FACT(NUMBER, Region, pixels)},
-    {"rmse_lin", "RMSE", "linear", "RMSE of these pixels.",
+    {"rmse_lin", "RMSE", "linear", "RMSE of the pixels of this class.",
      DIP_FACT(NUMBER, Region, metrics.rmse_lin), .digits = 5},
-    {"psnr_db", "PSNR", "dB", "PSNR of these pixels.", DIP_FACT(NUMBER, Region, metrics.psnr_db),
-     .digits = 2},
-    {"ssim", "SSIM", NULL, "SSIM of these pixels.", DIP_FACT(NUMBER, Region, metrics.ssim),
-     .digits = 4},
-    {"flip", "FLIP", NULL, "Mean FLIP of these pixels.", DIP_FACT(NUMBER, Region, metrics.flip),
-     .digits = 4},
-    {"share", "of all pixels", "%", "Their share of all pixels.", DIP_SHOWN(NUMBER, derive_share),
-     .digits = 1, .scale = 100.0},
+    {"psnr_db", "PSNR", "dB", "PSNR of the pixels of this class.",
+     DIP_FACT(NUMBER, Region, metrics.psnr_db), .digits = 2},
+    {"ssim", "SSIM", NULL, "SSIM of the pixels of this class.",
+     DIP_FACT(NUMBER, Region, metrics.ssim), .digits = 4},
+    {"flip", "FLIP", NULL, "Mean FLIP of the pixels of this class.",
+     DIP_FACT(NUMBER, Region, metrics.flip), .digits = 4},
+    {"share", "of all pixels", "%", "Share of all pixels that are of this class.",
+     DIP_SHOWN(NUMBER, derive_share), .digits = 1, .scale = 100.0},
 };
-static const DipRecord region_record =
-    DIP_RECORD("class of pixels", "Metrics of a part of the picture.", region_fields, Region, NULL);
+static const DipRecord region_record = DIP_RECORD(
+    "class of pixels", "Metrics of the pixels of one class.", region_fields, Region, NULL);
 
 typedef struct Figures {
     Region regions[DIP_METRIC_REGION_COUNT];
@@ -213,16 +214,24 @@ static const DipField tail_fields[] = {
     TAIL_FIELD("worst", worst, 1.0, "worst block",
                "The greatest mean FLIP of a block of at most 32 x 32 pixels.", 4),
     TAIL_FIELD("worst_frame", worst_frame, 1e3, "its frame",
-               "The frame of the burst with the worst block, from 0 on.", 0),
-    TAIL_FIELD("worst_x", worst_x, 8192.0, NULL, "Left edge of the worst block, in pixels.", 0),
-    TAIL_FIELD("worst_y", worst_y, 8192.0, NULL, "Top edge of the worst block, in pixels.", 0),
-    TAIL_FIELD("worst_width", worst_width, 8192.0, NULL, "Width of the worst block, in pixels.", 0),
-    TAIL_FIELD("worst_height", worst_height, 8192.0, NULL, "Height of the worst block, in pixels.",
+               "Index of the burst's frame with the block of the greatest mean FLIP, from 0 on.",
                0),
+    TAIL_FIELD("worst_x", worst_x, 8192.0, NULL,
+               "Left edge of the block with the greatest mean FLIP, in pixels.", 0),
+    TAIL_FIELD("worst_y", worst_y, 8192.0, NULL,
+               "Top edge of the block with the greatest mean FLIP, in pixels.", 0),
+    TAIL_FIELD("worst_width", worst_width, 8192.0, NULL,
+               "Width of the block with the greatest mean FLIP, in pixels.", 0),
+    TAIL_FIELD("worst_height", worst_height, 8192.0, NULL,
+               "Height of the block with the greatest mean FLIP, in pixels.", 0),
     {"worst_viewpoint", "its viewpoint", NULL,
-     "The viewpoint with the worst block, from 0 on; only of a row.",
+     "Index of the row's viewpoint with the block of the greatest mean FLIP, from 0 on; only in "
+     "the "
+     "tail of a row.",
      DIP_COMPUTED(WHOLE, DipCostTail, worst_viewpoint)},
-    {"place", "where", NULL, "Where the worst block is; only of a row.",
+    {"place", "where", NULL,
+     "Camera path and viewpoint of the block with the greatest mean FLIP; only in the tail of a "
+     "row.",
      DIP_SHOWN(TEXT, derive_place)},
 };
 static const DipRecord viewpoint_tail_record = {
@@ -293,8 +302,9 @@ static bool are_sums(const DipMetricSums *sums) {
     return ok;
 }
 
-static const DipRecord viewpoint_record = DIP_RECORD(
-    "viewpoint of a row", "What was judged at a viewpoint.", viewpoint_fields, Viewpoint, NULL);
+static const DipRecord viewpoint_record =
+    DIP_RECORD("viewpoint of a row", "What was judged at one viewpoint of a row.", viewpoint_fields,
+               Viewpoint, NULL);
 
 DIP_OF_ITEM(int, count_viewpoints,
             count_set(((const DipCostRow *)at->item)->judged, report_of(at)->options.places))
@@ -363,17 +373,18 @@ DIP_DERIVE(derive_at_floor,
      DIP_DERIVED(ESTIMATE, derive_##METRIC),                                                       \
      .digits = DIGITS},
 static const DipField row_fields[] = {
-    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCostRow, quality)},
+    {"settings", NULL, NULL, "All quality settings of the combination.",
+     DIP_FACT(SETTINGS, DipCostRow, quality)},
     {"text", "settings", NULL, "The settings that are off their defaults.",
      DIP_DERIVED(TEXT, derive_text)},
     {"path", "path", NULL, "Index of the camera path in `paths`.",
      DIP_FACT(WHOLE, DipCostRow, path), .most = DIP_COST_MAX_PATHS - 1},
-    {"places", NULL, NULL, "The judged viewpoints.",
+    {"places", NULL, NULL, "What was judged at each viewpoint.",
      DIP_LIST(.record = &viewpoint_record, .count = count_viewpoints, .item = get_viewpoint,
               .open = open_places, .put = put_viewpoint)},
-    {"figures", NULL, NULL, "Metrics over the judged viewpoints.",
+    {"figures", NULL, NULL, "Metrics of each class of pixels, over all judged viewpoints.",
      DIP_DERIVED(RECORD, derive_figures), .record = &figures_record},
-    {"over_time", NULL, NULL, "Metrics of successive frames.",
+    {"over_time", NULL, NULL, "How the error changes from frame to frame in the bursts.",
      DIP_DERIVED(RECORD, derive_over_time), .record = &over_time_record},
     METRIC_LIST(OF_VIEWPOINTS){"flip_tail", NULL, NULL, "How FLIP is distributed over the pixels.",
                                DIP_DERIVED(RECORD, derive_tail), .record = &tail_record},
@@ -530,20 +541,23 @@ static const DipField wait_element = {OF_FRAME(NUMBER, wait), .most = DIP_COST_M
 #define OF_FRAMES(ELEMENT, OPEN)                                                                   \
     DIP_LIST(.element = &(ELEMENT), DIP_ARRAY(Visit, frames, count), .points = true, .open = OPEN)
 static const DipField visit_fields[] = {
-    {"row", NULL, NULL, "Index of the row.", DIP_FACT(WHOLE, Visit, row),
+    {"row", NULL, NULL, "Index of the row whose frames were timed.", DIP_FACT(WHOLE, Visit, row),
      .most = DIP_COST_MAX_ROWS - 1},
-    {"start", NULL, NULL, "Start of the program, from 0 on.", DIP_FACT(WHOLE, Visit, start),
-     .most = DIP_TIMED_MOST_STARTS - 1},
-    {"round", NULL, NULL, "Round of the start, from 0 on.", DIP_FACT(WHOLE, Visit, round),
-     .most = INT_MAX},
+    {"start", NULL, NULL,
+     "Index of the start of the program in which the frames were timed, from 0 on.",
+     DIP_FACT(WHOLE, Visit, start), .most = DIP_TIMED_MOST_STARTS - 1},
+    {"round", NULL, NULL, "Index of the round within this start, from 0 on.",
+     DIP_FACT(WHOLE, Visit, round), .most = INT_MAX},
     {"block", NULL, NULL,
      "Visits of one block are compared with each other; the blocks of a round have different "
      "numbers.",
      DIP_FACT(WHOLE, Visit, block), .most = INT_MAX - 1},
-    {"begin_ms", NULL, "ms", "When the visit began, since the measurement began.",
+    {"begin_ms", NULL, "ms", "Time from the beginning of the measurement to that of the visit.",
      DIP_FACT(NUMBER, Visit, begin_ms), .most = DIP_COST_MOST_MS},
-    {"frames", NULL, NULL, "The frames along the path.", OF_FRAMES(frame_element, open_frames)},
-    {"ms", NULL, NULL, "Time of each frame, in milliseconds.", OF_FRAMES(ms_element, open_times)},
+    {"frames", NULL, NULL, "Indices of the visit's frames along the path.",
+     OF_FRAMES(frame_element, open_frames)},
+    {"ms", NULL, NULL, "Time of each of the visit's frames, in milliseconds.",
+     OF_FRAMES(ms_element, open_times)},
     {"wait", NULL, NULL,
      "Time that the frame's threads waited for a processor, as a share of its time; null if the "
      "machine does not tell.",
@@ -575,8 +589,8 @@ static const DipField path_fields[] = {
     {"floor", NULL, NULL, "Estimates of the metrics that the noise of the path's truths alone has.",
      DIP_DERIVED(RECORD, derive_floor), .record = &dip_cost_metrics_record},
 };
-static const DipRecord path_record =
-    DIP_RECORD_OF_ARRAYS("path", "A camera path.", path_fields, check_path);
+static const DipRecord path_record = DIP_RECORD_OF_ARRAYS(
+    "path", "A camera path on which rows were measured.", path_fields, check_path);
 
 typedef struct Floor {
     int path;
@@ -644,7 +658,7 @@ DIP_DERIVE(derive_step,
 static const DipField step_fields[] = {
     {"row", NULL, NULL, "Index of the step's row.", DIP_FACT(WHOLE, DipCostSweep, rows[0]),
      .stride = sizeof(int), .most = DIP_COST_MAX_ROWS - 1},
-    {"step", "step", NULL, "The step's name.", DIP_DERIVED(TEXT, derive_step)},
+    {"step", "step", NULL, "Name of the step.", DIP_DERIVED(TEXT, derive_step)},
     {"ratio", "ratio", NULL, "The step's time divided by that of the sweep's base.",
      DIP_COMPUTED(ESTIMATE, DipCostSweep, ratios[0]), .stride = sizeof(DipEstimate),
      .known = is_step_timed, .digits = 3},
@@ -685,10 +699,12 @@ static const DipRecord sweep_record =
 
 DIP_DERIVE(derive_same_as, &report_of(at)->rows[((const DipCostSame *)at->item)->row].quality)
 static const DipField same_fields[] = {
-    {"settings", NULL, NULL, "All quality settings.", DIP_FACT(SETTINGS, DipCostSame, quality)},
+    {"settings", NULL, NULL, "All quality settings of the combination.",
+     DIP_FACT(SETTINGS, DipCostSame, quality)},
     {"row", NULL, NULL, "Index of the row that stands for the combination.",
      DIP_FACT(WHOLE, DipCostSame, row), .most = DIP_COST_MAX_ROWS - 1},
-    {"same_as", "draws the same as", NULL, "The settings of that row.",
+    {"same_as", "draws the same as", NULL,
+     "Settings of the row that stands for the combination, as far as they are off their defaults.",
      DIP_SHOWN(SETTINGS, derive_same_as)},
 };
 
@@ -703,13 +719,13 @@ const DipRecord dip_cost_same_record =
 static const DipField misses_fields[] = {
     {"rows", NULL, NULL, "Number of combinations that were compared.",
      DIP_FACT(WHOLE, DipCostMisses, rows), .most = DIP_COST_MAX_ROWS},
-    {"median", NULL, NULL, "Median of |predicted / measured - 1|.",
-     DIP_FACT(NUMBER, DipCostMisses, median), .most = DIP_COST_MOST_MEAN},
+    {"median", NULL, NULL, "Median of |predicted / measured - 1| over the compared combinations.",
+     DIP_FACT(NUMBER, DipCostMisses, median), .most = DBL_MAX},
     {"p90", NULL, NULL, "90th percentile of |predicted / measured - 1|.",
-     DIP_FACT(NUMBER, DipCostMisses, p90), .most = DIP_COST_MOST_MEAN},
-    {"within_5_percent", NULL, NULL, "Share that is missed by at most 5 %.",
+     DIP_FACT(NUMBER, DipCostMisses, p90), .most = DBL_MAX},
+    {"within_5_percent", NULL, NULL, "Share of the combinations that are missed by at most 5 %.",
      DIP_FACT(NUMBER, DipCostMisses, within_5), .most = 1.0},
-    {"within_10_percent", NULL, NULL, "Share that is missed by at most 10 %.",
+    {"within_10_percent", NULL, NULL, "Share of the combinations that are missed by at most 10 %.",
      DIP_FACT(NUMBER, DipCostMisses, within_10), .most = 1.0},
 };
 const DipRecord dip_cost_misses_record = DIP_RECORD(
@@ -721,24 +737,27 @@ const DipRecord dip_cost_misses_record = DIP_RECORD(
             .record = &dip_cost_misses_record                                                      \
     }
 static const DipField all_misses_fields[] = {
-    MISSES_FIELD("times", times, "Mean times of rows that were measured after the prediction."),
-    MISSES_FIELD("flip", errors, "FLIP of rows that were measured after the prediction."),
+    MISSES_FIELD("times", times,
+                 "Misses of the mean times of rows that were measured after the prediction."),
+    MISSES_FIELD("flip", errors,
+                 "Misses of the FLIP of rows that were measured after the prediction."),
     MISSES_FIELD("times_left_out", times_left_out,
-                 "Mean times of the first rows, each predicted from the others."),
+                 "Misses of the mean times of the first rows, each predicted from the others."),
     MISSES_FIELD("flip_left_out", errors_left_out,
-                 "FLIP of the first rows, each predicted from the others."),
+                 "Misses of the FLIP of the first rows, each predicted from the others."),
 };
-static const DipRecord all_misses_record = DIP_RECORD(
-    "misses of --predict", "How well --predict did.", all_misses_fields, DipCostPredictions, NULL);
+static const DipRecord all_misses_record =
+    DIP_RECORD("misses of --predict", "How far the predictions of --predict lie from measurements.",
+               all_misses_fields, DipCostPredictions, NULL);
 
 static const DipField prediction_fields[] = {
-    {"settings", NULL, NULL, "All quality settings.",
+    {"settings", NULL, NULL, "All quality settings of the combination.",
      DIP_FACT(SETTINGS, DipCostPrediction, quality)},
     {"ms", "predicted mean", "ms", "Predicted mean time of a frame.",
      DIP_FACT(NUMBER, DipCostPrediction, ms), .most = DIP_COST_MOST_MS, .digits = 2},
     {"p95_ms", "predicted p95", "ms", "Predicted 95th percentile of the frames along the path.",
      DIP_FACT(NUMBER, DipCostPrediction, p95_ms), .most = DIP_COST_MOST_MS, .digits = 2},
-    {"flip", "predicted FLIP", NULL, "Predicted mean FLIP.",
+    {"flip", "predicted FLIP", NULL, "Predicted mean FLIP of a frame.",
      DIP_FACT(NUMBER, DipCostPrediction, flip), .most = DIP_COST_MOST_MEAN, .digits = 4},
     {"row", NULL, NULL, "Index of the row that measured the combination later, or -1.",
      DIP_FACT(WHOLE, DipCostPrediction, row), .least = -1, .most = DIP_COST_MAX_ROWS - 1},
@@ -754,20 +773,23 @@ const DipRecord dip_cost_prediction_of_report_record = DIP_RECORD(
 static const DipField predictions_fields[] = {
     {"trained", NULL, NULL, "Number of rows that were measured to predict all others.",
      DIP_FACT(WHOLE, DipCostPredictions, trained), .most = DIP_COST_MAX_ROWS},
-    {"misses", NULL, NULL, "How well the prediction did.", PART, .record = &all_misses_record},
-    {"combinations", NULL, NULL, "What was predicted.",
+    {"misses", NULL, NULL, "How far the predictions lie from measurements.", PART,
+     .record = &all_misses_record},
+    {"combinations", NULL, NULL, "The combinations whose time and error were predicted.",
      DIP_LIST(.record = &dip_cost_prediction_of_report_record,
               DIP_ARRAY(DipCostPredictions, list, count), .points = true,
               .most = DIP_COST_MAX_ROWS)},
 };
-static const DipRecord predictions_record = DIP_RECORD(
-    "predictions", "What --predict ranked.", predictions_fields, DipCostPredictions, NULL);
+static const DipRecord predictions_record =
+    DIP_RECORD("predictions", "The combinations that --predict ranked.", predictions_fields,
+               DipCostPredictions, NULL);
 
 static const DipField elsewhere_fields[] = {
-    {"settings", NULL, NULL, "All quality settings.",
+    {"settings", NULL, NULL, "All quality settings of the combination.",
      DIP_FACT(SETTINGS, DipCostElsewhere, quality)},
-    {"ms", "mean", "ms", "Mean time of a frame.", DIP_FACT(ESTIMATE, DipCostElsewhere, ms),
-     .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS, .digits = 2},
+    {"ms", "mean", "ms", "Mean time of a frame with these settings at the smaller size.",
+     DIP_FACT(ESTIMATE, DipCostElsewhere, ms), .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS,
+     .digits = 2},
     STAGE_NAMES_FIELD(DipCostElsewhere, NULL),
     COUNTERS_FIELD(DipCostElsewhere, NULL),
 };
@@ -783,11 +805,11 @@ const DipRecord dip_cost_elsewhere_record =
 enum { MOST_SIDE = 16384 }; // Greatest width and height of a picture, in pixels.
 
 static const DipField smaller_fields[] = {
-    {"width", NULL, "px", "Width of these pictures.", DIP_FACT(WHOLE, DipCostReport, smaller_width),
-     .least = 1, .most = MOST_SIDE},
-    {"height", NULL, "px", "Height of these pictures.",
+    {"width", NULL, "px", "Width of the smaller pictures.",
+     DIP_FACT(WHOLE, DipCostReport, smaller_width), .least = 1, .most = MOST_SIDE},
+    {"height", NULL, "px", "Height of the smaller pictures.",
      DIP_FACT(WHOLE, DipCostReport, smaller_height), .least = 1, .most = MOST_SIDE},
-    {"combinations", NULL, NULL, "The combinations.",
+    {"combinations", NULL, NULL, "The combinations that were timed at the smaller size.",
      DIP_LIST(.record = &dip_cost_elsewhere_record,
               DIP_ARRAY(DipCostReport, smaller, smaller_count), .most = DIP_COST_MAX_SMALLER)},
 };
@@ -832,23 +854,26 @@ DIP_GET_ITEM(get_interaction, &report_of(at)->analysis->interactions[index])
 DIP_DERIVE(derive_stage, ((const DipCostFit *)at->item)->stages[at->index])
 DIP_DERIVE(derive_work, ((const DipCostFit *)at->item)->names[at->index])
 static const DipField price_fields[] = {
-    {"stage", "stage", NULL, "Stage of the pipeline.", DIP_DERIVED(TEXT, derive_stage)},
+    {"stage", "stage", NULL, "Name of the stage of the pipeline that does the work.",
+     DIP_DERIVED(TEXT, derive_stage)},
     {"work", "unit of work", NULL, "The kind of work; \"frame\" is what every frame takes.",
      DIP_DERIVED(TEXT, derive_work)},
-    {"ns", "time", "ns", "Time of a unit of this work.", DIP_FACT(NUMBER, DipCostFit, ns[0]),
-     .stride = sizeof(double), .digits = 3, .show = DIP_SHOW_FIGURES},
+    {"ns", "time", "ns", "Time that one unit of this work takes in its stage.",
+     DIP_FACT(NUMBER, DipCostFit, ns[0]), .stride = sizeof(double), .digits = 3,
+     .show = DIP_SHOW_FIGURES},
 };
-const DipRecord dip_cost_price_record =
-    DIP_RECORD_OF_ARRAYS("price of work", "What a unit of work takes.", price_fields, NULL);
+const DipRecord dip_cost_price_record = DIP_RECORD_OF_ARRAYS(
+    "price of work", "The time that one unit of a kind of work takes.", price_fields, NULL);
 
 static const DipField fit_fields[] = {
     {"prices", NULL, NULL, "The price of each kind of work.",
      DIP_LIST(.record = &dip_cost_price_record, .counted = offsetof(DipCostFit, count))},
     {"r2", NULL, NULL, "Share of the relative variance of the times that the fit explains.",
      DIP_FACT(NUMBER, DipCostFit, r2), .digits = 3},
-    {"median_miss", NULL, NULL, "Median of |fitted / measured - 1|.",
+    {"median_miss", NULL, NULL, "Median of |fitted / measured - 1| over the rows.",
      DIP_FACT(NUMBER, DipCostFit, median_miss), .digits = 3},
-    {"median_miss_of_others", NULL, NULL, "The same if each row is predicted from all others.",
+    {"median_miss_of_others", NULL, NULL,
+     "Median of |predicted / measured - 1| if each row is predicted from all others.",
      DIP_FACT(NUMBER, DipCostFit, others.median), .digits = 3},
     {"within_10_percent_of_others", NULL, NULL,
      "Share of the rows that are predicted from all others within 10 %.",
@@ -908,20 +933,22 @@ static const DipField advice_fields[] = {
      DIP_DERIVED(WHOLE, derive_chosen)},
     {"ms", NULL, "ms", "The row's time, of the kind that the budget is meant for (`budget_of`).",
      DIP_DERIVED(ESTIMATE, derive_chosen_ms), .digits = 2},
-    {"fits", "fits", NULL, "Probability that this time is within the budget.",
+    {"fits", "fits", NULL, "Probability that the time of the chosen row is within the budget.",
      OF_ADVICE(NUMBER, fits)},
     {"ties", NULL, NULL,
      "Up to eight other rows that are as good: they surely fit, too, and their FLIP is within 1 % "
      "of the least. The fastest comes first.",
      DIP_DERIVED_LIST(.element = &tie_element, .count = count_ties, .item = get_tie)},
-    {"tie_count", NULL, NULL, "Number of all rows that are as good.", OF_ADVICE(WHOLE, tie_count)},
+    {"tie_count", NULL, NULL, "Number of all rows that are as good as the chosen one.",
+     OF_ADVICE(WHOLE, tie_count)},
     {"next", NULL, NULL,
      "Index of the next better row, or of the fastest row if none is chosen; -1 if there is none.",
      DIP_DERIVED(WHOLE, derive_next)},
     {"next_ms", NULL, "ms",
-     "How much longer that row takes than the chosen one, or than the budget if none is chosen.",
+     "How much longer the row `next` takes than the chosen one, or than the budget if none is "
+     "chosen.",
      OF_ADVICE(NUMBER, next_ms), .known = has_next, .digits = 2},
-    {"next_fits", NULL, NULL, "Probability that the time of that row is within the budget.",
+    {"next_fits", NULL, NULL, "Probability that the time of the row `next` is within the budget.",
      OF_ADVICE(NUMBER, next_fits), .known = has_next},
 };
 static const DipRecord advice_record =
@@ -935,14 +962,15 @@ DIP_DERIVE(derive_reason, report_of(at)->verdict_reason)
 static const DipField machine_fields[] = {
     {"verdict", "machine", NULL, "How quiet the machine was: green, amber or red.",
      DIP_COMPUTED(NAMED, DipCostReport, verdict), .names = dip_cost_verdict_names},
-    {"reason", NULL, NULL, "What the verdict comes from.", DIP_DERIVED(TEXT, derive_reason)},
+    {"reason", NULL, NULL, "The measured figures from which the verdict comes.",
+     DIP_DERIVED(TEXT, derive_reason)},
     {"wait", NULL, NULL, "Waiting time of all timed frames divided by (their time x threads).",
      DIP_FACT(NUMBER, DipCostReport, machine.wait), .most = DIP_COST_MOST_MEAN},
     {"repeated", NULL, NULL, "Number of frames that were timed again.",
      DIP_FACT(WHOLE, DipCostReport, machine.repeated), .most = INT_MAX},
     {"has_wait", NULL, NULL, "Whether the machine tells how long threads wait.",
      DIP_FACT(FLAG, DipCostReport, machine.has_wait)},
-    {"settled", NULL, NULL, "Whether the time was steady before the first round.",
+    {"settled", NULL, NULL, "Whether the times of frames were steady before the first round began.",
      DIP_FACT(FLAG, DipCostReport, machine.settled)},
     {"doubt", NULL, NULL,
      "Standard error of the logarithm of all times that an amber verdict adds to their intervals.",
@@ -975,15 +1003,16 @@ const void *dip_cost_derive_format(const DipFieldAt *at, DipFieldScratch *scratc
                                                                          .most = MOST              \
     }
 static const DipField report_fields[] = {
-    {"format", NULL, NULL, "The format of the file.", DIP_DERIVED(WHOLE, dip_cost_derive_format)},
-    HEADER_TEXT(version, "Version of Diptych."),
-    HEADER_TEXT(build, "Hash of the program's file."),
-    HEADER_TEXT(scene, "Name of the scene."),
-    HEADER_TEXT(scene_hash, "Hash of the scene."),
-    HEADER_TEXT(processor, "The processor."),
-    HEADER_TEXT(isa, "The instruction set that was used."),
+    {"format", NULL, NULL, "Number of the file's format.",
+     DIP_DERIVED(WHOLE, dip_cost_derive_format)},
+    HEADER_TEXT(version, "Version of the Diptych that measured the report."),
+    HEADER_TEXT(build, "Hash of the file of the program that measured the report."),
+    HEADER_TEXT(scene, "Name of the scene that was measured."),
+    HEADER_TEXT(scene_hash, "Hash of the scene that was measured."),
+    HEADER_TEXT(processor, "Name of the processor on which the report was measured."),
+    HEADER_TEXT(isa, "Instruction set with which the frames were drawn."),
     HEADER_TEXT(date, "When the measurement ended, ISO 8601 in UTC; \"\" if it is not known."),
-    HEADER_NUMBER("threads", threads, 1, 256, "Number of threads."),
+    HEADER_NUMBER("threads", threads, 1, 256, "Number of threads that drew the frames."),
     HEADER_NUMBER("width", width, 1, 8192, "Width of the pictures, in pixels."),
     HEADER_NUMBER("height", height, 1, 8192, "Height of the pictures, in pixels."),
     HEADER_NUMBER("rounds", rounds, 0, 10000,
@@ -1005,35 +1034,37 @@ static const DipField report_fields[] = {
      DIP_FACT(NUMBER, DipCostReport, options.pixels_per_degree), .most = DIP_COST_MOST_COUNT},
     {"baseline", NULL, NULL, "All settings of the baseline.",
      DIP_FACT(SETTINGS, DipCostReport, options.baseline)},
-    {"paths", NULL, NULL, "The camera paths.",
+    {"paths", NULL, NULL, "The camera paths on which rows were measured.",
      DIP_LIST(.record = &path_record, .counted = offsetof(DipCostReport, path_count), .least = 1,
               .most = DIP_COST_MAX_PATHS)},
     {"machine", NULL, NULL, "What the timing tells about the machine; null without times.", PART,
      .record = &machine_record, .known = has_times},
-    {"left_out", NULL, NULL, "Steps that were left out, with the reason.",
+    {"left_out", NULL, NULL, "Steps of settings that were left out, each with the reason.",
      DIP_LIST(.element = &left_out_element, DIP_ARRAY(DipCostReport, refused, refused_count),
               .most = DIP_COST_MAX_REFUSED)},
-    {"rows", NULL, NULL, "What was measured.",
+    {"rows", NULL, NULL, "The measured combinations, each on one camera path.",
      DIP_LIST(.record = &dip_cost_row_record, DIP_ARRAY(DipCostReport, rows, row_count),
               .points = true, .open = open_rows)},
     {"visits", NULL, NULL, "Every timed frame, from which all times are computed.",
      DIP_LIST(.record = &visit_record, .count = count_visits, .item = get_visit,
               .open = open_visits, .put = put_visit)},
-    {"floors", NULL, NULL, "The truths' own noise.",
+    {"floors", NULL, NULL, "The noise of the truths themselves, for each path and viewpoint.",
      DIP_LIST(.record = &floor_record, .count = count_floors, .item = get_floor,
               .open = open_floors, .put = put_floor)},
-    {"same_pictures", NULL, NULL, "Combinations that another row stands for.",
+    {"same_pictures", NULL, NULL,
+     "Combinations that were not measured because they draw the same pictures as a row.",
      DIP_LIST(.record = &dip_cost_same_record, DIP_ARRAY(DipCostReport, same, same_count),
               .points = true, .most = DIP_COST_MAX_ROWS)},
-    {"sweeps", NULL, NULL, "The steps of each setting.",
+    {"sweeps", NULL, NULL,
+     "The sweeps: all steps of one setting on one path, with all other settings held constant.",
      DIP_LIST(.record = &sweep_record, DIP_ARRAY(DipCostReport, sweeps, sweep_count),
               .most = DIP_COST_MAX_SWEEPS)},
-    {"interactions", NULL, NULL, "Pairs of settings.",
+    {"interactions", NULL, NULL, "Pairs of settings, and how their effects add up.",
      DIP_DERIVED_LIST(.record = &dip_cost_interaction_record, .count = count_interactions,
                       .item = get_interaction)},
     {"fit", NULL, NULL, "How times follow from work; null with too few rows.",
      DIP_DERIVED(RECORD, derive_fit), .record = &fit_record},
-    {"predicted", NULL, NULL, "What --predict ranked; null without it.",
+    {"predicted", NULL, NULL, "The combinations that --predict ranked; null without --predict.",
      DIP_FACT(RECORD, DipCostReport, predicted), .record = &predictions_record,
      .known = has_predictions},
     {"smaller", NULL, NULL, "Combinations at a smaller size; null if there are none.", PART,

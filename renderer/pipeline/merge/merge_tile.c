@@ -25,8 +25,7 @@ static bool has_target(const DipTarget *target) {
     return target->format == DIP_FORMAT_CALLER || target->rgba8;
 }
 
-// Whether the target receives the means of the samples.
-static bool resolves(const DipPass *pass) {
+bool dip_pass_stores_target(const DipPass *pass) {
     const DipAttachments *a = &pass->attachments;
     return a->samples ? !a->keep_target
                       : has_target(&pass->target) && a->colour_store == DIP_STORE_KEEP;
@@ -39,9 +38,9 @@ bool dip_pass_has_colours(const DipPass *pass) {
 bool dip_pass_is_merged(const DipPass *pass) {
     const DipAttachments *a = &pass->attachments;
     return pass->target.format != DIP_FORMAT_SRGB8 || !has_target(&pass->target) || a->samples ||
-           a->colour_load != DIP_LOAD_CLEAR || a->clear_transparent || a->depth ||
-           a->clear_depth > 0.0f || is_set(&pass->viewport) || is_set(&pass->scissor) ||
-           has_ordered_draws(pass);
+           a->colour_load != DIP_LOAD_CLEAR || a->colour_store != DIP_STORE_KEEP ||
+           a->clear_transparent || a->depth || a->clear_depth > 0.0f || is_set(&pass->viewport) ||
+           is_set(&pass->scissor) || has_ordered_draws(pass);
 }
 
 static void cut(DipTargetRegion *region, const DipTargetRegion *by) {
@@ -80,7 +79,7 @@ void dip_merge_pass_begin(DipMergePass *merge, const DipPass *pass) {
     const DipFormat format = pass->target.format;
     merge->pass = pass;
     merge->has_colours = dip_pass_has_colours(pass);
-    merge->resolves = resolves(pass);
+    merge->resolves = dip_pass_stores_target(pass);
     merge->clamps = format == DIP_FORMAT_SRGB8 || format == DIP_FORMAT_LINEAR8;
     merge->uses_stencil = (a->depth && a->stencil_store == DIP_STORE_KEEP) || tests_stencil(pass);
     merge->starts_from_depth =

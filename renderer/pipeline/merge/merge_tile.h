@@ -45,6 +45,9 @@ bool dip_pass_is_merged(const DipPass *pass);
 // Whether a pass draws colours, into samples or a target.
 bool dip_pass_has_colours(const DipPass *pass);
 
+// Whether a pass writes the means of its samples to its target.
+bool dip_pass_stores_target(const DipPass *pass);
+
 // Fills in everything but `is_ordered`, whose entries must have been set.
 void dip_merge_pass_begin(DipMergePass *merge, const DipPass *pass);
 

@@ -5,13 +5,21 @@
 #include "renderer/pipeline/merge/ordered.h"
 #include "renderer/pipeline/raster/in_tile_simd.h"
 
+// The stencil test of a triangle: the values and operations of the face that it shows.
+typedef struct StencilTest {
+    const DipStencilFace *face;
+    unsigned reference;
+    unsigned read_mask;
+    unsigned write_mask;
+} StencilTest;
+
 // A triangle of an ordered draw within the tile.
 typedef struct OrderedTriangle {
     InTile in;
     uint32_t index;
-    const DipStencilFace *face;
+    StencilTest stencil;
     bool biased;
-    float bias;          // what the slope adds to the depth
+    float bias;          // what the slope and the constant add to the depth
     float relative_bias; // what is added for each unit of depth
     bool wireframe;
     int32_t reach[3]; // wireframe: greatest edge values of samples on the lines, -1 for none
@@ -36,8 +44,9 @@ typedef struct ClipQueue {
 // How much of the draw's state a loop has to look at. Each kind has a loop of its own, in which the
 // compiler leaves out what the kind does not have.
 typedef enum OrderedKind {
-    KIND_SINGLE,  // as KIND_SIMPLE, with one sample per pixel
-    KIND_SIMPLE,  // solid, no clip shader, no stencil test, no depth bias, nearer samples pass
+    KIND_SINGLE, // as KIND_SIMPLE, with one sample per pixel
+    // Solid, no clip shader, no stencil test, no depth bias, no kept samples, nearer samples pass.
+    KIND_SIMPLE,
     KIND_GENERAL, // any state
 } OrderedKind;
 
@@ -64,17 +73,26 @@ VEC_INLINE void set_lines(OrderedTriangle *tri, const DipTriangle *triangle, flo
     }
 }
 
+VEC_INLINE StencilTest stencil_test_of(const DipStencil *stencil, bool front) {
+    const bool own = !front && stencil->back_has_values;
+    return (StencilTest){
+        .face = front ? &stencil->front : &stencil->back,
+        .reference = own ? stencil->back_reference : stencil->reference,
+        .read_mask = own ? stencil->back_read_mask : stencil->read_mask,
+        .write_mask = own ? stencil->back_write_mask : stencil->write_mask,
+    };
+}
+
 VEC_INLINE void set_up(OrderedTriangle *tri, const DipTile *tile, const DipTriangle *triangle,
                        uint32_t index, const DipDrawState *state) {
     set_up_in_tile(&tri->in, triangle, tile);
     tri->index = index;
-    const bool front = triangle->patch & DIP_ORDERED_FRONT;
-    tri->face = front ? &state->stencil.front : &state->stencil.back;
+    tri->stencil = stencil_test_of(&state->stencil, triangle->patch & DIP_ORDERED_FRONT);
     const DipDepthBias *bias = &state->depth_bias;
     const double dx = __builtin_fabs(triangle->z_dx);
     const double dy = __builtin_fabs(triangle->z_dy);
-    tri->biased = bias->slope != 0.0f || bias->relative != 0.0f;
-    tri->bias = bias->slope * (float)(dx > dy ? dx : dy);
+    tri->biased = bias->slope != 0.0f || bias->relative != 0.0f || bias->constant != 0.0f;
+    tri->bias = bias->slope * (float)(dx > dy ? dx : dy) + bias->constant;
     tri->relative_bias = bias->relative * (1.0f / 8388608.0f);
     tri->wireframe = state->fill == DIP_FILL_WIREFRAME;
     if (tri->wireframe) {
@@ -209,21 +227,21 @@ static unsigned after_op(DipStencilOp op, unsigned stored, unsigned reference) {
 
 // Tests the stencil values of one sample in the pixels `covered`, and changes them. nearest: the
 // pixels that pass the depth test. Returns the pixels that pass the stencil test.
-static unsigned test_stencil(const DipStencil *stencil, const DipStencilFace *face, uint8_t *values,
-                             unsigned covered, unsigned nearest) {
-    const unsigned reference = stencil->reference;
+static unsigned test_stencil(const StencilTest *test, uint8_t *values, unsigned covered,
+                             unsigned nearest) {
+    const DipStencilFace *face = test->face;
+    const unsigned reference = test->reference;
     unsigned passed = 0;
     for (unsigned left = covered; left; left &= left - 1) {
         const int pixel = __builtin_ctz(left);
         const unsigned stored = values[pixel];
         const bool passes =
-            compares(face->function, reference & stencil->read_mask, stored & stencil->read_mask);
+            compares(face->function, reference & test->read_mask, stored & test->read_mask);
         const DipStencilOp op = !passes                ? face->stencil_failed
                                 : nearest >> pixel & 1 ? face->passed
                                                        : face->depth_failed;
         const unsigned changed = after_op(op, stored, reference);
-        values[pixel] =
-            (uint8_t)((stored & ~(unsigned)stencil->write_mask) | (changed & stencil->write_mask));
+        values[pixel] = (uint8_t)((stored & ~test->write_mask) | (changed & test->write_mask));
         passed |= (unsigned)passes << pixel;
     }
     return passed;
@@ -317,8 +335,7 @@ VEC_INLINE unsigned test_sample(const DipOrdered *ordered, const OrderedTriangle
     }
     unsigned passed = covered & test_depth(tri, state->depth_test, depths, corner, s);
     if (state->stencil.enabled) {
-        passed &=
-            test_stencil(&state->stencil, tri->face, ordered->stencil + first, covered, passed);
+        passed &= test_stencil(&tri->stencil, ordered->stencil + first, covered, passed);
     }
     if (passed && !state->keep_depth) {
         store_depth(tri, depths, corner, s, passed);
@@ -335,7 +352,8 @@ VEC_INLINE unsigned test_samples(const DipOrdered *ordered, const OrderedTriangl
     unsigned pixels = 0;
     for (int s = 0; s < sample_count; s++) {
         const int first = cover->first + s * DIP_BLOCK_PIXELS;
-        const unsigned covered = cover->samples[s] & keep;
+        const bool kept = kind == KIND_GENERAL && ordered->state->kept_samples >> s & 1;
+        const unsigned covered = kept ? 0 : cover->samples[s] & keep;
         const unsigned passed = covered ? test_sample(ordered, tri, kind, tile->depth + first,
                                                       first, cover->depth, s, covered)
                                         : 0;
@@ -486,7 +504,8 @@ static OrderedKind kind_of(const DipOrdered *ordered, const OrderedTriangle *tri
                            const DipTile *tile) {
     const DipDrawState *state = ordered->state;
     const bool simple = !tri->biased && !tri->wireframe && !ordered->clip &&
-                        !state->stencil.enabled && state->depth_test == DIP_DEPTH_NEARER;
+                        !state->stencil.enabled && state->depth_test == DIP_DEPTH_NEARER &&
+                        !state->kept_samples;
     return !simple ? KIND_GENERAL : tile->pattern->count == 1 ? KIND_SINGLE : KIND_SIMPLE;
 }
 

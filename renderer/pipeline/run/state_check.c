@@ -52,6 +52,7 @@ bool dip_state_check(const DipDrawState *state, DipError *err) {
                      err) &&
             is_finite(state->depth_bias.slope, "draws.state.depth_bias.slope", err) &&
             is_finite(state->depth_bias.relative, "draws.state.depth_bias.relative", err) &&
+            is_finite(state->depth_bias.constant, "draws.state.depth_bias.constant", err) &&
             check_face(&state->stencil.front, "draws.state.stencil.front", err) &&
             check_face(&state->stencil.back, "draws.state.stencil.back", err) &&
             in_range((int)state->fill, 0, DIP_FILL_COUNT - 1, "draws.state.fill", err) &&

@@ -20,6 +20,20 @@ static void pad_list(DipFragmentList *list) {
     }
 }
 
+// Tells the shaders of a draw which of a list's fragments lie on front faces, if they read this.
+static void set_front(const DipTilePass *pass, const DipDraw *draw, const DipFragmentList *list,
+                      DipFragmentBatch *batch, bool *has_front) {
+    const bool reads = draw->state && draw->state->reads_front;
+    if (!reads && !*has_front) {
+        return; // as in most draws
+    }
+    for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
+        batch->front[i] = reads && i < batch->count &&
+                          pass->geometry->triangles[list->triangle[i]].patch & DIP_ORDERED_FRONT;
+    }
+    *has_front = reads;
+}
+
 int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmentList *list) {
     const DipTilePass *pass = worker->pass;
     const DipDraw *draw = &pass->pass->draws[draw_index];
@@ -27,6 +41,7 @@ int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmen
     pad_list(list);
     pass->kernels->dip_kernel_interpolate(&worker->shading.input, list, draw->varying_count,
                                           draw->value_only_varying_count, batch);
+    set_front(pass, draw, list, batch, &worker->batch_has_front);
     dip_shader_guard_bind(&worker->guard, draw_index, draw->varying_count,
                           draw->varying_count - draw->value_only_varying_count, batch);
     draw->fragment_shader(batch);
@@ -86,6 +101,7 @@ const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle) 
     DipFragmentBatch *batch = &worker->clip_batch;
     pass->kernels->dip_kernel_interpolate(&worker->shading.input, &worker->clip_list,
                                           draw->clip_varying_count, 0, batch);
+    set_front(pass, draw, &worker->clip_list, batch, &worker->clip_batch_has_front);
     dip_shader_guard_bind(&worker->clip_guard, triangle->draw, draw->clip_varying_count,
                           draw->clip_varying_count, batch);
     draw->clip_shader(batch);

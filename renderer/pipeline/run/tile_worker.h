@@ -65,6 +65,8 @@ typedef struct DipTileWorker {
     DipTileShading shading;
     DipFragmentBatch batch;
     DipFragmentBatch clip_batch;
+    bool batch_has_front; // `batch.front` may hold numbers other than 0
+    bool clip_batch_has_front;
     DipShaderGuard guard;      // of `batch`
     DipShaderGuard clip_guard; // of `clip_batch`
     DipFragmentList clip_list;

@@ -162,6 +162,24 @@ static void a_finished_report_removes_the_journal(void **state) {
     assert_int_not_equal(access("cost.state", F_OK), 0);
 }
 
+// Two runs that write into one folder would mix their measurements.
+static void two_runs_into_one_folder_are_refused(void **state) {
+    (void)state;
+    DipError err = {0};
+    DipCostJournal *first = open_journal(plan);
+    assert_null(dip_cost_journal_open(".", plan, &err));
+    assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+    assert_string_equal(err.key, "--out");
+    const DipCostBurstErrors errors = make_errors(3);
+    assert_true(dip_cost_journal_add(first, key, &errors, NULL));
+    dip_cost_journal_close(&first, false);
+    DipCostJournal *second = open_journal(plan); // It has what the first run wrote.
+    DipCostBurstErrors found;
+    assert_true(dip_cost_journal_find(second, key, &found));
+    dip_cost_journal_close(&second, true);
+    assert_int_not_equal(access("cost.state", F_OK), 0);
+}
+
 static void a_missing_folder_is_an_error(void **state) {
     (void)state;
     DipError err = {0};
@@ -176,6 +194,7 @@ int main(void) {
         cmocka_unit_test_teardown(an_incomplete_line_is_dropped, remove_state),
         cmocka_unit_test_teardown(a_changed_byte_drops_its_line, remove_state),
         cmocka_unit_test_teardown(a_finished_report_removes_the_journal, remove_state),
+        cmocka_unit_test_teardown(two_runs_into_one_folder_are_refused, remove_state),
         cmocka_unit_test(a_missing_folder_is_an_error),
     };
     char folder[] = "/tmp/test_cost_state.XXXXXX";

@@ -277,6 +277,41 @@ static void a_live_truth_does_without_the_cache(void **state) {
     empty_folder(false);
 }
 
+// Light from -0.25 to 1.75, growing from pixel to pixel.
+static double ramp(int i) {
+    return -0.25 + 2.0 * i / (3 * PIXELS);
+}
+
+static bool draw_ramp(const DipTruthDef *def, int half, double *rgb_lin, DipError *err) {
+    (void)def;
+    (void)half;
+    (void)err;
+    for (int i = 0; i < 3 * PIXELS; i++) {
+        rgb_lin[i] = ramp(i);
+    }
+    return true;
+}
+
+// A truth has its light in floats, unclamped, and as 8-bit sRGB, clamped to 0..1.
+static void light_is_kept_in_floats_and_in_bytes(void **state) {
+    (void)state;
+    DipTruthDef def = make_def(4);
+    DipTruth truth;
+    def.reference = NULL;
+    def.draw = draw_ramp;
+    assert_true(get(&truth, &def, NULL));
+    for (int i = 0; i < 3 * PIXELS; i++) {
+        const double light = fmin(fmax(ramp(i), 0.0), 1.0);
+        const double code =
+            255.0 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1.0 / 2.4) - 0.055);
+        assert_true(truth.rgb_lin[i] == (float)ramp(i));
+        // Near black, a step of 16-bit linear light is a twentieth of a code.
+        assert_true(fabs(truth.rgba8[i / 3 * 4 + i % 3] - code) <= 0.56);
+        assert_int_equal(truth.rgba8[i / 3 * 4 + 3], 255);
+    }
+    dip_truth_free(&truth);
+}
+
 // If a truth is compared with itself, the only error comes from rounding to 8-bit codes.
 static void a_truth_compared_with_itself_has_no_error(void **state) {
     (void)state;
@@ -313,6 +348,7 @@ int main(void) {
         cmocka_unit_test(a_live_truth_is_refined),
         cmocka_unit_test(live_truths_share_the_cache),
         cmocka_unit_test(a_live_truth_does_without_the_cache),
+        cmocka_unit_test(light_is_kept_in_floats_and_in_bytes),
         cmocka_unit_test(a_truth_compared_with_itself_has_no_error),
     };
     char folder[] = "/tmp/test_truth.XXXXXX";

@@ -1,11 +1,11 @@
-// Tests of the maps: their colours, their scale, the pixel under the pointer, the pictures, and the
-// work that they measure.
+// Tests of the maps: their colours, their scale, the pixel under the pointer, the pictures, the
+// work that they measure, and how they lie over the panes.
 #include "app/ui/canvas.h"
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tools/loupe.h"
 #include "app/preview/tools/map_colours.h"
 #include "app/preview/tools/maps.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/app/preview/tool_window.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -336,6 +336,45 @@ static void the_pictures_show_the_work(void **state) {
     assert_int_equal(dip_maps_mip_size(stage.maps, 1, WIDTH, 5), 0);
 }
 
+// --- over the panes ------------------------------------------------------------------------------
+
+// Counts the pixels in the middle half of a pane that have the bright colour of the map of samples.
+static int bright_pixels(const DipToolWindow *tw, int pane) {
+    const DipRect *rect = &tw->layout.panes[pane];
+    int count = 0;
+    for (int y = rect->height / 4; y < rect->height * 3 / 4; y++) {
+        for (int x = rect->width / 4; x < rect->width * 3 / 4; x++) {
+            const uint8_t *pixel = dip_tool_window_pixel(tw, rect->x + x, rect->y + y);
+            count += pixel[0] == 254 && pixel[1] == 232 && pixel[2] == 56;
+        }
+    }
+    return count;
+}
+
+// A chosen map lies over the panes once it is measured. The map of samples shows edges where the
+// settings have several samples per pixel.
+static void a_chosen_map_lies_over_the_panes(void **state) {
+    static DipToolWindow tw;
+    (void)state;
+    dip_tool_window_open(&tw, DIP_TEST_SCENE_fence, WIDTH, HEIGHT, 180);
+    tw.state.tools.tab = DIP_TAB_COMPARE;
+    tw.state.tools.brightness = 1.0;
+    dip_tool_window_draw(&tw);
+    assert_int_equal(bright_pixels(&tw, DIP_PANE_REQUESTED), 0);
+    tw.state.tools.map = DIP_MAP_SAMPLES;
+    for (int i = 0; i < 10; i++) {
+        dip_tool_window_draw(&tw);
+        dip_tool_window_update(&tw);
+    }
+    dip_tool_window_draw(&tw);
+    assert_int_equal(bright_pixels(&tw, DIP_PANE_CURRENT), 0); // One sample per pixel.
+    assert_true(bright_pixels(&tw, DIP_PANE_REQUESTED) > 100);
+    tw.state.tools.map = DIP_MAP_NONE;
+    dip_tool_window_draw(&tw);
+    assert_int_equal(bright_pixels(&tw, DIP_PANE_REQUESTED), 0);
+    dip_tool_window_close(&tw);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_palettes_are_the_published_ones),
@@ -349,6 +388,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(times_are_medians_of_several_draws, open_stage,
                                         close_stage),
         cmocka_unit_test_setup_teardown(the_pictures_show_the_work, open_stage, close_stage),
+        cmocka_unit_test(a_chosen_map_lies_over_the_panes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

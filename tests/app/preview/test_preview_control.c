@@ -39,9 +39,15 @@ static LineClient client;
 
 // --- the fixture ---------------------------------------------------------------------------------
 
+static bool scene_is_broken; // The scene's file has become unreadable.
+static int scene_reads;      // Number of times that the scene's file was read again.
+
 static bool load_scene_def(void *context, DipError *err) {
     (void)context;
-    (void)err;
+    scene_reads++;
+    if (scene_is_broken) {
+        return dip_error_set(err, DIP_ERROR_RUNTIME, "scene.obj", 0, NULL, "the importer crashed");
+    }
     session.scene_def = scene.def;
     return true;
 }
@@ -85,6 +91,8 @@ static const char *ask(const char *line) {
 
 static int set_up(void **state) {
     (void)state;
+    scene_is_broken = false;
+    scene_reads = 0;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_grazing_checker);
     static const DipSessionOptions options = {.config = "made up"};
     session = (DipSession){.pool = dip_pool_create(1, NULL), .options = &options};
@@ -424,6 +432,30 @@ static void prices_are_measured_for_subscribers(void **state) {
     assert_false(state_now()->wants_prices);
 }
 
+// The errors of prices need the scene's file once more. If it has become bad, the prices go on
+// without errors, and the file is not read again and again.
+static void prices_read_a_broken_scene_file_only_once(void **state) {
+    (void)state;
+    scene_is_broken = true;
+    assert_ok("{\"request\":\"set\",\"pane\":\"requested\",\"settings\":\"aa=4\"}");
+    assert_ok("{\"request\":\"pause\"}");
+    assert_ok("{\"request\":\"subscribe\",\"to\":\"prices\"}");
+    for (int i = 0; i < 120000 && scene_reads == 0; ++i) {
+        const char *line;
+        turn();
+        line_client_take(&client, &line);
+    }
+    assert_int_equal(scene_reads, 1);
+    assert_non_null(strstr(state_now()->notice, "scene.obj: the importer crashed"));
+    for (int i = 0; i < 200; ++i) {
+        const char *line;
+        turn();
+        line_client_take(&client, &line);
+    }
+    assert_int_equal(scene_reads, 1);
+    assert_true(state_now()->wants_prices);
+}
+
 static void clicks_are_picks(void **state) {
     (void)state;
     int colours[DIP_PANE_COUNT][3];
@@ -528,6 +560,7 @@ int main(void) {
         CONTROL_TEST(times_come_while_the_camera_moves),
         CONTROL_TEST(errors_are_measured_for_subscribers),
         CONTROL_TEST(prices_are_measured_for_subscribers),
+        CONTROL_TEST(prices_read_a_broken_scene_file_only_once),
         CONTROL_TEST(clicks_are_picks),
         CONTROL_TEST(polls_ask_for_settings),
         CONTROL_TEST(ten_thousand_random_lines_do_no_harm),

@@ -112,6 +112,7 @@ static void declare(DipToolWindow *tw) {
             .id = DIP_UI_ID(DIP_UI_PANES, p), .rect = tw->layout.panes[p], .takes_wheel = true};
         panes[p] = dip_ui_control(tw->ui, &control);
     }
+    dip_maps_over_panes(tw->ui, &tw->window, panes);
     dip_compare_over_panes(tw->ui, &tw->window, panes);
     dip_loupe_over_panes(tw->ui, &tw->window, panes);
     if (tw->state.tools.tab == DIP_TAB_LOUPE) {

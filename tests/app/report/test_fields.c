@@ -6,6 +6,7 @@
 #include "renderer/base/file.h"
 #include "tests/app/cost/made_report.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -87,6 +88,30 @@ static void made_reports_are_written_again_to_the_byte(void **state) {
     }
 }
 
+// Whatever a measurement gives, the file that it writes is read: what is not known, or too large
+// for any file, is null.
+static void extreme_measurements_are_read_again(void **state) {
+    (void)state;
+    static const double ends[][2] = {{-4e19, 4e19}, {0.0, INFINITY}, {-INFINITY, INFINITY},
+                                     {NAN, NAN},    {0.5, 0.5},      {-1e308, 1e308}};
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        DipCostReport report;
+        dip_made_report(&report, 2);
+        report.smaller[0].ms = (DipEstimate){0.5, ends[i][0], ends[i][1], NAN, NAN};
+        check_round_trip(&report);
+        dip_cost_report_free(&report);
+    }
+    // Of a row that nearly equals the truth, a prediction may be wrong by any factor.
+    static const double misses[] = {0.0, 1e6, 4e19, 1e300};
+    for (size_t i = 0; i < sizeof misses / sizeof *misses; i++) {
+        DipCostReport report;
+        dip_made_report(&report, 2);
+        report.predicted.times = (DipCostMisses){misses[i], misses[i], 0.0, 0.0, 1};
+        check_round_trip(&report);
+        dip_cost_report_free(&report);
+    }
+}
+
 // Replaces a part of a text.
 static char *replaced(const char *text, const char *from, const char *to) {
     const char *at = strstr(text, from);
@@ -163,6 +188,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stored_reports_are_written_again_to_the_byte),
         cmocka_unit_test(made_reports_are_written_again_to_the_byte),
+        cmocka_unit_test(extreme_measurements_are_read_again),
         cmocka_unit_test(what_is_no_fact_is_refused_by_its_name),
         cmocka_unit_test(derived_fields_are_computed_again),
     };

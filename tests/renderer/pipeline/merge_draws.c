@@ -26,15 +26,15 @@ static void fragment_shader(DipFragmentBatch *batch) {
         const int x = (int)batch->x[i];
         const int y = (int)batch->y[i];
         for (int c = 0; c < 3; c++) {
-            batch->colour[c][i] = (float)model_shade(draw, x, y, c);
+            batch->colour[c][i] = (float)model_shade(draw, batch->front[i], x, y, c);
         }
-        batch->alpha[i] = (float)model_shade(draw, x, y, 3);
+        batch->alpha[i] = (float)model_shade(draw, batch->front[i], x, y, 3);
     }
 }
 
 static void clip_shader(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
-        batch->keep[i] = model_keeps((int)batch->x[i], (int)batch->y[i]);
+        batch->keep[i] = model_keeps(batch->front[i], (int)batch->x[i], (int)batch->y[i]);
     }
 }
 

@@ -4,6 +4,9 @@
 static DipDrawState random_state(Random *random) {
     DipDrawState state = {.ordered = random_int(random, 0, 9) == 0};
     if (random_int(random, 0, 3) == 0) {
+        // One of these alone makes the draw ordered.
+        state.kept_samples = random_int(random, 0, 3) ? 0 : (uint8_t)random_int(random, 0, 255);
+        state.reads_front = random_int(random, 0, 3) == 0;
         return state;
     }
     DipBlend *blend = &state.blend;
@@ -34,6 +37,14 @@ static DipDrawState random_state(Random *random) {
         faces[i]->depth_failed = (DipStencilOp)random_int(random, 0, DIP_STENCIL_OP_COUNT - 1);
         faces[i]->passed = (DipStencilOp)random_int(random, 0, DIP_STENCIL_OP_COUNT - 1);
     }
+    stencil->back_has_values = random_int(random, 0, 1);
+    stencil->back_reference = (uint8_t)random_int(random, 0, 255);
+    stencil->back_read_mask = (uint8_t)random_int(random, 0, 255);
+    stencil->back_write_mask = (uint8_t)random_int(random, 0, 255);
+    state.depth_bias.constant =
+        random_int(random, 0, 3) ? 0.0f : (float)random_int(random, -20, 20) / 32.0f;
+    state.kept_samples = random_int(random, 0, 3) ? 0 : (uint8_t)random_int(random, 0, 255);
+    state.reads_front = random_int(random, 0, 3) == 0;
     return state;
 }
 

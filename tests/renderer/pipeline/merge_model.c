@@ -4,12 +4,13 @@
 #include <math.h>
 #include <string.h>
 
-double model_shade(const ModelDraw *draw, int x, int y, int channel) {
-    return (double)draw->colour[channel] * (1.0 + ((x + 3 * y) & 3)) / 4.0;
+double model_shade(const ModelDraw *draw, bool front, int x, int y, int channel) {
+    const double share = (1.0 + ((x + 3 * y) & 3)) / 4.0;
+    return (double)draw->colour[channel] * (front ? 0.5 * share : share);
 }
 
-bool model_keeps(int x, int y) {
-    return (x ^ y) & 2;
+bool model_keeps(bool front, int x, int y) {
+    return (x ^ y) & (front ? 4 : 2);
 }
 
 // Half a unit in the last place of a float, relative to its value.
@@ -116,11 +117,17 @@ void model_clear(Model *model, const float clear[4], float depth, uint8_t stenci
     }
 }
 
-static void write_colour(const Model *model, const ModelDraw *draw, int x, int y, ModelValue t[4]) {
+// Whether a shader of the draw sees a front face.
+static bool shows_front(const ModelDraw *draw, bool front) {
+    return draw->state.reads_front && front;
+}
+
+static void write_colour(const Model *model, const ModelDraw *draw, bool front, int x, int y,
+                         ModelValue t[4]) {
     ModelValue s[4];
     ModelValue result[4];
     for (int c = 0; c < 4; c++) {
-        s[c] = rounded(model_shade(draw, x, y, c));
+        s[c] = rounded(model_shade(draw, shows_front(draw, front), x, y, c));
         s[c] = model->clamps ? clamp(s[c]) : s[c];
     }
     for (int c = 0; c < 4; c++) {
@@ -167,26 +174,34 @@ static bool depth_passes(DipDepthTest test, double z, double stored) {
     return results[test];
 }
 
-static void draw_sample(Model *model, const ModelDraw *draw, bool front, double z, int x, int y,
-                        int s) {
+static void draw_sample(Model *model, const ModelDraw *draw, bool front, double unbiased, int x,
+                        int y, int s) {
     const DipDrawState *state = &draw->state;
+    if (state->kept_samples >> s & 1) {
+        return;
+    }
+    // The triangles are parallel to the screen, and depths and constants are dyadic.
+    const double z = fmin(fmax(unbiased + (double)state->depth_bias.constant, 0.0), 1.0);
     const bool passes_depth = depth_passes(state->depth_test, z, model->depth[y][x][s]);
     bool passes = true;
     if (state->stencil.enabled) {
         const DipStencil *stencil = &state->stencil;
         const DipStencilFace *face = front ? &stencil->front : &stencil->back;
+        const bool own = stencil->back_has_values && !front;
+        const int reference = own ? stencil->back_reference : stencil->reference;
+        const int read = own ? stencil->back_read_mask : stencil->read_mask;
+        const int write = own ? stencil->back_write_mask : stencil->write_mask;
         uint8_t *stored = &model->stencil[y][x][s];
-        passes = compare(face->function, stencil->reference & stencil->read_mask,
-                         *stored & stencil->read_mask);
+        passes = compare(face->function, reference & read, *stored & read);
         const int value = operate(!passes         ? face->stencil_failed
                                   : !passes_depth ? face->depth_failed
                                                   : face->passed,
-                                  *stored, stencil->reference);
-        *stored = (uint8_t)((*stored & ~stencil->write_mask) | (value & stencil->write_mask));
+                                  *stored, reference);
+        *stored = (uint8_t)((*stored & ~write) | (value & write));
     }
     if (passes && passes_depth) {
         model->depth[y][x][s] = state->keep_depth ? model->depth[y][x][s] : z;
-        write_colour(model, draw, x, y, model->colour[y][x][s]);
+        write_colour(model, draw, front, x, y, model->colour[y][x][s]);
     }
 }
 
@@ -210,7 +225,7 @@ void model_draw(Model *model, const ModelDraw *draw) {
             for (int x = model->stored.x0; x < model->stored.x1; x++) {
                 for (int s = 0; s < model->sample_count; s++) {
                     if (masks[y * MODEL_WIDTH + x] >> s & 1 &&
-                        (!draw->clips || model_keeps(x, y))) {
+                        (!draw->clips || model_keeps(shows_front(draw, front), x, y))) {
                         draw_sample(model, draw, front, draw->depth[t], x, y, s);
                     }
                 }

@@ -36,9 +36,9 @@ typedef struct Model {
 } Model;
 
 // The colour that a draw's fragment shader writes in a pixel, and whether its clip shader keeps the
-// pixel.
-double model_shade(const ModelDraw *draw, int x, int y, int channel);
-bool model_keeps(int x, int y);
+// pixel. front: the draw's state reads which faces are front faces, and the triangle is one.
+double model_shade(const ModelDraw *draw, bool front, int x, int y, int channel);
+bool model_keeps(bool front, int x, int y);
 
 void model_clear(Model *model, const float clear[4], float depth, uint8_t stencil);
 void model_draw(Model *model, const ModelDraw *draw);

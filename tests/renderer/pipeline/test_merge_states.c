@@ -334,7 +334,8 @@ static void depth_bias(void **state) {
                               dy * ((double)c[k][1] - HEIGHT / 2));
         }
         const DipDrawState biased = {.depth_bias = {(float)random_real(&random, -3.0, 3.0),
-                                                    (float)random_real(&random, -2e5, 2e5)}};
+                                                    (float)random_real(&random, -2e5, 2e5),
+                                                    (float)random_real(&random, -0.2, 0.2)}};
         DipMesh *mesh = triangles(&c[0][0], 6);
         const DipDraw draw = draw_of(mesh, &white, &biased);
         DipPass pass = pass_of(&draw, 1, 1);
@@ -345,6 +346,7 @@ static void depth_bias(void **state) {
                 const double z = 0.5 + dx * (x + 0.5 - WIDTH / 2) + dy * (y + 0.5 - HEIGHT / 2);
                 const double moved = z +
                                      (double)biased.depth_bias.slope * fmax(fabs(dx), fabs(dy)) +
+                                     (double)biased.depth_bias.constant +
                                      (double)biased.depth_bias.relative * 0x1p-23 * z;
                 const double found = dip_depth_row(depth, 0, y)[x];
                 if (fabs(found - fmin(fmax(moved, 0.0), 1.0)) > 2e-6) {
@@ -614,6 +616,11 @@ static void spoil_bias(DipPass *pass, DipDrawState *state) {
     state->depth_bias.slope = INFINITY;
 }
 
+static void spoil_constant_bias(DipPass *pass, DipDrawState *state) {
+    (void)pass;
+    state->depth_bias.constant = NAN;
+}
+
 static void spoil_stencil(DipPass *pass, DipDrawState *state) {
     (void)pass;
     state->stencil.back.passed = DIP_STENCIL_OP_COUNT;
@@ -685,6 +692,7 @@ static void bad_fields(void **test_state) {
         {"draws[0].state.kept_channels", DIP_ERROR_RANGE, spoil_channels},
         {"draws[0].state.depth_test", DIP_ERROR_RANGE, spoil_depth_test},
         {"draws[0].state.depth_bias.slope", DIP_ERROR_RANGE, spoil_bias},
+        {"draws[0].state.depth_bias.constant", DIP_ERROR_RANGE, spoil_constant_bias},
         {"draws[0].state.stencil.back", DIP_ERROR_RANGE, spoil_stencil},
         {"draws[0].state.fill", DIP_ERROR_RANGE, spoil_fill},
         {"draws[0].state.line_width", DIP_ERROR_RANGE, spoil_width},

@@ -283,6 +283,45 @@ static void passes_that_cannot_be_drawn_at_once_are_refused(void **state) {
     assert_string_equal(err.key, "count");
 }
 
+// Two passes that are drawn at once have no order, so they may share depths only if both leave them
+// as they are.
+static void passes_at_once_share_no_depths_that_change(void **state) {
+    const Stage *stage = *state;
+    static const struct {
+        DipStore depth, stencil;
+        bool accepted;
+    } cases[] = {
+        {DIP_STORE_REVERT, DIP_STORE_REVERT, true},   {DIP_STORE_KEEP, DIP_STORE_REVERT, false},
+        {DIP_STORE_REVERT, DIP_STORE_KEEP, false},    {DIP_STORE_DISCARD, DIP_STORE_REVERT, false},
+        {DIP_STORE_REVERT, DIP_STORE_DISCARD, false},
+    };
+    DipDepth *depths[2];
+    DipPass passes[2];
+    DipPassWork works[2];
+    for (int i = 0; i < 2; i++) {
+        depths[i] = dip_depth_create(WIDTH, HEIGHT, 4, NULL);
+        passes[i] = good_pass(stage, i);
+        passes[i].attachments.depth = depths[i];
+        works[i] = (DipPassWork){stage->pipelines[i], &passes[i], NULL, NULL};
+    }
+    assert_true(dip_pipeline_draw_passes(works, 2, false, NULL));
+    passes[0].attachments.depth = depths[1];
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        for (int changing = 0; changing < 2; changing++) {
+            DipError err = {.code = DIP_ERROR_NONE};
+            passes[changing].attachments.depth_store = cases[c].depth;
+            passes[changing].attachments.stencil_store = cases[c].stencil;
+            passes[!changing].attachments.depth_store = DIP_STORE_REVERT;
+            passes[!changing].attachments.stencil_store = DIP_STORE_REVERT;
+            assert_int_equal(dip_pipeline_draw_passes(works, 2, false, &err), cases[c].accepted);
+            assert_int_equal(err.code, cases[c].accepted ? DIP_ERROR_NONE : DIP_ERROR_CONFLICT);
+            assert_string_equal(err.key, cases[c].accepted ? "" : "attachments.depth");
+        }
+    }
+    dip_depth_destroy(&depths[0]);
+    dip_depth_destroy(&depths[1]);
+}
+
 static void the_fault_of_one_draw_of_many_names_its_index(void **state) {
     enum { MANY = 10000, WRONG = 4711 };
     const Stage *stage = *state;
@@ -604,6 +643,7 @@ int main(void) {
         cmocka_unit_test(a_good_pass_is_drawn),
         cmocka_unit_test(passes_drawn_at_once_equal_passes_drawn_alone),
         cmocka_unit_test(passes_that_cannot_be_drawn_at_once_are_refused),
+        cmocka_unit_test(passes_at_once_share_no_depths_that_change),
     };
     return cmocka_run_group_tests(tests, open_stage, close_stage);
 }

@@ -137,6 +137,25 @@ static void every_pixel_is_drawn_once(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
+// A pass of plain draws that does not store its colours leaves its target as it was, and counts no
+// bytes.
+static void a_pass_that_stores_no_colours_writes_nothing(void **state) {
+    (void)state;
+    DipMesh *mesh = screen(0.5f);
+    const DipDraw draw = draw_of(mesh, white);
+    for (int store = DIP_STORE_DISCARD; store <= DIP_STORE_REVERT; store++) {
+        DipPass pass = pass_of(&draw, 1, 4);
+        pass.attachments.colour_store = (DipStore)store;
+        const DipPipelineCounters counters = run(&pass);
+        assert_int_equal(counters.target_bytes, 0);
+        assert_int_equal(counters.fragments_shaded, WIDTH * HEIGHT);
+        for (size_t b = 0; store == DIP_STORE_REVERT && b < sizeof picture; b++) {
+            assert_int_equal(picture[b], 77);
+        }
+    }
+    dip_mesh_destroy(&mesh);
+}
+
 // A white triangle lies on black. The counter of visible samples must equal the number of white
 // samples in the picture.
 static void visible_samples_are_counted(void **state) {
@@ -510,6 +529,7 @@ static void invalid_mesh_data_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_is_drawn_once),
+        cmocka_unit_test(a_pass_that_stores_no_colours_writes_nothing),
         cmocka_unit_test(visible_samples_are_counted),
         cmocka_unit_test(back_and_front_faces_are_culled_by_winding),
         cmocka_unit_test(user_planes_cut_exactly_where_they_lie),

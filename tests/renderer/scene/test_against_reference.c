@@ -280,6 +280,93 @@ static void normals_without_direction_match_the_reference(void **state) {
     assert_int_equal(missed, 0);
 }
 
+// How make_clipped changes the fence.
+static struct {
+    float cutoff;
+    float u, v; // What is added to the texture coordinates of clipped surfaces.
+} clipped;
+
+static void make_clipped(DipTestScene *scene) {
+    for (int m = 0; m < scene->def.material_count; m++) {
+        scene->materials[m].alpha_cutoff = clipped.cutoff;
+    }
+    for (int m = 0; m < scene->def.mesh_count; m++) {
+        const DipMeshDef *mesh = &scene->meshes[m];
+        float *uv = (float *)(uintptr_t)mesh->uv0;
+        const bool clips = scene->materials[mesh->material].surface == DIP_SURFACE_CLIPPED;
+        for (uint32_t i = 0; clips && i < mesh->vertex_count; i++) {
+            uv[2 * i] += clipped.u;
+            uv[2 * i + 1] += clipped.v;
+        }
+    }
+}
+
+// Marks the pixels in which the fast picture has the reference's colour, after the reference's
+// coordinates have moved by (u, v).
+static void mark_equal(const Pair *fast, const DipFrame *frame, const DipQuality *quality, float u,
+                       float v, bool *equal) {
+    Pair moved;
+    DipError err = {0};
+    clipped.u = u;
+    clipped.v = v;
+    open_changed_pair(&moved, DIP_TEST_SCENE_fence, make_clipped, fast->width, fast->height);
+    if (!dip_reference_draw(moved.reference, quality, &moved.scene.pose, moved.width, moved.height,
+                            moved.expected, &err)) {
+        fail_with(&err);
+    }
+    for (int i = 0; i < moved.width * moved.height; i++) {
+        const DipFrame pixel = {.rgba8 = frame->rgba8 +
+                                         (size_t)(i / moved.width) * frame->stride_bytes +
+                                         4 * (size_t)(i % moved.width),
+                                .stride_bytes = frame->stride_bytes,
+                                .width = 1,
+                                .height = 1};
+        equal[i] |= dip_image_compare(moved.expected + 3 * i, &pixel, 0.01).over_count == 0;
+    }
+    close_pair(&moved);
+}
+
+// With a cutoff of 1, a surface is kept only where all texels that are read have the alpha 1. The
+// outermost such position is the centre of a texel. Where coordinates make many pixels lie there,
+// rounding decides about each of them, in either renderer. So the fast renderer must agree, in
+// every pixel, with a reference whose coordinates have moved by at most 1/512 texel, half a step of
+// the filter. The texture has 128 texels.
+static void the_greatest_cutoffs_match_the_reference(void **state) {
+    (void)state;
+    static const float cutoffs[] = {(float)(254.5 / 255.0), 0.99999994f, 1.0f};
+    static const char *const settings[] = {"aa=none", "aa=4", "af=8", "miplod=performance",
+                                           "aa=4,aaa=on"};
+    static const float step = 1.0f / 512 / 128;
+    static const float moves[5][2] = {{0, 0}, {step, 0}, {-step, 0}, {0, step}, {0, -step}};
+    for (size_t c = 0; c < sizeof cutoffs / sizeof *cutoffs; c++) {
+        for (size_t s = 0; s < sizeof settings / sizeof *settings; s++) {
+            bool equal[160 * 120] = {false};
+            int differing = 0;
+            Pair pair;
+            DipQuality quality;
+            DipFrame frame;
+            clipped.cutoff = cutoffs[c];
+            clipped.u = clipped.v = 0.0f;
+            open_changed_pair(&pair, DIP_TEST_SCENE_fence, make_clipped, sizes[0][0], sizes[0][1]);
+            assert_true(dip_quality_parse(settings[s], &quality, NULL));
+            assert_true(dip_renderer_set_quality(pair.renderer, &quality, NULL));
+            assert_true(dip_renderer_draw(pair.renderer, pair.fast_scene, &pair.scene.pose, time_ns,
+                                          &frame, NULL));
+            for (int m = 0; m < 5; m++) {
+                mark_equal(&pair, &frame, &quality, moves[m][0], moves[m][1], equal);
+            }
+            for (int i = 0; i < pair.width * pair.height; i++) {
+                differing += !equal[i];
+            }
+            if (differing) {
+                fail_msg("cutoff %.8f, %s: %d pixels differ", (double)cutoffs[c], settings[s],
+                         differing);
+            }
+            close_pair(&pair);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(antialiasing_matches_the_reference),
@@ -290,6 +377,7 @@ int main(void) {
         cmocka_unit_test(mip_level_of_detail_matches_the_reference),
         cmocka_unit_test(mip_colours_match_the_reference),
         cmocka_unit_test(texture_optimisation_matches_the_reference),
+        cmocka_unit_test(the_greatest_cutoffs_match_the_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

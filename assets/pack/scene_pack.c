@@ -1,8 +1,8 @@
 // Reads scene packs and checks every value in them.
-#include "assets/scene_pack.h"
+#include "assets/pack/scene_pack.h"
 
 #include "assets/model_parts.h"
-#include "assets/scene_pack_private.h"
+#include "assets/pack/scene_pack_layout.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/fp_mode.h"
 

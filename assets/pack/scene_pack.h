@@ -5,8 +5,8 @@
 // before the scene points to it. Packs are made and read by builds of the same version on one
 // machine, so numbers are stored as the machine stores them; the format is not meant for files that
 // last.
-#ifndef DIP_ASSETS_SCENE_PACK_H
-#define DIP_ASSETS_SCENE_PACK_H
+#ifndef DIP_ASSETS_PACK_SCENE_PACK_H
+#define DIP_ASSETS_PACK_SCENE_PACK_H
 
 #include "assets/model.h"
 #include "renderer/base/error.h"

@@ -1,7 +1,7 @@
 // Writes scene packs. Arrays are written straight from the scene to the file, so the only copies
 // in memory are those of the records, which are small.
-#include "assets/scene_pack.h"
-#include "assets/scene_pack_private.h"
+#include "assets/pack/scene_pack.h"
+#include "assets/pack/scene_pack_layout.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 // Arrays (texels, vertices, indices) are offsets from the start of the pack; the offset 0 means
 // that there is no array. Arrays lie in the order of the records that name them, and do not
 // overlap. So the arrays of all records together are no larger than the pack.
-#ifndef DIP_ASSETS_SCENE_PACK_PRIVATE_H
-#define DIP_ASSETS_SCENE_PACK_PRIVATE_H
+#ifndef DIP_ASSETS_PACK_SCENE_PACK_LAYOUT_H
+#define DIP_ASSETS_PACK_SCENE_PACK_LAYOUT_H
 
 #include "renderer/base/error.h"
 
