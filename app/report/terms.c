@@ -21,6 +21,7 @@ typedef struct Work {
     double advanced;    // 1 with opt=advanced.
     double biased[3];   // 1 if miplod is at least as coarse as quality (the first value), as
                         // performance (the second) and as high-performance (the third).
+    double sharp[2];    // 1 if miplod is at least as sharp as sharp (the first value), as sharper.
     double temporal;    // 1 with temporal AA.
     double coloured;    // 1 if mip levels are shown as colours.
 } Work;
@@ -97,6 +98,8 @@ typedef struct Work {
     X("miplod=quality", w->biased[0])                                                              \
     X("miplod=performance", w->biased[1])                                                          \
     X("miplod=high-performance", w->biased[2])                                                     \
+    X("miplod=sharp", w->sharp[0])                                                                 \
+    X("miplod=sharper", w->sharp[1])                                                               \
     X("temporal AA", w->temporal)                                                                  \
     X("mip colours", w->coloured)                                                                  \
     X("one sample, per probe", (1.0 - w->several) / w->probes)                                     \
@@ -105,6 +108,8 @@ typedef struct Work {
     X("miplod=quality, per probe", w->biased[0] / w->probes)                                       \
     X("miplod=performance, per probe", w->biased[1] / w->probes)                                   \
     X("miplod=high-performance, per probe", w->biased[2] / w->probes)                              \
+    X("miplod=sharp, per probe", w->sharp[0] / w->probes)                                          \
+    X("miplod=sharper, per probe", w->sharp[1] / w->probes)                                        \
     X("compressed textures, per probe", w->compressed / w->probes)                                 \
     X("opt=advanced, per probe", w->advanced / w->probes)                                          \
     X("compressed textures, miplod=quality", w->compressed * w->biased[0])                         \
@@ -154,12 +159,13 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .probes = probes,
         .anisotropic = probes > 1.0,
         .exact = quality->step[DIP_SETTING_AAF] != 0,
-        .full_levels = level == DIP_MIPLOD_HIGH_QUALITY,
+        .full_levels = level >= DIP_MIPLOD_HIGH_QUALITY,
         .raw = !dip_quality_compresses(quality),
         .compressed = quality->step[DIP_SETTING_OPT] != DIP_OPT_OFF,
         .advanced = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
         .biased = {level <= DIP_MIPLOD_QUALITY, level <= DIP_MIPLOD_PERFORMANCE,
                    level <= DIP_MIPLOD_HIGH_PERFORMANCE},
+        .sharp = {level >= DIP_MIPLOD_SHARP, level >= DIP_MIPLOD_SHARPER},
         .temporal = quality->step[DIP_SETTING_TAA] != 0,
         .coloured = quality->step[DIP_SETTING_MIPDEBUG] != 0,
     };

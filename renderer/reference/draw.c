@@ -32,6 +32,12 @@ typedef struct Drawing {
     const double *mirrored; // picture of the mirrored scene; NULL if water does not reflect
 } Drawing;
 
+// Sets the filters of a picture that has several sample groups or only one.
+static void set_filters(Drawing *drawing, const DipRefFilter *filter) {
+    drawing->filter = drawing->group_filter = *filter;
+    drawing->group_filter.bias -= round(128.0 * log2(drawing->groups.count)) / 256.0;
+}
+
 // Returns twice the area of the triangle (from, to, (x, y)), exactly. Positions are in 1/256
 // pixel. Their magnitude is at most 2^29, because triangles are cut at the guard band.
 static int64_t find_edge(const DipRefVertex *from, const DipRefVertex *to, int64_t x, int64_t y) {
@@ -292,6 +298,10 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     mirrored.width = mirrored.shot.width = reflection->width;
     mirrored.height = mirrored.shot.height = reflection->height;
     mirrored.shot.mirrored = true;
+    // Only the frame itself may be sharper than its textures' sizes ask for.
+    DipRefFilter filter = drawing->filter;
+    filter.bias = fmax(0.0, filter.bias);
+    set_filters(&mirrored, &filter);
     // The height of two texels of the mirrored picture, at a distance of 1.
     mirrored.shot.margin =
         4.0 * tan(drawing->shot.pose->fov_y_deg * (pi / 360.0)) / reflection->height;
@@ -323,15 +333,14 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
         .pattern = dip_sample_pattern_of(
             dip_quality_sample_count(quality),
             dip_pattern_kind(quality->step[DIP_SETTING_TAA] != 0, reference->frame_index)),
-        .filter = dip_reference_colour_filter(quality),
         .shot = {pose, width, height, (double)width / height, .rounded = true},
         .width = width,
         .height = height,
     };
     dip_sample_groups_make(&drawing.groups, drawing.pattern,
                            dip_quality_samples_per_group(quality));
-    drawing.group_filter = drawing.filter;
-    drawing.group_filter.bias -= round(128.0 * log2(drawing.groups.count)) / 256.0;
+    const DipRefFilter filter = dip_reference_colour_filter(quality);
+    set_filters(&drawing, &filter);
     bool drawn = dip_reference_build_triangles(reference, &drawing.shot, &drawing.triangles, err);
     double *mirrored = NULL;
     if (drawn && dip_reference_reflects(reference, pose) && sees_water(&drawing)) {

@@ -193,18 +193,18 @@ void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filt
 
 DipRefFilter dip_reference_colour_filter(const DipQuality *quality) {
     static const double bias[] = {
-        [DIP_MIPLOD_HIGH_PERFORMANCE] = 1.5,
-        [DIP_MIPLOD_PERFORMANCE] = 1.0,
-        [DIP_MIPLOD_QUALITY] = 0.5,
-        [DIP_MIPLOD_HIGH_QUALITY] = 0.0,
+        [DIP_MIPLOD_HIGH_PERFORMANCE] = 1.5, [DIP_MIPLOD_PERFORMANCE] = 1.0,
+        [DIP_MIPLOD_QUALITY] = 0.5,          [DIP_MIPLOD_HIGH_QUALITY] = 0.0,
+        [DIP_MIPLOD_SHARP] = -0.5,           [DIP_MIPLOD_SHARPER] = -1.0,
     };
     const int miplod = quality->step[DIP_SETTING_MIPLOD];
+    const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     return (DipRefFilter){
         .max_anisotropy = dip_quality_max_anisotropy(quality),
         .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
-        .bias = bias[miplod],
+        .bias = mip_colours ? fmax(0.0, bias[miplod]) : bias[miplod],
         .drop_levels = miplod == DIP_MIPLOD_HIGH_PERFORMANCE,
-        .mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0,
+        .mip_colours = mip_colours,
         .compressed = dip_quality_compresses(quality),
         .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };

@@ -238,6 +238,24 @@ int dip_quality_max_anisotropy(const DipQuality *quality) {
     return 1 << quality->step[DIP_SETTING_AF];
 }
 
+int32_t dip_quality_bias_lod8(const DipQuality *quality) {
+    static const int32_t bias_lod8[] = {
+        [DIP_MIPLOD_HIGH_PERFORMANCE] = 384, [DIP_MIPLOD_PERFORMANCE] = 256,
+        [DIP_MIPLOD_QUALITY] = 128,          [DIP_MIPLOD_HIGH_QUALITY] = 0,
+        [DIP_MIPLOD_SHARP] = -128,           [DIP_MIPLOD_SHARPER] = -256,
+    };
+    const int32_t bias = bias_lod8[quality->step[DIP_SETTING_MIPLOD]];
+    return quality->step[DIP_SETTING_MIPDEBUG] && bias < 0 ? 0 : bias;
+}
+
+DipQuality dip_quality_mirrored(const DipQuality *quality) {
+    DipQuality mirrored = *quality;
+    if (mirrored.step[DIP_SETTING_MIPLOD] > DIP_MIPLOD_HIGH_QUALITY) {
+        mirrored.step[DIP_SETTING_MIPLOD] = DIP_MIPLOD_HIGH_QUALITY;
+    }
+    return mirrored;
+}
+
 int dip_quality_samples_per_group(const DipQuality *quality) {
     return quality->step[DIP_SETTING_AAA] ? quality->step[DIP_SETTING_ASD] + 1
                                           : dip_quality_sample_count(quality);

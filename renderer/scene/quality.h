@@ -45,9 +45,11 @@ extern "C" {
       ("off", "standard", "advanced"), ("off", "std.", "adv."),                                    \
       "standard compresses colour textures with BC1; advanced also filters with fewer probes")     \
     X(miplod, MIPLOD, "Mip level of detail", "Mip detail", 3,                                      \
-      ("high-performance", "performance", "quality", "high-quality"),                              \
-      ("high perf.", "perform.", "quality", "high qual."), ("h.perf", "perf", "qual", "h.qual"),   \
-      "bias towards smaller mip levels; high-performance also drops the largest levels")           \
+      ("high-performance", "performance", "quality", "high-quality", "sharp", "sharper"),          \
+      ("high perf.", "perform.", "quality", "high qual.", "sharp", "sharper"),                     \
+      ("h.perf", "perf", "qual", "h.qual", "sharp", "sharp+"),                                     \
+      "bias towards smaller mip levels; high-performance also drops the largest levels; sharp "    \
+      "and sharper: a bias towards larger levels than the texture's size asks for")                \
     X(gi, GI, "Geometry instancing", "Instancing", 1, ("off", "on"), ("off", "on"), ("off", "on"), \
       "on: repeated objects share one mesh; off: each has a copy; the picture is the same")        \
     X(mipdebug, MIPDEBUG, "Mip colours", "Mip col.", 0, ("off", "on"), ("off", "on"),              \
@@ -61,7 +63,7 @@ typedef enum DipSetting {
         DIP_SETTING_COUNT
 } DipSetting;
 
-enum { DIP_MAX_STEPS = 5 };
+enum { DIP_MAX_STEPS = 6 };
 
 // The steps of opt and miplod, by name.
 enum { DIP_OPT_OFF, DIP_OPT_STANDARD, DIP_OPT_ADVANCED };
@@ -69,7 +71,9 @@ enum {
     DIP_MIPLOD_HIGH_PERFORMANCE,
     DIP_MIPLOD_PERFORMANCE,
     DIP_MIPLOD_QUALITY,
-    DIP_MIPLOD_HIGH_QUALITY
+    DIP_MIPLOD_HIGH_QUALITY,
+    DIP_MIPLOD_SHARP,
+    DIP_MIPLOD_SHARPER
 };
 
 // One pane's settings: the index of a step for each setting. Plain data that may be copied freely.
@@ -135,6 +139,15 @@ DIP_API bool dip_quality_check(const DipQuality *quality, DipError *err);
 
 DIP_API int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
 DIP_API int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
+
+// Returns the bias of miplod, in 1/256 level. Greater values mean smaller mip levels. Where mip
+// colours show the levels, the steps that are sharper than high-quality have no bias.
+DIP_API int32_t dip_quality_bias_lod8(const DipQuality *quality);
+
+// Returns the settings with which the mirrored scene is drawn that water shows. They are the
+// frame's, except that miplod is at most high-quality: each texel of the mirrored picture may cover
+// several pixels of the frame, so a level that is too sharp would sparkle in whole blocks.
+DIP_API DipQuality dip_quality_mirrored(const DipQuality *quality);
 
 // Returns true if colour textures are drawn compressed. This is so with opt=standard and
 // opt=advanced, unless mip colours replace the texels.

@@ -38,7 +38,10 @@ const char *dip_step_explanation(DipSetting setting, int step) {
         [DIP_SETTING_MIPLOD] = {"Much smaller mip levels, and the largest ones are dropped.",
                                 "Smaller mip levels: textures are blurred.",
                                 "Slightly smaller mip levels.",
-                                "The mip level that fits each pixel."},
+                                "The mip level that fits each pixel.",
+                                "Half a mip level sharper than the texture's size asks for.",
+                                "A mip level sharper than the texture's size asks for: fine "
+                                "patterns may shimmer when the camera moves."},
         [DIP_SETTING_GI] = {"Each repeated object has a copy of its mesh; the picture is the same.",
                             "Repeated objects share one mesh; the picture is the same."},
         [DIP_SETTING_MIPDEBUG] = {"Textures show their own colours.",

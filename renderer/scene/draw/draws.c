@@ -33,17 +33,14 @@ void dip_draw_set_free(DipDrawSet *set) {
 
 static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *shown,
                                  const DipTexture *texture) {
-    // Bias of each step of miplod, from high-performance to high-quality, in 1/256 level.
-    static const int32_t bias_lod8[] = {384, 256, 128, 0};
-    const int miplod = quality->step[DIP_SETTING_MIPLOD];
     DipSampler sampler = {
         .texture = texture,
         .max_anisotropy = dip_quality_max_anisotropy(quality),
         .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
-        .bias_lod8 = bias_lod8[miplod],
+        .bias_lod8 = dip_quality_bias_lod8(quality),
         .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };
-    if (miplod == DIP_MIPLOD_HIGH_PERFORMANCE) {
+    if (quality->step[DIP_SETTING_MIPLOD] == DIP_MIPLOD_HIGH_PERFORMANCE) {
         int width;
         int height;
         dip_texture_level_size(texture, 0, &width, &height);

@@ -64,7 +64,7 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
 // pass.
 static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDrawView view,
                       DipDrawSet *set, DipPass *pass) {
-    const DipDrawInput input = dip_renderer_draw_input(renderer, scene);
+    const DipDrawInput input = dip_renderer_draw_input(renderer, scene, view.mirrored);
     const DipCullPlanes seen = dip_cull_pass_planes(pass, view.view->world_to_clip);
     view.seen = &seen;
     view.width = pass->target.width;
@@ -189,6 +189,10 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
     };
     setup->plan = dip_plan_frame(&setup->input);
     dip_set_samplers(scene, &renderer->quality, renderer->mip_colours, renderer->samplers);
+    if (mirror->samplers) {
+        const DipQuality mirrored = dip_quality_mirrored(&renderer->quality);
+        dip_set_samplers(scene, &mirrored, renderer->mip_colours, mirror->samplers);
+    }
     if (setup->plan.effects.sky.run) {
         renderer->sky = dip_sky_at(&scene->sky, time_ns);
     }

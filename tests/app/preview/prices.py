@@ -109,7 +109,8 @@ STEPS = {
     "aa": ["none", "2", "4", "6", "8"], "taa": ["off", "on"], "aaa": ["off", "on"],
     "asd": ["1", "2", "3", "4"], "af": ["none", "2", "4", "8", "16"], "aaf": ["off", "on"],
     "opt": ["off", "standard", "advanced"],
-    "miplod": ["high-performance", "performance", "quality", "high-quality"], "gi": ["off", "on"],
+    "miplod": ["high-performance", "performance", "quality", "high-quality", "sharp",
+               "sharper"], "gi": ["off", "on"],
 }
 
 

@@ -105,6 +105,9 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // With AF, the number of probes in the coarser level changes in steps with the level of detail.
     // Towards the horizon, rounding moves a few pixels across such a step.
     static const DipImageBounds huge_af = {0.0018, 0.01, 0.0005, 0.08};
+    // A level sharper than the footprint has more contrast between neighbouring probes, so those
+    // few pixels differ more.
+    static const DipImageBounds huge_sharp_af = {0.0022, 0.01, 0.0015, 0.17};
     // The narrow blend multiplies differences in the level of detail by four.
     static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
     static const DipImageBounds huge_narrow_mips = {0.0016, 0.021, 0.0, 0.021};
@@ -118,6 +121,7 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
     const bool anisotropic = quality->step[DIP_SETTING_AF] != 0;
+    const bool sharp = anisotropic && quality->step[DIP_SETTING_MIPLOD] > DIP_MIPLOD_HIGH_QUALITY;
     const bool passes = dip_quality_samples_per_group(quality) < dip_quality_sample_count(quality);
     switch (kind) {
     case DIP_TEST_SCENE_sky:
@@ -135,6 +139,7 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_huge:
         return mip_colours   ? (narrow ? &huge_narrow_mips : &steady)
                : narrow      ? &huge_narrow
+               : sharp       ? &huge_sharp_af
                : anisotropic ? &huge_af
                              : &steady;
     default:
@@ -214,13 +219,15 @@ static void anisotropic_filtering_matches_the_reference(void **state) {
 static void mip_level_of_detail_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "miplod=quality", "miplod=performance", "miplod=high-performance",
-              "miplod=high-performance,af=16,aaf=on", "miplod=quality,af=8,aa=2");
+              "miplod=high-performance,af=16,aaf=on", "miplod=quality,af=8,aa=2", "miplod=sharp",
+              "miplod=sharper", "miplod=sharper,af=16,aaf=on,aa=4",
+              "miplod=sharper,aa=4,aaa=on,opt=advanced");
 }
 
 static void mip_colours_match_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "mipdebug=on", "mipdebug=on,af=16", "mipdebug=on,af=16,aaf=on,aa=4",
-              "mipdebug=on,miplod=high-performance");
+              "mipdebug=on,miplod=high-performance", "mipdebug=on,miplod=sharper");
 }
 
 static void texture_optimisation_matches_the_reference(void **state) {

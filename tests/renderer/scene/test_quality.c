@@ -194,6 +194,33 @@ static void needs_are_named_where_a_setting_has_no_effect(void **state) {
     }
 }
 
+static void biases_of_miplod_are_those_of_the_document(void **state) {
+    (void)state;
+    static const struct {
+        const char *settings;
+        int bias_lod8;
+        const char *mirrored; // the settings of the mirrored scene
+    } rows[] = {
+        {"miplod=high-performance", 384, "miplod=high-performance"},
+        {"miplod=performance", 256, "miplod=performance"},
+        {"miplod=quality", 128, "miplod=quality"},
+        {"miplod=high-quality", 0, "defaults"},
+        {"miplod=sharp", -128, "defaults"},
+        {"aa=4,miplod=sharper", -256, "aa=4"},
+        {"miplod=sharper,mipdebug=on", 0, "mipdebug=on"},
+        {"miplod=quality,mipdebug=on", 128, "miplod=quality,mipdebug=on"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        DipQuality quality;
+        char text[256];
+        assert_true(dip_quality_parse(rows[i].settings, &quality, NULL));
+        assert_int_equal(dip_quality_bias_lod8(&quality), rows[i].bias_lod8);
+        const DipQuality mirrored = dip_quality_mirrored(&quality);
+        dip_quality_format_changes(&mirrored, text, sizeof text);
+        assert_string_equal(text, rows[i].mirrored);
+    }
+}
+
 static void labels_fit_where_they_are_shown(void **state) {
     (void)state;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
@@ -215,6 +242,7 @@ int main(void) {
         cmocka_unit_test(short_texts_list_changes_only),
         cmocka_unit_test(settings_without_effect_are_turned_off),
         cmocka_unit_test(needs_are_named_where_a_setting_has_no_effect),
+        cmocka_unit_test(biases_of_miplod_are_those_of_the_document),
         cmocka_unit_test(labels_fit_where_they_are_shown),
         cmocka_unit_test(formatting_gives_the_parsed_text_back),
         cmocka_unit_test(settings_that_are_left_out_keep_their_defaults),
