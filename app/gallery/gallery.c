@@ -313,7 +313,9 @@ static DipSampler filter_of(const DipQuality *quality) {
     return (DipSampler){
         .max_anisotropy = dip_quality_max_anisotropy(quality),
         .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
-        .bias_lod8 = dip_quality_bias_lod8(quality),
+        .bias_lod8 =
+            dip_quality_bias_lod8(quality) +
+            (dip_quality_groups_shade_all(quality) ? dip_quality_groups_bias_lod8(quality) : 0),
         .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };
 }

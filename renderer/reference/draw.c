@@ -22,9 +22,11 @@ typedef struct Drawing {
     const DipReference *reference;
     const DipSamplePattern *pattern;
     DipSampleGroups groups; // the sample groups of clipped surfaces
+    bool groups_shade_all;  // the groups are those of all surfaces
+    bool covers_by_alpha;   // alpha decides how many samples a clipped surface covers
     DipRefTriangles triangles;
     DipRefFilter filter;
-    DipRefFilter group_filter; // filter of clipped surfaces if a pixel has several sample groups
+    DipRefFilter group_filter; // filter of surfaces that have several sample groups in a pixel
     Samples samples;
     DipRefShot shot;
     int width;
@@ -102,7 +104,7 @@ static DipRefPosition place_to_shade(const Drawing *drawing, const DipRefTriangl
 }
 
 static bool has_groups(const Drawing *drawing, const DipRefTriangle *triangle) {
-    return triangle->clipped && drawing->groups.count > 1;
+    return (triangle->clipped || drawing->groups_shade_all) && drawing->groups.count > 1;
 }
 
 static const DipRefFilter *filter_of(const Drawing *drawing, const DipRefTriangle *triangle) {
@@ -129,11 +131,28 @@ static bool alpha_keeps(const Drawing *drawing, const DipRefPosition *place) {
     return (float)alpha >= place->triangle->material->alpha_cutoff;
 }
 
+// Returns the first samples, in the order of alpha to coverage, as many as alpha asks for.
+static unsigned samples_by_alpha(const Drawing *drawing, const DipRefPosition *place) {
+    double slope;
+    const double alpha = dip_reference_alpha_slope(place, &drawing->filter, &slope);
+    const double cutoff = (double)place->triangle->material->alpha_cutoff;
+    const double share = ((double)(float)alpha - cutoff) / fmax(slope, 0.02) + 0.5;
+    const double wanted = floor(fmin(fmax(share, 0.0), 1.0) * drawing->pattern->count + 0.5);
+    unsigned samples = 0;
+    for (int i = 0; i < (int)wanted; i++) {
+        samples |= 1u << drawing->pattern->order[i];
+    }
+    return samples;
+}
+
 // Returns the covered samples that the alpha test keeps. Each sample group is tested on its own.
 static unsigned clip_samples(const Drawing *drawing, const DipRefTriangle *triangle, int x, int y,
                              unsigned mask) {
     if (!has_groups(drawing, triangle)) {
         const DipRefPosition place = place_to_shade(drawing, triangle, x, y, mask);
+        if (drawing->covers_by_alpha) {
+            return mask & samples_by_alpha(drawing, &place);
+        }
         return alpha_keeps(drawing, &place) ? mask : 0;
     }
     unsigned kept = 0;
@@ -333,6 +352,8 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
         .pattern = dip_sample_pattern_of(
             dip_quality_sample_count(quality),
             dip_pattern_kind(quality->step[DIP_SETTING_TAA] != 0, reference->frame_index)),
+        .groups_shade_all = dip_quality_groups_shade_all(quality),
+        .covers_by_alpha = dip_quality_covers_by_alpha(quality),
         .shot = {pose, width, height, (double)width / height, .rounded = true},
         .width = width,
         .height = height,

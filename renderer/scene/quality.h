@@ -30,8 +30,10 @@ extern "C" {
       "coverage and depth samples per pixel; a surface is still shaded once per pixel")            \
     X(taa, TAA, "Temporal AA", "Temporal", 0, ("off", "on"), ("off", "on"), ("off", "on"),         \
       "two sample patterns alternate from frame to frame")                                         \
-    X(aaa, AAA, "Adaptive AA", "Adaptive", 0, ("off", "on"), ("off", "on"), ("off", "on"),         \
-      "alpha-clipped surfaces are clipped and shaded once per sample group of each pixel")         \
+    X(aaa, AAA, "Adaptive AA", "Adaptive", 0, ("off", "coverage", "on", "all"),                    \
+      ("off", "coverage", "on", "all"), ("off", "cover", "on", "all"),                             \
+      "coverage: the alpha of clipped surfaces decides how many samples they cover; on: they are " \
+      "clipped and shaded once per sample group of each pixel; all: so is every other surface")    \
     X(asd, ASD, "Adaptive AA group size", "Group size", 0, ("1", "2", "3", "4"),                   \
       ("1", "2", "3", "4"), ("1", "2", "3", "4"),                                                  \
       "samples that share one sample group: 1 2 with aa=2 and aa=4, 1 2 3 with aa=6, "             \
@@ -65,7 +67,8 @@ typedef enum DipSetting {
 
 enum { DIP_MAX_STEPS = 6 };
 
-// The steps of opt and miplod, by name.
+// The steps of aaa, opt and miplod, by name.
+enum { DIP_AAA_OFF, DIP_AAA_COVERAGE, DIP_AAA_ON, DIP_AAA_ALL };
 enum { DIP_OPT_OFF, DIP_OPT_STANDARD, DIP_OPT_ADVANCED };
 enum {
     DIP_MIPLOD_HIGH_PERFORMANCE,
@@ -130,7 +133,7 @@ DIP_API bool dip_quality_equal(const DipQuality *a, const DipQuality *b);
 DIP_API DipQuality dip_quality_effective(const DipQuality *quality);
 
 // Returns what a setting needs to have an effect beside the other settings, such as "needs AF", or
-// NULL if one of its steps has an effect.
+// NULL if its step, or one of its steps if it is off, has an effect.
 DIP_API const char *dip_quality_needs(const DipQuality *quality, DipSetting setting);
 
 // Fails if a step is out of range (RANGE) or if the samples of aa cannot be divided into groups of
@@ -153,9 +156,22 @@ DIP_API DipQuality dip_quality_mirrored(const DipQuality *quality);
 // opt=advanced, unless mip colours replace the texels.
 DIP_API bool dip_quality_compresses(const DipQuality *quality);
 
-// Returns the samples per sample group of alpha-clipped surfaces: asd with adaptive AA, otherwise
-// all samples.
+// Returns the samples per sample group of alpha-clipped surfaces: asd with aaa=on and aaa=all,
+// otherwise all samples.
 DIP_API int dip_quality_samples_per_group(const DipQuality *quality);
+
+// Returns true if all surfaces are shaded once per sample group: aaa=all with several groups.
+DIP_API bool dip_quality_groups_shade_all(const DipQuality *quality);
+
+// Returns the level-of-detail bias of a surface with sample groups, in 1/256 level:
+// -log2(sqrt(groups)). A sample group (samples of a pixel that are clipped and shaded together)
+// covers only a part of the pixel, so it reads finer levels than a whole pixel would. Finer levels
+// still show the thin parts of clip maps; coarser levels average these parts away.
+DIP_API int32_t dip_quality_groups_bias_lod8(const DipQuality *quality);
+
+// Returns true if alpha decides how many samples a clipped surface covers: aaa=coverage with
+// several samples.
+DIP_API bool dip_quality_covers_by_alpha(const DipQuality *quality);
 
 #ifdef __cplusplus
 }

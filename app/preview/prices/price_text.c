@@ -19,8 +19,12 @@ const char *dip_step_explanation(DipSetting setting, int step) {
                              "picture shows twice as many samples."},
         [DIP_SETTING_AAA] = {"Leaves and fences have stair-stepped edges: their holes are cut once "
                              "per pixel.",
+                             "Leaves and fences cover as many samples as their alpha says (alpha "
+                             "to coverage): nearly as smooth, for little time.",
                              "The holes of leaves and fences are cut and shaded once per group of "
-                             "samples."},
+                             "samples.",
+                             "Every surface is shaded once per group of samples (supersampling): "
+                             "the sharpest picture, which takes the longest."},
         [DIP_SETTING_ASD] = {"Each sample is a group of its own: the smoothest holes.",
                              "Two samples share a group.", "Three samples share a group.",
                              "Four samples share a group: the fastest."},

@@ -55,6 +55,8 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
         .pattern =
             dip_pattern_kind(renderer->quality.step[DIP_SETTING_TAA] != 0, renderer->frame_index),
         .samples_per_group = plan->samples_per_group,
+        .groups_shade_all = dip_quality_groups_shade_all(&renderer->quality),
+        .alpha_to_coverage = dip_quality_covers_by_alpha(&renderer->quality),
     };
     memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
     return pass;

@@ -118,6 +118,16 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // The displacement of the clouds is read from rounded texels, which moves the clouds a little.
     // The cover makes the edges of clouds steep.
     static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
+    // With alpha to coverage, rounding may move one sample in each pixel of an edge.
+    static const DipImageBounds fence_coverage = {0.004, 0.01, 0.003, 1.0};
+    static const DipImageBounds fence_coverage_mips = {0.010, 0.01, 0.003, 1.0};
+    static const DipImageBounds mirrored_coverage = {0.008, 0.01, 0.003, 1.0};
+    static const DipImageBounds fence_passes_mips = {0.010, 0.01, 0.006, 1.0};
+    // Every surface is shaded at several positions of a pixel, and slivers reach only some.
+    static const DipImageBounds steady_all = {0.0016, 0.02, 0.0, 0.02};
+    static const DipImageBounds huge_narrow_all = {0.0018, 0.01, 0.001, 0.08};
+    const bool covers = dip_quality_covers_by_alpha(quality);
+    const bool all = dip_quality_groups_shade_all(quality);
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
     const bool anisotropic = quality->step[DIP_SETTING_AF] != 0;
@@ -129,21 +139,26 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_water:
         return mip_colours && narrow ? &narrow_mips : narrow ? &water_narrow : &steady;
     case DIP_TEST_SCENE_water_effects:
-        return mip_colours ? &fence_mips : &mirrored_fence;
+        return mip_colours ? &fence_mips : covers ? &mirrored_coverage : &mirrored_fence;
     case DIP_TEST_SCENE_fence:
     case DIP_TEST_SCENE_lights:
     case DIP_TEST_SCENE_gouraud_lights:
-        return mip_colours ? &fence_mips : passes ? &fence_passes : &fence;
+        return mip_colours && covers ? &fence_coverage_mips
+               : mip_colours && all  ? &fence_passes_mips
+               : mip_colours         ? &fence_mips
+               : covers              ? &fence_coverage
+               : passes              ? &fence_passes
+                                     : &fence;
     case DIP_TEST_SCENE_slivers:
         return &slivers;
     case DIP_TEST_SCENE_huge:
         return mip_colours   ? (narrow ? &huge_narrow_mips : &steady)
-               : narrow      ? &huge_narrow
+               : narrow      ? (all ? &huge_narrow_all : &huge_narrow)
                : sharp       ? &huge_sharp_af
                : anisotropic ? &huge_af
                              : &steady;
     default:
-        return mip_colours && narrow ? &narrow_mips : &steady;
+        return mip_colours && narrow ? &narrow_mips : all ? &steady_all : &steady;
     }
 }
 
@@ -208,6 +223,21 @@ static void adaptive_antialiasing_matches_the_reference(void **state) {
               "aa=6,aaa=on", "aa=6,aaa=on,asd=2", "aa=6,aaa=on,asd=3", "aa=8,aaa=on",
               "aa=8,aaa=on,asd=2", "aa=8,aaa=on,asd=4", "aa=8,aaa=on,asd=4,mipdebug=on",
               "aa=4,aaa=on,asd=2,af=16,aaf=on", "aa=6,aaa=on,miplod=high-performance");
+}
+
+static void alpha_to_coverage_matches_the_reference(void **state) {
+    (void)state;
+    CHECK_ALL(1, "aaa=coverage", "aa=2,aaa=coverage", "aa=4,aaa=coverage", "aa=6,aaa=coverage",
+              "aa=8,aaa=coverage", "aa=4,aaa=coverage,af=16,aaf=on", "aa=8,aaa=coverage,af=4",
+              "aa=8,aaa=coverage,opt=advanced,miplod=quality", "aa=4,aaa=coverage,mipdebug=on");
+    CHECK_ALL(2, "aa=4,taa=on,aaa=coverage", "aa=8,taa=on,aaa=coverage");
+}
+
+static void supersampling_of_all_surfaces_matches_the_reference(void **state) {
+    (void)state;
+    CHECK_ALL(1, "aaa=all", "aa=2,aaa=all", "aa=2,aaa=all,asd=2", "aa=4,aaa=all",
+              "aa=4,aaa=all,asd=2", "aa=6,aaa=all,asd=3", "aa=8,aaa=all", "aa=8,aaa=all,asd=4,af=4",
+              "aa=4,aaa=all,mipdebug=on", "aa=4,aaa=all,af=16,aaf=on,opt=advanced");
 }
 
 static void anisotropic_filtering_matches_the_reference(void **state) {
@@ -293,6 +323,8 @@ int main(void) {
         cmocka_unit_test(normals_without_direction_match_the_reference),
         cmocka_unit_test(temporal_antialiasing_matches_the_reference),
         cmocka_unit_test(adaptive_antialiasing_matches_the_reference),
+        cmocka_unit_test(alpha_to_coverage_matches_the_reference),
+        cmocka_unit_test(supersampling_of_all_surfaces_matches_the_reference),
         cmocka_unit_test(anisotropic_filtering_matches_the_reference),
         cmocka_unit_test(mip_level_of_detail_matches_the_reference),
         cmocka_unit_test(mip_colours_match_the_reference),

@@ -98,7 +98,7 @@ static void only_pairs_of_aa_and_asd_in_the_table_are_accepted(void **state) {
                 assert_int_equal(dip_quality_sample_count(&quality) /
                                      dip_quality_samples_per_group(&quality),
                                  passes[a][d]);
-                quality.step[DIP_SETTING_AAA] = 0;
+                quality.step[DIP_SETTING_AAA] = DIP_AAA_OFF;
                 assert_int_equal(dip_quality_samples_per_group(&quality),
                                  dip_quality_sample_count(&quality));
                 continue;
@@ -149,6 +149,10 @@ static void settings_without_effect_are_turned_off(void **state) {
     static const char *const rows[][2] = {
         {"taa=on,aaa=on,aaf=on", "defaults"},
         {"aa=2,asd=2,aaa=on", "aa=2"},
+        {"aa=2,asd=2,aaa=all", "aa=2"},
+        {"aa=2,asd=2,aaa=coverage", "aa=2,aaa=coverage"},
+        {"aa=8,asd=4,aaa=all", "aa=8,aaa=all,asd=4"},
+        {"aaa=coverage", "defaults"},
         {"aa=8,asd=4", "aa=8"},
         {"aa=8,asd=4,aaa=on,taa=on", "aa=8,taa=on,aaa=on,asd=4"},
         {"af=2,aaf=on", "af=2,aaf=on"},
@@ -175,7 +179,11 @@ static void needs_are_named_where_a_setting_has_no_effect(void **state) {
     } rows[] = {
         {"", DIP_SETTING_TAA, "needs AA"},
         {"", DIP_SETTING_AAA, "needs AA"},
-        {"aa=2,asd=2", DIP_SETTING_AAA, "needs smaller groups"},
+        {"aa=2,asd=2", DIP_SETTING_AAA, NULL}, // aaa=coverage needs no groups
+        {"aa=2,asd=2,aaa=on", DIP_SETTING_AAA, "needs smaller groups"},
+        {"aa=4,aaa=coverage", DIP_SETTING_ASD, "needs adaptive AA"},
+        {"aa=4,aaa=all", DIP_SETTING_ASD, NULL},
+        {"aaa=all", DIP_SETTING_AAA, "needs AA"},
         {"aa=4,asd=2", DIP_SETTING_AAA, NULL},
         {"aa=4", DIP_SETTING_ASD, "needs adaptive AA"},
         {"aa=4,aaa=on", DIP_SETTING_ASD, NULL},
