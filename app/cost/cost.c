@@ -145,7 +145,7 @@ static const DipExample cost_examples[] = {
     {"diptych cost --out report --fps 60,120",
      "finds the best settings for 60 and for 120 frames a second"},
     {"diptych cost --out report --predict --budget-ms 4,8,16,33",
-     "ranks 1512 combinations of settings and measures only the best of them"},
+     "ranks 3564 combinations of settings and measures only the best of them"},
     {"diptych cost --out report --model scene.glb --size 1280x720", "measures your own model"},
     {"diptych cost --out part0 --places 8 --part 0:4",
      "measures the errors at half of the viewpoints"},

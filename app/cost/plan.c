@@ -126,14 +126,23 @@ static void plan_setting(DipCostReport *report, const DipSession *session, DipSe
     }
 }
 
+static void add_if_valid(DipCostReport *report, DipCostSweep *sweep, const DipQuality *quality,
+                         int path) {
+    const DipQuality effective = dip_quality_effective(quality);
+    if (dip_quality_check(quality, NULL) && effective.step[DIP_SETTING_AAA]) {
+        add_to_sweep(sweep, add_row(report, quality, path));
+    }
+}
+
 // Adds a sweep of adaptive AA for each number of samples, because the possible group sizes depend
-// on the number of samples. The steps go from few sample groups to many.
+// on the number of samples. The steps go from few sample groups to many. All surfaces are shaded in
+// groups of one sample only, since such frames take long.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     const DipSettingInfo *group_size = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {
         DipQuality base = report->options.baseline;
         base.step[DIP_SETTING_AA] = (uint8_t)aa;
-        base.step[DIP_SETTING_AAA] = 0;
+        base.step[DIP_SETTING_AAA] = DIP_AAA_OFF;
         base.step[DIP_SETTING_ASD] = 0;
         if (!dip_quality_check(&base, NULL)) {
             continue;
@@ -142,15 +151,16 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
         const int base_row = add_row(report, &base, path);
         DipCostSweep *sweep = begin_sweep(report, DIP_SETTING_AAA, path, base_row);
         add_to_sweep(sweep, base_row);
+        DipQuality step = base;
+        step.step[DIP_SETTING_AAA] = DIP_AAA_COVERAGE;
+        add_if_valid(report, sweep, &step, path);
+        step.step[DIP_SETTING_AAA] = DIP_AAA_ON;
         for (int asd = group_size->step_count - 1; asd >= 0; asd--) {
-            DipQuality on = base;
-            on.step[DIP_SETTING_AAA] = 1;
-            on.step[DIP_SETTING_ASD] = (uint8_t)asd;
-            if (dip_quality_check(&on, NULL) &&
-                dip_quality_samples_per_group(&on) < dip_quality_sample_count(&on)) {
-                add_to_sweep(sweep, add_row(report, &on, path));
-            }
+            step.step[DIP_SETTING_ASD] = (uint8_t)asd;
+            add_if_valid(report, sweep, &step, path);
         }
+        step.step[DIP_SETTING_AAA] = DIP_AAA_ALL;
+        add_if_valid(report, sweep, &step, path);
     }
 }
 
@@ -167,6 +177,13 @@ static void add_base_rows(DipCostReport *report) {
 
 // --- combinations --------------------------------------------------------------------------------
 
+// Returns whether a combination is measured although the user named no settings to combine. Steps
+// of adaptive AA other than off and on are not: there are many, and those of aaa=all take long.
+static bool is_measured_by_default(const DipQuality *quality) {
+    const int step = quality->step[DIP_SETTING_AAA];
+    return step == DIP_AAA_OFF || step == DIP_AAA_ON;
+}
+
 // Adds the combinations as rows, or with --predict as predictions, a few of which become rows
 // later.
 static bool plan_combinations(DipCostReport *report, DipError *err) {
@@ -178,10 +195,19 @@ static bool plan_combinations(DipCostReport *report, DipError *err) {
         free(list);
         return dip_cost_out_of_memory(err);
     }
-    const int count = options->combined
-                          ? dip_cost_list_combinations(&options->baseline, options->combined, list,
-                                                       DIP_COST_MAX_ROWS)
-                          : 0;
+    int count = options->combined
+                    ? dip_cost_list_combinations(&options->baseline, options->combined, list,
+                                                 DIP_COST_MAX_ROWS)
+                    : 0;
+    if (!options->predict && !options->has_combined && count <= DIP_COST_MAX_ROWS) {
+        int kept = 0;
+        for (int i = 0; i < count; i++) {
+            if (is_measured_by_default(&list[i])) {
+                list[kept++] = list[i];
+            }
+        }
+        count = kept;
+    }
     const bool fit = count + (options->predict ? 0 : report->row_count) <= DIP_COST_MAX_ROWS;
     for (int i = 0; fit && i < count; i++) {
         if (options->predict) {

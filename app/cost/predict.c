@@ -114,7 +114,7 @@ void dip_cost_scale_counters(DipCostReport *report) {
 int dip_cost_training_count(unsigned settings, int count) {
     const unsigned main = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD |
                           1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF;
-    int training = 16;
+    int training = settings >> DIP_SETTING_AAA & 1 ? 20 : 16;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         if (settings >> s & 1 && !(main >> s & 1)) {
             training += 2 * (dip_setting_info((DipSetting)s)->step_count - 1);

@@ -336,7 +336,7 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
 static void list_smaller(DipCostReport *report) {
     static const struct {
         uint8_t aa, aaa, af; // Steps; 0 means the baseline's step.
-    } steps[DIP_COST_MAX_SMALLER] = {{0, 0, 0}, {2, 0, 0}, {0, 0, 4}, {4, 1, 4}};
+    } steps[DIP_COST_MAX_SMALLER] = {{0, 0, 0}, {2, 0, 0}, {0, 0, 4}, {4, DIP_AAA_ON, 4}};
     for (int i = 0; i < DIP_COST_MAX_SMALLER; i++) {
         DipQuality quality = report->options.baseline;
         if (steps[i].aa) {

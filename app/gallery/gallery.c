@@ -310,16 +310,12 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 // Returns a sampler that filters as the settings say. The scene sets its texture.
 static DipSampler filter_of(const DipQuality *quality) {
-    static const int32_t bias_lod8[] = {
-        [DIP_MIPLOD_HIGH_PERFORMANCE] = 384,
-        [DIP_MIPLOD_PERFORMANCE] = 256,
-        [DIP_MIPLOD_QUALITY] = 128,
-        [DIP_MIPLOD_HIGH_QUALITY] = 0,
-    };
     return (DipSampler){
         .max_anisotropy = dip_quality_max_anisotropy(quality),
         .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
-        .bias_lod8 = bias_lod8[quality->step[DIP_SETTING_MIPLOD]],
+        .bias_lod8 =
+            dip_quality_bias_lod8(quality) +
+            (dip_quality_groups_shade_all(quality) ? dip_quality_groups_bias_lod8(quality) : 0),
         .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };
 }

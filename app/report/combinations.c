@@ -25,6 +25,10 @@ static void add_from(List *list, DipQuality quality, int setting) {
         return;
     }
     const DipQuality effective = dip_quality_effective(&quality);
+    if (list->settings >> DIP_SETTING_ASD & 1 && quality.step[DIP_SETTING_ASD] &&
+        quality.step[DIP_SETTING_AAA] == DIP_AAA_ALL) {
+        return;
+    }
     if (dip_quality_check(&quality, NULL) && dip_quality_equal(&quality, &effective)) {
         if (list->count < list->room) {
             list->items[list->count] = quality;

@@ -71,13 +71,23 @@ static double error_of(const DipCostReport *report, const Theory *theory, int ro
                                  : dip_metrics_of(&sums, 0).flip;
 }
 
+// Returns the row that a step is compared with: the step before it. Theory does not say whether
+// aaa=coverage or few sample groups are better, so the step after aaa=coverage is compared with the
+// one before it.
+static int row_before(const DipCostReport *report, const DipCostSweep *sweep, int i) {
+    const int before = sweep->rows[i - 1];
+    const bool covers = i > 1 && sweep->setting == DIP_SETTING_AAA &&
+                        report->rows[before].quality.step[DIP_SETTING_AAA] == DIP_AAA_COVERAGE;
+    return covers ? sweep->rows[i - 2] : before;
+}
+
 // Returns the index of the first step that does not follow theory, or sweep->row_count if all steps
 // do. Checks the work if `by_work` is true, otherwise the error. Sets *judged to false if the
 // errors of a step are not known.
 static int first_departure(const DipCostReport *report, const DipCostSweep *sweep,
                            const Theory *theory, bool by_work, bool *judged) {
     for (int i = 1; i < sweep->row_count; i++) {
-        const int before = sweep->rows[i - 1];
+        const int before = row_before(report, sweep, i);
         const int after = sweep->rows[i];
         const bool right =
             (theory->idle && dip_cost_same_pictures(report, before, after)) ||

@@ -132,8 +132,8 @@ void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, 
     const DipQuality *q = &report->rows[row].quality;
     const DipSettingInfo *info = dip_setting_info(sweep->setting);
     const char *step = info->steps[q->step[sweep->setting]];
-    if (sweep->setting == DIP_SETTING_AAA && q->step[DIP_SETTING_AAA]) {
-        snprintf(text, DIP_COST_TEXT, "on, asd=%s",
+    if (sweep->setting == DIP_SETTING_AAA && q->step[DIP_SETTING_AAA] >= DIP_AAA_ON) {
+        snprintf(text, DIP_COST_TEXT, "%s, asd=%s", step,
                  dip_setting_info(DIP_SETTING_ASD)->steps[q->step[DIP_SETTING_ASD]]);
     } else {
         snprintf(text, DIP_COST_TEXT, "%s", step);

@@ -11,7 +11,9 @@ typedef struct Work {
     double samples;     // Number of samples per pixel.
     double several;     // 1 if a pixel has several samples.
     double groups;      // Number of sample groups per pixel, each with its own alpha-clip test.
-    double adaptive;    // 1 with adaptive AA.
+    double adaptive;    // 1 if alpha-clipped surfaces are clipped once per sample group.
+    double all;         // 1 if every surface is shaded once per sample group.
+    double covers;      // 1 if alpha decides how many samples a clipped surface covers.
     double probes;      // Greatest number of probes of one texture read.
     double anisotropic; // 1 with anisotropic filtering.
     double exact;       // 1 with advanced AF.
@@ -21,6 +23,7 @@ typedef struct Work {
     double advanced;    // 1 with opt=advanced.
     double biased[3];   // 1 if miplod is at least as coarse as quality (the first value), as
                         // performance (the second) and as high-performance (the third).
+    double sharp[2];    // 1 if miplod is at least as sharp as sharp (the first value), as sharper.
     double temporal;    // 1 with temporal AA.
     double coloured;    // 1 if mip levels are shown as colours.
 } Work;
@@ -46,6 +49,7 @@ typedef struct Work {
     X("sample group of a clipped triangle", C(clip_sample_groups))                                 \
     X("texture probe of a clip map", C(clip_probes))                                               \
     X("texture probe of a clip map, advanced AF", C(clip_probes) * w->exact)                       \
+    X("texture probe of a clip map, aaa=coverage", C(clip_probes) * w->covers)                     \
     X("sample shown", C(samples_shown))
 
 #define SHADING_TERMS(X)                                                                           \
@@ -71,7 +75,8 @@ typedef struct Work {
     X("frame", 1.0)                                                                                \
     X("sample shown, of several per pixel", w->samples > 1.0 ? C(samples_shown) : 0.0)             \
     X("pixel resolved", C(pixels_resolved))                                                        \
-    X("pixel resolved, per sample", C(pixels_resolved) * w->samples)
+    X("pixel resolved, per sample", C(pixels_resolved) * w->samples)                               \
+    X("pixel resolved, aaa=all", C(pixels_resolved) * w->all)
 
 #define REST_TERMS(X)                                                                              \
     X("frame", 1.0)                                                                                \
@@ -87,6 +92,10 @@ typedef struct Work {
     X("per sample", 1.0 / w->samples)                                                              \
     X("several samples, per group", w->several / w->groups)                                        \
     X("several samples, per root of the groups", w->several / sqrt(w->groups))                     \
+    X("aaa=coverage", w->covers)                                                                   \
+    X("aaa=coverage, per sample", w->covers / w->samples)                                          \
+    X("aaa=all", w->all)                                                                           \
+    X("aaa=all, per group", w->all / w->groups)                                                    \
     X("one probe", 1.0 - w->anisotropic)                                                           \
     X("per probe", 1.0 / w->probes)                                                                \
     X("per square of the probes", 1.0 / (w->probes * w->probes))                                   \
@@ -97,14 +106,19 @@ typedef struct Work {
     X("miplod=quality", w->biased[0])                                                              \
     X("miplod=performance", w->biased[1])                                                          \
     X("miplod=high-performance", w->biased[2])                                                     \
+    X("miplod=sharp", w->sharp[0])                                                                 \
+    X("miplod=sharper", w->sharp[1])                                                               \
     X("temporal AA", w->temporal)                                                                  \
     X("mip colours", w->coloured)                                                                  \
     X("one sample, per probe", (1.0 - w->several) / w->probes)                                     \
     X("several samples, per group and probe", w->several / (w->groups * w->probes))                \
     X("one sample, one probe", (1.0 - w->several) * (1.0 - w->anisotropic))                        \
+    X("aaa=all, per probe", w->all / w->probes)                                                    \
     X("miplod=quality, per probe", w->biased[0] / w->probes)                                       \
     X("miplod=performance, per probe", w->biased[1] / w->probes)                                   \
     X("miplod=high-performance, per probe", w->biased[2] / w->probes)                              \
+    X("miplod=sharp, per probe", w->sharp[0] / w->probes)                                          \
+    X("miplod=sharper, per probe", w->sharp[1] / w->probes)                                        \
     X("compressed textures, per probe", w->compressed / w->probes)                                 \
     X("opt=advanced, per probe", w->advanced / w->probes)                                          \
     X("compressed textures, miplod=quality", w->compressed * w->biased[0])                         \
@@ -150,16 +164,19 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .samples = samples,
         .several = samples > 1.0,
         .groups = samples / dip_quality_samples_per_group(quality),
-        .adaptive = quality->step[DIP_SETTING_AAA] != 0,
+        .adaptive = quality->step[DIP_SETTING_AAA] >= DIP_AAA_ON,
+        .all = dip_quality_groups_shade_all(quality),
+        .covers = dip_quality_covers_by_alpha(quality),
         .probes = probes,
         .anisotropic = probes > 1.0,
         .exact = quality->step[DIP_SETTING_AAF] != 0,
-        .full_levels = level == DIP_MIPLOD_HIGH_QUALITY,
+        .full_levels = level >= DIP_MIPLOD_HIGH_QUALITY,
         .raw = !dip_quality_compresses(quality),
         .compressed = quality->step[DIP_SETTING_OPT] != DIP_OPT_OFF,
         .advanced = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
         .biased = {level <= DIP_MIPLOD_QUALITY, level <= DIP_MIPLOD_PERFORMANCE,
                    level <= DIP_MIPLOD_HIGH_PERFORMANCE},
+        .sharp = {level >= DIP_MIPLOD_SHARP, level >= DIP_MIPLOD_SHARPER},
         .temporal = quality->step[DIP_SETTING_TAA] != 0,
         .coloured = quality->step[DIP_SETTING_MIPDEBUG] != 0,
     };

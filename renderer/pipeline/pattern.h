@@ -37,6 +37,11 @@ typedef struct DipSamplePattern {
     // of n. The groups' centroids, taken as a pattern, have the least error over all edge
     // orientations.
     uint8_t sharing[DIP_MAX_SHARING + 1][DIP_MAX_SAMPLES];
+    // The order in which alpha to coverage keeps samples: a surface that may have n of them keeps
+    // the first n. Of all orders, this is the one whose first samples stay nearest to the centre:
+    // the sum, over n, of the squared distance of the first n samples' mean from the centre is
+    // least. Samples that lie opposite each other therefore follow each other.
+    uint8_t order[DIP_MAX_SAMPLES];
 } DipSamplePattern;
 
 typedef enum DipPatternKind {

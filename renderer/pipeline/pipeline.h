@@ -128,6 +128,14 @@ typedef struct DipPass {
     // return true for sample_count and this number. If the number is 0 or sample_count, the samples
     // are not divided, and these draws are shaded like any other draw.
     int samples_per_group;
+    // True: all plain draws are shaded in these groups, not only alpha-clipped ones. (Every surface
+    // is then supersampled. Its samplers should have a bias of -log2(sqrt(groups)) levels.)
+    bool groups_shade_all;
+    // Alpha to coverage. True: clip shaders write to DipFragmentBatch.keep how many of the pixel's
+    // samples the surface may have, 0..sample_count (dip_alpha_to_coverage in shader.h). Where the
+    // triangle covers the pixel, that many are kept, in the order of DipSamplePattern.order. The
+    // samples may not be divided into groups.
+    bool alpha_to_coverage;
     // Linear light, not NaN; clamped to 0..1 for targets of 8 bits per channel.
     float clear_lin[3];
     // User clip planes in clip space. A surface is kept where dot(plane, clip position) >= 0.

@@ -10,6 +10,7 @@
 
 #include "renderer/pipeline/counters.h"
 #include "renderer/pipeline/depth.h"
+#include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/target.h"
 #include "renderer/pipeline/texture.h"
 
@@ -71,6 +72,13 @@ typedef void DipSampleColours(DipFragmentBatch *batch, const DipSampler *const s
 typedef void DipSampleAlpha(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
                             float *out);
 
+// Reads a texture's alpha as DipSampleAlpha does, and how fast it changes from pixel to pixel:
+// slope[i] is |d alpha / dx| + |d alpha / dy|. It comes from the texels of the footprint: it is the
+// derivative of their weighted mean by the position. It is 0 if the texture has no alpha, and where
+// the nearest texel is read.
+typedef void DipSampleAlphaSlope(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
+                                 float *out, float *slope);
+
 // Reads a target of format DIP_FORMAT_SRGB8 that an earlier pass drew; it may not share memory with
 // the target of this pass. u[i] and v[i] are fractions
 // of the target's size, measured from its top left corner; they are clamped to the target. The
@@ -105,6 +113,7 @@ struct DipFragmentBatch {
     DipSampleColour *sample_colour;
     DipSampleColours *sample_colours;
     DipSampleAlpha *sample_alpha;
+    DipSampleAlphaSlope *sample_alpha_slope;
     DipSampleTarget *sample_target;
     DipSampleShadow *sample_shadow;
     const float *srgb_light; // linear light of the 256 8-bit sRGB values, for sample_target
@@ -114,12 +123,36 @@ struct DipFragmentBatch {
     float colour[3][DIP_FRAGMENT_BATCH];
     // A fragment shader of an ordered draw (state.h) may write an alpha; it is 1 if it does not.
     float alpha[DIP_FRAGMENT_BATCH];
-    // A clip shader writes 1 where the surface exists and 0, as at first, where it is cut away.
+    // A clip shader writes 1 where the surface exists and 0, as at first, where it is cut away. In
+    // a pass with alpha_to_coverage, it writes a number of samples.
     uint8_t keep[DIP_FRAGMENT_BATCH];
     struct DipShaderGuard *guard; // the pipeline's own
 };
 
 typedef void DipFragmentShader(DipFragmentBatch *batch);
+
+// Least slope of alpha per pixel that alpha to coverage divides by.
+#define DIP_LEAST_ALPHA_SLOPE 0.02f
+
+// Alpha to coverage: returns how many of a pixel's samples a surface covers, 0..sample_count. Where
+// alpha is the cutoff, the surface's edge runs through the pixel's middle; (alpha - cutoff) / slope
+// is the distance from the edge, in pixels. The share of the samples is this distance plus 1/2,
+// within 0..1 and rounded to the nearest number of samples, halves up. With one sample it is 1
+// exactly where alpha >= cutoff. The decision is made in integers, in 1/65536.
+static inline int dip_alpha_to_coverage(float alpha, float slope, float cutoff, int sample_count) {
+    const float over = alpha - cutoff;
+    const float bounded = slope < 1024.0f ? slope : 1024.0f; // also of NaN
+    const float least = bounded > DIP_LEAST_ALPHA_SLOPE ? bounded : DIP_LEAST_ALPHA_SLOPE;
+    const int32_t width = (int32_t)(least * 65536.0f);
+    const int32_t distance = (int32_t)(over * 65536.0f) - (over < 0.0f); // below 0 where over is
+    // The share times twice the width and the number of samples, plus the width for rounding.
+    const int32_t share = (2 * distance + width) * sample_count + width;
+    int covered = 0;
+    for (int n = 1; n <= DIP_MAX_SAMPLES; n++) {
+        covered += share >= 2 * n * width;
+    }
+    return covered < sample_count ? covered : sample_count;
+}
 
 #ifdef __cplusplus
 }

@@ -22,15 +22,23 @@ typedef struct Drawing {
     const DipReference *reference;
     const DipSamplePattern *pattern;
     DipSampleGroups groups; // the sample groups of clipped surfaces
+    bool groups_shade_all;  // the groups are those of all surfaces
+    bool covers_by_alpha;   // alpha decides how many samples a clipped surface covers
     DipRefTriangles triangles;
     DipRefFilter filter;
-    DipRefFilter group_filter; // filter of clipped surfaces if a pixel has several sample groups
+    DipRefFilter group_filter; // filter of surfaces that have several sample groups in a pixel
     Samples samples;
     DipRefShot shot;
     int width;
     int height;
     const double *mirrored; // picture of the mirrored scene; NULL if water does not reflect
 } Drawing;
+
+// Sets the filters of a picture that has several sample groups or only one.
+static void set_filters(Drawing *drawing, const DipRefFilter *filter) {
+    drawing->filter = drawing->group_filter = *filter;
+    drawing->group_filter.bias -= round(128.0 * log2(drawing->groups.count)) / 256.0;
+}
 
 // Returns twice the area of the triangle (from, to, (x, y)), exactly. Positions are in 1/256
 // pixel. Their magnitude is at most 2^29, because triangles are cut at the guard band.
@@ -96,7 +104,7 @@ static DipRefPosition place_to_shade(const Drawing *drawing, const DipRefTriangl
 }
 
 static bool has_groups(const Drawing *drawing, const DipRefTriangle *triangle) {
-    return triangle->clipped && drawing->groups.count > 1;
+    return (triangle->clipped || drawing->groups_shade_all) && drawing->groups.count > 1;
 }
 
 static const DipRefFilter *filter_of(const Drawing *drawing, const DipRefTriangle *triangle) {
@@ -123,11 +131,28 @@ static bool alpha_keeps(const Drawing *drawing, const DipRefPosition *place) {
     return (float)alpha >= place->triangle->material->alpha_cutoff;
 }
 
+// Returns the first samples, in the order of alpha to coverage, as many as alpha asks for.
+static unsigned samples_by_alpha(const Drawing *drawing, const DipRefPosition *place) {
+    double slope;
+    const double alpha = dip_reference_alpha_slope(place, &drawing->filter, &slope);
+    const double cutoff = (double)place->triangle->material->alpha_cutoff;
+    const double share = ((double)(float)alpha - cutoff) / fmax(slope, 0.02) + 0.5;
+    const double wanted = floor(fmin(fmax(share, 0.0), 1.0) * drawing->pattern->count + 0.5);
+    unsigned samples = 0;
+    for (int i = 0; i < (int)wanted; i++) {
+        samples |= 1u << drawing->pattern->order[i];
+    }
+    return samples;
+}
+
 // Returns the covered samples that the alpha test keeps. Each sample group is tested on its own.
 static unsigned clip_samples(const Drawing *drawing, const DipRefTriangle *triangle, int x, int y,
                              unsigned mask) {
     if (!has_groups(drawing, triangle)) {
         const DipRefPosition place = place_to_shade(drawing, triangle, x, y, mask);
+        if (drawing->covers_by_alpha) {
+            return mask & samples_by_alpha(drawing, &place);
+        }
         return alpha_keeps(drawing, &place) ? mask : 0;
     }
     unsigned kept = 0;
@@ -292,6 +317,10 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     mirrored.width = mirrored.shot.width = reflection->width;
     mirrored.height = mirrored.shot.height = reflection->height;
     mirrored.shot.mirrored = true;
+    // Only the frame itself may be sharper than its textures' sizes ask for.
+    DipRefFilter filter = drawing->filter;
+    filter.bias = fmax(0.0, filter.bias);
+    set_filters(&mirrored, &filter);
     // The height of two texels of the mirrored picture, at a distance of 1.
     mirrored.shot.margin =
         4.0 * tan(drawing->shot.pose->fov_y_deg * (pi / 360.0)) / reflection->height;
@@ -323,15 +352,16 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
         .pattern = dip_sample_pattern_of(
             dip_quality_sample_count(quality),
             dip_pattern_kind(quality->step[DIP_SETTING_TAA] != 0, reference->frame_index)),
-        .filter = dip_reference_colour_filter(quality),
+        .groups_shade_all = dip_quality_groups_shade_all(quality),
+        .covers_by_alpha = dip_quality_covers_by_alpha(quality),
         .shot = {pose, width, height, (double)width / height, .rounded = true},
         .width = width,
         .height = height,
     };
     dip_sample_groups_make(&drawing.groups, drawing.pattern,
                            dip_quality_samples_per_group(quality));
-    drawing.group_filter = drawing.filter;
-    drawing.group_filter.bias -= round(128.0 * log2(drawing.groups.count)) / 256.0;
+    const DipRefFilter filter = dip_reference_colour_filter(quality);
+    set_filters(&drawing, &filter);
     bool drawn = dip_reference_build_triangles(reference, &drawing.shot, &drawing.triangles, err);
     double *mirrored = NULL;
     if (drawn && dip_reference_reflects(reference, pose) && sees_water(&drawing)) {

@@ -65,8 +65,27 @@ static void read_texel(const DipRefTexture *texture, bool compressed, int level,
     }
 }
 
-static void sample_bilinear(const DipRefTexture *texture, bool compressed, int level,
-                            const double uv[2], double grain, double rgba[4]) {
+// A value that is read: colour and alpha, and the derivatives of alpha by u and v.
+typedef struct Reading {
+    double rgba[4];
+    double alpha_du;
+    double alpha_dv;
+} Reading;
+
+// Returns a + (b - a) * share.
+static Reading blend(const Reading *a, const Reading *b, double share) {
+    Reading sum;
+    for (int c = 0; c < 4; c++) {
+        sum.rgba[c] = a->rgba[c] + (b->rgba[c] - a->rgba[c]) * share;
+    }
+    sum.alpha_du = a->alpha_du + (b->alpha_du - a->alpha_du) * share;
+    sum.alpha_dv = a->alpha_dv + (b->alpha_dv - a->alpha_dv) * share;
+    return sum;
+}
+
+static Reading sample_bilinear(const DipRefTexture *texture, bool compressed, int level,
+                               const double uv[2], double grain) {
+    Reading reading;
     const Pair x = find_pair(uv[0], texture->widths[level], texture->def->wrap_u, grain);
     const Pair y = find_pair(uv[1], texture->heights[level], texture->def->wrap_v, grain);
     double corner[2][2][4];
@@ -78,48 +97,59 @@ static void sample_bilinear(const DipRefTexture *texture, bool compressed, int l
     for (int c = 0; c < 4; c++) {
         const double top = corner[0][0][c] + (corner[0][1][c] - corner[0][0][c]) * x.fraction;
         const double bottom = corner[1][0][c] + (corner[1][1][c] - corner[1][0][c]) * x.fraction;
-        rgba[c] = top + (bottom - top) * y.fraction;
+        reading.rgba[c] = top + (bottom - top) * y.fraction;
     }
+    const double upper = corner[0][1][3] - corner[0][0][3];
+    const double lower = corner[1][1][3] - corner[1][0][3];
+    const double left = corner[1][0][3] - corner[0][0][3];
+    const double right = corner[1][1][3] - corner[0][1][3];
+    reading.alpha_du = (upper + (lower - upper) * y.fraction) * texture->widths[level];
+    reading.alpha_dv = (left + (right - left) * x.fraction) * texture->heights[level];
+    return reading;
 }
 
 void dip_reference_sample_finest(const DipRefTexture *texture, const double uv[2], double rgba[4]) {
-    sample_bilinear(texture, false, 0, uv, 0.0, rgba);
+    const Reading reading = sample_bilinear(texture, false, 0, uv, 0.0);
+    memcpy(rgba, reading.rgba, sizeof reading.rgba);
 }
 
 // Computes the mean of probe_count probes along the major axis of a footprint, all from one level.
-static void sample_line(const DipRefTexture *texture, bool compressed, int level,
-                        const double uv[2], const DipFootprint *footprint, int probe_count,
-                        double rgba[4]) {
-    double sum[4] = {0};
+static Reading sample_line(const DipRefTexture *texture, bool compressed, int level,
+                           const double uv[2], const DipFootprint *footprint, int probe_count) {
+    Reading sum = {.alpha_du = 0.0};
     for (int i = 0; i < probe_count; i++) {
         const double t = (i + 0.5) / probe_count - 0.5;
         const double place[2] = {uv[0] + t * footprint->major_texels[0] / texture->widths[0],
                                  uv[1] + t * footprint->major_texels[1] / texture->heights[0]};
-        double probe[4];
-        sample_bilinear(texture, compressed, level, place, 256.0, probe);
+        const Reading probe = sample_bilinear(texture, compressed, level, place, 256.0);
         for (int c = 0; c < 4; c++) {
-            sum[c] += probe[c];
+            sum.rgba[c] += probe.rgba[c];
         }
+        sum.alpha_du += probe.alpha_du;
+        sum.alpha_dv += probe.alpha_dv;
     }
     for (int c = 0; c < 4; c++) {
-        rgba[c] = sum[c] / probe_count;
+        sum.rgba[c] /= probe_count;
     }
+    sum.alpha_du /= probe_count;
+    sum.alpha_dv /= probe_count;
+    return sum;
 }
 
 // Blends a level with the next coarser level, which takes fewer probes.
-static void sample_levels(const DipRefTexture *texture, bool compressed, double level,
-                          const double uv[2], const DipFootprint *footprint, double rgba[4]) {
+static Reading sample_levels(const DipRefTexture *texture, bool compressed, double level,
+                             const double uv[2], const DipFootprint *footprint) {
     const int finer = (int)level;
     const double fraction = level - finer;
-    sample_line(texture, compressed, finer, uv, footprint, footprint->probe_count, rgba);
-    if (fraction > 0.0) {
-        double coarser[4];
-        sample_line(texture, compressed, finer + 1, uv, footprint,
-                    dip_reference_coarser_probes(footprint->probe_count, fraction), coarser);
-        for (int c = 0; c < 4; c++) {
-            rgba[c] += (coarser[c] - rgba[c]) * fraction;
-        }
+    const Reading fine =
+        sample_line(texture, compressed, finer, uv, footprint, footprint->probe_count);
+    if (fraction == 0.0) {
+        return fine;
     }
+    const Reading coarse =
+        sample_line(texture, compressed, finer + 1, uv, footprint,
+                    dip_reference_coarser_probes(footprint->probe_count, fraction));
+    return blend(&fine, &coarse, fraction);
 }
 
 static void mip_colour(const DipRefTexture *texture, int level, double rgb[3]) {
@@ -169,9 +199,9 @@ static double narrow_blend(double level) {
     return finer + fmin(fmax((level - finer - 0.375) * 4.0, 0.0), 1.0);
 }
 
-void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filter,
-                          const double uv[2], const double duv_dx[2], const double duv_dy[2],
-                          double rgba[4]) {
+void dip_reference_sample_slope(const DipRefTexture *texture, const DipRefFilter *filter,
+                                const double uv[2], const double duv_dx[2], const double duv_dy[2],
+                                double rgba[4], double *slope) {
     const double width = texture->widths[0];
     const double height = texture->heights[0];
     const double ddx[2] = {duv_dx[0] * width, duv_dx[1] * height};
@@ -185,26 +215,36 @@ void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filt
         footprint.probe_count = (footprint.probe_count + 1) / 2;
         level = narrow_blend(level);
     }
-    sample_levels(texture, filter->compressed, level, uv, &footprint, rgba);
+    const Reading reading = sample_levels(texture, filter->compressed, level, uv, &footprint);
+    memcpy(rgba, reading.rgba, sizeof reading.rgba);
+    *slope = fabs(reading.alpha_du * duv_dx[0] + reading.alpha_dv * duv_dx[1]) +
+             fabs(reading.alpha_du * duv_dy[0] + reading.alpha_dv * duv_dy[1]);
     if (filter->mip_colours) {
         paint_mip_colour(texture, level, rgba);
     }
 }
 
+void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filter,
+                          const double uv[2], const double duv_dx[2], const double duv_dy[2],
+                          double rgba[4]) {
+    double slope;
+    dip_reference_sample_slope(texture, filter, uv, duv_dx, duv_dy, rgba, &slope);
+}
+
 DipRefFilter dip_reference_colour_filter(const DipQuality *quality) {
     static const double bias[] = {
-        [DIP_MIPLOD_HIGH_PERFORMANCE] = 1.5,
-        [DIP_MIPLOD_PERFORMANCE] = 1.0,
-        [DIP_MIPLOD_QUALITY] = 0.5,
-        [DIP_MIPLOD_HIGH_QUALITY] = 0.0,
+        [DIP_MIPLOD_HIGH_PERFORMANCE] = 1.5, [DIP_MIPLOD_PERFORMANCE] = 1.0,
+        [DIP_MIPLOD_QUALITY] = 0.5,          [DIP_MIPLOD_HIGH_QUALITY] = 0.0,
+        [DIP_MIPLOD_SHARP] = -0.5,           [DIP_MIPLOD_SHARPER] = -1.0,
     };
     const int miplod = quality->step[DIP_SETTING_MIPLOD];
+    const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     return (DipRefFilter){
         .max_anisotropy = dip_quality_max_anisotropy(quality),
         .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
-        .bias = bias[miplod],
+        .bias = mip_colours ? fmax(0.0, bias[miplod]) : bias[miplod],
         .drop_levels = miplod == DIP_MIPLOD_HIGH_PERFORMANCE,
-        .mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0,
+        .mip_colours = mip_colours,
         .compressed = dip_quality_compresses(quality),
         .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };

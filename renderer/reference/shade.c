@@ -64,6 +64,16 @@ double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filt
     return rgba[3];
 }
 
+double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter *filter,
+                                 double *slope) {
+    DipRefVaryings varyings;
+    double rgba[4];
+    dip_reference_interpolate(place, DIP_REF_U0, 2, true, &varyings);
+    dip_reference_sample_slope(place->triangle->colour, filter, &varyings.value[DIP_REF_U0],
+                               &varyings.ddx[DIP_REF_U0], &varyings.ddy[DIP_REF_U0], rgba, slope);
+    return rgba[3];
+}
+
 static void read_normal_map(const DipRefTexture *map, const DipRefFilter *filter,
                             const DipRefVaryings *varyings, double texel[4]) {
     const DipRefFilter own = filter ? dip_reference_data_filter(filter) : (DipRefFilter){0};

@@ -154,11 +154,16 @@ bool dip_quality_equal(const DipQuality *a, const DipQuality *b) {
     return memcmp(a->step, b->step, sizeof a->step) == 0;
 }
 
-// Returns whether adaptive AA with these settings divides the samples into two groups or more.
+// Returns whether sample groups with these settings divide the samples into two groups or more.
 static bool has_groups(const DipQuality *quality) {
     const int samples = dip_quality_sample_count(quality);
     const int group = quality->step[DIP_SETTING_ASD] + 1;
     return dip_sample_groups_exist(samples, group) && group < samples;
+}
+
+// Returns whether the step of adaptive AA asks for sample groups.
+static bool divides(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_AAA] >= DIP_AAA_ON;
 }
 
 DipQuality dip_quality_effective(const DipQuality *quality) {
@@ -166,8 +171,11 @@ DipQuality dip_quality_effective(const DipQuality *quality) {
     uint8_t *step = effective.step;
     step[DIP_SETTING_AAF] = step[DIP_SETTING_AF] ? step[DIP_SETTING_AAF] : 0;
     step[DIP_SETTING_TAA] = step[DIP_SETTING_AA] ? step[DIP_SETTING_TAA] : 0;
-    step[DIP_SETTING_AAA] = has_groups(&effective) ? step[DIP_SETTING_AAA] : 0;
-    step[DIP_SETTING_ASD] = step[DIP_SETTING_AAA] ? step[DIP_SETTING_ASD] : 0;
+    const bool works = step[DIP_SETTING_AAA] == DIP_AAA_COVERAGE
+                           ? dip_quality_sample_count(&effective) > 1
+                           : has_groups(&effective);
+    step[DIP_SETTING_AAA] = works ? step[DIP_SETTING_AAA] : DIP_AAA_OFF;
+    step[DIP_SETTING_ASD] = divides(&effective) ? step[DIP_SETTING_ASD] : 0;
     return effective;
 }
 
@@ -177,9 +185,11 @@ const char *dip_quality_needs(const DipQuality *quality, DipSetting setting) {
     case DIP_SETTING_TAA:
         return has_samples ? NULL : "needs AA";
     case DIP_SETTING_AAA:
-        return has_groups(quality) ? NULL : has_samples ? "needs smaller groups" : "needs AA";
+        return !has_samples                               ? "needs AA"
+               : divides(quality) && !has_groups(quality) ? "needs smaller groups"
+                                                          : NULL;
     case DIP_SETTING_ASD:
-        return has_samples && quality->step[DIP_SETTING_AAA] ? NULL : "needs adaptive AA";
+        return has_samples && divides(quality) ? NULL : "needs adaptive AA";
     case DIP_SETTING_AAF:
         return quality->step[DIP_SETTING_AF] ? NULL : "needs AF";
     default:
@@ -238,9 +248,42 @@ int dip_quality_max_anisotropy(const DipQuality *quality) {
     return 1 << quality->step[DIP_SETTING_AF];
 }
 
+int32_t dip_quality_bias_lod8(const DipQuality *quality) {
+    static const int32_t bias_lod8[] = {
+        [DIP_MIPLOD_HIGH_PERFORMANCE] = 384, [DIP_MIPLOD_PERFORMANCE] = 256,
+        [DIP_MIPLOD_QUALITY] = 128,          [DIP_MIPLOD_HIGH_QUALITY] = 0,
+        [DIP_MIPLOD_SHARP] = -128,           [DIP_MIPLOD_SHARPER] = -256,
+    };
+    const int32_t bias = bias_lod8[quality->step[DIP_SETTING_MIPLOD]];
+    return quality->step[DIP_SETTING_MIPDEBUG] && bias < 0 ? 0 : bias;
+}
+
+DipQuality dip_quality_mirrored(const DipQuality *quality) {
+    DipQuality mirrored = *quality;
+    if (mirrored.step[DIP_SETTING_MIPLOD] > DIP_MIPLOD_HIGH_QUALITY) {
+        mirrored.step[DIP_SETTING_MIPLOD] = DIP_MIPLOD_HIGH_QUALITY;
+    }
+    return mirrored;
+}
+
 int dip_quality_samples_per_group(const DipQuality *quality) {
-    return quality->step[DIP_SETTING_AAA] ? quality->step[DIP_SETTING_ASD] + 1
-                                          : dip_quality_sample_count(quality);
+    return divides(quality) ? quality->step[DIP_SETTING_ASD] + 1
+                            : dip_quality_sample_count(quality);
+}
+
+bool dip_quality_groups_shade_all(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_AAA] == DIP_AAA_ALL && has_groups(quality);
+}
+
+int32_t dip_quality_groups_bias_lod8(const DipQuality *quality) {
+    static const int32_t bias_lod8[DIP_MAX_SAMPLES + 1] = {
+        [2] = -128, [3] = -203, [4] = -256, [6] = -331, [8] = -384};
+    return bias_lod8[dip_quality_sample_count(quality) / dip_quality_samples_per_group(quality)];
+}
+
+bool dip_quality_covers_by_alpha(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_AAA] == DIP_AAA_COVERAGE &&
+           dip_quality_sample_count(quality) > 1;
 }
 
 bool dip_quality_compresses(const DipQuality *quality) {

@@ -30,8 +30,10 @@ extern "C" {
       "coverage and depth samples per pixel; a surface is still shaded once per pixel")            \
     X(taa, TAA, "Temporal AA", "Temporal", 0, ("off", "on"), ("off", "on"), ("off", "on"),         \
       "two sample patterns alternate from frame to frame")                                         \
-    X(aaa, AAA, "Adaptive AA", "Adaptive", 0, ("off", "on"), ("off", "on"), ("off", "on"),         \
-      "alpha-clipped surfaces are clipped and shaded once per sample group of each pixel")         \
+    X(aaa, AAA, "Adaptive AA", "Adaptive", 0, ("off", "coverage", "on", "all"),                    \
+      ("off", "coverage", "on", "all"), ("off", "cover", "on", "all"),                             \
+      "coverage: the alpha of clipped surfaces decides how many samples they cover; on: they are " \
+      "clipped and shaded once per sample group of each pixel; all: so is every other surface")    \
     X(asd, ASD, "Adaptive AA group size", "Group size", 0, ("1", "2", "3", "4"),                   \
       ("1", "2", "3", "4"), ("1", "2", "3", "4"),                                                  \
       "samples that share one sample group: 1 2 with aa=2 and aa=4, 1 2 3 with aa=6, "             \
@@ -45,9 +47,11 @@ extern "C" {
       ("off", "standard", "advanced"), ("off", "std.", "adv."),                                    \
       "standard compresses colour textures with BC1; advanced also filters with fewer probes")     \
     X(miplod, MIPLOD, "Mip level of detail", "Mip detail", 3,                                      \
-      ("high-performance", "performance", "quality", "high-quality"),                              \
-      ("high perf.", "perform.", "quality", "high qual."), ("h.perf", "perf", "qual", "h.qual"),   \
-      "bias towards smaller mip levels; high-performance also drops the largest levels")           \
+      ("high-performance", "performance", "quality", "high-quality", "sharp", "sharper"),          \
+      ("high perf.", "perform.", "quality", "high qual.", "sharp", "sharper"),                     \
+      ("h.perf", "perf", "qual", "h.qual", "sharp", "sharp+"),                                     \
+      "bias towards smaller mip levels; high-performance also drops the largest levels; sharp "    \
+      "and sharper: a bias towards larger levels than the texture's size asks for")                \
     X(gi, GI, "Geometry instancing", "Instancing", 1, ("off", "on"), ("off", "on"), ("off", "on"), \
       "on: repeated objects share one mesh; off: each has a copy; the picture is the same")        \
     X(mipdebug, MIPDEBUG, "Mip colours", "Mip col.", 0, ("off", "on"), ("off", "on"),              \
@@ -61,15 +65,18 @@ typedef enum DipSetting {
         DIP_SETTING_COUNT
 } DipSetting;
 
-enum { DIP_MAX_STEPS = 5 };
+enum { DIP_MAX_STEPS = 6 };
 
-// The steps of opt and miplod, by name.
+// The steps of aaa, opt and miplod, by name.
+enum { DIP_AAA_OFF, DIP_AAA_COVERAGE, DIP_AAA_ON, DIP_AAA_ALL };
 enum { DIP_OPT_OFF, DIP_OPT_STANDARD, DIP_OPT_ADVANCED };
 enum {
     DIP_MIPLOD_HIGH_PERFORMANCE,
     DIP_MIPLOD_PERFORMANCE,
     DIP_MIPLOD_QUALITY,
-    DIP_MIPLOD_HIGH_QUALITY
+    DIP_MIPLOD_HIGH_QUALITY,
+    DIP_MIPLOD_SHARP,
+    DIP_MIPLOD_SHARPER
 };
 
 // One pane's settings: the index of a step for each setting. Plain data that may be copied freely.
@@ -126,7 +133,7 @@ DIP_API bool dip_quality_equal(const DipQuality *a, const DipQuality *b);
 DIP_API DipQuality dip_quality_effective(const DipQuality *quality);
 
 // Returns what a setting needs to have an effect beside the other settings, such as "needs AF", or
-// NULL if one of its steps has an effect.
+// NULL if its step, or one of its steps if it is off, has an effect.
 DIP_API const char *dip_quality_needs(const DipQuality *quality, DipSetting setting);
 
 // Fails if a step is out of range (RANGE) or if the samples of aa cannot be divided into groups of
@@ -136,13 +143,35 @@ DIP_API bool dip_quality_check(const DipQuality *quality, DipError *err);
 DIP_API int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
 DIP_API int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
 
+// Returns the bias of miplod, in 1/256 level. Greater values mean smaller mip levels. Where mip
+// colours show the levels, the steps that are sharper than high-quality have no bias.
+DIP_API int32_t dip_quality_bias_lod8(const DipQuality *quality);
+
+// Returns the settings with which the mirrored scene is drawn that water shows. They are the
+// frame's, except that miplod is at most high-quality: each texel of the mirrored picture may cover
+// several pixels of the frame, so a level that is too sharp would sparkle in whole blocks.
+DIP_API DipQuality dip_quality_mirrored(const DipQuality *quality);
+
 // Returns true if colour textures are drawn compressed. This is so with opt=standard and
 // opt=advanced, unless mip colours replace the texels.
 DIP_API bool dip_quality_compresses(const DipQuality *quality);
 
-// Returns the samples per sample group of alpha-clipped surfaces: asd with adaptive AA, otherwise
-// all samples.
+// Returns the samples per sample group of alpha-clipped surfaces: asd with aaa=on and aaa=all,
+// otherwise all samples.
 DIP_API int dip_quality_samples_per_group(const DipQuality *quality);
+
+// Returns true if all surfaces are shaded once per sample group: aaa=all with several groups.
+DIP_API bool dip_quality_groups_shade_all(const DipQuality *quality);
+
+// Returns the level-of-detail bias of a surface with sample groups, in 1/256 level:
+// -log2(sqrt(groups)). A sample group (samples of a pixel that are clipped and shaded together)
+// covers only a part of the pixel, so it reads finer levels than a whole pixel would. Finer levels
+// still show the thin parts of clip maps; coarser levels average these parts away.
+DIP_API int32_t dip_quality_groups_bias_lod8(const DipQuality *quality);
+
+// Returns true if alpha decides how many samples a clipped surface covers: aaa=coverage with
+// several samples.
+DIP_API bool dip_quality_covers_by_alpha(const DipQuality *quality);
 
 #ifdef __cplusplus
 }

@@ -109,6 +109,7 @@ static void free_mirror(DipMirror *mirror) {
     dip_pipeline_destroy(&mirror->pipeline);
     dip_lines_free(mirror->target.rgba8);
     free(mirror->tile_regions);
+    free(mirror->samplers);
     dip_draw_set_free(&mirror->set);
     *mirror = (DipMirror){0};
 }
@@ -228,12 +229,14 @@ bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
 
 // --- resources for a scene ---------------------------------------------------------------------
 
-DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene *scene) {
+DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene *scene,
+                                     bool mirrored) {
+    const DipMaterialSamplers *own = (const DipMaterialSamplers *)renderer->mirror.samplers;
     return (DipDrawInput){
         .scene = scene,
         .kernels = dip_material_kernels(renderer->isa),
         .quality = &renderer->quality,
-        .samplers = (const DipMaterialSamplers *)renderer->samplers,
+        .samplers = mirrored && own ? own : (const DipMaterialSamplers *)renderer->samplers,
         .sky = &renderer->sky,
         .unshared = renderer->unshared,
         .plain_surfaces = renderer->plain_surfaces,
@@ -246,7 +249,7 @@ static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mir
                     DipPipeline *pipeline, DipDrawSet *set, DipError *err) {
     const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
     const DipView view = dip_view_make(&pose, (double)scene->near_m, 1.0);
-    const DipDrawInput input = dip_renderer_draw_input(renderer, scene);
+    const DipDrawInput input = dip_renderer_draw_input(renderer, scene, mirrored);
     const DipDrawView all = {.view = &view, .width = 1, .height = 1, .mirrored = mirrored};
     dip_draw_set_fill(set, &input, &all);
     const DipPass pass = {.draws = set->draws, .draw_count = set->count};
@@ -304,10 +307,30 @@ bool dip_renderer_adopt_scene(DipRenderer *renderer, const DipScene *scene, DipE
     return renderer->reserved;
 }
 
+// Creates or frees the samplers of the mirrored scene, which it needs where it is not sampled as
+// the frame is.
+static bool follow_mirrored(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    DipMirror *mirror = &renderer->mirror;
+    const DipQuality mirrored = dip_quality_mirrored(&renderer->quality);
+    if (!mirror->pipeline || dip_quality_equal(&mirrored, &renderer->quality)) {
+        free(mirror->samplers);
+        mirror->samplers = NULL;
+        return true;
+    }
+    if (!mirror->samplers) {
+        mirror->samplers = calloc((size_t)scene->material_count + 1, sizeof *mirror->samplers);
+    }
+    return mirror->samplers || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "reflection",
+                                             "no memory for %d materials", scene->material_count);
+}
+
 bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     const DipQuality *quality = &renderer->quality;
     if (dip_quality_compresses(quality) &&
         !dip_scene_compress_textures(scene, renderer->pool, err)) {
+        return false;
+    }
+    if (!follow_mirrored(renderer, scene, err)) {
         return false;
     }
     if (quality->step[DIP_SETTING_GI]) {

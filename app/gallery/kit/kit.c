@@ -76,6 +76,8 @@ DipPass dip_kit_pass(const DipGalleryView *view, const DipDraw *draws, int draw_
     };
     const int group = dip_quality_samples_per_group(view->quality);
     pass.samples_per_group = group < pass.sample_count ? group : 0;
+    pass.groups_shade_all = dip_quality_groups_shade_all(view->quality);
+    pass.alpha_to_coverage = dip_quality_covers_by_alpha(view->quality);
     memcpy(pass.clear_lin, clear_lin, sizeof pass.clear_lin);
     return pass;
 }

@@ -25,10 +25,12 @@ typedef struct Uniforms {
     float colour[3];
     float light_scale; // Factor of the light map; 0 if there is no light map.
     float cutoff;      // Fragments with less alpha are clipped.
+    int samples;       // Samples per pixel with alpha to coverage, otherwise 0.
     float turns;       // Time as a share of the loop, 0..1. Used for the floor of the pool.
 } Uniforms;
 
-// An object of the courtyard. Only uniforms.to_clip and samplers[0] change from frame to frame.
+// An object of the courtyard. Only samplers[0], uniforms.to_clip and uniforms.samples change from
+// frame to frame.
 typedef struct Object {
     DipMatrix model;
     const DipMaterialDef *material;
@@ -89,7 +91,15 @@ static void shade_court(DipFragmentBatch *batch) {
 
 static void clip_court(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
-    float alpha[DIP_FRAGMENT_BATCH];
+    float alpha[DIP_FRAGMENT_BATCH], slope[DIP_FRAGMENT_BATCH];
+    if (uniforms->samples) {
+        batch->sample_alpha_slope(batch, &batch->samplers[0], 0, alpha, slope);
+        for (int i = 0; i < batch->count; i++) {
+            batch->keep[i] = (uint8_t)dip_alpha_to_coverage(alpha[i], slope[i], uniforms->cutoff,
+                                                            uniforms->samples);
+        }
+        return;
+    }
     batch->sample_alpha(batch, &batch->samplers[0], 0, alpha);
     for (int i = 0; i < batch->count; i++) {
         batch->keep[i] = alpha[i] >= uniforms->cutoff;
@@ -435,6 +445,9 @@ static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
         }
         const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);
         dip_matrix_floats(&to_clip, object->uniforms.to_clip);
+        object->uniforms.samples = dip_quality_covers_by_alpha(view->quality)
+                                       ? dip_quality_sample_count(view->quality)
+                                       : 0;
         if (texture != DIP_NO_TEXTURE) {
             const DipKitTexture both = {content->textures[texture], content->compressed[texture]};
             object->samplers[0] = dip_kit_sampler(view, &both);

@@ -95,7 +95,7 @@ void dip_costs_free(DipCostReport **report) {
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality) {
     const DipQuality *at = &row->steps[step].quality;
     const bool adaptive = row->setting == DIP_SETTING_AAA || row->setting == DIP_SETTING_ASD;
-    const bool on = quality->step[DIP_SETTING_AAA] != 0;
+    const bool on = quality->step[DIP_SETTING_AAA] >= DIP_AAA_ON;
     return quality->step[row->setting] == at->step[row->setting] &&
            (!adaptive || (quality->step[DIP_SETTING_AA] == at->step[DIP_SETTING_AA] &&
                           (!on || quality->step[DIP_SETTING_ASD] == at->step[DIP_SETTING_ASD])));

@@ -19,8 +19,12 @@ const char *dip_step_explanation(DipSetting setting, int step) {
                              "picture shows twice as many samples."},
         [DIP_SETTING_AAA] = {"Leaves and fences have stair-stepped edges: their holes are cut once "
                              "per pixel.",
+                             "Leaves and fences cover as many samples as their alpha says (alpha "
+                             "to coverage): nearly as smooth, for little time.",
                              "The holes of leaves and fences are cut and shaded once per group of "
-                             "samples."},
+                             "samples.",
+                             "Every surface is shaded once per group of samples (supersampling): "
+                             "the sharpest picture, which takes the longest."},
         [DIP_SETTING_ASD] = {"Each sample is a group of its own: the smoothest holes.",
                              "Two samples share a group.", "Three samples share a group.",
                              "Four samples share a group: the fastest."},
@@ -38,7 +42,10 @@ const char *dip_step_explanation(DipSetting setting, int step) {
         [DIP_SETTING_MIPLOD] = {"Much smaller mip levels, and the largest ones are dropped.",
                                 "Smaller mip levels: textures are blurred.",
                                 "Slightly smaller mip levels.",
-                                "The mip level that fits each pixel."},
+                                "The mip level that fits each pixel.",
+                                "Half a mip level sharper than the texture's size asks for.",
+                                "A mip level sharper than the texture's size asks for: fine "
+                                "patterns may shimmer when the camera moves."},
         [DIP_SETTING_GI] = {"Each repeated object has a copy of its mesh; the picture is the same.",
                             "Repeated objects share one mesh; the picture is the same."},
         [DIP_SETTING_MIPDEBUG] = {"Textures show their own colours.",

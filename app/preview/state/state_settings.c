@@ -290,8 +290,9 @@ void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns)
 
 // --- texts ---------------------------------------------------------------------------------------
 
-// The short forms of settings, in which %s stands for the step. A setting that is either on or off
-// has a short form without a step; if the setting is off, "no" precedes the short form.
+// The short forms of settings, in which %s stands for the step. A setting that may be on or off has
+// a short form without a step. If it is off, "no" precedes the short form; a step other than on and
+// off follows it.
 static const char *const brief_forms[DIP_SETTING_COUNT] = {
     [DIP_SETTING_AA] = "AA %sx",       [DIP_SETTING_TAA] = "temporal AA",
     [DIP_SETTING_AAA] = "adaptive AA", [DIP_SETTING_ASD] = "groups of %s",
@@ -307,7 +308,9 @@ static void describe_briefly(DipSetting setting, const char *step, char *text, s
     if (mark) {
         snprintf(text, size_bytes, "%.*s%s%s", (int)(mark - form), form, step, mark + 2);
     } else {
-        snprintf(text, size_bytes, "%s%s", strcmp(step, "off") == 0 ? "no " : "", form);
+        const bool off = strcmp(step, "off") == 0, named = !off && strcmp(step, "on") != 0;
+        snprintf(text, size_bytes, "%s%s%s%s", off ? "no " : "", form, named ? " " : "",
+                 named ? step : "");
     }
 }
 

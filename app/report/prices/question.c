@@ -10,7 +10,7 @@
 // Returns whether adaptive AA with these settings divides the samples into two groups or more.
 static bool has_groups(const DipQuality *quality) {
     DipQuality on = *quality;
-    on.step[DIP_SETTING_AAA] = 1;
+    on.step[DIP_SETTING_AAA] = DIP_AAA_ON;
     return dip_quality_effective(&on).step[DIP_SETTING_AAA] != 0;
 }
 
@@ -67,13 +67,14 @@ static void keep_samples(DipPriceQuestion *question, int asd, const DipQuality *
 }
 
 static void ask_adaptive(DipPriceQuestion *question, int step, const DipQuality *quality) {
-    const int asd = has_groups(quality) ? quality->step[DIP_SETTING_ASD] : 0;
+    const bool divides = step != DIP_AAA_COVERAGE;
+    const int asd = divides && has_groups(quality) ? quality->step[DIP_SETTING_ASD] : 0;
     keep_samples(question, asd, quality);
     question->is_base = step == 0;
     if (!question->is_base) {
-        question->with.step[DIP_SETTING_AAA] = 1;
+        question->with.step[DIP_SETTING_AAA] = (uint8_t)step;
         question->with.step[DIP_SETTING_ASD] = (uint8_t)asd;
-        if (quality->step[DIP_SETTING_AA] != 0 && !has_groups(quality)) {
+        if (divides && quality->step[DIP_SETTING_AA] != 0 && !has_groups(quality)) {
             need(question, "smaller groups");
         }
     }
@@ -81,9 +82,10 @@ static void ask_adaptive(DipPriceQuestion *question, int step, const DipQuality 
 
 static void ask_group_size(DipPriceQuestion *question, int step, const DipQuality *quality) {
     keep_samples(question, step, quality);
-    question->with.step[DIP_SETTING_AAA] = 1;
+    const bool all = quality->step[DIP_SETTING_AAA] == DIP_AAA_ALL;
+    question->with.step[DIP_SETTING_AAA] = all ? DIP_AAA_ALL : DIP_AAA_ON;
     question->with.step[DIP_SETTING_ASD] = (uint8_t)step;
-    if (!question->needs[0] && quality->step[DIP_SETTING_AAA] == 0) {
+    if (!question->needs[0] && quality->step[DIP_SETTING_AAA] < DIP_AAA_ON) {
         need(question, "adaptive AA");
     }
 }

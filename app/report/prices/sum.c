@@ -116,7 +116,7 @@ DipPriceSum dip_price_sum(const DipPriceView *view, const DipQuality *quality) {
 
 // --- candidates ----------------------------------------------------------------------------------
 
-enum { MOST_COMBINATIONS = 2048 };
+enum { MOST_COMBINATIONS = 4096 };
 
 static const unsigned settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA |
                                  1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF |

@@ -55,6 +55,9 @@
        float(*const out[2])[DIP_FRAGMENT_BATCH]))                                                  \
     X(void, dip_kernel_sample_alpha,                                                               \
       (DipFragmentBatch * batch, const DipSampler *sampler, int u_varying, float *out))            \
+    X(void, dip_kernel_sample_alpha_slope,                                                         \
+      (DipFragmentBatch * batch, const DipSampler *sampler, int u_varying, float *out,             \
+       float *slope))                                                                              \
     X(void, dip_kernel_sample_target,                                                              \
       (DipFragmentBatch * batch, const DipTarget *target, const float *u, const float *v,          \
        float(*out)[DIP_FRAGMENT_BATCH]))                                                           \

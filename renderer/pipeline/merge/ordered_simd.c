@@ -431,6 +431,18 @@ VEC_INLINE void merge_whole_single(DipOrdered *ordered, const OrderedTriangle *t
     }
 }
 
+// Alpha to coverage: takes from each pixel's covered samples those that come after the first
+// *kept in `order`. kept: a byte per pixel that waits.
+static void drop_samples(Cover *cover, const uint8_t *kept, const uint8_t *order,
+                         int sample_count) {
+    for (unsigned left = cover->pixels; left; left &= left - 1) {
+        const unsigned pixel = left & -left;
+        for (int i = *kept++; i < sample_count; i++) {
+            cover->samples[order[i]] &= (uint16_t)~pixel;
+        }
+    }
+}
+
 // Runs the clip test on the fragments that wait for it, and merges those that it keeps.
 static void flush_clip_queue(ClipQueue *queue, DipOrdered *ordered, const OrderedTriangle *tri,
                              const DipTriangle *triangle, DipTile *tile) {
@@ -443,8 +455,11 @@ static void flush_clip_queue(ClipQueue *queue, DipOrdered *ordered, const Ordere
     }
     const uint8_t *kept = ordered->clip->test(ordered->clip->context, triangle);
     for (int i = 0; i < queue->count; i++) {
-        const Cover *cover = &queue->waiting[i];
+        Cover *cover = &queue->waiting[i];
         unsigned keep = 0;
+        if (ordered->clip->order) {
+            drop_samples(cover, kept, ordered->clip->order, tile->pattern->count);
+        }
         for (unsigned left = cover->pixels; left; left &= left - 1) {
             keep |= left & -left & (0u - (*kept++ != 0));
         }

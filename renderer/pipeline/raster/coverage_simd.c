@@ -143,6 +143,23 @@ static uint64_t block_bit(const DipTile *tile, const Waiting *waiting) {
     return (uint64_t)1 << (waiting->first / (tile->pattern->count * DIP_BLOCK_PIXELS));
 }
 
+// Alpha to coverage: takes from each pixel's visible samples those that come after the first
+// kept[i] in `order`. kept: a byte per fragment of the sub-block. Returns the pixels that may keep
+// a sample.
+static unsigned drop_samples(Waiting *waiting, const uint8_t *kept, const uint8_t *order,
+                             int sample_count) {
+    unsigned keep = 0;
+    for (unsigned left = waiting->pixels; left; left &= left - 1) {
+        const unsigned pixel = left & -left;
+        const int count = *kept++;
+        keep |= count ? pixel : 0;
+        for (int i = count; i < sample_count; i++) {
+            waiting->visible[order[i]] &= (uint16_t)~pixel;
+        }
+    }
+    return keep;
+}
+
 // Runs the clip test on the waiting fragments, and stores the fragments that the test keeps.
 static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriangle *triangle,
                              DipTile *tile, uint32_t id) {
@@ -156,8 +173,13 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
     const uint8_t *kept = queue->clip->test(queue->clip->context, triangle);
     for (int i = 0; i < queue->count; i++) {
         unsigned keep = 0;
-        for (unsigned left = queue->waiting[i].pixels; left; left &= left - 1) {
-            keep |= left & -left & (0u - (*kept++ != 0)); // without a branch
+        if (queue->clip->order) {
+            keep = drop_samples(&queue->waiting[i], kept, queue->clip->order, tile->pattern->count);
+            kept += __builtin_popcount(queue->waiting[i].pixels);
+        } else {
+            for (unsigned left = queue->waiting[i].pixels; left; left &= left - 1) {
+                keep |= left & -left & (0u - (*kept++ != 0)); // without a branch
+            }
         }
         if (keep) {
             keep_sub_block(in, tile, &queue->waiting[i], keep, id);

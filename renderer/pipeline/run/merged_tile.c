@@ -136,7 +136,7 @@ void dip_merged_tile_begin(DipTileWorker *worker) {
 
 void dip_merged_tile_draw(DipTileWorker *worker, int index) {
     DipTileWork *work = worker->work;
-    MergeVisit visit = {worker, {&worker->clip_list, dip_tile_worker_clip, worker, NULL}};
+    MergeVisit visit = {worker, dip_tile_worker_clip_test(worker, NULL)};
     const int64_t begin_ns = dip_clock_ns();
     dip_geometry_visit(worker->pass->geometry, index, draw_triangle, &visit);
     end_ordered_draw(worker);

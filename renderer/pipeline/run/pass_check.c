@@ -78,8 +78,15 @@ static bool check_samples(const DipPass *pass, DipError *err) {
     if (!in_range((int)pass->pattern, 0, DIP_PATTERN_KINDS - 1, "pattern", err)) {
         return false;
     }
-    return !pass->samples_per_group || pass->samples_per_group == count ||
-           dip_sample_groups_exist(count, pass->samples_per_group) ||
+    if (!pass->samples_per_group || pass->samples_per_group == count) {
+        return true;
+    }
+    if (pass->alpha_to_coverage) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "alpha_to_coverage",
+                             "with groups of %d samples, accepted undivided samples",
+                             pass->samples_per_group);
+    }
+    return dip_sample_groups_exist(count, pass->samples_per_group) ||
            dip_error_set(
                err, DIP_ERROR_CONFLICT, NULL, 0, "samples_per_group",
                "groups of %d out of %d samples, accepted if dip_sample_groups_exist is true",

@@ -130,6 +130,16 @@ static void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, int
     }
 }
 
+static void sample_alpha_slope(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
+                               float *out, float *slope) {
+    if (check_read(batch->guard, sampler, u_varying)) {
+        batch->guard->kernels->dip_kernel_sample_alpha_slope(batch, sampler, u_varying, out, slope);
+    } else {
+        memset(out, 0, DIP_FRAGMENT_BATCH * sizeof *out);
+        memset(slope, 0, DIP_FRAGMENT_BATCH * sizeof *slope);
+    }
+}
+
 // --- targets and depths --------------------------------------------------------------------------
 
 // Returns whether two targets share bytes.
@@ -237,6 +247,7 @@ void dip_shader_guard_bind(DipShaderGuard *guard, uint32_t draw, int varying_cou
     batch->sample_colour = sample_colour;
     batch->sample_colours = sample_colours;
     batch->sample_alpha = sample_alpha;
+    batch->sample_alpha_slope = sample_alpha_slope;
     batch->sample_target = sample_target;
     batch->sample_shadow = sample_shadow;
     batch->srgb_light = guard->srgb_light;

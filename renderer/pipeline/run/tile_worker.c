@@ -114,10 +114,16 @@ static int sample_group_count(const DipTilePass *pass) {
     return pass->groups ? pass->groups->count : 1;
 }
 
+DipClipTest dip_tile_worker_clip_test(DipTileWorker *worker, const DipSampleGroups *groups) {
+    const DipTilePass *pass = worker->pass;
+    return (DipClipTest){&worker->clip_list, dip_tile_worker_clip, worker, groups,
+                         pass->pass->alpha_to_coverage ? pass->pattern->order : NULL};
+}
+
 void dip_tile_worker_cover(DipTileWorker *worker, uint32_t index) {
     const DipTilePass *pass = worker->pass;
     const DipTriangle *triangle = &pass->geometry->triangles[index];
-    const DipClipTest clip = {&worker->clip_list, dip_tile_worker_clip, worker, pass->groups};
+    const DipClipTest clip = dip_tile_worker_clip_test(worker, pass->groups);
     const bool clipped = pass->pass->draws[triangle->draw].clip_shader != NULL;
     worker->work->clip_sample_groups += clipped ? (uint64_t)sample_group_count(pass) : 0;
     pass->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
@@ -181,6 +187,7 @@ static void begin_tile(DipTileWorker *worker, int index) {
                                        geometry->plane_stride, tile->x0, tile->y0};
     shading->draws = pass->pass->draws;
     shading->groups = pass->groups;
+    shading->groups_shade_all = pass->pass->groups_shade_all;
     shading->context = worker;
     shading->width = target->width - tile->x0 < DIP_TILE ? target->width - tile->x0 : DIP_TILE;
     shading->height = target->height - tile->y0 < DIP_TILE ? target->height - tile->y0 : DIP_TILE;

@@ -98,6 +98,9 @@ void dip_fragment_list_drop(DipFragmentList *list, int count);
 // Covers a triangle of a plain draw.
 void dip_tile_worker_cover(DipTileWorker *worker, uint32_t triangle);
 
+// Returns the clip test of the worker's pass, whose context is the worker. groups: see DipClipTest.
+DipClipTest dip_tile_worker_clip_test(DipTileWorker *worker, const DipSampleGroups *groups);
+
 // Runs the clip shader of a triangle's draw on the fragments in worker->clip_list, as DipClipTest
 // describes. context: the worker.
 const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle);

@@ -154,7 +154,8 @@ VEC_INLINE void push_uniform(const SubBlock *sub, const uint32_t *draws, unsigne
 
 // Returns the sample groups of a draw, or NULL if all its samples form one group.
 static inline const DipSampleGroups *groups_of(const DipTileShading *shading, uint32_t draw) {
-    return shading->groups && shading->draws[draw].clip_shader ? shading->groups : NULL;
+    const bool has_groups = shading->groups_shade_all || shading->draws[draw].clip_shader;
+    return shading->groups && has_groups ? shading->groups : NULL;
 }
 
 // Adds the fragments of one patch: the patch that sample `first` shows in the first pixel of
@@ -351,6 +352,7 @@ VEC_INLINE bool is_drawn(const DipTile *tile, int block) {
 
 void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
     const DipTile *tile = shading->tile;
+    const bool all_grouped = shading->groups && shading->groups_shade_all;
     for (int block = 0; block < DIP_BLOCKS; block++) {
         if (!is_drawn(tile, block)) {
             continue;
@@ -367,7 +369,7 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
             sub.sample_count = tile->pattern->count;
             sub.x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * DIP_SUB_BLOCK;
             sub.y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * DIP_SUB_BLOCK;
-            collect_sub_block(&sub, tile->grouped >> block & 1);
+            collect_sub_block(&sub, all_grouped || tile->grouped >> block & 1);
         }
     }
 }

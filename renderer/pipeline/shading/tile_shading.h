@@ -53,6 +53,9 @@ typedef struct DipClipTest {
     const uint8_t *(*test)(void *context, const DipTriangle *triangle);
     void *context;
     const DipSampleGroups *groups; // NULL: one group of all samples
+    // Not NULL: each byte is the number of samples of its pixel that the surface may have
+    // (DipPass.alpha_to_coverage). It may have the first of these samples.
+    const uint8_t *order;
 } DipClipTest;
 
 // The colours of a batch after shading, in 16-bit linear light and as sRGB pixels.
@@ -81,6 +84,7 @@ struct DipTileShading {
     DipShadingInput input;
     const DipDraw *draws;
     const DipSampleGroups *groups; // sample groups of alpha-clipped draws; NULL: one group
+    bool groups_shade_all;         // all draws have these groups
     DipFlushList *flush;           // called when one of `lists` holds a batch
     DipFlushList *flush_whole;     // called when one of `whole_lists` holds a batch
     void *context;                 // for use by `flush` and `flush_whole`

@@ -534,50 +534,106 @@ VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler
 
 // --- alpha -------------------------------------------------------------------------------------
 
-VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, const Taps *taps) {
+// How alpha changes per texel of level 0, along u and v, in the unit of mean_alpha.
+typedef struct AlphaChange {
+    Vf u, v;
+} AlphaChange;
+
+// Returns the alpha of a bilinear read. change: if not NULL, receives its derivative per texel of
+// the level that is read.
+VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, const Taps *taps,
+                             AlphaChange *change) {
     const Vf fx = vf_from_int(taps->x8 & 255);
     const Vf fy = vf_from_int(taps->y8 & 255);
     const Vf gx = 256.0f - fx;
     const Vf gy = 256.0f - fy;
     const Vi upper = (Vi)vu_gather_bytes(texture->alpha, taps->index);
     const Vi lower = (Vi)vu_gather_bytes(texture->alpha, taps->index + level->stride);
+    if (change) {
+        const Vf a = vf_from_int(upper & 255), b = vf_from_int(upper >> 8 & 255);
+        const Vf c = vf_from_int(lower & 255), d = vf_from_int(lower >> 8 & 255);
+        change->u = ((b - a) * gy + (d - c) * fy) * 256.0f;
+        change->v = ((c - a) * gx + (d - b) * fx) * 256.0f;
+    }
     return (vf_from_int(upper & 255) * (gx * gy) + vf_from_int(upper >> 8 & 255) * (fx * gy)) +
            (vf_from_int(lower & 255) * (gx * fy) + vf_from_int(lower >> 8 & 255) * (fx * fy));
 }
 
+// Returns the width and height of a level relative to level 0.
+VEC_INLINE AlphaChange size_of_level(const DipTexture *texture, ReadMode mode, const Level *level) {
+    const Vi one = vi_splat(1);
+    const Vf width = vf_from_int(mode.in_bits ? one << level->width : level->width);
+    const Vf height = vf_from_int(mode.in_bits ? one << level->height : level->height);
+    return (AlphaChange){width * (1.0f / (float)texture->width),
+                         height * (1.0f / (float)texture->height)};
+}
+
 // Returns the mean alpha over vector n's probes in a level, in units of 1 / (255 * 65536). The sum
-// is divided by the number of probes, so that a constant alpha stays exact.
+// is divided by the number of probes, so that a constant alpha stays exact. change: NULL, or
+// receives the mean's derivative.
 VEC_INLINE Vf mean_alpha(const DipTexture *texture, ReadMode mode, Vi level,
-                         const Footprints *footprints, const Line *line, int n) {
+                         const Footprints *footprints, const Line *line, int n,
+                         AlphaChange *change) {
     Vf total = vf_splat(0.0f);
+    AlphaChange changes = {vf_splat(0.0f), vf_splat(0.0f)};
     Walk walk = begin_walk(texture, mode, level, footprints, line, n);
     while (walk.probe < walk.count) {
         const Taps taps = find_taps(texture, mode, &walk);
-        const Vf alpha = bilinear_alpha(texture, &walk.level, &taps);
-        total += mode.anisotropic
-                     ? vf_select(vi_lt(vi_splat(walk.probe), line->count[n]), alpha, vf_splat(0.0f))
-                     : alpha;
+        AlphaChange of_probe;
+        const Vf alpha = bilinear_alpha(texture, &walk.level, &taps, change ? &of_probe : NULL);
+        const Mask counts =
+            mode.anisotropic ? vi_lt(vi_splat(walk.probe), line->count[n]) : vi_eq(level, level);
+        total += mode.anisotropic ? vf_select(counts, alpha, vf_splat(0.0f)) : alpha;
+        if (change && !mode.nearest) {
+            changes.u += vf_select(counts, of_probe.u, vf_splat(0.0f));
+            changes.v += vf_select(counts, of_probe.v, vf_splat(0.0f));
+        }
         next_probe(&walk, mode);
     }
-    return mode.anisotropic ? total / vf_from_int(vi_max(line->count[n], vi_splat(1))) : total;
+    const Vf count =
+        mode.anisotropic ? vf_from_int(vi_max(line->count[n], vi_splat(1))) : vf_splat(1.0f);
+    if (change) {
+        const AlphaChange size = size_of_level(texture, mode, &walk.level);
+        change->u = changes.u * size.u / count;
+        change->v = changes.v * size.v / count;
+    }
+    return mode.anisotropic ? total / count : total;
 }
 
+// Returns |d alpha / dx| + |d alpha / dy| of vector n's footprints.
+VEC_INLINE Vf slope_of(const DipFragmentBatch *batch, const DipTexture *texture, int varying, int n,
+                       AlphaChange change) {
+    const Jacobian j = bounded_jacobian(read_jacobian(batch, texture, varying, n * DIP_LANES));
+    const Vf dx = change.u * j.ux + change.v * j.vx;
+    const Vf dy = change.u * j.uy + change.v * j.vy;
+    return vf_abs(dx) + vf_abs(dy);
+}
+
+// slope: NULL, or receives how fast alpha changes from pixel to pixel (DipSampleAlphaSlope).
 VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
-                             int u_varying, float *out) {
+                             int u_varying, float *out, float *slope) {
     const DipTexture *texture = sampler->texture;
     Footprints footprints;
     find_footprints(batch, sampler, mode, u_varying, 1, &footprints);
     for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
         const Vi lod8 = footprints.lod8[n];
         const Vf fraction = vf_from_int(lod8 & 255);
-        Vf alpha = mean_alpha(texture, mode, near_level(lod8), &footprints, &footprints.near, n) *
+        AlphaChange near = {vf_splat(0.0f), vf_splat(0.0f)};
+        AlphaChange far = near;
+        Vf alpha = mean_alpha(texture, mode, near_level(lod8), &footprints, &footprints.near, n,
+                              slope ? &near : NULL) *
                    (256.0f - fraction);
         if (mask_any(vi_lt(vi_splat(0), lod8 & 255))) {
             alpha += mean_alpha(texture, mode, far_level(sampler, lod8), &footprints,
-                                &footprints.far, n) *
+                                &footprints.far, n, slope ? &far : NULL) *
                      fraction;
         }
         vf_store(out + i, alpha / 4278190080.0f);
+        if (slope) {
+            const AlphaChange blended = {near.u * (256.0f - fraction) + far.u * fraction,
+                                         near.v * (256.0f - fraction) + far.v * fraction};
+            vf_store(slope + i, slope_of(batch, texture, u_varying, n, blended) / 4278190080.0f);
+        }
     }
 }
 
@@ -645,5 +701,17 @@ void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampl
         }
         return;
     }
-    SAMPLE_BY_MODE(sample_alpha, sampler->texture, u_varying, out);
+    SAMPLE_BY_MODE(sample_alpha, sampler->texture, u_varying, out, NULL);
+}
+
+void DIP_KERNEL(dip_kernel_sample_alpha_slope)(DipFragmentBatch *batch, const DipSampler *sampler,
+                                               int u_varying, float *out, float *slope) {
+    if (!sampler->texture->alpha) {
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
+            vf_store(out + i, vf_splat(1.0f));
+            vf_store(slope + i, vf_splat(0.0f));
+        }
+        return;
+    }
+    SAMPLE_BY_MODE(sample_alpha, sampler->texture, u_varying, out, slope);
 }

@@ -125,6 +125,11 @@ double dip_reference_depth(const DipRefPosition *place, double near_m);
 // level 0.
 double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filter);
 
+// Returns the alpha of a clipped surface and finds how fast it changes, in |d alpha / dx| + |d
+// alpha / dy| per pixel.
+double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter *filter,
+                                 double *slope);
+
 // Shades a triangle at a position; the result is linear light, 0..1. filter is the colour texture's
 // filter. If filter is NULL, all textures are read bilinearly from level 0.
 void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter, double rgb[3]);

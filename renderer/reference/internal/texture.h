@@ -81,6 +81,13 @@ void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filt
                           const double uv[2], const double duv_dx[2], const double duv_dy[2],
                           double rgba[4]);
 
+// Reads a texture as dip_reference_sample does, and finds how fast its alpha changes: |d alpha /
+// dx|
+// + |d alpha / dy| per pixel, the derivative of the weighted mean of the texels.
+void dip_reference_sample_slope(const DipRefTexture *texture, const DipRefFilter *filter,
+                                const double uv[2], const double duv_dx[2], const double duv_dy[2],
+                                double rgba[4], double *slope);
+
 // Reads level 0 bilinearly at unrounded coordinates, as the converged picture does.
 void dip_reference_sample_finest(const DipRefTexture *texture, const double uv[2], double rgba[4]);
 

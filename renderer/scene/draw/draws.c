@@ -33,17 +33,14 @@ void dip_draw_set_free(DipDrawSet *set) {
 
 static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *shown,
                                  const DipTexture *texture) {
-    // Bias of each step of miplod, from high-performance to high-quality, in 1/256 level.
-    static const int32_t bias_lod8[] = {384, 256, 128, 0};
-    const int miplod = quality->step[DIP_SETTING_MIPLOD];
     DipSampler sampler = {
         .texture = texture,
         .max_anisotropy = dip_quality_max_anisotropy(quality),
         .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
-        .bias_lod8 = bias_lod8[miplod],
+        .bias_lod8 = dip_quality_bias_lod8(quality),
         .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };
-    if (miplod == DIP_MIPLOD_HIGH_PERFORMANCE) {
+    if (quality->step[DIP_SETTING_MIPLOD] == DIP_MIPLOD_HIGH_PERFORMANCE) {
         int width;
         int height;
         dip_texture_level_size(texture, 0, &width, &height);
@@ -54,16 +51,6 @@ static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *sh
         dip_mip_debug_levels(texture, sampler.shown_level);
     }
     return sampler;
-}
-
-// Level-of-detail bias of a clipped surface, in 1/256 level: -log2(sqrt(groups)). A sample group
-// (samples of a pixel that are clipped and shaded together) covers only a part of the pixel, so it
-// reads finer levels than a whole pixel would. Finer levels still show the thin parts of clip maps;
-// coarser levels average these parts away.
-static int32_t group_bias_lod8(const DipQuality *quality) {
-    static const int32_t bias_lod8[DIP_MAX_SAMPLES + 1] = {
-        [2] = -128, [3] = -203, [4] = -256, [6] = -331, [8] = -384};
-    return bias_lod8[dip_quality_sample_count(quality) / dip_quality_samples_per_group(quality)];
 }
 
 static const DipTexture *colour_texture(const DipScene *scene, const DipQuality *quality,
@@ -77,12 +64,13 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
                       DipMaterialSamplers *samplers) {
     for (int i = 0; i < scene->material_count; i++) {
         const DipSceneMaterial *material = &scene->materials[i];
-        const int32_t clipped_bias_lod8 =
-            material->surface == DIP_SURFACE_CLIPPED ? group_bias_lod8(quality) : 0;
+        const bool has_groups =
+            material->surface == DIP_SURFACE_CLIPPED || dip_quality_groups_shade_all(quality);
+        const int32_t own_bias_lod8 = has_groups ? dip_quality_groups_bias_lod8(quality) : 0;
         if (material->colour_texture != DIP_NO_TEXTURE) {
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_COLOUR];
             *sampler = colour_sampler(quality, shown, colour_texture(scene, quality, material));
-            sampler->bias_lod8 += clipped_bias_lod8;
+            sampler->bias_lod8 += own_bias_lod8;
         }
         if (material->light_map != DIP_NO_TEXTURE) {
             samplers[i][DIP_SURFACE_SAMPLER_LIGHT_MAP] =
@@ -91,7 +79,7 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
         if (material->normal_map != DIP_NO_TEXTURE) {
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_NORMAL_MAP];
             *sampler = colour_sampler(quality, shown, scene->textures[material->normal_map]);
-            sampler->bias_lod8 += clipped_bias_lod8;
+            sampler->bias_lod8 += own_bias_lod8;
             sampler->shown = NULL; // mip colours replace colour textures only
         }
     }
@@ -215,6 +203,11 @@ static void set_matrices(const DipView *view, const DipSceneObject *object, DipD
     memcpy(uniforms->normal_to_world, object->normal_to_world, sizeof uniforms->normal_to_world);
 }
 
+static DipFragmentShader *clip_shader(const DipDrawInput *input) {
+    return dip_quality_covers_by_alpha(input->quality) ? input->kernels->dip_kernel_surface_cover
+                                                       : input->kernels->dip_kernel_surface_clip;
+}
+
 static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int index,
                      DipDrawSet *set) {
     const DipSceneObject *object = &input->scene->objects[index];
@@ -223,6 +216,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     DipDraw *draw = &set->draws[set->count];
     DipSurfaceUniforms *uniforms = &set->uniforms[set->count++];
     *uniforms = mesh->normal_mapped && !input->plain_surfaces ? mesh->mapped_layout : mesh->layout;
+    uniforms->sample_count = dip_quality_sample_count(input->quality);
     set_matrices(pass->view, object, set);
     if (input->quality->step[DIP_SETTING_MIPDEBUG] && uniforms->colour_varying != DIP_ABSENT) {
         for (int c = 0; c < 3; c++) {
@@ -235,7 +229,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
         .mesh = input->unshared ? dip_unshared_mesh(input->unshared, index) : mesh->mesh,
         .vertex_shader = input->kernels->dip_kernel_surface_vertex,
         .fragment_shader = input->kernels->dip_kernel_surface_fragment,
-        .clip_shader = clipped ? input->kernels->dip_kernel_surface_clip : NULL,
+        .clip_shader = clipped ? clip_shader(input) : NULL,
         .varying_count = mesh->varying_count,
         .value_only_varying_count = mesh->layout.light_varying == DIP_ABSENT
                                         ? 0

@@ -55,6 +55,8 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
         .pattern =
             dip_pattern_kind(renderer->quality.step[DIP_SETTING_TAA] != 0, renderer->frame_index),
         .samples_per_group = plan->samples_per_group,
+        .groups_shade_all = dip_quality_groups_shade_all(&renderer->quality),
+        .alpha_to_coverage = dip_quality_covers_by_alpha(&renderer->quality),
     };
     memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
     return pass;
@@ -64,7 +66,7 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
 // pass.
 static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDrawView view,
                       DipDrawSet *set, DipPass *pass) {
-    const DipDrawInput input = dip_renderer_draw_input(renderer, scene);
+    const DipDrawInput input = dip_renderer_draw_input(renderer, scene, view.mirrored);
     const DipCullPlanes seen = dip_cull_pass_planes(pass, view.view->world_to_clip);
     view.seen = &seen;
     view.width = pass->target.width;
@@ -189,6 +191,10 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
     };
     setup->plan = dip_plan_frame(&setup->input);
     dip_set_samplers(scene, &renderer->quality, renderer->mip_colours, renderer->samplers);
+    if (mirror->samplers) {
+        const DipQuality mirrored = dip_quality_mirrored(&renderer->quality);
+        dip_set_samplers(scene, &mirrored, renderer->mip_colours, mirror->samplers);
+    }
     if (setup->plan.effects.sky.run) {
         renderer->sky = dip_sky_at(&scene->sky, time_ns);
     }

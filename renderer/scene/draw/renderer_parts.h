@@ -15,6 +15,8 @@ typedef struct DipMirror {
     DipTarget target;            // the picture of the mirrored scene
     DipTileRegion *tile_regions; // for each tile of the target, the part that water can show
     DipDrawSet set;
+    // One per material; NULL where the mirrored scene is sampled as the frame is.
+    DipMaterialSamplers *samplers;
 } DipMirror;
 
 struct DipRenderer {
@@ -49,7 +51,9 @@ bool dip_renderer_adopt_scene(DipRenderer *renderer, const DipScene *scene, DipE
 // Creates or frees resources that depend on the settings.
 bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err);
 
-// Returns the input from which the draws of every pass are made.
-DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene *scene);
+// Returns the input from which the draws of a pass are made. mirrored: the pass draws the mirrored
+// scene.
+DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene *scene,
+                                     bool mirrored);
 
 #endif

@@ -11,6 +11,8 @@
     X(void, dip_kernel_surface_vertex, (const DipVertexBatch *batch))                              \
     X(void, dip_kernel_surface_fragment, (DipFragmentBatch * batch))                               \
     X(void, dip_kernel_surface_clip, (DipFragmentBatch * batch))                                   \
+    /* A clip shader for passes with alpha_to_coverage. */                                         \
+    X(void, dip_kernel_surface_cover, (DipFragmentBatch * batch))                                  \
     X(void, dip_kernel_fragment_lit_vertex, (const DipVertexBatch *batch))                         \
     X(void, dip_kernel_normal_map_fragment, (DipFragmentBatch * batch))                            \
     X(void, dip_kernel_gouraud_vertex, (const DipVertexBatch *batch))                              \

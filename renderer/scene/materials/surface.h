@@ -98,6 +98,7 @@ typedef struct DipSurfaceUniforms {
     float base_colour_lin[3];
     float light_map_scale;
     float alpha_cutoff;
+    int sample_count; // samples per pixel, for alpha to coverage
     // The next four are set for surfaces whose fragments are lit: by the scene's lights, or with a
     // normal map. Without a normal map, normal_map_varying is DIP_ABSENT.
     int normal_map_varying; // index of the first of two: coordinates of the normal map

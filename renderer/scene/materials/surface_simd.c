@@ -52,3 +52,15 @@ void DIP_KERNEL(dip_kernel_surface_clip)(DipFragmentBatch *batch) {
         batch->keep[i] = alpha[i] >= uniforms->alpha_cutoff;
     }
 }
+
+void DIP_KERNEL(dip_kernel_surface_cover)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    float alpha[DIP_FRAGMENT_BATCH];
+    float slope[DIP_FRAGMENT_BATCH];
+    batch->sample_alpha_slope(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                              uniforms->colour_varying, alpha, slope);
+    for (int i = 0; i < batch->count; i++) {
+        batch->keep[i] = (uint8_t)dip_alpha_to_coverage(alpha[i], slope[i], uniforms->alpha_cutoff,
+                                                        uniforms->sample_count);
+    }
+}

@@ -192,6 +192,15 @@ static DipEffect plan_adaptive_aa(const DipPlanInput *input, DipFramePlan *plan)
     if (!input->quality->step[DIP_SETTING_AAA]) {
         return skip("aaa is off");
     }
+    if (dip_quality_groups_shade_all(input->quality)) {
+        plan->samples_per_group = dip_quality_samples_per_group(input->quality);
+        return run(input, "all surfaces are drawn per sample group");
+    }
+    if (dip_quality_covers_by_alpha(input->quality)) {
+        return plan->effects.alpha_clip.run
+                   ? run(input, "alpha decides how many samples a clipped surface covers")
+                   : plan->effects.alpha_clip;
+    }
     if (dip_quality_samples_per_group(input->quality) == sample_count) {
         return skip("one sample group holds all samples");
     }
@@ -272,7 +281,9 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, Dip
         return;
     }
     settle(&effects->alpha_clip, counters->fragments_clip_tested);
-    settle(&effects->adaptive_aa, counters->clip_sample_groups);
+    if (!dip_quality_groups_shade_all(input->quality)) {
+        settle(&effects->adaptive_aa, counters->clip_sample_groups);
+    }
     settle(&effects->lights, counters->fragments_lit);
     settle(&effects->normal_map, counters->fragments_normal_mapped);
     settle(&effects->sky, counters->fragments_sky);

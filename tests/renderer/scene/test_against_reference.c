@@ -105,6 +105,9 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // With AF, the number of probes in the coarser level changes in steps with the level of detail.
     // Towards the horizon, rounding moves a few pixels across such a step.
     static const DipImageBounds huge_af = {0.0018, 0.01, 0.0005, 0.08};
+    // A level sharper than the footprint has more contrast between neighbouring probes, so those
+    // few pixels differ more.
+    static const DipImageBounds huge_sharp_af = {0.0022, 0.01, 0.0015, 0.17};
     // The narrow blend multiplies differences in the level of detail by four.
     static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
     static const DipImageBounds huge_narrow_mips = {0.0016, 0.021, 0.0, 0.021};
@@ -115,9 +118,20 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // The displacement of the clouds is read from rounded texels, which moves the clouds a little.
     // The cover makes the edges of clouds steep.
     static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
+    // With alpha to coverage, rounding may move one sample in each pixel of an edge.
+    static const DipImageBounds fence_coverage = {0.004, 0.01, 0.003, 1.0};
+    static const DipImageBounds fence_coverage_mips = {0.010, 0.01, 0.003, 1.0};
+    static const DipImageBounds mirrored_coverage = {0.008, 0.01, 0.003, 1.0};
+    static const DipImageBounds fence_passes_mips = {0.010, 0.01, 0.006, 1.0};
+    // Every surface is shaded at several positions of a pixel, and slivers reach only some.
+    static const DipImageBounds steady_all = {0.0016, 0.02, 0.0, 0.02};
+    static const DipImageBounds huge_narrow_all = {0.0018, 0.01, 0.001, 0.08};
+    const bool covers = dip_quality_covers_by_alpha(quality);
+    const bool all = dip_quality_groups_shade_all(quality);
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
     const bool anisotropic = quality->step[DIP_SETTING_AF] != 0;
+    const bool sharp = anisotropic && quality->step[DIP_SETTING_MIPLOD] > DIP_MIPLOD_HIGH_QUALITY;
     const bool passes = dip_quality_samples_per_group(quality) < dip_quality_sample_count(quality);
     switch (kind) {
     case DIP_TEST_SCENE_sky:
@@ -125,20 +139,26 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_water:
         return mip_colours && narrow ? &narrow_mips : narrow ? &water_narrow : &steady;
     case DIP_TEST_SCENE_water_effects:
-        return mip_colours ? &fence_mips : &mirrored_fence;
+        return mip_colours ? &fence_mips : covers ? &mirrored_coverage : &mirrored_fence;
     case DIP_TEST_SCENE_fence:
     case DIP_TEST_SCENE_lights:
     case DIP_TEST_SCENE_gouraud_lights:
-        return mip_colours ? &fence_mips : passes ? &fence_passes : &fence;
+        return mip_colours && covers ? &fence_coverage_mips
+               : mip_colours && all  ? &fence_passes_mips
+               : mip_colours         ? &fence_mips
+               : covers              ? &fence_coverage
+               : passes              ? &fence_passes
+                                     : &fence;
     case DIP_TEST_SCENE_slivers:
         return &slivers;
     case DIP_TEST_SCENE_huge:
         return mip_colours   ? (narrow ? &huge_narrow_mips : &steady)
-               : narrow      ? &huge_narrow
+               : narrow      ? (all ? &huge_narrow_all : &huge_narrow)
+               : sharp       ? &huge_sharp_af
                : anisotropic ? &huge_af
                              : &steady;
     default:
-        return mip_colours && narrow ? &narrow_mips : &steady;
+        return mip_colours && narrow ? &narrow_mips : all ? &steady_all : &steady;
     }
 }
 
@@ -205,6 +225,21 @@ static void adaptive_antialiasing_matches_the_reference(void **state) {
               "aa=4,aaa=on,asd=2,af=16,aaf=on", "aa=6,aaa=on,miplod=high-performance");
 }
 
+static void alpha_to_coverage_matches_the_reference(void **state) {
+    (void)state;
+    CHECK_ALL(1, "aaa=coverage", "aa=2,aaa=coverage", "aa=4,aaa=coverage", "aa=6,aaa=coverage",
+              "aa=8,aaa=coverage", "aa=4,aaa=coverage,af=16,aaf=on", "aa=8,aaa=coverage,af=4",
+              "aa=8,aaa=coverage,opt=advanced,miplod=quality", "aa=4,aaa=coverage,mipdebug=on");
+    CHECK_ALL(2, "aa=4,taa=on,aaa=coverage", "aa=8,taa=on,aaa=coverage");
+}
+
+static void supersampling_of_all_surfaces_matches_the_reference(void **state) {
+    (void)state;
+    CHECK_ALL(1, "aaa=all", "aa=2,aaa=all", "aa=2,aaa=all,asd=2", "aa=4,aaa=all",
+              "aa=4,aaa=all,asd=2", "aa=6,aaa=all,asd=3", "aa=8,aaa=all", "aa=8,aaa=all,asd=4,af=4",
+              "aa=4,aaa=all,mipdebug=on", "aa=4,aaa=all,af=16,aaf=on,opt=advanced");
+}
+
 static void anisotropic_filtering_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "af=2", "af=4", "af=8", "af=16", "af=2,aaf=on", "af=4,aaf=on", "af=8,aaf=on",
@@ -214,13 +249,15 @@ static void anisotropic_filtering_matches_the_reference(void **state) {
 static void mip_level_of_detail_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "miplod=quality", "miplod=performance", "miplod=high-performance",
-              "miplod=high-performance,af=16,aaf=on", "miplod=quality,af=8,aa=2");
+              "miplod=high-performance,af=16,aaf=on", "miplod=quality,af=8,aa=2", "miplod=sharp",
+              "miplod=sharper", "miplod=sharper,af=16,aaf=on,aa=4",
+              "miplod=sharper,aa=4,aaa=on,opt=advanced");
 }
 
 static void mip_colours_match_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "mipdebug=on", "mipdebug=on,af=16", "mipdebug=on,af=16,aaf=on,aa=4",
-              "mipdebug=on,miplod=high-performance");
+              "mipdebug=on,miplod=high-performance", "mipdebug=on,miplod=sharper");
 }
 
 static void texture_optimisation_matches_the_reference(void **state) {
@@ -373,6 +410,8 @@ int main(void) {
         cmocka_unit_test(normals_without_direction_match_the_reference),
         cmocka_unit_test(temporal_antialiasing_matches_the_reference),
         cmocka_unit_test(adaptive_antialiasing_matches_the_reference),
+        cmocka_unit_test(alpha_to_coverage_matches_the_reference),
+        cmocka_unit_test(supersampling_of_all_surfaces_matches_the_reference),
         cmocka_unit_test(anisotropic_filtering_matches_the_reference),
         cmocka_unit_test(mip_level_of_detail_matches_the_reference),
         cmocka_unit_test(mip_colours_match_the_reference),

@@ -86,7 +86,16 @@ static void list_settings(Stage *stage) {
                                        "opt=advanced,af=4",
                                        "opt=advanced,af=16,aaf=on",
                                        "opt=advanced,aa=8,aaa=on,asd=2,miplod=quality",
-                                       "opt=advanced,mipdebug=on"};
+                                       "opt=advanced,mipdebug=on",
+                                       "miplod=sharp",
+                                       "aa=4,af=16,miplod=sharper",
+                                       "aa=2,aaa=coverage",
+                                       "aa=4,aaa=coverage",
+                                       "aa=6,taa=on,aaa=coverage",
+                                       "aa=8,aaa=coverage,af=16,aaf=on",
+                                       "aa=2,aaa=all",
+                                       "aa=4,aaa=all",
+                                       "aa=8,aaa=all,asd=4,af=16,opt=advanced"};
     const DipSettingInfo *aa = dip_setting_info(DIP_SETTING_AA);
     const DipSettingInfo *af = dip_setting_info(DIP_SETTING_AF);
     for (int a = 0; a < aa->step_count; a++) {

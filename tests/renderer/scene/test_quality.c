@@ -98,7 +98,7 @@ static void only_pairs_of_aa_and_asd_in_the_table_are_accepted(void **state) {
                 assert_int_equal(dip_quality_sample_count(&quality) /
                                      dip_quality_samples_per_group(&quality),
                                  passes[a][d]);
-                quality.step[DIP_SETTING_AAA] = 0;
+                quality.step[DIP_SETTING_AAA] = DIP_AAA_OFF;
                 assert_int_equal(dip_quality_samples_per_group(&quality),
                                  dip_quality_sample_count(&quality));
                 continue;
@@ -149,6 +149,10 @@ static void settings_without_effect_are_turned_off(void **state) {
     static const char *const rows[][2] = {
         {"taa=on,aaa=on,aaf=on", "defaults"},
         {"aa=2,asd=2,aaa=on", "aa=2"},
+        {"aa=2,asd=2,aaa=all", "aa=2"},
+        {"aa=2,asd=2,aaa=coverage", "aa=2,aaa=coverage"},
+        {"aa=8,asd=4,aaa=all", "aa=8,aaa=all,asd=4"},
+        {"aaa=coverage", "defaults"},
         {"aa=8,asd=4", "aa=8"},
         {"aa=8,asd=4,aaa=on,taa=on", "aa=8,taa=on,aaa=on,asd=4"},
         {"af=2,aaf=on", "af=2,aaf=on"},
@@ -175,7 +179,11 @@ static void needs_are_named_where_a_setting_has_no_effect(void **state) {
     } rows[] = {
         {"", DIP_SETTING_TAA, "needs AA"},
         {"", DIP_SETTING_AAA, "needs AA"},
-        {"aa=2,asd=2", DIP_SETTING_AAA, "needs smaller groups"},
+        {"aa=2,asd=2", DIP_SETTING_AAA, NULL}, // aaa=coverage needs no groups
+        {"aa=2,asd=2,aaa=on", DIP_SETTING_AAA, "needs smaller groups"},
+        {"aa=4,aaa=coverage", DIP_SETTING_ASD, "needs adaptive AA"},
+        {"aa=4,aaa=all", DIP_SETTING_ASD, NULL},
+        {"aaa=all", DIP_SETTING_AAA, "needs AA"},
         {"aa=4,asd=2", DIP_SETTING_AAA, NULL},
         {"aa=4", DIP_SETTING_ASD, "needs adaptive AA"},
         {"aa=4,aaa=on", DIP_SETTING_ASD, NULL},
@@ -191,6 +199,33 @@ static void needs_are_named_where_a_setting_has_no_effect(void **state) {
         if (needs) {
             assert_string_equal(needs, rows[i].needs);
         }
+    }
+}
+
+static void biases_of_miplod_are_those_of_the_document(void **state) {
+    (void)state;
+    static const struct {
+        const char *settings;
+        int bias_lod8;
+        const char *mirrored; // the settings of the mirrored scene
+    } rows[] = {
+        {"miplod=high-performance", 384, "miplod=high-performance"},
+        {"miplod=performance", 256, "miplod=performance"},
+        {"miplod=quality", 128, "miplod=quality"},
+        {"miplod=high-quality", 0, "defaults"},
+        {"miplod=sharp", -128, "defaults"},
+        {"aa=4,miplod=sharper", -256, "aa=4"},
+        {"miplod=sharper,mipdebug=on", 0, "mipdebug=on"},
+        {"miplod=quality,mipdebug=on", 128, "miplod=quality,mipdebug=on"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        DipQuality quality;
+        char text[256];
+        assert_true(dip_quality_parse(rows[i].settings, &quality, NULL));
+        assert_int_equal(dip_quality_bias_lod8(&quality), rows[i].bias_lod8);
+        const DipQuality mirrored = dip_quality_mirrored(&quality);
+        dip_quality_format_changes(&mirrored, text, sizeof text);
+        assert_string_equal(text, rows[i].mirrored);
     }
 }
 
@@ -215,6 +250,7 @@ int main(void) {
         cmocka_unit_test(short_texts_list_changes_only),
         cmocka_unit_test(settings_without_effect_are_turned_off),
         cmocka_unit_test(needs_are_named_where_a_setting_has_no_effect),
+        cmocka_unit_test(biases_of_miplod_are_those_of_the_document),
         cmocka_unit_test(labels_fit_where_they_are_shown),
         cmocka_unit_test(formatting_gives_the_parsed_text_back),
         cmocka_unit_test(settings_that_are_left_out_keep_their_defaults),
