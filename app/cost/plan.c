@@ -17,6 +17,7 @@ static const DipCategory categories[DIP_SETTING_COUNT] = {
     [DIP_SETTING_AAA] = DIP_CATEGORY_AAA, [DIP_SETTING_AF] = DIP_CATEGORY_AF,
     [DIP_SETTING_AAF] = DIP_CATEGORY_AAF, [DIP_SETTING_OPT] = DIP_CATEGORY_CAI,
     [DIP_SETTING_GI] = DIP_CATEGORY_GI,   [DIP_SETTING_MIPLOD] = DIP_CATEGORY_MIPLOD,
+    [DIP_SETTING_POST] = DIP_CATEGORY_AA,
 };
 
 // --- paths ---------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "renderer/base/fp_mode.h"
 #include "renderer/base/nearest.h"
 #include "renderer/base/pages.h"
+#include "renderer/scene/finish.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,6 +36,7 @@ struct DipGalleryPane {
     uint64_t frame_index;
     DipPipeline *pipeline;
     DipTarget target;
+    DipFinish *finish; // the filters of the settings
 };
 
 // --- the list ------------------------------------------------------------------------------------
@@ -240,7 +242,9 @@ DipGalleryPane *dip_gallery_pane_create(const DipGalleryPaneDef *def, DipError *
     pane->gallery = def->gallery;
     pane->isa = def->isa;
     pane->quality = def->quality;
-    if (!make_picture(pane, def->width, def->height, &pane->pipeline, &pane->target, err)) {
+    pane->finish = dip_finish_create(def->gallery->def.pool, def->isa, err);
+    if (!pane->finish ||
+        !make_picture(pane, def->width, def->height, &pane->pipeline, &pane->target, err)) {
         dip_gallery_pane_destroy(&pane);
     }
     return pane;
@@ -251,6 +255,7 @@ void dip_gallery_pane_destroy(DipGalleryPane **pane_pointer) {
     if (!pane) {
         return;
     }
+    dip_finish_destroy(&pane->finish);
     dip_pipeline_destroy(&pane->pipeline);
     dip_lines_free(pane->target.rgba8);
     free(pane);
@@ -320,8 +325,8 @@ static DipSampler filter_of(const DipQuality *quality) {
     };
 }
 
-// Fills in a frame with the picture, the counters and the times of all passes. The effects of the
-// scene renderer never run in the gallery.
+// Fills in a frame with the picture, the counters and the times of all passes. Of the scene
+// renderer's effects, only the filters of the finished picture run in the gallery.
 static void fill_frame(const DipGalleryPane *pane, const DipPipelineCounters *counters,
                        const DipStageTimes *times, DipFrame *frame) {
     static const DipEffect none = {.run = false, .why = "a gallery scene has its own shaders"};
@@ -338,6 +343,12 @@ static void fill_frame(const DipGalleryPane *pane, const DipPipelineCounters *co
 #define SET_EFFECT(name, title) frame->effects.name = none;
     DIP_EFFECT_LIST(SET_EFFECT)
 #undef SET_EFFECT
+    frame->effects.post = pane->quality.step[DIP_SETTING_POST]
+                              ? (DipEffect){true, "the finished picture is searched for edges"}
+                              : (DipEffect){false, "post is off"};
+    frame->effects.sharpen = pane->quality.step[DIP_SETTING_SHARPEN]
+                                 ? (DipEffect){true, "the finished picture is sharpened"}
+                                 : (DipEffect){false, "sharpen is off"};
 }
 
 bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t time_ns,
@@ -349,7 +360,9 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
     const double time_s = 1e-9 * (double)(wrap_time(gallery->def.scene, time_ns) % scene_ns);
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
-    if (!check_pose(pose, err) || !open_scene(gallery, index, err)) {
+    if (!check_pose(pose, err) || !open_scene(gallery, index, err) ||
+        !dip_finish_follow(pane->finish, &pane->quality, pane->target.width, pane->target.height,
+                           err)) {
         return false;
     }
     const DipGalleryView view = {
@@ -374,5 +387,6 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
         return false;
     }
     fill_frame(pane, &counters, &times, frame);
+    dip_finish_frame(pane->finish, frame);
     return true;
 }

@@ -62,6 +62,8 @@ static const unsigned groups[] = {
     1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
     1u << DIP_SETTING_OPT,
     1u << DIP_SETTING_MIPLOD,
+    1u << DIP_SETTING_POST,
+    1u << DIP_SETTING_SHARPEN,
     1u << DIP_SETTING_GI,
 };
 enum { GROUPS = sizeof groups / sizeof *groups };
@@ -83,9 +85,14 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
 
 // Multiplies each counter by the ratio of a combination's counter (`of`) to the base's counter.
 // Where the base's counter is 0, there is no ratio, and the combination's own counter is taken.
-// Returns false if the combination was not counted.
+// Filters of the finished picture are applied one after the other, so their pixels add up. Returns
+// false if the combination was not counted.
 static bool apply(const double *of, const double *base, double *counters) {
     for (int c = 0; of && c < DIP_COST_COUNTER_COUNT; c++) {
+        if (c == DIP_COST_COUNTER_pixels_filtered) {
+            counters[c] += of[c] - base[c];
+            continue;
+        }
         counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);
     }
     return of != NULL;

@@ -26,6 +26,10 @@ typedef struct Work {
     double sharp[2];    // 1 if miplod is at least as sharp as sharp (the first value), as sharper.
     double temporal;    // 1 with temporal AA.
     double coloured;    // 1 if mip levels are shown as colours.
+    double fxaa;        // 1 with post=fxaa.
+    double smaa;        // 1 with post=smaa.
+    double sharpness;   // Strength of the sharpening, 0..1.
+    double filters;     // Number of filters of the finished picture, but at least 1.
 } Work;
 
 #define C(name) (w->counters[DIP_COST_COUNTER_##name])
@@ -81,7 +85,12 @@ typedef struct Work {
 #define REST_TERMS(X)                                                                              \
     X("frame", 1.0)                                                                                \
     X("pass", C(passes))                                                                           \
-    X("tile", C(tiles_drawn))
+    X("tile", C(tiles_drawn))                                                                      \
+    X("pixel filtered by FXAA", C(pixels_filtered) / w->filters * w->fxaa)                         \
+    X("pixel filtered by SMAA", C(pixels_filtered) / w->filters * w->smaa)                         \
+    X("pixel sharpened", C(pixels_filtered) / w->filters * (w->sharpness > 0.0))                   \
+    X("edge found by FXAA", C(edges_found) * w->fxaa)                                              \
+    X("edge found by SMAA", C(edges_found) * w->smaa)
 
 // The first terms stand for the errors of edges, and the next ones for those of the edges of
 // alpha-clipped surfaces, of textures and of the other settings. The last ones are products of two
@@ -109,6 +118,12 @@ typedef struct Work {
     X("miplod=sharp", w->sharp[0])                                                                 \
     X("miplod=sharper", w->sharp[1])                                                               \
     X("temporal AA", w->temporal)                                                                  \
+    X("post=fxaa", w->fxaa)                                                                        \
+    X("post=smaa", w->smaa)                                                                        \
+    X("post=fxaa, several samples", w->fxaa * w->several)                                          \
+    X("post=smaa, several samples", w->smaa * w->several)                                          \
+    X("sharpening", w->sharpness)                                                                  \
+    X("square of the sharpening", w->sharpness * w->sharpness)                                     \
     X("mip colours", w->coloured)                                                                  \
     X("one sample, per probe", (1.0 - w->several) / w->probes)                                     \
     X("several samples, per group and probe", w->several / (w->groups * w->probes))                \
@@ -156,7 +171,10 @@ const char *dip_cost_term_name(int part, int term) {
 
 void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
                     const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]) {
+    static const double sharpness[] = {0.0, 0.25, 0.5, 1.0};
     const int level = quality->step[DIP_SETTING_MIPLOD];
+    const int post = quality->step[DIP_SETTING_POST];
+    const int sharpen = quality->step[DIP_SETTING_SHARPEN];
     const double samples = dip_quality_sample_count(quality);
     const double probes = dip_quality_max_anisotropy(quality);
     const Work work = {
@@ -179,6 +197,10 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .sharp = {level >= DIP_MIPLOD_SHARP, level >= DIP_MIPLOD_SHARPER},
         .temporal = quality->step[DIP_SETTING_TAA] != 0,
         .coloured = quality->step[DIP_SETTING_MIPDEBUG] != 0,
+        .fxaa = post == DIP_POST_STEP_FXAA,
+        .smaa = post == DIP_POST_STEP_SMAA,
+        .sharpness = sharpness[sharpen],
+        .filters = post && sharpen ? 2.0 : 1.0,
     };
     const Work *const w = &work;
     switch (part) {

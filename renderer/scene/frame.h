@@ -29,7 +29,9 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(clip_map_bytes, "bytes of the alpha of all clip maps")                                       \
     X(cloud_bytes, "bytes of the textures of skies with clouds")                                   \
     X(meshes, "meshes that the scene's objects are drawn from, in view or not")                    \
-    X(geometry_bytes, "bytes of the vertices, indices and bounds of these meshes")
+    X(geometry_bytes, "bytes of the vertices, indices and bounds of these meshes")                 \
+    X(pixels_filtered, "pixels that filters of the finished picture wrote")                        \
+    X(edges_found, "pixels at which post-process AA found an edge")
 
 // All counters of a frame: the counters of its render passes, then those of the scene.
 #define DIP_COUNTER_LIST(X)                                                                        \
@@ -52,7 +54,9 @@ typedef struct DipCounters {
     X(light_map, "light map")                                                                      \
     X(lights, "lights")                                                                            \
     X(normal_map, "normal maps")                                                                   \
-    X(sky, "clouds")
+    X(sky, "clouds")                                                                               \
+    X(post, "post-process AA")                                                                     \
+    X(sharpen, "sharpening")
 
 // Tells whether an effect ran in a frame, and why or why not.
 typedef struct DipEffect {

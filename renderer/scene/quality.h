@@ -52,6 +52,12 @@ extern "C" {
       ("h.perf", "perf", "qual", "h.qual", "sharp", "sharp+"),                                     \
       "bias towards smaller mip levels; high-performance also drops the largest levels; sharp "    \
       "and sharper: a bias towards larger levels than the texture's size asks for")                \
+    X(post, POST, "Post-process AA", "Post AA", 0, ("off", "fxaa", "smaa"),                        \
+      ("off", "FXAA", "SMAA"), ("off", "FXAA", "SMAA"),                                            \
+      "smooths the edges that it finds in the finished picture, also those of textures")           \
+    X(sharpen, SHARPEN, "Sharpening", "Sharpen", 0, ("off", "low", "medium", "high"),              \
+      ("off", "low", "medium", "high"), ("off", "low", "medium", "high"),                          \
+      "raises the contrast of neighbouring pixels in the finished picture; raises the error, too") \
     X(gi, GI, "Geometry instancing", "Instancing", 1, ("off", "on"), ("off", "on"), ("off", "on"), \
       "on: repeated objects share one mesh; off: each has a copy; the picture is the same")        \
     X(mipdebug, MIPDEBUG, "Mip colours", "Mip col.", 0, ("off", "on"), ("off", "on"),              \
@@ -67,7 +73,7 @@ typedef enum DipSetting {
 
 enum { DIP_MAX_STEPS = 6 };
 
-// The steps of aaa, opt and miplod, by name.
+// The steps of aaa, opt, miplod and post, by name.
 enum { DIP_AAA_OFF, DIP_AAA_COVERAGE, DIP_AAA_ON, DIP_AAA_ALL };
 enum { DIP_OPT_OFF, DIP_OPT_STANDARD, DIP_OPT_ADVANCED };
 enum {
@@ -78,6 +84,8 @@ enum {
     DIP_MIPLOD_SHARP,
     DIP_MIPLOD_SHARPER
 };
+
+enum { DIP_POST_STEP_OFF, DIP_POST_STEP_FXAA, DIP_POST_STEP_SMAA };
 
 // One pane's settings: the index of a step for each setting. Plain data that may be copied freely.
 typedef struct DipQuality {

@@ -97,7 +97,8 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
     renderer->plain_surfaces = def->plain_surfaces;
     renderer->force_all_effects = def->force_all_effects;
     renderer->mip_colours = dip_mip_debug_create(NULL, err);
-    if (!renderer->mip_colours ||
+    renderer->finish = dip_finish_create(def->pool, def->isa, err);
+    if (!renderer->mip_colours || !renderer->finish ||
         !make_target(def->pool, def->isa, def->width, def->height, &renderer->pipeline,
                      &renderer->rgba8, &renderer->stride_bytes, err)) {
         dip_renderer_destroy(&renderer);
@@ -131,6 +132,7 @@ void dip_renderer_destroy(DipRenderer **renderer_pointer) {
     }
     dip_pipeline_destroy(&renderer->pipeline);
     dip_texture_destroy(&renderer->mip_colours);
+    dip_finish_destroy(&renderer->finish);
     dip_lines_free(renderer->rgba8);
     free_recording(&renderer->recording);
     forget_scene(renderer);
@@ -330,7 +332,8 @@ bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, 
         !dip_scene_compress_textures(scene, renderer->pool, err)) {
         return false;
     }
-    if (!follow_mirrored(renderer, scene, err)) {
+    if (!follow_mirrored(renderer, scene, err) ||
+        !dip_finish_follow(renderer->finish, quality, renderer->width, renderer->height, err)) {
         return false;
     }
     if (quality->step[DIP_SETTING_GI]) {

@@ -46,6 +46,16 @@ const char *dip_step_explanation(DipSetting setting, int step) {
                                 "Half a mip level sharper than the texture's size asks for.",
                                 "A mip level sharper than the texture's size asks for: fine "
                                 "patterns may shimmer when the camera moves."},
+        [DIP_SETTING_POST] = {"The picture stays as it is drawn.",
+                              "FXAA finds edges in the finished picture and blurs along them; "
+                              "textures and text get softer, too.",
+                              "SMAA finds edges in the finished picture and replaces their stairs "
+                              "by lines; thin wires stay broken."},
+        [DIP_SETTING_SHARPEN] = {"The picture stays as it is drawn.",
+                                 "A quarter of the strongest sharpening. The error rises.",
+                                 "Half of the strongest sharpening. The error rises.",
+                                 "The strongest sharpening that does not overshoot. The error "
+                                 "rises."},
         [DIP_SETTING_GI] = {"Each repeated object has a copy of its mesh; the picture is the same.",
                             "Repeated objects share one mesh; the picture is the same."},
         [DIP_SETTING_MIPDEBUG] = {"Textures show their own colours.",

@@ -14,7 +14,8 @@ int dip_preview_category_of(DipSetting setting) {
         [DIP_SETTING_AAA] = DIP_CATEGORY_AAA, [DIP_SETTING_ASD] = DIP_CATEGORY_AAA,
         [DIP_SETTING_AF] = DIP_CATEGORY_AF,   [DIP_SETTING_AAF] = DIP_CATEGORY_AAF,
         [DIP_SETTING_OPT] = DIP_CATEGORY_CAI, [DIP_SETTING_MIPLOD] = DIP_CATEGORY_MIPLOD,
-        [DIP_SETTING_GI] = DIP_CATEGORY_GI,   [DIP_SETTING_MIPDEBUG] = -1, // Any path shows it.
+        [DIP_SETTING_POST] = DIP_CATEGORY_AA, [DIP_SETTING_SHARPEN] = -1, // Any path shows it.
+        [DIP_SETTING_GI] = DIP_CATEGORY_GI,   [DIP_SETTING_MIPDEBUG] = -1,
     };
     return categories[setting];
 }
@@ -298,6 +299,7 @@ static const char *const brief_forms[DIP_SETTING_COUNT] = {
     [DIP_SETTING_AAA] = "adaptive AA", [DIP_SETTING_ASD] = "groups of %s",
     [DIP_SETTING_AF] = "AF %sx",       [DIP_SETTING_AAF] = "advanced AF",
     [DIP_SETTING_OPT] = "%s textures", [DIP_SETTING_MIPLOD] = "mip detail %s",
+    [DIP_SETTING_POST] = "post %s",    [DIP_SETTING_SHARPEN] = "sharpening %s",
     [DIP_SETTING_GI] = "instancing",   [DIP_SETTING_MIPDEBUG] = "mip colours",
 };
 

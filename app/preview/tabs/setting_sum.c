@@ -176,6 +176,7 @@ static Parts parts_of(const DipPriceSum *sum) {
         [DIP_SETTING_AAA] = PART_ADAPTIVE, [DIP_SETTING_ASD] = PART_ADAPTIVE,
         [DIP_SETTING_AF] = PART_AF,        [DIP_SETTING_AAF] = PART_AF,
         [DIP_SETTING_OPT] = PART_OTHER,    [DIP_SETTING_MIPLOD] = PART_OTHER,
+        [DIP_SETTING_POST] = PART_OTHER,   [DIP_SETTING_SHARPEN] = PART_OTHER,
         [DIP_SETTING_GI] = PART_OTHER,     [DIP_SETTING_MIPDEBUG] = PART_OTHER,
     };
     Parts parts = {.ms = {[PART_BASE] = sum->base_ms}, .rest_ms = sum->together_ms};

@@ -285,6 +285,9 @@ static void end_frame(const FrameSetup *setup) {
         const DipTarget target = target_of(renderer);
         dip_inset_draw(&target, &renderer->mirror.target);
     }
+    if (!setup->readback) {
+        dip_finish_frame(renderer->finish, frame);
+    }
 }
 
 // Whether two renderers' frames differ only in samples and shading.

@@ -5,6 +5,7 @@
 
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/draws.h"
+#include "renderer/scene/finish.h"
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/instancing.h"
 
@@ -34,6 +35,7 @@ struct DipRenderer {
     bool plain_surfaces;
     bool force_all_effects;
     DipTileRecording recording; // owned; its arrays are NULL unless tiles are recorded
+    DipFinish *finish;          // the filters of the settings
     DipSkyUniforms sky;         // the sky at the frame's time; set only if the frame shows clouds
 
     // Resources for the scene that was drawn last.

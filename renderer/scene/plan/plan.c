@@ -262,6 +262,21 @@ static DipEffect plan_sky(const DipPlanInput *input, DipFramePlan *plan) {
                                                                     : skip("no sky is in view");
 }
 
+// Filters of the finished picture run wherever the settings ask for them.
+static DipEffect plan_post(const DipPlanInput *input, DipFramePlan *plan) {
+    (void)plan;
+    return input->quality->step[DIP_SETTING_POST]
+               ? run(input, "the finished picture is searched for edges")
+               : skip("post is off");
+}
+
+static DipEffect plan_sharpen(const DipPlanInput *input, DipFramePlan *plan) {
+    (void)plan;
+    return input->quality->step[DIP_SETTING_SHARPEN]
+               ? run(input, "the finished picture is sharpened")
+               : skip("sharpen is off");
+}
+
 DipFramePlan dip_plan_frame(const DipPlanInput *input) {
     DipFramePlan plan = {.water_reflects = false};
 #define PLAN_EFFECT(name, text) plan.effects.name = plan_##name(input, &plan);

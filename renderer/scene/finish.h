@@ -1,0 +1,42 @@
+// Finishing a frame: what the settings do to a picture after it is drawn. These are antialiasing of
+// the finished picture (post), and sharpening. renderer/post/ has the filters.
+#ifndef DIP_RENDERER_SCENE_FINISH_H
+#define DIP_RENDERER_SCENE_FINISH_H
+
+#include "renderer/base/api.h"
+#include "renderer/base/error.h"
+#include "renderer/base/isa.h"
+#include "renderer/base/pool.h"
+#include "renderer/scene/frame.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// The filters of one pane. Use it on one thread at a time.
+typedef struct DipFinish DipFinish;
+
+// The pool is borrowed and must outlive the DipFinish. Fails with MEMORY.
+DIP_API DipFinish *dip_finish_create(DipPool *pool, DipIsa isa, DipError *err);
+// *finish may be NULL and becomes NULL.
+DIP_API void dip_finish_destroy(DipFinish **finish);
+
+// Makes the filters that these settings need for frames of this size, and frees all others, so that
+// settings without filters take no memory. Does nothing if neither settings nor size have changed.
+// Fails with MEMORY; then no filter is left.
+DIP_API bool dip_finish_follow(DipFinish *finish, const DipQuality *quality, int width, int height,
+                               DipError *err);
+
+// Applies the filters to a frame of the size that dip_finish_follow was given. Points the frame to
+// the filtered picture, which the DipFinish owns until it is called again; adds to the counters
+// pixels_filtered and edges_found, and adds the time to the frame's total. Allocates nothing.
+DIP_API void dip_finish_frame(DipFinish *finish, DipFrame *frame);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
