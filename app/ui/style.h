@@ -13,6 +13,8 @@ static const DipColour dip_style_shade = {0, 0, 0, 90};        // Darkens the wi
 
 static const DipColour dip_style_dock = {20, 22, 26, 255};
 static const DipColour dip_style_bar = {27, 30, 36, 255};      // Background of the dock's bar.
+static const DipColour dip_style_editor = {27, 31, 37, 255};   // Behind the open setting's steps.
+static const DipColour dip_style_row = {42, 48, 56, 255};      // The open setting in its list.
 static const DipColour dip_style_raised = {32, 36, 43, 255};   // Buttons and steps.
 static const DipColour dip_style_line = {51, 58, 68, 255};     // Lines and outlines.
 static const DipColour dip_style_well = {12, 14, 17, 255};     // Background of plots.

@@ -141,12 +141,13 @@ typedef struct DipPreviewState {
     DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT];
     int undo_count;
     int redo_count;
-    bool screenshot;       // The user asked for a screenshot. Cleared when it is saved.
-    bool plain_screenshot; // The screenshot shows the panes without overlays.
-    bool save_pose;        // The user asked to save the pose. Cleared when it is saved.
-    int settings_group;    // Group of settings that a narrow settings tab shows.
-    bool copy_settings;    // The user asked to copy the requested settings. Cleared when done.
-    bool paste_settings;   // The user asked to paste settings. Cleared when done.
+    bool screenshot;         // The user asked for a screenshot. Cleared when it is saved.
+    bool plain_screenshot;   // The screenshot shows the panes without overlays.
+    bool save_pose;          // The user asked to save the pose. Cleared when it is saved.
+    DipSetting open_setting; // The setting whose steps the settings tab shows.
+    bool shows_presets;      // A narrow settings tab shows presets in place of settings.
+    bool copy_settings;      // The user asked to copy the requested settings. Cleared when done.
+    bool paste_settings;     // The user asked to paste settings. Cleared when done.
     char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
     int64_t notice_end_ns;        // Time at which the notice goes away, on the clock of `now_ns`.
     unsigned scene_changes;       // Grows whenever the panes' pictures have to change.

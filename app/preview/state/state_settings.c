@@ -119,6 +119,7 @@ void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, 
             return;
         }
     }
+    state->open_setting = setting;
     take_settings(state, wanted, setting, dip_setting_info(setting)->steps[step], now_ns);
 }
 
@@ -137,6 +138,7 @@ void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool r
         dip_preview_notice(state, now_ns, "%s: no other step fits the other settings", info->title);
         return;
     }
+    state->open_setting = setting;
     take_settings(state, wanted, setting, step, now_ns);
 }
 

@@ -1,5 +1,5 @@
-// Declares the controls of settings. A slider shows the price of each step (value) of its setting.
-// Settings with two steps are switches. In a narrow list, each setting takes one line.
+// Declares the controls of settings: the entries of the list, the editor with the price of each
+// step (value) of the open setting, and the lines of the drawer's narrow list.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
@@ -17,8 +17,6 @@ enum {
     NAME_HEIGHT = 18,
     STEP_HEIGHT = 18,
     PRICE_HEIGHT = 16,
-    SLIDER_GAP = 5, // Room below a slider.
-    SWITCH_HEIGHT = 26,
     LABELS_WIDTH = 32, // Room for "ms" and "FLIP" left of the prices.
     PILL_LEAST_WIDTH = 34,
     BAR_LENGTH = 40,
@@ -216,19 +214,12 @@ static void draw_pill(DipUi *ui, const DipPreviewState *state, const Slider *sli
     }
 }
 
-static void draw_slider(DipUi *ui, const DipPreviewState *state, const Slider *slider) {
+// Draws the steps with their prices in the slider's cells, and the words "ms" and "FLIP" left of
+// them.
+static void draw_steps(DipUi *ui, const DipPreviewState *state, const Slider *slider) {
     const DipRect cells = slider->cells;
     const int pill = dip_ui_px(ui, STEP_HEIGHT), price = dip_ui_px(ui, PRICE_HEIGHT);
     const int price_y = cells.y + pill + dip_ui_px(ui, 1), thick = dip_ui_px(ui, 2);
-    const char *title = slider->setting == DIP_SETTING_ASD
-                            ? "Samples per adaptive group"
-                            : dip_setting_info(slider->setting)->title;
-    DipRect head = slider->rect;
-    dip_ui_text(ui, NAME_SIZE, slider->dimmed ? dip_style_dim : dip_style_white, DIP_ALIGN_LEFT,
-                head.x, head.y, head.width, title);
-    dip_cut_left(&head, dip_ui_text_width(ui, NAME_SIZE, title) + dip_ui_px(ui, 8));
-    head.height = dip_ui_line_height(ui, STEP_SIZE);
-    draw_values(ui, state, slider->setting, STEP_SIZE, head);
     dip_ui_fill(ui,
                 (DipRect){cells.x + slider->cell_width / 2, cells.y + (pill - thick) / 2,
                           slider->cell_width * (slider->count - 1), thick},
@@ -264,112 +255,120 @@ static void find_prices(const DipWindow *window, Slider *slider) {
     }
 }
 
-static int declare_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
-    const DipPreviewState *state = window->state;
-    const int name_height = dip_ui_px(ui, NAME_HEIGHT), indent = dip_ui_px(ui, LABELS_WIDTH);
-    const int height = dip_ui_px(ui, STEP_HEIGHT) + 2 * dip_ui_px(ui, PRICE_HEIGHT);
+// Makes the slider of a setting, whose steps lie in `rect`.
+static Slider make_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
+    const int indent = dip_ui_px(ui, LABELS_WIDTH);
     Slider slider = {.setting = setting, .rect = rect};
     slider.count = dip_setting_info(setting)->step_count;
     slider.cell_width = dip_max(1, (rect.width - indent) / slider.count);
     slider.cells =
-        (DipRect){rect.x + indent, rect.y + name_height, slider.cell_width * slider.count, height};
-    slider.dimmed = is_dimmed(state, setting);
+        (DipRect){rect.x + indent, rect.y, slider.cell_width * slider.count, rect.height};
+    slider.dimmed = is_dimmed(window->state, setting);
     const int under = (dip_ui_pointer_x(ui) - slider.cells.x) / slider.cell_width;
     slider.pointed = dip_max(0, dip_min(slider.count - 1, under));
-    char why[256], tip[DIP_STEP_TEXT_BYTES];
-    const int step = dip_setting_step_at(setting, slider.pointed);
-    const DipPrice price = price_of(window, setting, step);
-    is_valid(state, setting, step, why);
-    dip_step_tip(setting, step, &price, why, tip);
-    slider.input = dip_ui_stepper(ui, id_of(setting), slider.cells, tip);
-    change_by(ui, window, setting, &slider.input, slider.pointed);
-    if (dip_ui_is_drawing(ui)) {
-        find_prices(window, &slider);
-        draw_slider(ui, state, &slider);
-    }
-    return name_height + height + dip_ui_px(ui, SLIDER_GAP);
+    return slider;
 }
 
-// --- a switch ------------------------------------------------------------------------------------
+// --- the editor ----------------------------------------------------------------------------------
 
-// Draws a switch with its knob at the requested pane's side. If the current pane has the other
-// side, a ring shows there.
-static void draw_switch(DipUi *ui, DipRect rect, bool current, bool requested, bool hovered) {
-    const int inset = dip_ui_px(ui, 3), side = rect.height - 2 * inset;
-    const DipRect inside = dip_rect_inset(rect, inset, inset);
-    DipRect places[2] = {inside, inside}; // Places of the knob: off, on.
-    places[1].x = dip_rect_right(inside) - side;
-    places[0].width = places[1].width = side;
-    dip_ui_fill_round(ui, rect, rect.height / 2, requested ? dip_style_accent : dip_style_switch);
-    dip_ui_fill_round(ui, places[requested], side / 2,
-                      requested ? dip_style_on_accent : dip_style_white);
-    if (current != requested) {
-        dip_ui_outline(ui, places[current], side / 2, dip_ui_px(ui, 2),
-                       current ? dip_style_white : dip_style_on_accent);
+// Draws the setting's name, its key and what it needs, and its steps in both panes.
+static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting setting, DipRect head) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    const char *needs = dip_quality_needs(&state->quality[edited_pane(state)], setting);
+    const int gap = dip_ui_px(ui, 8);
+    dip_ui_word(ui, NAME_SIZE, dip_style_white, &head, gap,
+                setting == DIP_SETTING_ASD ? "Samples per adaptive group" : info->title);
+    dip_ui_word(ui, PRICE_SIZE, dip_style_dim, &head, gap, info->key);
+    if (needs) {
+        dip_ui_word(ui, PRICE_SIZE, dip_style_accent, &head, gap, needs);
     }
-    if (hovered) {
-        dip_ui_outline(ui, rect, rect.height / 2, dip_ui_px(ui, 1), dip_style_soft);
-    }
+    draw_values(ui, state, setting, STEP_SIZE, head);
 }
 
-// Draws what the switch costs and gains at the right end of a row.
-static void draw_switch_price(DipUi *ui, const DipWindow *window, DipSetting setting, DipRect row) {
-    const DipPrice price = price_of(window, setting, setting == DIP_SETTING_GI ? 0 : 1);
-    const char *needs = dip_quality_needs(&window->state->quality[DIP_PANE_REQUESTED], setting);
-    const bool known = is_known(&price);
-    char ms[DIP_STEP_NAME_BYTES], flip[DIP_STEP_NAME_BYTES], text[160], longer[160];
-    dip_price_ms_text(&price, ms);
-    snprintf(text, sizeof text, "%s%s%s", setting == DIP_SETTING_GI && known ? "if off " : "", ms,
-             known ? " ms" : "");
-    snprintf(longer, sizeof longer, "%.80s \u00b7 gains in motion", text);
-    if (needs && !known) {
-        snprintf(text, sizeof text, "%s", needs);
-    } else if (setting == DIP_SETTING_MIPDEBUG) {
-        snprintf(text, sizeof text, "a picture of its own");
-    } else if (setting == DIP_SETTING_TAA && known &&
-               dip_ui_text_width(ui, PRICE_SIZE, longer) <= row.width) {
-        memcpy(text, longer, sizeof text);
-    }
-    if (known && price.has_flip && setting != DIP_SETTING_GI && setting != DIP_SETTING_TAA &&
-        setting != DIP_SETTING_MIPDEBUG) {
-        dip_price_flip_text(&price, flip);
-        dip_ui_label(ui, PRICE_SIZE, flip_colour(&price), DIP_ALIGN_RIGHT, row, flip);
-        dip_cut_right(&row, dip_ui_text_width(ui, PRICE_SIZE, flip) + dip_ui_px(ui, 7));
-    }
-    dip_ui_label(ui, PRICE_SIZE, has_bar(&price) ? dip_style_soft : dip_style_dim, DIP_ALIGN_RIGHT,
-                 row, text);
-}
-
-static int declare_switch(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
+void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPreviewState *state = window->state;
-    const bool on = step_of(state, edited_pane(state), setting) != 0;
-    const char *title = dip_setting_info(setting)->title;
-    const DipPrice price = price_of(window, setting, 1);
-    char tip[DIP_STEP_TEXT_BYTES];
-    rect.height = dip_ui_px(ui, SWITCH_HEIGHT);
-    dip_step_tip(setting, 1, &price, "", tip);
-    const DipUiInput input = dip_ui_stepper(ui, id_of(setting), rect, tip);
-    const bool to_on = input.steps > 0 || input.to_last, to_off = input.steps < 0 || input.to_first;
-    if (input.pressed || (to_on && !on) || (to_off && on)) {
-        dip_preview_set_step(window->state, setting, !on, dip_ui_now_ns(ui));
+    const DipSetting setting = state->open_setting;
+    const int pad = dip_ui_px(ui, 10);
+    const int steps_height = dip_ui_px(ui, STEP_HEIGHT) + 2 * dip_ui_px(ui, PRICE_HEIGHT);
+    const bool has_note =
+        rect.height >= 2 * pad + steps_height + dip_ui_px(ui, NAME_HEIGHT + 2 * PRICE_HEIGHT);
+    dip_ui_fill_round(ui, rect, dip_ui_px(ui, 4), dip_style_editor);
+    DipRect rest = dip_rect_inset(rect, pad, has_note ? dip_ui_px(ui, 7) : dip_ui_px(ui, 3));
+    const DipRect head = dip_cut_top(&rest, dip_ui_px(ui, NAME_HEIGHT));
+    dip_cut_top(&rest, dip_ui_px(ui, has_note ? 6 : 2));
+    Slider slider = make_slider(ui, window, setting, dip_cut_top(&rest, steps_height));
+    slider.input =
+        dip_ui_control(ui, &(DipUiControl){.id = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_EDITOR),
+                                           .rect = slider.cells,
+                                           .skips_focus = true,
+                                           .takes_wheel = true});
+    change_by(ui, window, setting, &slider.input, slider.pointed);
+    if (!dip_ui_is_drawing(ui)) {
+        return;
     }
-    const int width = dip_ui_px(ui, 34), height = dip_ui_px(ui, 16), gap = dip_ui_px(ui, 8);
-    DipRect rest = rect;
-    const DipRect knob = dip_rect_middle(dip_cut_right(&rest, width), width, height);
-    dip_ui_label(ui, NAME_SIZE, is_dimmed(state, setting) ? dip_style_dim : dip_style_white,
-                 DIP_ALIGN_LEFT, rect, title);
-    draw_switch(ui, knob, step_of(state, DIP_PANE_CURRENT, setting) != 0,
-                step_of(state, DIP_PANE_REQUESTED, setting) != 0, input.hovered);
-    dip_cut_left(&rest, dip_ui_text_width(ui, NAME_SIZE, title) + gap);
-    dip_cut_right(&rest, gap);
-    draw_switch_price(ui, window, setting, rest);
-    dip_ui_focus_ring(ui, knob, height / 2, &input);
-    return rect.height;
+    find_prices(window, &slider);
+    draw_head(ui, state, setting, head);
+    draw_steps(ui, state, &slider);
+    if (has_note) { // About the step under the pointer, or the one that is requested.
+        const int step = slider.input.hovered ? dip_setting_step_at(setting, slider.pointed)
+                                              : step_of(state, DIP_PANE_REQUESTED, setting);
+        const DipPrice price = price_of(window, setting, step);
+        char why[256], note[DIP_STEP_TEXT_BYTES];
+        is_valid(state, setting, step, why);
+        dip_step_tip(setting, step, &price, why, note);
+        dip_cut_top(&rest, dip_ui_px(ui, 5));
+        dip_ui_fill(ui, dip_cut_top(&rest, 1), dip_style_line);
+        dip_cut_top(&rest, dip_ui_px(ui, 4));
+        dip_ui_text_block(ui, PRICE_SIZE, dip_style_soft, rest, note);
+    }
 }
 
-int dip_setting_row_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
-    const bool is_switch = dip_setting_info(setting)->step_count == 2;
-    return (is_switch ? declare_switch : declare_slider)(ui, window, setting, rect);
+// --- an entry of the list ------------------------------------------------------------------------
+
+void dip_setting_entry_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
+    DipPreviewState *state = window->state;
+    const int requested = step_of(state, DIP_PANE_REQUESTED, setting);
+    const char *needs = dip_quality_needs(&state->quality[edited_pane(state)], setting);
+    DipUiInput input = dip_ui_stepper(ui, id_of(setting), rect, NULL);
+    if (input.began || input.focused) {
+        state->open_setting = setting;
+    }
+    input.began = input.moved = input.pressed = false;
+    change_by(ui, window, setting, &input, 0);
+    if (!dip_ui_is_drawing(ui)) {
+        return;
+    }
+    const bool open = state->open_setting == setting;
+    const int pad = dip_ui_px(ui, 6);
+    const bool changed = step_of(state, DIP_PANE_CURRENT, setting) != requested;
+    if (open || input.hovered) {
+        dip_ui_fill(ui, rect, open ? dip_style_row : dip_style_raised);
+    }
+    if (open) {
+        dip_ui_fill(ui, (DipRect){rect.x, rect.y, dip_ui_px(ui, 2), rect.height}, dip_style_white);
+    }
+    DipRect rest = dip_rect_inset(rect, pad, 0);
+    const DipPrice price = price_of(window, setting, requested);
+    if (has_bar(&price) && rect.width >= dip_ui_px(ui, 180)) {
+        char ms[DIP_STEP_NAME_BYTES];
+        dip_price_ms_text(&price, ms);
+        dip_ui_label(ui, PRICE_SIZE, dip_style_soft, DIP_ALIGN_RIGHT,
+                     dip_cut_right(&rest, dip_ui_px(ui, 42)), ms);
+    }
+    // The whole name, if the steps fit beside it.
+    const DipSettingInfo *info = dip_setting_info(setting);
+    const bool whole = dip_ui_text_width(ui, STEP_SIZE, info->title) <= rest.width / 2;
+    dip_ui_word(ui, STEP_SIZE,
+                needs     ? dip_style_dim
+                : changed ? dip_style_white
+                          : dip_style_soft,
+                &rest, pad, whole ? info->title : info->short_title);
+    if (needs && dip_ui_text_width(ui, PRICE_SIZE, needs) <= rest.width) {
+        dip_ui_label(ui, PRICE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, rest, needs);
+    } else {
+        draw_values(ui, state, setting, STEP_SIZE, rest);
+    }
+    dip_ui_focus_ring(ui, rect, 0, &input);
 }
 
 // --- a line of a list ----------------------------------------------------------------------------

@@ -1,5 +1,5 @@
-// Declares the settings tab. Depending on its room, the tab shows three columns of settings, one
-// column at a time, or a list.
+// Declares the settings tab: a list of all settings and an editor for the open one. In little room,
+// the tab is a drawer with a line for each setting.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -10,58 +10,84 @@
 
 enum {
     MARGIN = 10,
-    COLUMN_GAP = 14,
-    COLUMN_WIDTH = 298,
-    SUM_WIDTH = 330,
-    THREE_COLUMNS_WIDTH = 1180, // Narrowest dock with all columns side by side.
-    TWO_COLUMNS_WIDTH = 560,    // Narrowest dock with one column and the sum.
-    GROUP_HEIGHT = 24,
+    GAP = 12,
+    LIST_WIDTH = 580,
+    GROUP_WIDTH = 88,
+    EDITOR_WIDTH = 376,
+    SUM_WIDTH = 282,
+    WIDE = 1180,  // Narrowest dock with the list, the editor and the sum side by side.
+    MEDIUM = 560, // Narrowest dock with the list, and the editor above the sum.
+    ENTRY_HEIGHT = 21,
     LINE_HEIGHT = 19,
     FOOT_HEIGHT = 30,
-    PRESETS_HEIGHT = 61
+    PRESETS_HEIGHT = 24,
+    EDITOR_HEIGHT = 78 // Of the editor above the sum.
 };
 
-// The settings of each column.
-enum { GROUP_EDGES, GROUP_TEXTURES, GROUP_SCENE, GROUP_PRESETS, GROUP_COUNT, COLUMNS = 3 };
-static const DipSetting groups[COLUMNS][5] = {
-    {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST},
-    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SHARPEN},
-    {DIP_SETTING_MIPLOD, DIP_SETTING_GI, DIP_SETTING_MIPDEBUG}};
-static const int group_sizes[COLUMNS] = {5, 4, 3};
-
-// Declares the settings of a column, one below the other. Returns the room below them.
-static DipRect declare_group(DipUi *ui, DipWindow *window, int group, DipRect column) {
-    for (int i = 0; i < group_sizes[group]; ++i) {
-        dip_cut_top(&column, dip_setting_row_declare(ui, window, groups[group][i], column));
-    }
-    return column;
-}
+// The settings in the order in which a frame uses them, and the words of their groups. A column
+// ends at an entry without a name.
+enum { COLUMNS = 2, ENTRIES = 7 };
+static const struct {
+    const char *group;
+    DipSetting setting;
+} entries[COLUMNS][ENTRIES] = {{{"Edges", DIP_SETTING_AA},
+                                {"Transparency", DIP_SETTING_AAA},
+                                {"", DIP_SETTING_ASD},
+                                {"Textures", DIP_SETTING_AF},
+                                {"", DIP_SETTING_AAF},
+                                {"", DIP_SETTING_OPT},
+                                {"", DIP_SETTING_MIPLOD}},
+                               {{"After the frame", DIP_SETTING_POST},
+                                {"", DIP_SETTING_SHARPEN},
+                                {"Motion", DIP_SETTING_TAA},
+                                {"Other", DIP_SETTING_GI},
+                                {"", DIP_SETTING_MIPDEBUG}}};
 
 // Returns the part of the tab within its margins.
 static DipRect inside_of(const DipUi *ui, DipRect body) {
     const int margin = dip_ui_px(ui, MARGIN);
-    return (DipRect){body.x + margin, body.y + dip_ui_px(ui, 5), body.width - 2 * margin,
-                     body.height - dip_ui_px(ui, 8)};
+    return (DipRect){body.x + margin, body.y + dip_ui_px(ui, 6), body.width - 2 * margin,
+                     body.height - dip_ui_px(ui, 10)};
 }
 
-// --- all columns ---------------------------------------------------------------------------------
-
-// Declares all columns and the sum of prices. If the tab is wider than these need, the rest shows
-// the graph of frame times.
-static void declare_columns(DipUi *ui, DipWindow *window, DipRect body) {
-    const int gap = dip_ui_px(ui, COLUMN_GAP), widest_sum = dip_ui_px(ui, 420);
-    DipRect rest = inside_of(ui, body);
-    const int room = rest.width - 3 * gap - dip_ui_px(ui, SUM_WIDTH);
-    const int width = dip_min(dip_ui_px(ui, COLUMN_WIDTH), room / COLUMNS);
+// Declares the presets and below them the list of settings, in two columns. group_width: room for
+// the words of the groups, in pixels; 0 for none.
+static void declare_list(DipUi *ui, DipWindow *window, DipRect room, int group_width,
+                         int preset_columns) {
+    const int gap = dip_ui_px(ui, GAP);
+    const int preset_rows = (DIP_PRESET_COUNT + preset_columns - 1) / preset_columns;
+    const DipRect presets = dip_cut_top(&room, preset_rows * dip_ui_px(ui, PRESETS_HEIGHT));
+    dip_presets_declare(ui, window, presets, preset_columns);
+    dip_cut_top(&room, dip_ui_px(ui, 8));
+    const int height = dip_max(1, dip_min(dip_ui_px(ui, ENTRY_HEIGHT), room.height / ENTRIES));
+    const int width = (room.width - gap) / COLUMNS;
     for (int c = 0; c < COLUMNS; ++c) {
-        DipRect free = declare_group(ui, window, c, dip_cut_left(&rest, width));
-        if (c == GROUP_SCENE) {
-            const int height = dip_min(dip_ui_px(ui, PRESETS_HEIGHT), free.height);
-            dip_cut_bottom(&free, dip_ui_px(ui, 3));
-            dip_presets_declare(ui, window, dip_cut_bottom(&free, height), 3);
+        DipRect column = dip_cut_left(&room, width);
+        dip_cut_left(&room, gap);
+        for (int i = 0; i < ENTRIES && entries[c][i].group; ++i) {
+            DipRect entry = dip_cut_top(&column, height);
+            const DipRect word = dip_cut_left(&entry, group_width);
+            dip_ui_label(ui, 11, dip_style_dim, DIP_ALIGN_LEFT, word,
+                         group_width ? entries[c][i].group : "");
+            dip_setting_entry_declare(ui, window, entries[c][i].setting, entry);
         }
-        dip_cut_left(&rest, gap);
     }
+}
+
+// --- a wide tab ----------------------------------------------------------------------------------
+
+// Declares the list, the editor and the sum of prices side by side. If the tab is wider than these
+// need, the rest shows the graph of frame times.
+static void declare_wide(DipUi *ui, DipWindow *window, DipRect body) {
+    const int gap = dip_ui_px(ui, GAP), widest_sum = dip_ui_px(ui, 420);
+    DipRect rest = inside_of(ui, body);
+    declare_list(ui, window, dip_cut_left(&rest, dip_ui_px(ui, LIST_WIDTH)),
+                 dip_ui_px(ui, GROUP_WIDTH), DIP_PRESET_COUNT);
+    dip_cut_left(&rest, gap);
+    const int editor =
+        dip_min(dip_ui_px(ui, EDITOR_WIDTH), rest.width - gap - dip_ui_px(ui, SUM_WIDTH - 60));
+    dip_setting_editor_declare(ui, window, dip_cut_left(&rest, editor));
+    dip_cut_left(&rest, gap);
     DipRect sum = rest;
     const bool has_graph = rest.width - widest_sum >= dip_ui_px(ui, 240);
     if (has_graph) {
@@ -74,33 +100,16 @@ static void declare_columns(DipUi *ui, DipWindow *window, DipRect body) {
     }
 }
 
-// --- one column at a time ------------------------------------------------------------------------
+// --- a medium tab --------------------------------------------------------------------------------
 
-static void declare_group_buttons(DipUi *ui, DipWindow *window, DipRect rect) {
-    static const char *const names[GROUP_COUNT] = {"Edges", "Textures", "Scene", "Presets"};
-    int *chosen = &window->state->settings_group;
-    for (int g = 0; g < GROUP_COUNT; ++g) {
-        if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_GROUPS + g),
-                          dip_rect_cell(rect, GROUP_COUNT, rect.height, dip_ui_px(ui, 4), 0, g),
-                          names[g], *chosen == g ? DIP_UI_CHOSEN : DIP_UI_PLAIN, NULL)) {
-            *chosen = g;
-        }
-    }
-}
-
-static void declare_one_column(DipUi *ui, DipWindow *window, DipRect body) {
-    const DipRect inside = inside_of(ui, body);
-    const int gap = dip_ui_px(ui, COLUMN_GAP);
-    const DipRect left = dip_rect_cell(inside, 2, inside.height, gap, 0, 0);
-    DipRect right = dip_rect_cell(inside, 2, inside.height, gap, 0, 1);
-    declare_group_buttons(ui, window, dip_cut_top(&right, dip_ui_px(ui, GROUP_HEIGHT)));
-    if (window->state->settings_group == GROUP_PRESETS) {
-        dip_presets_declare(ui, window, left, 2);
-    } else {
-        declare_group(ui, window, window->state->settings_group, left);
-    }
-    dip_cut_top(&right, dip_ui_px(ui, 6));
-    dip_setting_sum_declare(ui, window, right);
+static void declare_medium(DipUi *ui, DipWindow *window, DipRect body) {
+    const int gap = dip_ui_px(ui, GAP);
+    DipRect rest = inside_of(ui, body);
+    declare_list(ui, window, dip_cut_left(&rest, rest.width / 2), 0, 3);
+    dip_cut_left(&rest, gap);
+    dip_setting_editor_declare(ui, window, dip_cut_top(&rest, dip_ui_px(ui, EDITOR_HEIGHT)));
+    dip_cut_top(&rest, dip_ui_px(ui, 4));
+    dip_setting_sum_declare(ui, window, rest);
 }
 
 // --- the drawer ----------------------------------------------------------------------------------
@@ -131,7 +140,7 @@ static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) 
     if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_MORE), other, "\u2026",
                       more ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
                       "Presets, Undo and Copy, or back to the settings.")) {
-        window->state->settings_group = more ? GROUP_EDGES : GROUP_PRESETS;
+        window->state->shows_presets = !more;
     }
     dip_apply_declare(ui, window, apply);
 }
@@ -147,7 +156,7 @@ static void declare_more(DipUi *ui, DipWindow *window, DipRect room) {
 }
 
 static void declare_drawer(DipUi *ui, DipWindow *window, DipRect body) {
-    const bool more = window->state->settings_group == GROUP_PRESETS;
+    const bool more = window->state->shows_presets;
     const DipRect foot =
         dip_cut_bottom(&body, dip_min(dip_ui_px(ui, FOOT_HEIGHT), body.height / 6));
     const int fitting = body.height / DIP_SETTING_COUNT;
@@ -162,11 +171,11 @@ static void declare_drawer(DipUi *ui, DipWindow *window, DipRect body) {
 }
 
 void dip_tab_settings(DipUi *ui, DipWindow *window, DipRect body) {
-    const bool low = body.height < dip_ui_px(ui, 200);
-    if (!low && body.width >= dip_ui_px(ui, THREE_COLUMNS_WIDTH)) {
-        declare_columns(ui, window, body);
-    } else if (!low && body.width >= dip_ui_px(ui, TWO_COLUMNS_WIDTH)) {
-        declare_one_column(ui, window, body);
+    const bool low = body.height < dip_ui_px(ui, 180);
+    if (!low && body.width >= dip_ui_px(ui, WIDE)) {
+        declare_wide(ui, window, body);
+    } else if (!low && body.width >= dip_ui_px(ui, MEDIUM)) {
+        declare_medium(ui, window, body);
     } else {
         declare_drawer(ui, window, body);
     }

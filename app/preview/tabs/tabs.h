@@ -111,21 +111,25 @@ DipPriceSum dip_pane_sum(const DipWindow *window, int pane);
 enum {
     DIP_ID_FIRST_SETTING = 1,
     DIP_ID_PRESETS = 100,
-    DIP_ID_GROUPS = 200,
     DIP_ID_APPLY = 300,
     DIP_ID_UNDO,
     DIP_ID_COPY,
     DIP_ID_PAUSE,
     DIP_ID_MEASURE_HERE,
     DIP_ID_MORE,
+    DIP_ID_EDITOR,
     DIP_ID_FLIP,
     DIP_ID_FRAME_RATE,
     DIP_ID_BUDGET
 };
 
-// Declares a setting as a slider or a switch at the top of `rect`. Returns the height that it
-// takes.
-int dip_setting_row_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect);
+// Declares a setting as an entry of a list: its name, its steps in both panes, and the price of the
+// requested one. A click opens the setting in the editor; the wheel and arrow keys change its step.
+void dip_setting_entry_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect);
+
+// Declares the editor of the open setting (DipPreviewState.open_setting): all steps with their
+// prices and, if there is room, a note about one of them.
+void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
 // Declares a setting as one line of a narrow list: its name, its step (value) and its price.
 void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect);
