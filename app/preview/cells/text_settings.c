@@ -17,7 +17,7 @@ enum {
 // Columns of blocks on a wide screen, from left to right; settings that belong together share one.
 static const int block_columns[MAX_BLOCK_COLUMNS][5] = {
     {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, -1},
-    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, -1, -1},
+    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SCALE, -1},
     {DIP_SETTING_MIPLOD, DIP_SETTING_GI, DIP_SETTING_MIPDEBUG, -1, -1},
 };
 

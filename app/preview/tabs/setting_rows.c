@@ -21,6 +21,7 @@ enum {
     SWITCH_HEIGHT = 26,
     LABELS_WIDTH = 32, // Room for "ms" and "FLIP" left of the prices.
     PILL_LEAST_WIDTH = 34,
+    LINE_CELL_WIDTH = 44, // Width of a step of a slider in one line.
     BAR_LENGTH = 40,
     BAR_ALPHA = 150
 };
@@ -181,6 +182,17 @@ static void draw_price(DipUi *ui, const Slider *slider, int position, bool reque
     }
 }
 
+// Returns a step's label as long as the labels of all steps fit into cells of this width; otherwise
+// its narrow label.
+static const char *label_of(DipUi *ui, DipSetting setting, int step, int cell_width) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    bool fit = true;
+    for (int i = 0; i < info->step_count; ++i) {
+        fit = fit && dip_ui_text_width(ui, STEP_SIZE, info->labels[i]) <= cell_width;
+    }
+    return fit ? info->labels[step] : info->narrow_labels[step];
+}
+
 // Draws a step as a pill: filled if the requested pane has it, with a white outline if the current
 // pane has it.
 static void draw_pill(DipUi *ui, const DipPreviewState *state, const Slider *slider, int position,
@@ -189,7 +201,7 @@ static void draw_pill(DipUi *ui, const DipPreviewState *state, const Slider *sli
     const bool current = step == step_of(state, DIP_PANE_CURRENT, slider->setting);
     const bool requested = step == step_of(state, DIP_PANE_REQUESTED, slider->setting);
     const bool hovered = slider->input.hovered && slider->pointed == position;
-    const char *name = dip_setting_info(slider->setting)->labels[step];
+    const char *name = label_of(ui, slider->setting, step, slider->cell_width);
     char why[256];
     const bool valid = is_valid(state, slider->setting, step, why);
     const int wanted = dip_max(dip_ui_px(ui, PILL_LEAST_WIDTH),
@@ -220,9 +232,7 @@ static void draw_slider(DipUi *ui, const DipPreviewState *state, const Slider *s
     const DipRect cells = slider->cells;
     const int pill = dip_ui_px(ui, STEP_HEIGHT), price = dip_ui_px(ui, PRICE_HEIGHT);
     const int price_y = cells.y + pill + dip_ui_px(ui, 1), thick = dip_ui_px(ui, 2);
-    const char *title = slider->setting == DIP_SETTING_ASD
-                            ? "Samples per adaptive group"
-                            : dip_setting_info(slider->setting)->title;
+    const char *title = dip_setting_info(slider->setting)->title;
     DipRect head = slider->rect;
     dip_ui_text(ui, NAME_SIZE, slider->dimmed ? dip_style_dim : dip_style_white, DIP_ALIGN_LEFT,
                 head.x, head.y, head.width, title);
@@ -367,9 +377,98 @@ static int declare_switch(DipUi *ui, DipWindow *window, DipSetting setting, DipR
     return rect.height;
 }
 
+// --- a slider in one line ------------------------------------------------------------------------
+
+static const char *line_title(DipSetting setting) {
+    return setting == DIP_SETTING_ASD ? "Group size" : dip_setting_info(setting)->title;
+}
+
+// Draws the price of the requested step, or what the setting needs to have an effect.
+static void draw_line_price(DipUi *ui, const DipWindow *window, DipSetting setting, DipRect row) {
+    const int step = step_of(window->state, DIP_PANE_REQUESTED, setting);
+    const DipPrice price = price_of(window, setting, step);
+    const char *needs = dip_quality_needs(&window->state->quality[DIP_PANE_REQUESTED], setting);
+    char ms[DIP_STEP_NAME_BYTES], flip[DIP_STEP_NAME_BYTES], text[64];
+    dip_price_ms_text(&price, ms);
+    snprintf(text, sizeof text, "%.40s%s", needs ? needs : ms, is_known(&price) ? " ms" : "");
+    if (is_known(&price) && price.has_flip) {
+        dip_price_flip_text(&price, flip);
+        const int width = dip_ui_text_width(ui, PRICE_SIZE, flip) + dip_ui_px(ui, 7);
+        if (width + dip_ui_text_width(ui, PRICE_SIZE, text) <= row.width) {
+            dip_ui_label(ui, PRICE_SIZE, flip_colour(&price), DIP_ALIGN_RIGHT, row, flip);
+            dip_cut_right(&row, width);
+        }
+    }
+    if (dip_ui_text_width(ui, PRICE_SIZE, text) <= row.width) {
+        dip_ui_label(ui, PRICE_SIZE, has_bar(&price) ? dip_style_soft : dip_style_dim,
+                     DIP_ALIGN_RIGHT, row, text);
+    }
+}
+
+// Adds to a tip how many pixels a step of the render scale draws.
+static void add_drawn_size(const DipPreviewState *state, int step, char tip[DIP_STEP_TEXT_BYTES]) {
+    const size_t length = strlen(tip);
+    DipQuality quality = state->quality[edited_pane(state)];
+    quality.step[DIP_SETTING_SCALE] = (uint8_t)step;
+    if (state->pane_width > 0) {
+        snprintf(tip + length, DIP_STEP_TEXT_BYTES - length, "\nDraws %d x %d pixels.",
+                 dip_quality_drawn_size(&quality, state->pane_width),
+                 dip_quality_drawn_size(&quality, state->pane_height));
+    }
+}
+
+// Declares a slider without prices of its steps beneath it: its title and its steps share a line,
+// and the price of the requested step stands between them.
+static int declare_line_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
+    const DipPreviewState *state = window->state;
+    const int pill = dip_ui_px(ui, STEP_HEIGHT), gap = dip_ui_px(ui, 8);
+    Slider slider = {.setting = setting, .rect = rect};
+    rect.height = dip_ui_px(ui, SWITCH_HEIGHT);
+    slider.count = dip_setting_info(setting)->step_count;
+    slider.cell_width = dip_ui_px(ui, LINE_CELL_WIDTH);
+    DipRect rest = rect;
+    slider.cells = dip_rect_middle(dip_cut_right(&rest, slider.cell_width * slider.count),
+                                   slider.cell_width * slider.count, pill);
+    slider.dimmed = is_dimmed(state, setting);
+    const int under = (dip_ui_pointer_x(ui) - slider.cells.x) / slider.cell_width;
+    slider.pointed = dip_max(0, dip_min(slider.count - 1, under));
+    char why[256], tip[DIP_STEP_TEXT_BYTES];
+    const int step = dip_setting_step_at(setting, slider.pointed);
+    const DipPrice price = price_of(window, setting, step);
+    is_valid(state, setting, step, why);
+    dip_step_tip(setting, step, &price, why, tip);
+    if (setting == DIP_SETTING_SCALE) {
+        add_drawn_size(state, step, tip);
+    }
+    slider.input = dip_ui_stepper(ui, id_of(setting), slider.cells, tip);
+    change_by(ui, window, setting, &slider.input, slider.pointed);
+    if (!dip_ui_is_drawing(ui)) {
+        return rect.height;
+    }
+    const int thick = dip_ui_px(ui, 2);
+    dip_ui_fill(ui,
+                (DipRect){slider.cells.x + slider.cell_width / 2,
+                          slider.cells.y + (pill - thick) / 2,
+                          slider.cell_width * (slider.count - 1), thick},
+                dip_style_line);
+    for (int i = 0; i < slider.count; ++i) {
+        draw_pill(ui, state, &slider, i, dip_rect_cell(slider.cells, slider.count, pill, 0, 0, i));
+    }
+    const char *title = line_title(setting);
+    dip_ui_label(ui, NAME_SIZE, slider.dimmed ? dip_style_dim : dip_style_white, DIP_ALIGN_LEFT,
+                 rect, title);
+    dip_cut_left(&rest, dip_ui_text_width(ui, NAME_SIZE, title) + gap);
+    dip_cut_right(&rest, gap);
+    draw_line_price(ui, window, setting, rest);
+    return rect.height;
+}
+
 int dip_setting_row_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
     const bool is_switch = dip_setting_info(setting)->step_count == 2;
-    return (is_switch ? declare_switch : declare_slider)(ui, window, setting, rect);
+    const bool in_one_line = setting == DIP_SETTING_ASD || setting == DIP_SETTING_SCALE;
+    return (is_switch     ? declare_switch
+            : in_one_line ? declare_line_slider
+                          : declare_slider)(ui, window, setting, rect);
 }
 
 // --- a line of a list ----------------------------------------------------------------------------

@@ -25,9 +25,9 @@ enum {
 enum { GROUP_EDGES, GROUP_TEXTURES, GROUP_SCENE, GROUP_PRESETS, GROUP_COUNT, COLUMNS = 3 };
 static const DipSetting groups[COLUMNS][4] = {
     {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD},
-    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT},
+    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SCALE},
     {DIP_SETTING_MIPLOD, DIP_SETTING_GI, DIP_SETTING_MIPDEBUG}};
-static const int group_sizes[COLUMNS] = {4, 3, 3};
+static const int group_sizes[COLUMNS] = {4, 4, 3};
 
 // Declares the settings of a column, one below the other. Returns the room below them.
 static DipRect declare_group(DipUi *ui, DipWindow *window, int group, DipRect column) {
