@@ -7,7 +7,7 @@
 enum {
     BLOCK_COLUMNS = 44,  // Width of a column of blocks; a setting is a block of several rows.
     SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
-    ROW_COLUMNS = 56,    // Least width of a setting that takes one row.
+    ROW_COLUMNS = 60,    // Least width of a setting that takes one row.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
     FIGURE_COLUMNS = 15, // Width of a step's time and error at the end of the row.
     MAX_BLOCK_COLUMNS = 3,

@@ -125,7 +125,7 @@ static void steps_that_need_company_are_considered_beside_it(void **state) {
     const DipAdvice advice = advise(&like, 33.0, &candidates);
     assert_true(advice.chosen >= 0);
     const DipQuality *quality = &candidates.list[advice.chosen].quality;
-    assert_int_equal(quality->step[DIP_SETTING_AAA], 1);
+    assert_int_equal(quality->step[DIP_SETTING_AAA], DIP_AAA_ON);
     assert_int_equal(quality->step[DIP_SETTING_AAF], 1);
     free(candidates.list);
     dip_prices_destroy(&prices);
