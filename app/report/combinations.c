@@ -62,6 +62,7 @@ static const unsigned groups[] = {
     1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
     1u << DIP_SETTING_OPT,
     1u << DIP_SETTING_MIPLOD,
+    1u << DIP_SETTING_SCALE,
     1u << DIP_SETTING_POST,
     1u << DIP_SETTING_SHARPEN,
     1u << DIP_SETTING_GI,

@@ -44,6 +44,8 @@ static const Theory theories[] = {
      "With a bias, most reads take as many texels as without it, but from smaller mip levels; on a "
      "magnified surface, a read may even take two levels instead of one",
      TEXTURES},
+    {DIP_SETTING_SCALE, FALLS, false, RISES, DIP_COST_COUNTER_target_bytes, FEW_VIEWPOINTS,
+     "edges and textures"},
     {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS, NULL},
 };
 

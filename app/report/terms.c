@@ -24,6 +24,8 @@ typedef struct Work {
     double biased[3];   // 1 if miplod is at least as coarse as quality (the first value), as
                         // performance (the second) and as high-performance (the third).
     double sharp[2];    // 1 if miplod is at least as sharp as sharp (the first value), as sharper.
+    double scaled;      // 1 if a larger picture is drawn and averaged.
+    double scale;       // How many times as wide and high this picture is.
     double temporal;    // 1 with temporal AA.
     double coloured;    // 1 if mip levels are shown as colours.
     double fxaa;        // 1 with post=fxaa.
@@ -80,7 +82,8 @@ typedef struct Work {
     X("sample shown, of several per pixel", w->samples > 1.0 ? C(samples_shown) : 0.0)             \
     X("pixel resolved", C(pixels_resolved))                                                        \
     X("pixel resolved, per sample", C(pixels_resolved) * w->samples)                               \
-    X("pixel resolved, aaa=all", C(pixels_resolved) * w->all)
+    X("pixel resolved, aaa=all", C(pixels_resolved) * w->all)                                      \
+    X("byte of a picture that is averaged", C(target_bytes) * w->scaled)
 
 #define REST_TERMS(X)                                                                              \
     X("frame", 1.0)                                                                                \
@@ -117,6 +120,8 @@ typedef struct Work {
     X("miplod=high-performance", w->biased[2])                                                     \
     X("miplod=sharp", w->sharp[0])                                                                 \
     X("miplod=sharper", w->sharp[1])                                                               \
+    X("scale, per step", 1.0 - 1.0 / w->scale)                                                     \
+    X("scale, per pixel drawn", 1.0 - 1.0 / (w->scale * w->scale))                                 \
     X("temporal AA", w->temporal)                                                                  \
     X("post=fxaa", w->fxaa)                                                                        \
     X("post=smaa", w->smaa)                                                                        \
@@ -195,6 +200,8 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .biased = {level <= DIP_MIPLOD_QUALITY, level <= DIP_MIPLOD_PERFORMANCE,
                    level <= DIP_MIPLOD_HIGH_PERFORMANCE},
         .sharp = {level >= DIP_MIPLOD_SHARP, level >= DIP_MIPLOD_SHARPER},
+        .scaled = quality->step[DIP_SETTING_SCALE] != 0,
+        .scale = dip_quality_drawn_size(quality, 4) / 4.0, // every step is a multiple of 1/4
         .temporal = quality->step[DIP_SETTING_TAA] != 0,
         .coloured = quality->step[DIP_SETTING_MIPDEBUG] != 0,
         .fxaa = post == DIP_POST_STEP_FXAA,

@@ -157,6 +157,10 @@ typedef struct DipPass {
     DipTargetRegion viewport;
     // Pixels outside this rectangle are left untouched, to the pixel. All 0: the whole target.
     DipTargetRegion scissor;
+    // Where the pass also stores its pixels' colours before they are encoded, or NULL: red, green,
+    // blue and 65535, in 16-bit linear light, for each pixel of the target. Rows follow each other
+    // without gaps. As a readback, only for passes that do not need merging.
+    uint16_t *light16;
     // Where the pass writes what its samples show, or NULL. Pixels that the pass does not draw
     // because of `region` or `tile_regions` read as background. A pass with a readback must not
     // need merging (state.h): no ordered draws, attachments, viewport or scissor, and a target of

@@ -31,6 +31,7 @@ typedef struct Drawing {
     DipRefShot shot;
     int width;
     int height;
+    int mirrored_size[2];   // width and height of the picture of the mirrored scene
     const double *mirrored; // picture of the mirrored scene; NULL if water does not reflect
 } Drawing;
 
@@ -213,7 +214,7 @@ static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigne
     dip_reference_shade(&place, filter_of(drawing, triangle), colour);
     if (drawing->mirrored && triangle->material->surface == DIP_SURFACE_WATER) {
         double mirrored[3];
-        dip_reference_read_mirrored(drawing->reference, drawing->mirrored, drawing->width,
+        dip_reference_read_mirrored(drawing->mirrored, drawing->mirrored_size, drawing->width,
                                     drawing->height, &place, mirrored);
         dip_reference_blend_water(drawing->reference, drawing->shot.pose, drawing->width,
                                   drawing->height, &place, mirrored, colour);
@@ -312,10 +313,9 @@ static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
 
 // Draws the mirrored scene with the same settings. Returns NULL on failure.
 static double *draw_mirrored(const Drawing *drawing, DipError *err) {
-    const DipReflectionDef *reflection = &drawing->reference->reflection;
     Drawing mirrored = *drawing;
-    mirrored.width = mirrored.shot.width = reflection->width;
-    mirrored.height = mirrored.shot.height = reflection->height;
+    mirrored.width = mirrored.shot.width = drawing->mirrored_size[0];
+    mirrored.height = mirrored.shot.height = drawing->mirrored_size[1];
     mirrored.shot.mirrored = true;
     // Only the frame itself may be sharper than its textures' sizes ask for.
     DipRefFilter filter = drawing->filter;
@@ -323,7 +323,7 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     set_filters(&mirrored, &filter);
     // The height of two texels of the mirrored picture, at a distance of 1.
     mirrored.shot.margin =
-        4.0 * tan(drawing->shot.pose->fov_y_deg * (pi / 360.0)) / reflection->height;
+        4.0 * tan(drawing->shot.pose->fov_y_deg * (pi / 360.0)) / mirrored.height;
     double *rgb_lin = malloc((size_t)mirrored.width * (size_t)mirrored.height * 3 * sizeof(double));
     if (!rgb_lin) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "out of memory for the reflection");
@@ -340,13 +340,10 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     return rgb_lin;
 }
 
-bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,
-                        const DipPose *pose, int width, int height, double *rgb_lin,
-                        DipError *err) {
-    DIP_FP_MODE_SCOPE();
-    if (!dip_quality_check(quality, err) || !dip_reference_check_size(width, height, err)) {
-        return false;
-    }
+// Draws the picture of a view in any number of pixels. aspect: width / height of the view.
+static bool draw_picture(const DipReference *reference, const DipQuality *quality,
+                         const DipPose *pose, double aspect, int width, int height, double *rgb_lin,
+                         DipError *err) {
     Drawing drawing = {
         .reference = reference,
         .pattern = dip_sample_pattern_of(
@@ -354,7 +351,9 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
             dip_pattern_kind(quality->step[DIP_SETTING_TAA] != 0, reference->frame_index)),
         .groups_shade_all = dip_quality_groups_shade_all(quality),
         .covers_by_alpha = dip_quality_covers_by_alpha(quality),
-        .shot = {pose, width, height, (double)width / height, .rounded = true},
+        .shot = {pose, width, height, aspect, .rounded = true},
+        .mirrored_size = {dip_quality_drawn_size(quality, reference->reflection.width),
+                          dip_quality_drawn_size(quality, reference->reflection.height)},
         .width = width,
         .height = height,
     };
@@ -372,5 +371,57 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
     drawn = drawn && draw_built(&drawing, rgb_lin, err);
     dip_reference_triangles_free(&drawing.triangles);
     free(mirrored);
+    return drawn;
+}
+
+// Computes the mean of a larger picture over the part that belongs to one pixel of a smaller one.
+static void average_box(const double *larger, int from_width, int from_height, int x, int y,
+                        int width, int height, double rgb[3]) {
+    const double ratio_x = (double)from_width / width, ratio_y = (double)from_height / height;
+    double sum[3] = {0.0, 0.0, 0.0};
+    for (int j = (int)(y * ratio_y); j < from_height && j < (y + 1) * ratio_y; j++) {
+        const double high = fmin(j + 1.0, (y + 1) * ratio_y) - fmax(j, y * ratio_y);
+        for (int i = (int)(x * ratio_x); i < from_width && i < (x + 1) * ratio_x; i++) {
+            const double wide = fmin(i + 1.0, (x + 1) * ratio_x) - fmax(i, x * ratio_x);
+            for (int c = 0; c < 3; c++) {
+                sum[c] += high * wide *
+                          larger[3 * ((size_t)j * (size_t)from_width + (size_t)i) + (size_t)c];
+            }
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = sum[c] / (ratio_x * ratio_y);
+    }
+}
+
+bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,
+                        const DipPose *pose, int width, int height, double *rgb_lin,
+                        DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    if (!dip_quality_check(quality, err) || !dip_reference_check_size(width, height, err)) {
+        return false;
+    }
+    const double aspect = (double)width / height;
+    const int drawn_width = dip_quality_drawn_size(quality, width);
+    const int drawn_height = dip_quality_drawn_size(quality, height);
+    if (drawn_width == width && drawn_height == height) {
+        return draw_picture(reference, quality, pose, aspect, width, height, rgb_lin, err);
+    }
+    if (!dip_reference_check_size(drawn_width, drawn_height, err)) {
+        return false;
+    }
+    double *larger = malloc((size_t)drawn_width * (size_t)drawn_height * 3 * sizeof *larger);
+    if (!larger) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL,
+                             "out of memory for a picture of %dx%d pixels", drawn_width,
+                             drawn_height);
+    }
+    const bool drawn =
+        draw_picture(reference, quality, pose, aspect, drawn_width, drawn_height, larger, err);
+    for (int i = 0; drawn && i < width * height; i++) {
+        average_box(larger, drawn_width, drawn_height, i % width, i / width, width, height,
+                    rgb_lin + 3 * (size_t)i);
+    }
+    free(larger);
     return drawn;
 }

@@ -56,9 +56,8 @@ void dip_reference_blend_water(const DipReference *reference, const DipPose *pos
     }
 }
 
-void dip_reference_read_mirrored(const DipReference *reference, const double *mirrored, int width,
-                                 int height, const DipRefPosition *place, double rgb[3]) {
-    const int size[2] = {reference->reflection.width, reference->reflection.height};
+void dip_reference_read_mirrored(const double *mirrored, const int size[2], int width, int height,
+                                 const DipRefPosition *place, double rgb[3]) {
     const double at[2] = {place->x / (256.0 * width) * size[0] - 0.5,
                           place->y / (256.0 * height) * size[1] - 0.5};
     size_t texel[2][2]; // for each axis, the indices of the two texels around the position

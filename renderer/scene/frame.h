@@ -94,7 +94,9 @@ typedef struct DipFrame {
     DipCounters counters;
     DipStageTimes stages;
     DipEffects effects;
-    DipFrameTiles tiles; // all 0 unless the renderer records tiles
+    // All 0 unless the renderer records tiles. Also 0 if scale draws a larger picture, whose tiles
+    // are not those of the frame.
+    DipFrameTiles tiles;
 } DipFrame;
 
 // Writes a 128-bit hash of a frame's size and pixels as 32 hex digits and a final 0. The hash

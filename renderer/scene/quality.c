@@ -248,6 +248,14 @@ int dip_quality_max_anisotropy(const DipQuality *quality) {
     return 1 << quality->step[DIP_SETTING_AF];
 }
 
+int dip_quality_drawn_size(const DipQuality *quality, int size) {
+    // The steps of scale as exact ratios.
+    static const struct { int over, under; } ratios[] = {{1, 1}, {5, 4}, {3, 2}, {2, 1}};
+    const int over = ratios[quality->step[DIP_SETTING_SCALE]].over;
+    const int under = ratios[quality->step[DIP_SETTING_SCALE]].under;
+    return (2 * size * over + under) / (2 * under);
+}
+
 int32_t dip_quality_bias_lod8(const DipQuality *quality) {
     static const int32_t bias_lod8[] = {
         [DIP_MIPLOD_HIGH_PERFORMANCE] = 384, [DIP_MIPLOD_PERFORMANCE] = 256,

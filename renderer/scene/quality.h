@@ -52,6 +52,9 @@ extern "C" {
       ("h.perf", "perf", "qual", "h.qual", "sharp", "sharp+"),                                     \
       "bias towards smaller mip levels; high-performance also drops the largest levels; sharp "    \
       "and sharper: a bias towards larger levels than the texture's size asks for")                \
+    X(scale, SCALE, "Render scale", "Scale", 0, ("1", "1.25", "1.5", "2"),                         \
+      ("1x", "1.25x", "1.5x", "2x"), ("1x", "1.25x", "1.5x", "2x"),                                \
+      "the picture is drawn this many times as wide and high and averaged in linear light")        \
     X(post, POST, "Post-process AA", "Post AA", 0, ("off", "fxaa", "smaa"),                        \
       ("off", "FXAA", "SMAA"), ("off", "FXAA", "SMAA"),                                            \
       "smooths the edges that it finds in the finished picture, also those of textures")           \
@@ -150,6 +153,10 @@ DIP_API bool dip_quality_check(const DipQuality *quality, DipError *err);
 
 DIP_API int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
 DIP_API int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
+
+// Returns the width or height at which a picture of the given width or height is drawn: size times
+// the step of scale, rounded to the nearest whole number, halves up. size: 1 or more.
+DIP_API int dip_quality_drawn_size(const DipQuality *quality, int size);
 
 // Returns the bias of miplod, in 1/256 level. Greater values mean smaller mip levels. Where mip
 // colours show the levels, the steps that are sharper than high-quality have no bias.

@@ -115,6 +115,38 @@ static void free_mirror(DipMirror *mirror) {
     *mirror = (DipMirror){0};
 }
 
+static void free_larger(DipLarger *larger) {
+    dip_pipeline_destroy(&larger->pipeline);
+    dip_lines_free(larger->target.rgba8);
+    dip_lines_free(larger->light16);
+    free(larger->codes);
+    *larger = (DipLarger){0};
+}
+
+static bool make_larger(const DipRenderer *renderer, int width, int height, DipLarger *larger,
+                        DipError *err) {
+    DipTarget *target = &larger->target;
+    if (width > DIP_MAX_FRAME_SIZE || height > DIP_MAX_FRAME_SIZE) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "scale",
+                             "would draw %dx%d pixels, accepted up to %dx%d", width, height,
+                             DIP_MAX_FRAME_SIZE, DIP_MAX_FRAME_SIZE);
+    }
+    *larger = (DipLarger){.target = {.width = width, .height = height}};
+    if (!make_target(renderer->pool, renderer->isa, width, height, &larger->pipeline,
+                     &target->rgba8, &target->stride_bytes, err)) {
+        return false;
+    }
+    larger->light16 = dip_lines_alloc((size_t)width * (size_t)height * 4 * sizeof(uint16_t));
+    larger->codes = malloc(sizeof *larger->codes);
+    if (!larger->light16 || !larger->codes) {
+        free_larger(larger);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scale", "no memory for %dx%d pixels",
+                             width, height);
+    }
+    dip_srgb_encode_table(larger->codes);
+    return true;
+}
+
 // Frees the resources that were made for a scene.
 static void forget_scene(DipRenderer *renderer) {
     renderer->scene_serial = 0;
@@ -134,6 +166,7 @@ void dip_renderer_destroy(DipRenderer **renderer_pointer) {
     dip_texture_destroy(&renderer->mip_colours);
     dip_finish_destroy(&renderer->finish);
     dip_lines_free(renderer->rgba8);
+    free_larger(&renderer->larger);
     free_recording(&renderer->recording);
     forget_scene(renderer);
     free(renderer);
@@ -191,6 +224,7 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
     dip_pipeline_record_tiles(pipeline, &recording);
     free_recording(&renderer->recording);
     renderer->recording = recording;
+    free_larger(&renderer->larger); // the next frame creates one of the new size
     dip_pipeline_destroy(&renderer->pipeline);
     dip_lines_free(renderer->rgba8);
     renderer->pipeline = pipeline;
@@ -200,6 +234,18 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
     renderer->width = width;
     renderer->height = height;
     return true;
+}
+
+DipTarget dip_renderer_target(const DipRenderer *renderer) {
+    const DipTarget own = {.rgba8 = renderer->rgba8,
+                           .stride_bytes = renderer->stride_bytes,
+                           .width = renderer->width,
+                           .height = renderer->height};
+    return renderer->larger.pipeline ? renderer->larger.target : own;
+}
+
+DipPipeline *dip_renderer_pipeline(const DipRenderer *renderer) {
+    return renderer->larger.pipeline ? renderer->larger.pipeline : renderer->pipeline;
 }
 
 bool dip_renderer_record_tiles(DipRenderer *renderer, bool on, DipError *err) {
@@ -213,6 +259,31 @@ bool dip_renderer_record_tiles(DipRenderer *renderer, bool on, DipError *err) {
         return false;
     }
     dip_pipeline_record_tiles(renderer->pipeline, &renderer->recording);
+    return true;
+}
+
+bool dip_renderer_follow_scale(DipRenderer *renderer, DipError *err) {
+    const DipQuality *quality = &renderer->quality;
+    const int width = dip_quality_drawn_size(quality, renderer->width);
+    const int height = dip_quality_drawn_size(quality, renderer->height);
+    const DipTarget drawn = dip_renderer_target(renderer);
+    if (width != drawn.width || height != drawn.height) {
+        DipLarger larger = {0};
+        const bool own_size = width == renderer->width && height == renderer->height;
+        if (!own_size && !make_larger(renderer, width, height, &larger, err)) {
+            return false;
+        }
+        free_larger(&renderer->larger);
+        renderer->larger = larger;
+        renderer->reserved = false;
+    }
+    const DipMirror *mirror = &renderer->mirror;
+    const DipReflectionDef *reflection = &renderer->reflection;
+    if (mirror->pipeline &&
+        (mirror->target.width != dip_quality_drawn_size(quality, reflection->width) ||
+         mirror->target.height != dip_quality_drawn_size(quality, reflection->height))) {
+        forget_scene(renderer); // the scene's new resources have a reflection of the right size
+    }
     return true;
 }
 
@@ -262,8 +333,8 @@ static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mir
 static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     DipMirror *mirror = &renderer->mirror;
     DipTarget *target = &mirror->target;
-    target->width = renderer->reflection.width;
-    target->height = renderer->reflection.height;
+    target->width = dip_quality_drawn_size(&renderer->quality, renderer->reflection.width);
+    target->height = dip_quality_drawn_size(&renderer->quality, renderer->reflection.height);
     if (!dip_draw_set_make(&mirror->set, scene->object_count, false, err) ||
         !make_target(renderer->pool, renderer->isa, target->width, target->height,
                      &mirror->pipeline, &target->rgba8, &target->stride_bytes, err)) {
@@ -304,8 +375,9 @@ bool dip_renderer_adopt_scene(DipRenderer *renderer, const DipScene *scene, DipE
     if (renderer->scene_serial != scene->serial && !make_for_scene(renderer, scene, err)) {
         return false;
     }
-    renderer->reserved = renderer->reserved ||
-                         reserve(renderer, scene, false, renderer->pipeline, &renderer->set, err);
+    renderer->reserved =
+        renderer->reserved ||
+        reserve(renderer, scene, false, dip_renderer_pipeline(renderer), &renderer->set, err);
     return renderer->reserved;
 }
 

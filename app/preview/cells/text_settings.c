@@ -7,7 +7,7 @@
 enum {
     BLOCK_COLUMNS = 44,  // Width of a column of blocks; a setting is a block of several rows.
     SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
-    ROW_COLUMNS = 56,    // Least width of a setting that takes one row.
+    ROW_COLUMNS = 60,    // Least width of a setting that takes one row.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
     FIGURE_COLUMNS = 15, // Width of a step's time and error at the end of the row.
     MAX_BLOCK_COLUMNS = 3,
@@ -17,7 +17,7 @@ enum {
 // Columns of blocks on a wide screen, from left to right; settings that belong together share one.
 static const int block_columns[MAX_BLOCK_COLUMNS][6] = {
     {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST, -1},
-    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SHARPEN, -1, -1},
+    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SCALE, DIP_SETTING_SHARPEN, -1},
     {DIP_SETTING_MIPLOD, DIP_SETTING_GI, DIP_SETTING_MIPDEBUG, -1, -1, -1},
 };
 

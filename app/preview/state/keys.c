@@ -32,6 +32,7 @@ const DipKeyRow dip_key_rows[] = {
     SETTING('g', DIP_KEYCODE_F7, AAF, "G  F7"),
     SETTING('o', DIP_KEYCODE_F8, OPT, "O  F8"),
     SETTING('l', DIP_KEYCODE_F9, MIPLOD, "L  F9"),
+    SETTING('\\', 0, SCALE, "\\"),
     SETTING('i', DIP_KEYCODE_F10, GI, "I  F10"),
     SETTING('m', 0, MIPDEBUG, "M"),
     KEY('`', DIP_KEYCODE_INSERT, NEXT_PANE, 0, "`  Insert  Click", "Choose the pane"),

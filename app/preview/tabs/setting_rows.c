@@ -285,6 +285,18 @@ static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting settin
     draw_values(ui, state, setting, STEP_SIZE, head);
 }
 
+// Adds to a note how many pixels a step of the render scale draws.
+static void add_drawn_size(const DipPreviewState *state, int step, char note[DIP_STEP_TEXT_BYTES]) {
+    const size_t length = strlen(note);
+    DipQuality quality = state->quality[edited_pane(state)];
+    quality.step[DIP_SETTING_SCALE] = (uint8_t)step;
+    if (state->pane_width > 0) {
+        snprintf(note + length, DIP_STEP_TEXT_BYTES - length, "\nDraws %d x %d pixels.",
+                 dip_quality_drawn_size(&quality, state->pane_width),
+                 dip_quality_drawn_size(&quality, state->pane_height));
+    }
+}
+
 void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPreviewState *state = window->state;
     const DipSetting setting = state->open_setting;
@@ -316,6 +328,9 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
         char why[256], note[DIP_STEP_TEXT_BYTES];
         is_valid(state, setting, step, why);
         dip_step_tip(setting, step, &price, why, note);
+        if (setting == DIP_SETTING_SCALE) {
+            add_drawn_size(state, step, note);
+        }
         dip_cut_top(&rest, dip_ui_px(ui, 5));
         dip_ui_fill(ui, dip_cut_top(&rest, 1), dip_style_line);
         dip_cut_top(&rest, dip_ui_px(ui, 4));

@@ -92,8 +92,8 @@ static double median(const double *values, int count) {
 // Adds a draw of a pane's frame: its times join those of the draws before. Its counters replace
 // theirs, since each draw of a frame does the same work.
 static bool add_draw(DipMapWork *work, const DipFrame *frame) {
-    if (!work->records && !make_arrays(work, frame)) {
-        return false;
+    if (!frame->tiles.records || (!work->records && !make_arrays(work, frame))) {
+        return false; // A render scale draws a larger picture, whose tiles are not recorded.
     }
     const int tiles = work->across * work->down;
     const int draw = work->draws++;
@@ -205,6 +205,9 @@ static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
     }
     if (maps->wanted == DIP_MAP_MIPS) {
         return work->mips ? 0 : 1;
+    }
+    if (maps->key.quality[pane].step[DIP_SETTING_SCALE]) {
+        return 0; // The tiles of a larger picture are not those of the frame.
     }
     return wanted_draws - work->draws;
 }

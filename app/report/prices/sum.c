@@ -122,6 +122,14 @@ static const unsigned settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA |
                                  1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF |
                                  1u << DIP_SETTING_OPT | 1u << DIP_SETTING_MIPLOD;
 
+// Returns whether a choice needs the price of a step. Steps that reports of earlier versions lack
+// are chosen from if their prices are known.
+static bool is_required(DipSetting setting, int step) {
+    return setting == DIP_SETTING_AAA      ? step == DIP_AAA_OFF || step == DIP_AAA_ON
+           : setting == DIP_SETTING_MIPLOD ? step <= DIP_MIPLOD_HIGH_QUALITY
+                                           : true;
+}
+
 // Returns how much is known of the prices of all steps for a pane with the settings `like`. For
 // steps of AF and advanced AF, the price without antialiasing suffices, since the price with any
 // antialiasing can be guessed from it.
@@ -131,6 +139,9 @@ static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like)
     bool has_times = true, has_errors = true;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         for (int i = 0; settings >> s & 1 && i < dip_setting_info((DipSetting)s)->step_count; i++) {
+            if (!is_required((DipSetting)s, i)) {
+                continue;
+            }
             const DipPrice price = dip_price_step(view, (DipSetting)s, i,
                                                   dip_price_filters((DipSetting)s) ? &plain : like);
             has_times &= price.needs_company || price.state != DIP_PRICE_UNKNOWN;

@@ -9,6 +9,12 @@ static uint32_t *pixel_at(const DipTileShading *shading, uint32_t pixel) {
            (size_t)(pixel % DIP_TILE);
 }
 
+static void store_light16(const DipTileShading *shading, uint32_t pixel,
+                          const DipEncodedBatch *encoded, int i) {
+    dip_store_light16(shading, pixel, encoded->linear16[0][i], encoded->linear16[1][i],
+                      encoded->linear16[2][i]);
+}
+
 void dip_store_whole(DipTileShading *shading, const DipFragmentList *list,
                      const DipEncodedBatch *encoded) {
     for (int i = 0; i < list->count; i += 16) {
@@ -16,6 +22,9 @@ void dip_store_whole(DipTileShading *shading, const DipFragmentList *list,
         for (int y = 0; y < 4; y++, row += shading->stride) {
             memcpy(row, encoded->rgba8 + i + 4 * y, 4 * sizeof *row);
         }
+    }
+    for (int i = 0; shading->light16 && i < list->count; i++) {
+        store_light16(shading, list->position[i] & DIP_POSITION_PIXEL, encoded, i);
     }
 }
 
@@ -27,6 +36,9 @@ void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, i
         const uint32_t pixel = list->position[i] & DIP_POSITION_PIXEL;
         if (list->samples[i] == all) {
             *pixel_at(shading, pixel) = encoded->rgba8[i];
+            if (shading->light16) {
+                store_light16(shading, pixel, encoded, i);
+            }
             continue;
         }
         const int weight = bits_of[list->samples[i] & 15] + bits_of[list->samples[i] >> 4];
@@ -41,9 +53,14 @@ void dip_resolve_multi_fragment(DipTileShading *shading, const uint8_t *srgb_cod
     for (int i = 0; i < shading->multi_fragment_count; i++) {
         const uint32_t pixel = shading->multi_fragment[i];
         uint32_t rgba8 = 0xff000000u;
+        int32_t mean[3];
         for (int c = 0; c < 3; c++) {
-            rgba8 |= (uint32_t)srgb_code[(shading->sum[pixel][c] + count / 2) / count] << (8 * c);
+            mean[c] = (shading->sum[pixel][c] + count / 2) / count;
+            rgba8 |= (uint32_t)srgb_code[mean[c]] << (8 * c);
         }
         *pixel_at(shading, pixel) = rgba8;
+        if (shading->light16) {
+            dip_store_light16(shading, pixel, mean[0], mean[1], mean[2]);
+        }
     }
 }

@@ -191,6 +191,12 @@ static void begin_tile(DipTileWorker *worker, int index) {
     shading->context = worker;
     shading->width = target->width - tile->x0 < DIP_TILE ? target->width - tile->x0 : DIP_TILE;
     shading->height = target->height - tile->y0 < DIP_TILE ? target->height - tile->y0 : DIP_TILE;
+    shading->light16 = pass->pass->light16;
+    shading->light16_stride = (size_t)target->width * DIP_LIGHT16_CHANNELS;
+    if (shading->light16) {
+        shading->light16 +=
+            (size_t)tile->y0 * shading->light16_stride + (size_t)tile->x0 * DIP_LIGHT16_CHANNELS;
+    }
     shading->clear_rgba8 = pass->clear_rgba8;
     memcpy(shading->clear_linear16, pass->clear_linear16, sizeof shading->clear_linear16);
     shading->multi_fragment_count = 0;

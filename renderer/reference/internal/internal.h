@@ -185,9 +185,9 @@ void dip_reference_blend_water(const DipReference *reference, const DipPose *pos
                                double rgb[3]);
 
 // Reads the colour of the mirrored scene at a position of the frame, bilinearly from the mirrored
-// picture.
-void dip_reference_read_mirrored(const DipReference *reference, const double *mirrored, int width,
-                                 int height, const DipRefPosition *place, double rgb[3]);
+// picture, which has the given width and height.
+void dip_reference_read_mirrored(const double *mirrored, const int size[2], int width, int height,
+                                 const DipRefPosition *place, double rgb[3]);
 
 // Computes the position of sample `index` of the converged picture in a pixel. The sample is
 // jittered within its cell of a side x side grid. pixel is y * width + x. The position is relative

@@ -2,8 +2,10 @@
 // main pass and, if water reflects, a pass that draws the mirrored scene.
 #include "renderer/scene/renderer.h"
 
+#include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/draw/box.h"
 #include "renderer/scene/draw/draws.h"
 #include "renderer/scene/draw/inset.h"
 #include "renderer/scene/draw/renderer_parts.h"
@@ -86,6 +88,7 @@ typedef struct FrameSetup {
     DipCullPlanes seen;
     DipCullPlanes seen_mirrored;
     DipParts parts;
+    DipReflectionDef reflection; // the renderer's, in the size at which it is drawn
     DipPlanInput input;
     DipFramePlan plan;
     DipPass mirrored_pass; // made only if the plan runs the reflection
@@ -94,13 +97,6 @@ typedef struct FrameSetup {
     uint64_t fragments_mirrored;
     const DipSampleReadback *readback; // NULL unless samples are read
 } FrameSetup;
-
-static DipTarget target_of(const DipRenderer *renderer) {
-    return (DipTarget){.rgba8 = renderer->rgba8,
-                       .stride_bytes = renderer->stride_bytes,
-                       .width = renderer->width,
-                       .height = renderer->height};
-}
 
 // Makes the pass that draws the mirrored scene above the water. The pass also draws a margin below
 // the water, two texels of the mirrored picture high. Without the margin, a gap of background would
@@ -136,7 +132,8 @@ static void make_scene_pass(FrameSetup *setup) {
         .schlick = renderer->reflection.schlick,
     };
     setup->pass = begin_pass(renderer, setup->scene, &setup->plan);
-    setup->pass.target = target_of(renderer);
+    setup->pass.target = dip_renderer_target(renderer);
+    setup->pass.light16 = renderer->larger.light16;
     if (setup->readback) {
         setup->pass.readback = setup->readback;
         setup->pass.region = setup->readback->region;
@@ -162,7 +159,8 @@ static void count_mirror(const DipMirror *mirror, bool drawn, DipCounters *count
 static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene *scene,
                         const DipPose *pose, int64_t time_ns, const DipSampleReadback *readback,
                         DipFrame *frame, DipError *err) {
-    if (!check_pose(pose, err) || !dip_renderer_adopt_scene(renderer, scene, err) ||
+    if (!check_pose(pose, err) || !dip_renderer_follow_scale(renderer, err) ||
+        !dip_renderer_adopt_scene(renderer, scene, err) ||
         !dip_renderer_follow_settings(renderer, scene, err)) {
         return false;
     }
@@ -177,6 +175,11 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
     // rounding.
     const DipMirror *mirror = &renderer->mirror;
     setup->parts = (DipParts){mirror->tile_regions, mirror->target.width, mirror->target.height, 2};
+    setup->reflection = renderer->reflection;
+    if (mirror->pipeline) {
+        setup->reflection.width = mirror->target.width;
+        setup->reflection.height = mirror->target.height;
+    }
     setup->input = (DipPlanInput){
         .scene = scene,
         .view = &setup->view,
@@ -184,7 +187,7 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
         .seen = &setup->seen,
         .seen_mirrored = &setup->seen_mirrored,
         .parts = &setup->parts,
-        .reflection = &renderer->reflection,
+        .reflection = &setup->reflection,
         .quality = &renderer->quality,
         .plain_surfaces = renderer->plain_surfaces,
         .force_all = renderer->force_all_effects,
@@ -220,7 +223,7 @@ static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, FrameSetu
 // pass.
 static void begin_tiles(const FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
-    if (renderer->recording.tiles) {
+    if (renderer->recording.tiles && !renderer->larger.pipeline) {
         setup->frame->tiles = (DipFrameTiles){
             .records = renderer->recording.tiles,
             .mixed = renderer->recording.mixed,
@@ -249,7 +252,7 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
     for (int i = 0; i < count; i++) {
         setups[i].fragments_mirrored = setups[i].counters.fragments_shaded;
         begin_tiles(&setups[i]);
-        works[i] = work_of(setups[i].renderer->pipeline, &setups[i].pass, &setups[i]);
+        works[i] = work_of(dip_renderer_pipeline(setups[i].renderer), &setups[i].pass, &setups[i]);
     }
     return dip_pipeline_draw_passes(works, count, same_geometry, err);
 }
@@ -268,12 +271,36 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
     return counters;
 }
 
+// Averages the larger picture of a render scale to the frame.
+static void shrink(const DipRenderer *renderer, DipFrame *frame) {
+    const DipLarger *larger = &renderer->larger;
+    const DipBoxFilter box = {
+        .light16 = larger->light16,
+        .stride = (size_t)larger->target.width * 4,
+        .from_width = larger->target.width,
+        .from_height = larger->target.height,
+        .rgba8 = renderer->rgba8,
+        .stride_bytes = renderer->stride_bytes,
+        .width = renderer->width,
+        .height = renderer->height,
+        .srgb_code = larger->codes->code,
+    };
+    const int64_t begin_ns = dip_clock_ns();
+    dip_box_filter(&box, renderer->pool);
+    const double ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
+    frame->stages.resolve_ms += ms;
+    frame->stages.total_ms += ms;
+}
+
 static void end_frame(const FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
     DipFrame *frame = setup->frame;
     frame->counters = frame_counters(&setup->counters);
     frame->counters.fragments_mirrored = setup->fragments_mirrored;
     const bool reflects = setup->plan.effects.reflection.run;
+    if (renderer->larger.pipeline) {
+        shrink(renderer, frame);
+    }
     count_mirror(&renderer->mirror, reflects, &frame->counters);
     // The pipeline counts only the draws that it was given.
     frame->counters.draws_culled += (uint64_t)renderer->set.culled;
@@ -282,7 +309,10 @@ static void end_frame(const FrameSetup *setup) {
     dip_count_geometry(setup->scene, renderer->unshared, &frame->counters);
     dip_plan_settle(&setup->input, &frame->counters, &frame->effects);
     if (reflects && renderer->reflection.show) {
-        const DipTarget target = target_of(renderer);
+        const DipTarget target = {.rgba8 = renderer->rgba8,
+                                  .stride_bytes = renderer->stride_bytes,
+                                  .width = renderer->width,
+                                  .height = renderer->height};
         dip_inset_draw(&target, &renderer->mirror.target);
     }
     if (!setup->readback) {
@@ -294,7 +324,9 @@ static void end_frame(const FrameSetup *setup) {
 static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
     const DipReflectionDef *r = &a->reflection;
     const DipReflectionDef *s = &b->reflection;
-    return a->isa == b->isa && a->width == b->width && a->height == b->height &&
+    const bool same_scale =
+        a->quality.step[DIP_SETTING_SCALE] == b->quality.step[DIP_SETTING_SCALE];
+    return same_scale && a->isa == b->isa && a->width == b->width && a->height == b->height &&
            a->plain_surfaces == b->plain_surfaces && a->force_all_effects == b->force_all_effects &&
            a->quality.step[DIP_SETTING_GI] == b->quality.step[DIP_SETTING_GI] &&
            r->width == s->width && r->height == s->height && r->level_m == s->level_m;
@@ -345,6 +377,11 @@ bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene, con
     DIP_FP_MODE_SCOPE();
     FrameSetup setup;
     DipFrame frame;
+    if (dip_quality_drawn_size(&renderer->quality, renderer->width) != renderer->width ||
+        dip_quality_drawn_size(&renderer->quality, renderer->height) != renderer->height) {
+        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "scale",
+                             "a pixel is the mean of several drawn pixels, accepted scale=1");
+    }
     if (!check_region(renderer, &readback->region, err) ||
         !begin_frame(&setup, renderer, scene, pose, time_ns, readback, &frame, err) ||
         !draw_frames(&setup, 1, true, err)) {

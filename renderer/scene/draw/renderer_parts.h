@@ -3,6 +3,7 @@
 #ifndef DIP_RENDERER_SCENE_DRAW_RENDERER_PARTS_H
 #define DIP_RENDERER_SCENE_DRAW_RENDERER_PARTS_H
 
+#include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/draws.h"
 #include "renderer/scene/finish.h"
@@ -20,6 +21,15 @@ typedef struct DipMirror {
     DipMaterialSamplers *samplers;
 } DipMirror;
 
+// The larger picture that a render scale draws. All members are 0 while a frame is drawn at its own
+// size.
+typedef struct DipLarger {
+    DipPipeline *pipeline;
+    DipTarget target;
+    uint16_t *light16;         // DipPass.light16 of the pass that draws it
+    DipSrgbEncodeTable *codes; // encodes the averaged light
+} DipLarger;
+
 struct DipRenderer {
     DipPool *pool;
     DipIsa isa;
@@ -30,6 +40,7 @@ struct DipRenderer {
     DipPipeline *pipeline;
     uint8_t *rgba8;
     size_t stride_bytes;
+    DipLarger larger;
     DipTexture *mip_colours; // the levels that mip debugging shows, see dip_mip_debug_create
     DipReflectionDef reflection;
     bool plain_surfaces;
@@ -46,6 +57,15 @@ struct DipRenderer {
     DipMaterialSamplers *samplers; // one per material
     DipUnsharedMeshes *unshared;   // one mesh per object with gi=off; NULL with gi=on
 };
+
+// Returns the picture that the renderer's main pass draws, and the pipeline that draws it: those of
+// the larger picture of a render scale, or the frame itself.
+DipTarget dip_renderer_target(const DipRenderer *renderer);
+DipPipeline *dip_renderer_pipeline(const DipRenderer *renderer);
+
+// Creates or frees the larger picture of a render scale. Forgets the scene if its reflection needs
+// another size.
+bool dip_renderer_follow_scale(DipRenderer *renderer, DipError *err);
 
 // Creates the resources for a scene. Does nothing if the scene is the one that was drawn last.
 bool dip_renderer_adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *err);

@@ -494,7 +494,7 @@ static void broken_json_is_refused(void **state) {
         "\"path\"",
         "\"baseline\"",
         "\"combinations\":[\n{\"settings\":\"aa=none,taa=off,aaa=off,"
-        "asd=1,af=none,aaf=off,opt=off,miplod=high-quality,gi=on,"
+        "asd=1,af=none,aaf=off,opt=off,miplod=high-quality,scale=1,gi=on,"
         "mipdebug=off\",\"ms\":0.5"};
     DipCostReport report;
     DipCostReport read;

@@ -22,8 +22,8 @@ static const double af_ms[] = {0.0, 0.4, 0.9, 1.6, 2.6};
 static const double af_flip[] = {0.0, -0.008, -0.012, -0.015, -0.016};
 static const double opt_ms[] = {0.0, -0.3, -0.9};
 static const double opt_flip[] = {0.0, 0.004, 0.02};
-static const double mip_ms[] = {-0.8, -0.5, -0.2, 0.0};
-static const double mip_flip[] = {0.05, 0.03, 0.01, 0.0};
+static const double mip_ms[] = {-0.8, -0.5, -0.2, 0.0, 0.1, 0.3};
+static const double mip_flip[] = {0.05, 0.03, 0.01, 0.0, -0.004, -0.006};
 
 static DipPrices *prices;
 
@@ -61,7 +61,7 @@ static double least_flip(double budget_ms) {
     for (int aa = 0; aa < 5; aa++) {
         for (int af = 0; af < 5; af++) {
             for (int opt = 0; opt < 3; opt++) {
-                for (int mip = 0; mip < 4; mip++) {
+                for (int mip = 0; mip < 6; mip++) {
                     const double ms = BASE_MS + aa_ms[aa] + af_ms[af] + opt_ms[opt] + mip_ms[mip];
                     const double flip =
                         BASE_FLIP + aa_flip[aa] + af_flip[af] + opt_flip[opt] + mip_flip[mip];
@@ -125,7 +125,7 @@ static void steps_that_need_company_are_considered_beside_it(void **state) {
     const DipAdvice advice = advise(&like, 33.0, &candidates);
     assert_true(advice.chosen >= 0);
     const DipQuality *quality = &candidates.list[advice.chosen].quality;
-    assert_int_equal(quality->step[DIP_SETTING_AAA], 1);
+    assert_int_equal(quality->step[DIP_SETTING_AAA], DIP_AAA_ON);
     assert_int_equal(quality->step[DIP_SETTING_AAF], 1);
     free(candidates.list);
     dip_prices_destroy(&prices);

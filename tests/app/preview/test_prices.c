@@ -137,7 +137,7 @@ static void steps_that_need_others_are_priced_beside_them(void **state) {
     (void)state;
     take_report();
     const DipQuality pane = settings("aa=4,asd=2,af=16");
-    DipPrice price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &pane);
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_AAA, DIP_AAA_ON, &pane);
     check_price(&price, 6.0 / 4.0, 4.0);
     assert_false(price.needs_company);
     price = dip_prices_step(prices, DIP_SETTING_ASD, 1, &pane);
@@ -184,7 +184,7 @@ static void steps_without_their_company_say_what_they_need(void **state) {
     check_price(&price, 2.75 / 2.5, 2.5); // Beside 16x, as the report's sweeps are.
     assert_true(price.needs_company);
     assert_string_equal(price.needs, "AF");
-    price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &pane);
+    price = dip_prices_step(prices, DIP_SETTING_AAA, DIP_AAA_ON, &pane);
     assert_string_equal(price.needs, "AA");
     price = dip_prices_step(prices, DIP_SETTING_TAA, 1, &pane);
     assert_string_equal(price.needs, "AA");
@@ -193,7 +193,7 @@ static void steps_without_their_company_say_what_they_need(void **state) {
     price = dip_prices_step(prices, DIP_SETTING_AAF, 0, &pane);
     assert_false(price.needs_company);
     const DipQuality idle = settings("aa=2,aaa=on,asd=2"); // One group: the same as without.
-    price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &idle);
+    price = dip_prices_step(prices, DIP_SETTING_AAA, DIP_AAA_ON, &idle);
     assert_string_equal(price.needs, "smaller groups");
 }
 
@@ -322,7 +322,7 @@ static void pictures_that_are_the_same_have_one_price(void **state) {
     report.same_count = 1;
     take_report();
     const DipQuality quality = settings("aa=2,aaa=on");
-    const DipPrice price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &quality);
+    const DipPrice price = dip_prices_step(prices, DIP_SETTING_AAA, DIP_AAA_ON, &quality);
     assert_int_equal(price.state, DIP_PRICE_MEASURED);
     assert_true(price.ms == 0.0 && price.ms_low == 0.0 && price.ms_high == 0.0);
     assert_true(dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
@@ -433,7 +433,7 @@ static void live_prices_are_differences_of_whole_times(void **state) {
     assert_true(price.ms_low < 1.95 && price.ms_low > 1.6 && price.ms_high > 2.05);
     assert_string_equal(price.path, "");
     assert_false(price.has_flip || dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
-    price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &pane);
+    price = dip_prices_step(prices, DIP_SETTING_AAA, DIP_AAA_ON, &pane);
     check_near(price.ms, 0.02);
     assert_true(price.ms_low < 0.0 && dip_price_trust(&price) == DIP_PRICE_TRUST_ZERO);
     price = dip_prices_step(prices, DIP_SETTING_AF, 3, &pane);

@@ -296,10 +296,10 @@ static void a_time_stays_while_nothing_is_drawn(void **unused) {
 // Presets are chosen by what settings cost and gain, so they wait until that is known.
 static void presets_wait_for_prices(void **unused) {
     (void)unused;
-    click(880, 667); // Quality.
+    click(270, 530); // Quality.
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
     dip_made_live(prices, "aa=none", 6.7, 0.01, -1.0);
-    click(880, 667);
+    click(270, 530);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
 }
 
@@ -361,7 +361,7 @@ static void a_target_holds_everywhere(void **unused) {
     assert_target(&choice, 1000.0 / 60.0, &picture);
     assert_true(dip_preview_preset(&state, DIP_PRESET_BEST, &best));
     assert_int_equal(best.step[DIP_SETTING_AA], 4);
-    click(962, 568); // The pointer stays over the field of the frame rate.
+    click(1011, 571); // The pointer stays over the field of the frame rate.
     type("125");
     assert_target(&choice, 8.0, &picture);
     assert_true(dip_preview_preset(&state, DIP_PRESET_BEST, &best));

@@ -126,6 +126,9 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // Every surface is shaded at several positions of a pixel, and slivers reach only some.
     static const DipImageBounds steady_all = {0.0016, 0.02, 0.0, 0.02};
     static const DipImageBounds huge_narrow_all = {0.0018, 0.01, 0.001, 0.08};
+    // A larger picture has more slivers, whose vertices may be rounded to either step.
+    static const DipImageBounds scaled = {0.0016, 0.01, 0.0002, 0.13};
+    const bool is_scaled = quality->step[DIP_SETTING_SCALE] != 0;
     const bool covers = dip_quality_covers_by_alpha(quality);
     const bool all = dip_quality_groups_shade_all(quality);
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
@@ -156,9 +159,13 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
                : narrow      ? (all ? &huge_narrow_all : &huge_narrow)
                : sharp       ? &huge_sharp_af
                : anisotropic ? &huge_af
+               : is_scaled   ? &scaled
                              : &steady;
     default:
-        return mip_colours && narrow ? &narrow_mips : all ? &steady_all : &steady;
+        return mip_colours && narrow ? &narrow_mips
+               : all                 ? &steady_all
+               : is_scaled           ? &scaled
+                                     : &steady;
     }
 }
 
@@ -238,6 +245,13 @@ static void supersampling_of_all_surfaces_matches_the_reference(void **state) {
     CHECK_ALL(1, "aaa=all", "aa=2,aaa=all", "aa=2,aaa=all,asd=2", "aa=4,aaa=all",
               "aa=4,aaa=all,asd=2", "aa=6,aaa=all,asd=3", "aa=8,aaa=all", "aa=8,aaa=all,asd=4,af=4",
               "aa=4,aaa=all,mipdebug=on", "aa=4,aaa=all,af=16,aaf=on,opt=advanced");
+}
+
+static void render_scales_match_the_reference(void **state) {
+    (void)state;
+    CHECK_ALL(1, "scale=1.25", "scale=1.5", "scale=2", "scale=2,aa=4,af=16,aaf=on",
+              "scale=1.25,aa=4,aaa=on", "scale=1.5,mipdebug=on", "scale=2,miplod=sharper",
+              "scale=1.25,aa=2,aaa=all,opt=advanced");
 }
 
 static void anisotropic_filtering_matches_the_reference(void **state) {
@@ -412,6 +426,7 @@ int main(void) {
         cmocka_unit_test(adaptive_antialiasing_matches_the_reference),
         cmocka_unit_test(alpha_to_coverage_matches_the_reference),
         cmocka_unit_test(supersampling_of_all_surfaces_matches_the_reference),
+        cmocka_unit_test(render_scales_match_the_reference),
         cmocka_unit_test(anisotropic_filtering_matches_the_reference),
         cmocka_unit_test(mip_level_of_detail_matches_the_reference),
         cmocka_unit_test(mip_colours_match_the_reference),

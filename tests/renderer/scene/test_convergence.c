@@ -64,6 +64,7 @@ static const Sweep sweeps[] = {
      {"aa=8,miplod=high-performance", "aa=8,miplod=performance", "aa=8,miplod=quality",
       "aa=8,miplod=high-quality", "aa=8,miplod=sharp", "aa=8,miplod=sharper"}},
     {"miplod", 50.0, 3, {"aa=8,opt=advanced", "aa=8,opt=standard", "aa=8"}},
+    {"aa", 45.0, 4, {"scale=1", "scale=1.25", "scale=1.5", "scale=2"}},
     {"aaa", 45.0, 2, {"aa=2", "aa=2,aaa=on"}},
     {"aaa", 45.0, 4, {"aa=4", "aa=4,aaa=coverage", "aa=4,aaa=on", "aa=4,aaa=all"}},
     {"aaa", 45.0, 3, {"aa=8", "aa=8,aaa=coverage", "aa=8,aaa=all"}},

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_SETTINGS = 64, FEW = 3, FRAMES_PER_SECOND = 30 };
+enum { MAX_SETTINGS = 80, FEW = 3, FRAMES_PER_SECOND = 30 };
 
 typedef struct Options {
     const char *list;
@@ -95,7 +95,10 @@ static void list_settings(Stage *stage) {
                                        "aa=8,aaa=coverage,af=16,aaf=on",
                                        "aa=2,aaa=all",
                                        "aa=4,aaa=all",
-                                       "aa=8,aaa=all,asd=4,af=16,opt=advanced"};
+                                       "aa=8,aaa=all,asd=4,af=16,opt=advanced",
+                                       "scale=2",
+                                       "aa=4,scale=1.25",
+                                       "af=16,miplod=sharp,scale=1.5"};
     const DipSettingInfo *aa = dip_setting_info(DIP_SETTING_AA);
     const DipSettingInfo *af = dip_setting_info(DIP_SETTING_AF);
     for (int a = 0; a < aa->step_count; a++) {

@@ -15,13 +15,14 @@ static void settings_have_their_documented_defaults(void **state) {
     const DipQuality quality = dip_quality_default();
     dip_quality_format(&quality, text, sizeof text);
     assert_string_equal(text, "aa=none,taa=off,aaa=off,asd=1,af=none,aaf=off,opt=off,"
-                              "miplod=high-quality,gi=on,mipdebug=off");
+                              "miplod=high-quality,scale=1,post=off,sharpen=off,gi=on,mipdebug=off");
 }
 
 static void formatting_gives_the_parsed_text_back(void **state) {
     (void)state;
     static const char text[] = "aa=6,taa=on,aaa=on,asd=3,af=16,aaf=on,opt=off,"
-                               "miplod=performance,gi=on,mipdebug=on";
+                               "miplod=performance,scale=1.25,post=smaa,sharpen=low,"
+                               "gi=on,mipdebug=on";
     DipQuality quality;
     char back[256];
     assert_true(dip_quality_parse(text, &quality, NULL));
@@ -39,6 +40,21 @@ static void settings_that_are_left_out_keep_their_defaults(void **state) {
     expected.step[DIP_SETTING_AF] = 2;
     assert_memory_equal(&quality, &expected, sizeof quality);
     assert_true(dip_quality_parse("", &quality, NULL));
+}
+
+// Files of earlier versions lack settings, and steps, that came later.
+static void texts_of_earlier_versions_stay_valid(void **state) {
+    (void)state;
+    static const char text[] = "aa=8,taa=on,aaa=on,asd=2,af=16,aaf=on,opt=advanced,"
+                               "miplod=high-performance,gi=off,mipdebug=off";
+    DipQuality quality;
+    char back[256];
+    assert_true(dip_quality_parse(text, &quality, NULL));
+    assert_int_equal(quality.step[DIP_SETTING_AAA], DIP_AAA_ON);
+    assert_int_equal(quality.step[DIP_SETTING_SCALE], 0);
+    dip_quality_format_changes(&quality, back, sizeof back);
+    assert_string_equal(back, "aa=8,taa=on,aaa=on,asd=2,af=16,aaf=on,opt=advanced,"
+                              "miplod=high-performance,gi=off");
 }
 
 static void bad_settings_are_refused(void **state) {
@@ -254,6 +270,7 @@ int main(void) {
         cmocka_unit_test(labels_fit_where_they_are_shown),
         cmocka_unit_test(formatting_gives_the_parsed_text_back),
         cmocka_unit_test(settings_that_are_left_out_keep_their_defaults),
+        cmocka_unit_test(texts_of_earlier_versions_stay_valid),
         cmocka_unit_test(bad_settings_are_refused),
         cmocka_unit_test(only_pairs_of_aa_and_asd_in_the_table_are_accepted),
         cmocka_unit_test(formatting_returns_the_length_as_snprintf_does),

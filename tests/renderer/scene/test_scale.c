@@ -1,0 +1,369 @@
+// Tests the render scale: the box filter against whole numbers and double precision, the light that
+// the pipeline hands to it, and the sizes that are drawn.
+#include "renderer/base/srgb.h"
+#include "renderer/catalogue/random.h"
+#include "renderer/catalogue/scenes.h"
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/draw/box.h"
+#include "renderer/scene/renderer.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static DipSrgbEncodeTable codes;
+
+// --- the box filter ------------------------------------------------------------------------------
+
+// A random picture in 16-bit light, and the smaller picture that is made of it.
+typedef struct Pictures {
+    DipBoxFilter box;
+    uint16_t *light16;
+    uint8_t *rgba8;
+} Pictures;
+
+static void make_pictures(Pictures *pictures, Random *random, int from_width, int from_height,
+                          int width, int height) {
+    const size_t from = (size_t)from_width * (size_t)from_height * 4;
+    pictures->light16 = malloc(from * sizeof *pictures->light16);
+    pictures->rgba8 = calloc((size_t)width * (size_t)height, 4);
+    assert_non_null(pictures->light16);
+    assert_non_null(pictures->rgba8);
+    for (size_t i = 0; i < from; i++) {
+        pictures->light16[i] = (uint16_t)random_u64(random);
+    }
+    pictures->box = (DipBoxFilter){.light16 = pictures->light16,
+                                   .stride = (size_t)from_width * 4,
+                                   .from_width = from_width,
+                                   .from_height = from_height,
+                                   .rgba8 = pictures->rgba8,
+                                   .stride_bytes = (size_t)width * 4,
+                                   .width = width,
+                                   .height = height,
+                                   .srgb_code = codes.code};
+}
+
+static void free_pictures(Pictures *pictures) {
+    free(pictures->light16);
+    free(pictures->rgba8);
+}
+
+// Returns the mean of a channel over the part of the larger picture that belongs to a pixel, in
+// double precision.
+static double mean_at(const DipBoxFilter *box, int x, int y, int c) {
+    const double across = (double)box->from_width / box->width;
+    const double down = (double)box->from_height / box->height;
+    double sum = 0.0;
+    for (int j = 0; j < box->from_height; j++) {
+        const double high = fmin(j + 1.0, (y + 1) * down) - fmax(j, y * down);
+        for (int i = 0; high > 0.0 && i < box->from_width; i++) {
+            const double wide = fmin(i + 1.0, (x + 1) * across) - fmax(i, x * across);
+            if (wide > 0.0) {
+                sum += wide * high * box->light16[(size_t)j * box->stride + (size_t)(4 * i + c)];
+            }
+        }
+    }
+    return sum / (across * down);
+}
+
+static void filters_match_double_precision_at_every_ratio(void **state) {
+    (void)state;
+    static const int sizes[][4] = {{80, 60, 64, 48},    {5, 5, 4, 4},      {81, 61, 65, 49},
+                                   {96, 72, 64, 48},    {3, 2, 2, 1},      {128, 96, 64, 48},
+                                   {191, 143, 127, 95}, {100, 75, 67, 50}, {1, 1, 1, 1},
+                                   {2, 3, 1, 2},        {7, 90, 7, 72},    {130, 9, 65, 8}};
+    Random random = {1025};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        Pictures pictures;
+        make_pictures(&pictures, &random, sizes[s][0], sizes[s][1], sizes[s][2], sizes[s][3]);
+        dip_box_filter(&pictures.box, NULL);
+        for (int i = 0; i < sizes[s][2] * sizes[s][3]; i++) {
+            for (int c = 0; c < 3; c++) {
+                const double mean = mean_at(&pictures.box, i % sizes[s][2], i / sizes[s][2], c);
+                const int code = pictures.rgba8[4 * i + c];
+                // The mean is rounded once; a sum of doubles may lie on the other side of a half.
+                assert_true(code == codes.code[(int)floor(mean + 0.5 - 1e-6)] ||
+                            code == codes.code[(int)floor(mean + 0.5 + 1e-6)]);
+            }
+            assert_int_equal(pictures.rgba8[4 * i + 3], 255);
+        }
+        free_pictures(&pictures);
+    }
+}
+
+static void twice_the_size_is_the_rounded_mean_of_four_whole_numbers(void **state) {
+    (void)state;
+    enum { WIDTH = 131, HEIGHT = 47 };
+    Random random = {4};
+    Pictures pictures;
+    make_pictures(&pictures, &random, 2 * WIDTH, 2 * HEIGHT, WIDTH, HEIGHT);
+    DipPool *pool = dip_pool_create(3, NULL);
+    dip_box_filter(&pictures.box, pool);
+    dip_pool_destroy(&pool);
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            for (int c = 0; c < 3; c++) {
+                uint32_t sum = 2;
+                for (int k = 0; k < 4; k++) {
+                    sum += pictures.light16[4 * ((2 * y + k / 2) * 2 * WIDTH + 2 * x + k % 2) + c];
+                }
+                assert_int_equal(pictures.rgba8[4 * (y * WIDTH + x) + c], codes.code[sum >> 2]);
+            }
+        }
+    }
+    free_pictures(&pictures);
+}
+
+static void a_single_colour_stays_exact(void **state) {
+    (void)state;
+    Random random = {7};
+    for (int i = 0; i < 300; i++) {
+        const int width = random_int(&random, 1, 70), height = random_int(&random, 1, 20);
+        const int from_width = random_int(&random, width, 2 * width);
+        const int from_height = random_int(&random, height, 2 * height);
+        const uint16_t light = (uint16_t)random_u64(&random);
+        Pictures pictures;
+        make_pictures(&pictures, &random, from_width, from_height, width, height);
+        for (int k = 0; k < 4 * from_width * from_height; k++) {
+            pictures.light16[k] = light;
+        }
+        dip_box_filter(&pictures.box, NULL);
+        for (int k = 0; k < width * height; k++) {
+            assert_int_equal(pictures.rgba8[4 * k], codes.code[light]);
+        }
+        free_pictures(&pictures);
+    }
+}
+
+// --- the light of the larger picture -------------------------------------------------------------
+
+static void shade(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = batch->varying[0][i];
+        batch->colour[1][i] = 0.5f;
+        batch->colour[2][i] = batch->varying[1][i];
+    }
+}
+
+static void place(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        for (int k = 0; k < 2; k++) {
+            batch->clip[k][i] = batch->in[k][i];
+            batch->varying[k][i] = 0.5f + 0.5f * batch->in[k][i];
+        }
+        batch->clip[2][i] = 0.5f;
+        batch->clip[3][i] = 1.0f;
+    }
+}
+
+// The stored light is the light that is encoded: it has the pixel's code, and is as precise as the
+// mean of its samples, which a readback knows.
+static void stored_light_is_the_mean_of_the_samples(void **state) {
+    (void)state;
+    enum { WIDTH = 150, HEIGHT = 71 };
+    static uint8_t picture[HEIGHT][WIDTH][4];
+    static uint16_t light16[HEIGHT][WIDTH][4];
+    static const float vertices[6][3] = {{-0.9f, -0.8f, 0}, {0.7f, -0.3f, 0}, {-0.1f, 0.9f, 0},
+                                         {0.2f, 0.1f, 0},   {2.0f, 0.3f, 0},  {0.6f, 3.0f, 0}};
+    static const uint32_t indices[6] = {0, 1, 2, 3, 4, 5};
+    const DipTargetRegion all = {0, 0, WIDTH, HEIGHT};
+    DipSampleValue *samples = calloc(dip_sample_room(&all), sizeof *samples);
+    DipMesh *mesh =
+        dip_mesh_create(&(DipMeshData){"triangles", &vertices[0][0], 3, 6, indices, 6}, NULL);
+    assert_non_null(samples);
+    for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+        DipPipeline *pipeline = dip_isa_available((DipIsa)isa)
+                                    ? dip_pipeline_create(NULL, (DipIsa)isa, WIDTH, HEIGHT, NULL)
+                                    : NULL;
+        static const int counts[] = {1, 2, 4, 6, 8};
+        for (int s = 0; pipeline && s < 5; s++) {
+            const DipSampleReadback readback = {all, samples};
+            const DipDraw draw = {
+                .mesh = mesh, .vertex_shader = place, .fragment_shader = shade, .varying_count = 2};
+            const DipPass pass = {.draws = &draw,
+                                  .draw_count = 1,
+                                  .sample_count = counts[s],
+                                  .clear_lin = {0.1f, 0.7f, 1.0f},
+                                  .target = {.rgba8 = &picture[0][0][0],
+                                             .stride_bytes = WIDTH * 4,
+                                             .width = WIDTH,
+                                             .height = HEIGHT},
+                                  .light16 = &light16[0][0][0],
+                                  .readback = &readback};
+            memset(light16, 1, sizeof light16);
+            DipError err = {0};
+            if (!dip_pipeline_draw(pipeline, &pass, NULL, NULL, &err)) {
+                fail_msg("%s: %s", err.key, err.message);
+            }
+            for (int i = 0; i < WIDTH * HEIGHT; i++) {
+                const int x = i % WIDTH, y = i / WIDTH;
+                for (int c = 0; c < 3; c++) {
+                    int sum = counts[s] / 2;
+                    for (int k = 0; k < counts[s]; k++) {
+                        sum += samples[dip_sample_index(&all, x, y) + (size_t)k].linear16[c];
+                    }
+                    assert_int_equal(light16[y][x][c], sum / counts[s]);
+                    assert_int_equal(picture[y][x][c], codes.code[light16[y][x][c]]);
+                }
+                assert_int_equal(light16[y][x][3], 65535);
+            }
+        }
+        dip_pipeline_destroy(&pipeline);
+    }
+    dip_mesh_destroy(&mesh);
+    free(samples);
+}
+
+// --- frames --------------------------------------------------------------------------------------
+
+static void sizes_are_rounded_to_the_nearest_whole_number(void **state) {
+    (void)state;
+    static const char *const steps[] = {"1", "1.25", "1.5", "2"};
+    for (int s = 0; s < 4; s++) {
+        char text[32];
+        DipQuality quality;
+        snprintf(text, sizeof text, "scale=%s", steps[s]);
+        assert_true(dip_quality_parse(text, &quality, NULL));
+        for (int size = 1; size <= DIP_MAX_FRAME_SIZE; size++) {
+            assert_int_equal(dip_quality_drawn_size(&quality, size),
+                             floor(strtod(steps[s], NULL) * size + 0.5));
+        }
+    }
+}
+
+typedef struct Stage {
+    DipTestScene scene;
+    DipPool *pool;
+    DipScene *made;
+    DipRenderer *renderer;
+} Stage;
+
+static void open_stage(Stage *stage, DipTestSceneKind kind, int width, int height) {
+    dip_test_scene_make(&stage->scene, kind);
+    stage->pool = dip_pool_create(1, NULL);
+    stage->made = dip_scene_create(&stage->scene.def, NULL, NULL);
+    DipRendererDef def = dip_renderer_default_def();
+    def.pool = stage->pool;
+    def.width = width;
+    def.height = height;
+    def.reflection = stage->scene.reflection;
+    stage->renderer = dip_renderer_create(&def, NULL);
+    assert_non_null(stage->made);
+    assert_non_null(stage->renderer);
+}
+
+static void close_stage(Stage *stage) {
+    dip_renderer_destroy(&stage->renderer);
+    dip_scene_destroy(&stage->made);
+    dip_pool_destroy(&stage->pool);
+    dip_test_scene_free(&stage->scene);
+}
+
+static DipFrame draw(Stage *stage, const char *settings) {
+    DipQuality quality;
+    DipFrame frame;
+    DipError err = {0};
+    assert_true(dip_quality_parse(settings, &quality, &err));
+    assert_true(dip_renderer_set_quality(stage->renderer, &quality, &err));
+    assert_true(
+        dip_renderer_draw(stage->renderer, stage->made, &stage->scene.pose, 0, &frame, &err));
+    return frame;
+}
+
+// The larger picture, with its reflection, has the work of a frame of its size.
+static void the_work_is_that_of_a_larger_frame(void **state) {
+    (void)state;
+    static const struct {
+        const char *settings;
+        int width, height;
+    } rows[] = {{"scale=2", 320, 240}, {"scale=1.5", 240, 180}, {"scale=1.25,aa=4", 200, 150}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Stage stage;
+        open_stage(&stage, DIP_TEST_SCENE_water, 160, 120);
+        const DipFrame small = draw(&stage, rows[i].settings);
+        assert_int_equal(small.width, 160);
+        assert_int_equal(small.height, 120);
+        Stage larger;
+        open_stage(&larger, DIP_TEST_SCENE_water, rows[i].width, rows[i].height);
+        DipReflectionDef reflection = larger.scene.reflection;
+        DipQuality quality;
+        assert_true(dip_quality_parse(rows[i].settings, &quality, NULL));
+        reflection.width = dip_quality_drawn_size(&quality, reflection.width);
+        reflection.height = dip_quality_drawn_size(&quality, reflection.height);
+        assert_true(dip_renderer_set_reflection(larger.renderer, &reflection, NULL));
+        const DipFrame large = draw(&larger, quality.step[DIP_SETTING_AA] ? "aa=4" : "");
+        assert_true(small.effects.reflection.run);
+        assert_memory_equal(&small.counters, &large.counters, sizeof large.counters);
+        close_stage(&larger);
+        close_stage(&stage);
+    }
+}
+
+// Turning a scale on and off leaves the picture and the recording of tiles as they were.
+static void a_scale_that_is_turned_off_leaves_nothing(void **state) {
+    (void)state;
+    Stage stage;
+    char hashes[3][33];
+    open_stage(&stage, DIP_TEST_SCENE_water, 160, 120);
+    assert_true(dip_renderer_record_tiles(stage.renderer, true, NULL));
+    DipFrame frame = draw(&stage, "aa=2");
+    dip_frame_hash(&frame, hashes[0]);
+    assert_int_equal(frame.tiles.across, 3);
+    frame = draw(&stage, "aa=2,scale=1.5");
+    dip_frame_hash(&frame, hashes[1]);
+    assert_null(frame.tiles.records);
+    frame = draw(&stage, "aa=2");
+    dip_frame_hash(&frame, hashes[2]);
+    assert_int_equal(frame.tiles.across, 3);
+    assert_string_equal(hashes[0], hashes[2]);
+    assert_string_not_equal(hashes[0], hashes[1]);
+    DipSampleValue samples[DIP_READBACK_STRIDE];
+    const DipSampleReadback readback = {{0, 0, 1, 1}, samples};
+    DipError err = {0};
+    DipQuality quality;
+    assert_true(dip_quality_parse("scale=2", &quality, NULL));
+    assert_true(dip_renderer_set_quality(stage.renderer, &quality, NULL));
+    assert_false(dip_renderer_read_samples(stage.renderer, stage.made, &stage.scene.pose, 0,
+                                           &readback, &err));
+    assert_int_equal(err.code, DIP_ERROR_UNSUPPORTED);
+    assert_string_equal(err.key, "scale");
+    close_stage(&stage);
+}
+
+static void pictures_that_would_be_too_large_are_refused(void **state) {
+    (void)state;
+    Stage stage;
+    DipQuality quality;
+    DipFrame frame;
+    DipError err = {0};
+    open_stage(&stage, DIP_TEST_SCENE_vertex_colours, DIP_MAX_FRAME_SIZE / 2 + 1, 1);
+    assert_true(dip_quality_parse("scale=2", &quality, NULL));
+    assert_true(dip_renderer_set_quality(stage.renderer, &quality, NULL));
+    assert_false(dip_renderer_draw(stage.renderer, stage.made, &stage.scene.pose, 0, &frame, &err));
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+    assert_string_equal(err.key, "scale");
+    draw(&stage, "scale=1.25");
+    close_stage(&stage);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(filters_match_double_precision_at_every_ratio),
+        cmocka_unit_test(twice_the_size_is_the_rounded_mean_of_four_whole_numbers),
+        cmocka_unit_test(a_single_colour_stays_exact),
+        cmocka_unit_test(stored_light_is_the_mean_of_the_samples),
+        cmocka_unit_test(sizes_are_rounded_to_the_nearest_whole_number),
+        cmocka_unit_test(the_work_is_that_of_a_larger_frame),
+        cmocka_unit_test(a_scale_that_is_turned_off_leaves_nothing),
+        cmocka_unit_test(pictures_that_would_be_too_large_are_refused),
+    };
+    dip_srgb_encode_table(&codes);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
