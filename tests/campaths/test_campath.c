@@ -385,6 +385,8 @@ static void errors_name_files_that_cannot_be_read_or_written(void **context) {
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &unlimited), 0);
     assert_false(saved);
     assert_int_equal(err.code, DIP_ERROR_IO);
+    assert_string_equal(err.file, "full.pth");
+    assert_int_equal(err.line, 0); // No line of the file is at fault.
     assert_int_equal(access("full.pth", F_OK), -1);
     FILE *stream = fopen("huge.pth", "wb"); // sparse: one byte over the limit
     assert_int_equal(fseek(stream, (long)DIP_CAMPATH_MAX_FILE_BYTES, SEEK_SET), 0);

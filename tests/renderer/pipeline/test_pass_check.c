@@ -302,7 +302,7 @@ static void passes_at_once_share_no_depths_that_change(void **state) {
         depths[i] = dip_depth_create(WIDTH, HEIGHT, 4, NULL);
         passes[i] = good_pass(stage, i);
         passes[i].attachments.depth = depths[i];
-        works[i] = (DipPassWork){stage->pipelines[i], &passes[i], NULL, NULL};
+        works[i] = (DipPassWork){.pipeline = stage->pipelines[i], .pass = &passes[i]};
     }
     assert_true(dip_pipeline_draw_passes(works, 2, false, NULL));
     passes[0].attachments.depth = depths[1];
