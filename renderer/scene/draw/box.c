@@ -74,26 +74,48 @@ static void sum_rows(const DipBoxFilter *box, Axis axis, int y, int x0, int x1,
     }
 }
 
+// The pixels of a row of the larger picture that a pixel of the smaller one overlaps.
+typedef struct Taps {
+    int first;
+    int count;
+    double overlap[DIP_BOX_MAX_RATIO + 1];
+} Taps;
+
+static void find_taps(Axis axis, int x0, int x1, Taps taps[CHUNK]) {
+    for (int x = x0; x < x1; x++) {
+        Taps *own = &taps[x - x0];
+        own->first = first_of(axis, x);
+        own->count = end_of(axis, x) - own->first;
+        for (int i = 0; i < own->count; i++) {
+            own->overlap[i] = overlap_of(axis, x, own->first + i);
+        }
+    }
+}
+
 // Computes the pixels x0 to x1 - 1 of row y. All sums are whole numbers below 2^43, which doubles
-// hold exactly. A quotient cannot be rounded up to the next whole number: it is less than 2^16 and,
-// unless it is whole, at least 2^-27 away from it.
-static void average_any(const DipBoxFilter *box, Axis across, Axis down, int y, int x0, int x1) {
+// hold exactly. A quotient, with the half that rounds it, is a whole number below 2^16 or at least
+// 2^-27 away from one. The product with the inverse is off by at most 2^-35, so 2^-29 more takes
+// whole quotients to their number and no other quotient to the next.
+static void average_any(const DipBoxFilter *box, const Taps taps[CHUNK], Axis across, Axis down,
+                        int y, int x0, int x1) {
     uint32_t sums[CHUNK_FROM * CHANNELS];
-    const int first = first_of(across, x0);
+    const int first = taps[0].first;
     const double whole = (double)across.from * down.from;
+    const double inverse = 1.0 / whole;
     uint8_t *pixel = box->rgba8 + (size_t)y * box->stride_bytes + (size_t)x0 * 4;
     sum_rows(box, down, y, first, end_of(across, x1 - 1), sums);
     for (int x = x0; x < x1; x++, pixel += 4) {
+        const Taps *own = &taps[x - x0];
         double mean[3] = {0.0, 0.0, 0.0};
         uint32_t light16[3];
-        for (int i = first_of(across, x); i < end_of(across, x); i++) {
-            const double weight = overlap_of(across, x, i);
+        for (int i = 0; i < own->count; i++) {
+            const uint32_t *sum = sums + (own->first - first + i) * CHANNELS;
             for (int c = 0; c < 3; c++) {
-                mean[c] += weight * (double)sums[(i - first) * CHANNELS + c];
+                mean[c] += own->overlap[i] * (double)sum[c];
             }
         }
         for (int c = 0; c < 3; c++) {
-            light16[c] = (uint32_t)((mean[c] + 0.5 * whole) / whole);
+            light16[c] = (uint32_t)((mean[c] + 0.5 * whole) * inverse + 0x1p-29);
         }
         store(box, pixel, light16);
     }
@@ -126,13 +148,15 @@ static void average_rows(void *context, int job, int worker) {
     const Axis down = axis_of(box->from_height, box->height);
     const bool doubled = across.from == 2 && across.to == 1 && down.from == 2 && down.to == 1;
     const int end = (job + 1) * ROWS < box->height ? (job + 1) * ROWS : box->height;
-    for (int y = job * ROWS; y < end; y++) {
-        for (int x = 0; x < box->width; x += CHUNK) {
-            const int x1 = x + CHUNK < box->width ? x + CHUNK : box->width;
+    for (int x = 0; x < box->width; x += CHUNK) {
+        const int x1 = x + CHUNK < box->width ? x + CHUNK : box->width;
+        Taps taps[CHUNK];
+        find_taps(across, x, x1, taps);
+        for (int y = job * ROWS; y < end; y++) {
             if (doubled) {
                 average_four(box, y, x, x1);
             } else {
-                average_any(box, across, down, y, x, x1);
+                average_any(box, taps, across, down, y, x, x1);
             }
         }
     }

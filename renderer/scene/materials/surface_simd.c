@@ -53,14 +53,35 @@ void DIP_KERNEL(dip_kernel_surface_clip)(DipFragmentBatch *batch) {
     }
 }
 
+// Does what dip_alpha_to_coverage does, for a vector of fragments.
+VEC_INLINE Vi alpha_to_coverage(Vf alpha, Vf slope, float cutoff, int sample_count) {
+    const Vf over = alpha - cutoff;
+    const Vf least = vf_max(vf_min(slope, vf_splat(1024.0f)), vf_splat(DIP_LEAST_ALPHA_SLOPE));
+    const Vi width = vi_from_float(least * 65536.0f);
+    const Vi below = vi_select(vf_lt(over, vf_splat(0.0f)), vi_splat(1), vi_splat(0));
+    const Vi distance = vi_from_float(over * 65536.0f) - below;
+    const Vi share = (distance + distance + width) * sample_count + width;
+    Vi covered = vi_splat(0);
+    Vi needed = width + width;
+    for (int n = 1; n <= sample_count; n++) {
+        covered += vi_select(vi_lt(share, needed), vi_splat(0), vi_splat(1));
+        needed += width + width;
+    }
+    return covered;
+}
+
 void DIP_KERNEL(dip_kernel_surface_cover)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float alpha[DIP_FRAGMENT_BATCH];
     float slope[DIP_FRAGMENT_BATCH];
+    int32_t covered[DIP_FRAGMENT_BATCH];
     batch->sample_alpha_slope(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
                               uniforms->colour_varying, alpha, slope);
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        vi_store(covered + i, alpha_to_coverage(vf_load(alpha + i), vf_load(slope + i),
+                                                uniforms->alpha_cutoff, uniforms->sample_count));
+    }
     for (int i = 0; i < batch->count; i++) {
-        batch->keep[i] = (uint8_t)dip_alpha_to_coverage(alpha[i], slope[i], uniforms->alpha_cutoff,
-                                                        uniforms->sample_count);
+        batch->keep[i] = (uint8_t)covered[i];
     }
 }

@@ -98,6 +98,72 @@ static void filters_match_double_precision_at_every_ratio(void **state) {
     }
 }
 
+// Returns the exact mean over the part of the larger picture that belongs to a pixel, rounded to
+// the nearest whole number, halves up. Lengths are in units of 1 / (from * to).
+static uint32_t whole_mean(const DipBoxFilter *box, int x, int y, int c) {
+    const int64_t from[2] = {box->from_width, box->from_height};
+    const int64_t to[2] = {box->width, box->height}, at[2] = {x, y};
+    uint64_t sum = 0;
+    int64_t begin[2], end[2];
+    for (int axis = 0; axis < 2; axis++) {
+        begin[axis] = at[axis] * from[axis];
+        end[axis] = begin[axis] + from[axis];
+    }
+    for (int64_t j = begin[1] / to[1]; j * to[1] < end[1]; j++) {
+        for (int64_t i = begin[0] / to[0]; i * to[0] < end[0]; i++) {
+            const int64_t pixel[2] = {i, j};
+            int64_t overlap[2];
+            for (int axis = 0; axis < 2; axis++) {
+                const int64_t first = pixel[axis] * to[axis], last = first + to[axis];
+                overlap[axis] = (last < end[axis] ? last : end[axis]) -
+                                (first > begin[axis] ? first : begin[axis]);
+            }
+            sum += (uint64_t)(overlap[0] * overlap[1]) *
+                   box->light16[(size_t)j * box->stride + (size_t)(4 * i + c)];
+        }
+    }
+    const uint64_t whole = (uint64_t)(from[0] * from[1]);
+    return (uint32_t)((2 * sum + whole) / (2 * whole));
+}
+
+// Tables of codes that are the light's two bytes show all 16 bits of the filter's result.
+static void every_ratio_is_exact_in_whole_numbers(void **state) {
+    (void)state;
+    static uint8_t bytes[2][65536];
+    static uint8_t lower[4 * 8192];
+    Random random = {31};
+    for (int i = 0; i < 65536; i++) {
+        bytes[0][i] = (uint8_t)i;
+        bytes[1][i] = (uint8_t)(i >> 8);
+    }
+    for (int i = 0; i < 400; i++) {
+        const bool wide = i % 8 == 0; // The greatest sums have the greatest sizes.
+        const int width = random_int(&random, wide ? 4000 : 1, wide ? 4096 : 90);
+        const int height = wide ? 1 : random_int(&random, 1, 40);
+        Pictures pictures;
+        make_pictures(&pictures, &random, random_int(&random, width, 2 * width),
+                      random_int(&random, height, 2 * height), width, height);
+        if (i % 3 == 0) { // Few different lights give means at halves.
+            const size_t count = pictures.box.stride * (size_t)pictures.box.from_height;
+            for (size_t k = 0; k < count; k++) {
+                pictures.light16[k] = (uint16_t)(65535 - pictures.light16[k] % 2);
+            }
+        }
+        pictures.box.srgb_code = bytes[0];
+        dip_box_filter(&pictures.box, NULL);
+        memcpy(lower, pictures.rgba8, (size_t)width * (size_t)height * 4);
+        pictures.box.srgb_code = bytes[1];
+        dip_box_filter(&pictures.box, NULL);
+        for (int p = 0; p < width * height; p++) {
+            for (int c = 0; c < 3; c++) {
+                assert_int_equal(pictures.rgba8[4 * p + c] << 8 | lower[4 * p + c],
+                                 whole_mean(&pictures.box, p % width, p / width, c));
+            }
+        }
+        free_pictures(&pictures);
+    }
+}
+
 static void twice_the_size_is_the_rounded_mean_of_four_whole_numbers(void **state) {
     (void)state;
     enum { WIDTH = 131, HEIGHT = 47 };
@@ -356,6 +422,7 @@ static void pictures_that_would_be_too_large_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(filters_match_double_precision_at_every_ratio),
+        cmocka_unit_test(every_ratio_is_exact_in_whole_numbers),
         cmocka_unit_test(twice_the_size_is_the_rounded_mean_of_four_whole_numbers),
         cmocka_unit_test(a_single_colour_stays_exact),
         cmocka_unit_test(stored_light_is_the_mean_of_the_samples),
