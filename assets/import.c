@@ -41,7 +41,7 @@ static bool check_extension(const char *path, DipError *err) {
                dot ? "\"" : "", dot ? dot : "a name without an extension", dot ? "\"" : "");
 }
 
-static bool check_file(const char *path, DipError *err) {
+bool dip_model_check_file(const char *path, DipError *err) {
     struct stat info = {0};
     // To open a named pipe would wait until another program writes to it.
     const bool is_pipe = stat(path, &info) == 0 && S_ISFIFO(info.st_mode);
@@ -302,7 +302,7 @@ static void *import_thread(void *context) {
 }
 
 bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err) {
-    if (!check_file(file->path, err) || !dip_model_precheck(model, file->path, err)) {
+    if (!dip_model_check_file(file->path, err) || !dip_model_precheck(file->path, err)) {
         return false;
     }
     ImportTask task = {.model = model, .file = file, .err = err};

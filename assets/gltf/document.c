@@ -1,5 +1,5 @@
 // Reads the JSON and the buffers of glTF files, and checks every index and offset in them.
-#include "assets/animation/gltf_document.h"
+#include "assets/gltf/document.h"
 
 #include "assets/model_parts.h"
 #include "renderer/base/file.h"
@@ -14,7 +14,8 @@
 #include <string.h>
 #include <strings.h>
 
-static const size_t max_file_bytes = (size_t)512 << 20;
+static const size_t max_file_bytes = (size_t)1 << 30;
+static const size_t max_made_bytes = (size_t)1 << 30;
 static const char base64_mark[] = ";base64,";
 
 enum {
@@ -23,7 +24,8 @@ enum {
     GLB_CHUNK_BINARY = 0x004e4942,
     GLB_HEADER_BYTES = 12,
     CHUNK_HEADER_BYTES = 8,
-    MAX_INTEGER = 1 << 30
+    MAX_INTEGER = 1 << 30,
+    MAX_JSON_DEPTH = 512
 };
 
 static const char *const table_names[DIP_GLTF_TABLE_COUNT] = {
@@ -78,6 +80,29 @@ static bool split_glb(DipGltf *gltf, const char **text, size_t *length) {
     return true;
 }
 
+// Refuses JSON that nests so deep that the parser, which calls itself, would need much stack.
+// *is_open becomes true if the text ends within an object, an array or a string.
+static bool check_depth(const DipGltf *gltf, const char *text, size_t length, bool *is_open) {
+    int depth = 0;
+    int deepest = 0;
+    bool in_string = false;
+    for (size_t i = 0; i < length; ++i) {
+        const char c = text[i];
+        if (in_string) {
+            i += c == '\\';
+            in_string = c != '"';
+            continue;
+        }
+        in_string = c == '"';
+        depth += (c == '{' || c == '[') - (c == '}' || c == ']');
+        deepest = depth > deepest ? depth : deepest;
+    }
+    *is_open = depth > 0 || in_string;
+    return deepest <= MAX_JSON_DEPTH ||
+           dip_gltf_refuse(gltf, DIP_ERROR_RANGE, NULL, "JSON is nested %d deep, accepted %d",
+                           deepest, MAX_JSON_DEPTH);
+}
+
 static bool parse_json(DipGltf *gltf) {
     const char *text = (const char *)gltf->file;
     const char *end = NULL;
@@ -86,17 +111,27 @@ static bool parse_json(DipGltf *gltf) {
         !split_glb(gltf, &text, &length)) {
         return false;
     }
+    bool is_open;
+    if (!check_depth(gltf, text, length, &is_open)) {
+        return false;
+    }
     errno = 0; // cJSON does not say when memory runs out, but malloc does.
     gltf->json = cJSON_ParseWithLengthOpts(text, length, &end, false);
     if (!gltf->json && errno == ENOMEM) {
         return out_of_memory(gltf);
     }
-    if (!cJSON_IsObject(gltf->json)) {
+    if (!gltf->json && is_open) {
+        return dip_gltf_refuse(gltf, DIP_ERROR_TRUNCATED, NULL,
+                               "the model file ends too early: its JSON has no end");
+    }
+    if (!gltf->json) {
         return dip_gltf_refuse(gltf, DIP_ERROR_FORMAT, NULL,
                                "the model cannot be read: the JSON is malformed at byte %zu",
                                end ? (size_t)(end - text) : 0);
     }
-    return true;
+    return cJSON_IsObject(gltf->json) ||
+           dip_gltf_refuse(gltf, DIP_ERROR_FORMAT, NULL,
+                           "the model cannot be read: its JSON is not an object");
 }
 
 bool dip_gltf_list(const DipGltf *gltf, const cJSON *object, const char *name, DipGltfItems *list) {
@@ -127,16 +162,32 @@ static bool fill_tables(DipGltf *gltf) {
             return false;
         }
     }
+    const size_t views = (size_t)gltf->tables[DIP_GLTF_bufferViews].count;
+    const size_t accessors = (size_t)gltf->tables[DIP_GLTF_accessors].count;
+    const size_t images = (size_t)gltf->tables[DIP_GLTF_images].count;
     gltf->buffers = calloc((size_t)gltf->tables[DIP_GLTF_buffers].count + 1, sizeof *gltf->buffers);
-    return gltf->buffers || out_of_memory(gltf);
+    gltf->unpacked = calloc(views + 1, sizeof *gltf->unpacked);
+    gltf->dense = calloc(accessors + 1, sizeof *gltf->dense);
+    gltf->data = calloc(images + 1, sizeof *gltf->data);
+    return (gltf->buffers && gltf->unpacked && gltf->dense && gltf->data) || out_of_memory(gltf);
+}
+
+static bool has_version(const DipGltf *gltf, const char *begin) {
+    const cJSON *asset = cJSON_GetObjectItemCaseSensitive(gltf->json, "asset");
+    const cJSON *version = cJSON_GetObjectItemCaseSensitive(asset, "version");
+    return cJSON_IsString(version) && strncmp(version->valuestring, begin, strlen(begin)) == 0;
+}
+
+bool dip_gltf_is_version_1(const DipGltf *gltf) {
+    return has_version(gltf, "1.") ||
+           (gltf->file_bytes >= GLB_HEADER_BYTES && dip_gltf_u32(gltf->file) == GLB_MAGIC &&
+            dip_gltf_u32(gltf->file + 4) == 1);
 }
 
 static bool check_version(const DipGltf *gltf) {
-    const cJSON *asset = cJSON_GetObjectItemCaseSensitive(gltf->json, "asset");
-    const cJSON *version = cJSON_GetObjectItemCaseSensitive(asset, "version");
-    const bool ok = cJSON_IsString(version) && strncmp(version->valuestring, "2.", 2) == 0;
-    return ok || dip_gltf_refuse(gltf, DIP_ERROR_FORMAT, "asset",
-                                 "the file is not glTF of version 2, accepted 2.0");
+    return has_version(gltf, "2.") ||
+           dip_gltf_refuse(gltf, DIP_ERROR_FORMAT, "asset",
+                           "the file is not glTF of version 2, accepted 2.0");
 }
 
 bool dip_gltf_open(DipGltf *gltf, const char *path, DipError *err) {
@@ -151,10 +202,22 @@ void dip_gltf_close(DipGltf *gltf) {
             free(gltf->buffers[i].bytes);
         }
     }
+    for (int i = 0; gltf->unpacked && i < gltf->tables[DIP_GLTF_bufferViews].count; ++i) {
+        free(gltf->unpacked[i]);
+    }
+    for (int i = 0; gltf->dense && i < gltf->tables[DIP_GLTF_accessors].count; ++i) {
+        free(gltf->dense[i]);
+    }
+    for (int i = 0; gltf->data && i < gltf->tables[DIP_GLTF_images].count; ++i) {
+        free(gltf->data[i].bytes);
+    }
     for (int t = 0; t < DIP_GLTF_TABLE_COUNT; ++t) {
         dip_gltf_free_list(&gltf->tables[t]);
     }
     free(gltf->buffers);
+    free(gltf->unpacked);
+    free(gltf->dense);
+    free(gltf->data);
     cJSON_Delete(gltf->json);
     free(gltf->file);
     *gltf = (DipGltf){0};
@@ -215,6 +278,33 @@ bool dip_gltf_numbers(const DipGltf *gltf, const cJSON *object, const char *name
                                     "this is not an array of %d finite numbers", count);
 }
 
+double dip_gltf_number_of(const cJSON *object, const char *name, double otherwise) {
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
+    return cJSON_IsNumber(item) && isfinite(item->valuedouble) ? item->valuedouble : otherwise;
+}
+
+const cJSON *dip_gltf_extension(const cJSON *object, const char *name) {
+    const cJSON *extensions = cJSON_GetObjectItemCaseSensitive(object, "extensions");
+    const cJSON *extension = cJSON_GetObjectItemCaseSensitive(extensions, name);
+    return cJSON_IsObject(extension) ? extension : NULL;
+}
+
+void *dip_gltf_make(DipGltf *gltf, size_t size_bytes) {
+    if (size_bytes > max_made_bytes - gltf->made_bytes) {
+        dip_gltf_refuse(gltf, DIP_ERROR_OVERSIZED, NULL,
+                        "the content of the model is larger than is accepted: %zu MiB unpacked",
+                        max_made_bytes >> 20);
+        return NULL;
+    }
+    void *block = calloc(1, size_bytes + 1);
+    if (!block) {
+        out_of_memory(gltf);
+        return NULL;
+    }
+    gltf->made_bytes += size_bytes;
+    return block;
+}
+
 // --- buffers -------------------------------------------------------------------------------------
 
 static int base64_digit(char c) {
@@ -223,7 +313,9 @@ static int base64_digit(char c) {
     return at ? (int)(at - digits) : -1;
 }
 
-uint8_t *dip_gltf_decode_data(const DipGltf *gltf, const char *uri, size_t *size_bytes) {
+// Decodes a "data:" address. Returns NULL and fills *err if it is malformed or memory runs out. The
+// caller frees the bytes.
+static uint8_t *decode_data(const DipGltf *gltf, const char *uri, size_t *size_bytes) {
     const char *mark = strstr(uri, base64_mark);
     const char *text = mark ? mark + strlen(base64_mark) : "";
     size_t length = strlen(text);
@@ -280,7 +372,7 @@ static bool load_buffer(DipGltf *gltf, const cJSON *json, int index, DipGltfBuff
     if (strncmp(uri->valuestring, "data:", 5) != 0) {
         return read_buffer_file(gltf, uri->valuestring, buffer);
     }
-    buffer->bytes = dip_gltf_decode_data(gltf, uri->valuestring, &buffer->size_bytes);
+    buffer->bytes = decode_data(gltf, uri->valuestring, &buffer->size_bytes);
     buffer->owned = buffer->bytes != NULL;
     return buffer->owned;
 }
@@ -298,21 +390,19 @@ static bool use_buffer(DipGltf *gltf, int index, const DipGltfBuffer **found) {
     *found = buffer;
     return (size_t)length <= buffer->size_bytes ||
            dip_gltf_refuse(gltf, DIP_ERROR_TRUNCATED, "buffers",
-                           "buffer %d has %zu bytes, expected %d", index, buffer->size_bytes,
-                           length);
+                           "the buffer ends too early: buffer %d has %zu bytes, expected %d", index,
+                           buffer->size_bytes, length);
 }
 
-bool dip_gltf_view(DipGltf *gltf, int index, const uint8_t **bytes, size_t *size_bytes,
-                   int *stride) {
+bool dip_gltf_buffer_part(DipGltf *gltf, const cJSON *json, int index, const uint8_t **bytes,
+                          size_t *size_bytes) {
     const DipGltfBuffer *buffer;
-    const cJSON *view = dip_gltf_item(gltf, DIP_GLTF_bufferViews, index);
     int in_buffer;
     int offset;
     int length;
-    if (!view || !dip_gltf_integer(gltf, view, "buffer", 0, &in_buffer) ||
-        !dip_gltf_integer(gltf, view, "byteOffset", 0, &offset) ||
-        !dip_gltf_integer(gltf, view, "byteLength", 0, &length) ||
-        !dip_gltf_integer(gltf, view, "byteStride", 0, stride) ||
+    if (!dip_gltf_integer(gltf, json, "buffer", 0, &in_buffer) ||
+        !dip_gltf_integer(gltf, json, "byteOffset", 0, &offset) ||
+        !dip_gltf_integer(gltf, json, "byteLength", 0, &length) ||
         !use_buffer(gltf, in_buffer, &buffer)) {
         return false;
     }
@@ -325,4 +415,69 @@ bool dip_gltf_view(DipGltf *gltf, int index, const uint8_t **bytes, size_t *size
     *bytes = buffer->bytes + offset;
     *size_bytes = (size_t)length;
     return true;
+}
+
+// Unpacks a view that is used for the first time.
+static bool use_packed_view(DipGltf *gltf, const cJSON *view, const cJSON *packed, int index,
+                            int stride) {
+    int length;
+    if (gltf->unpacked[index]) {
+        return true;
+    }
+    if (!dip_gltf_integer(gltf, view, "byteLength", 0, &length)) {
+        return false;
+    }
+    uint8_t *made = dip_gltf_make(gltf, (size_t)length);
+    if (!made || !dip_gltf_unpack(gltf, index, packed, (size_t)length, stride, made)) {
+        free(made);
+        return false;
+    }
+    gltf->unpacked[index] = made;
+    return true;
+}
+
+bool dip_gltf_view(DipGltf *gltf, int index, const uint8_t **bytes, size_t *size_bytes,
+                   int *stride) {
+    const cJSON *view = dip_gltf_item(gltf, DIP_GLTF_bufferViews, index);
+    if (!view || !dip_gltf_integer(gltf, view, "byteStride", 0, stride)) {
+        return false;
+    }
+    const cJSON *packed = dip_gltf_extension(view, "EXT_meshopt_compression");
+    if (!packed) {
+        return dip_gltf_buffer_part(gltf, view, index, bytes, size_bytes);
+    }
+    if (!use_packed_view(gltf, view, packed, index, *stride)) {
+        return false;
+    }
+    const cJSON *length = cJSON_GetObjectItemCaseSensitive(view, "byteLength");
+    *bytes = gltf->unpacked[index];
+    *size_bytes = length ? (size_t)length->valuedouble : 0;
+    return true;
+}
+
+bool dip_gltf_image(DipGltf *gltf, int index, const char **uri, const uint8_t **bytes,
+                    size_t *size_bytes) {
+    const cJSON *image = dip_gltf_item(gltf, DIP_GLTF_images, index);
+    const cJSON *address = cJSON_GetObjectItemCaseSensitive(image, "uri");
+    *uri = NULL;
+    if (!image) {
+        return false;
+    }
+    if (!cJSON_IsString(address)) {
+        int view;
+        int stride;
+        return dip_gltf_integer(gltf, image, "bufferView", -1, &view) &&
+               dip_gltf_view(gltf, view, bytes, size_bytes, &stride);
+    }
+    if (strncmp(address->valuestring, "data:", 5) != 0) {
+        *uri = address->valuestring;
+        return true;
+    }
+    DipGltfBuffer *data = &gltf->data[index];
+    if (!data->bytes) {
+        data->bytes = decode_data(gltf, address->valuestring, &data->size_bytes);
+    }
+    *bytes = data->bytes;
+    *size_bytes = data->size_bytes;
+    return data->bytes != NULL;
 }

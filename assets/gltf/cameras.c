@@ -1,5 +1,5 @@
 // Reads the cameras of glTF files and samples their animations (cameras.h).
-#include "assets/animation/animation_gltf.h"
+#include "assets/gltf/reader.h"
 #include "assets/cameras.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/base/trig.h"
@@ -357,6 +357,9 @@ static bool read_cameras(DipModelCameras *cameras, DipGltfReader *reader, DipUpA
     if (reader->gltf.tables[DIP_GLTF_cameras].count == 0) {
         return true;
     }
+    if (!dip_gltf_check_extensions(&reader->gltf, NULL)) { // The model's load repeats its warnings.
+        return false;
+    }
     bool ok = dip_gltf_read_transforms(reader) && dip_gltf_read_animations(reader);
     for (int i = 0; ok && i < reader->gltf.tables[DIP_GLTF_nodes].count; ++i) {
         ok = read_camera(cameras, reader, i, up);
@@ -419,9 +422,8 @@ DipModelCameras *dip_model_cameras_load(const char *file, DipUpAxis up, DipError
     }
     DipGltfReader reader = {.model = model};
     DipError failure = {0};
-    bool ok = dip_model_precheck(model->store, file, &failure); // It repeats the model's warnings.
     model->store->warnings = warnings;
-    ok = ok && read_cameras(cameras, &reader, up, &failure);
+    const bool ok = read_cameras(cameras, &reader, up, &failure);
     dip_gltf_close(&reader.gltf);
     model->store->warnings = NULL;
     if (!ok) {

@@ -1,8 +1,8 @@
-// Reads the nodes and skins of animated glTF models, and makes the objects.
+// Reads the nodes and skins of glTF files, and makes the objects.
 //
 // Nodes are put in an order in which each comes after its parent, so that a pose computes all
 // transforms in one pass.
-#include "assets/animation/animation_gltf.h"
+#include "assets/gltf/reader.h"
 
 #include <cjson/cJSON.h>
 
@@ -264,11 +264,16 @@ static bool mark_drawn(DipGltfReader *reader) {
 
 // Adds an object for each part of the node's mesh. If the mesh has no joints, or the node no skin,
 // the object has no skin.
-static bool add_objects(DipGltfReader *reader, int node, int mesh, int skin, const char *name) {
+static bool add_objects(DipGltfReader *reader, const cJSON *json, int node, int mesh, int skin) {
     DipAnimatedModel *model = reader->model;
     const DipGltfMesh *parts = &reader->meshes[mesh];
+    const char *name = dip_gltf_name(reader, json, "node", node);
+    if (!name) {
+        return dip_gltf_no_room(reader);
+    }
+    reader->first_object[node] = model->def.object_count;
     for (int i = parts->first; i < parts->first + parts->count; ++i) {
-        const int max_joint = reader->max_joints[i];
+        const int max_joint = reader->parts[i].max_joint;
         const bool skinned = skin >= 0 && model->meshes[i].joints;
         if (skinned && max_joint >= model->skins[skin].joint_count) {
             return dip_gltf_refuse(&reader->gltf, DIP_ERROR_RANGE, "JOINTS_0",
@@ -278,7 +283,7 @@ static bool add_objects(DipGltfReader *reader, int node, int mesh, int skin, con
         const int index = model->def.object_count++;
         model->objects[index] = (DipAnimatedObject){
             .name = name, .mesh = i, .joint_count = skinned ? model->skins[skin].joint_count : 0};
-        model->plans[index] = (DipObjectPlan){node, skinned ? skin : DIP_NO_SKIN};
+        model->plans[index] = (DipObjectPlan){reader->node_of[node], skinned ? skin : DIP_NO_SKIN};
     }
     return true;
 }
@@ -299,9 +304,7 @@ static bool read_object(DipGltfReader *reader, int node) {
         return dip_gltf_refuse(gltf, DIP_ERROR_RANGE, "skin", "the node uses skin %d of %d", skin,
                                reader->model->skin_count);
     }
-    const char *name = dip_gltf_name(reader, json, "node", node);
-    return name ? add_objects(reader, reader->node_of[node], mesh, skin, name)
-                : dip_gltf_no_room(reader);
+    return add_objects(reader, json, node, mesh, skin);
 }
 
 static bool make_objects(DipGltfReader *reader) {
@@ -340,8 +343,10 @@ static bool begin_nodes(DipGltfReader *reader) {
     int *path = dip_gltf_alloc(reader, count, sizeof *path);
     reader->node_of = dip_gltf_alloc(reader, count, sizeof *reader->node_of);
     reader->is_drawn = dip_gltf_alloc(reader, count, sizeof *reader->is_drawn);
+    reader->first_object = dip_gltf_alloc(reader, count, sizeof *reader->first_object);
     model->nodes = dip_gltf_alloc(reader, count, sizeof *model->nodes);
-    if (!parents || !path || !reader->node_of || !reader->is_drawn || !model->nodes) {
+    if (!parents || !path || !reader->node_of || !reader->is_drawn || !reader->first_object ||
+        !model->nodes) {
         return dip_gltf_no_room(reader);
     }
     model->node_count = (int)count;

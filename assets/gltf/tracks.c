@@ -1,5 +1,5 @@
 // Reads the animations of glTF models.
-#include "assets/animation/animation_gltf.h"
+#include "assets/gltf/reader.h"
 
 #include <cjson/cJSON.h>
 
