@@ -10,6 +10,7 @@
 enum { WRAP_CLAMP = 33071, WRAP_MIRROR = 33648, FILTER_NEAREST = 9728 };
 
 static const double max_emission = 1e9;
+static const double max_normal_scale = 1e6;
 
 // --- textures ------------------------------------------------------------------------------------
 
@@ -193,7 +194,8 @@ bool dip_gltf_describe_material(const DipGltf *gltf, int index, DipGltfMaterial 
     }
     read_alpha(json, material);
     material->unlit = dip_gltf_extension(json, "KHR_materials_unlit") != NULL;
-    material->normal_scale = dip_gltf_number_of(normal, "scale", 1.0);
+    material->normal_scale =
+        clamp(dip_gltf_number_of(normal, "scale", 1.0), -max_normal_scale, max_normal_scale);
     material->occlusion_strength = unit_of(occlusion, "strength", 1.0);
     material->coat = unit_of(coat, "clearcoatFactor", 0.0);
     material->coat_roughness = unit_of(coat, "clearcoatRoughnessFactor", 0.0);
