@@ -351,11 +351,19 @@ static bool read_buffer_file(const DipGltf *gltf, const char *uri, DipGltfBuffer
     if (!found) {
         return out_of_memory(gltf);
     }
-    const bool ok = dip_file_read(found, "buffer", max_file_bytes, &buffer->bytes,
-                                  &buffer->size_bytes, gltf->err);
+    DipError why = {0};
+    const bool ok =
+        dip_file_read(found, "buffer", max_file_bytes, &buffer->bytes, &buffer->size_bytes, &why);
     free(found);
     buffer->owned = ok;
-    return ok;
+    if (!ok && why.origin == DIP_ORIGIN_RUNTIME) {
+        if (gltf->err) {
+            *gltf->err = why;
+        }
+        return false;
+    }
+    return ok || dip_gltf_refuse(gltf, why.code, "buffers", "the buffer %.100s: %.100s", uri,
+                                 why.message);
 }
 
 // Loads the content of a buffer that is used for the first time.
