@@ -180,8 +180,8 @@ static bool has_version(const DipGltf *gltf, const char *begin) {
 
 bool dip_gltf_is_version_1(const DipGltf *gltf) {
     return has_version(gltf, "1.") ||
-           (gltf->file_bytes >= GLB_HEADER_BYTES && dip_gltf_u32(gltf->file) == GLB_MAGIC &&
-            dip_gltf_u32(gltf->file + 4) == 1);
+           (gltf->file && gltf->file_bytes >= GLB_HEADER_BYTES &&
+            dip_gltf_u32(gltf->file) == GLB_MAGIC && dip_gltf_u32(gltf->file + 4) == 1);
 }
 
 static bool check_version(const DipGltf *gltf) {
@@ -287,6 +287,16 @@ const cJSON *dip_gltf_extension(const cJSON *object, const char *name) {
     const cJSON *extensions = cJSON_GetObjectItemCaseSensitive(object, "extensions");
     const cJSON *extension = cJSON_GetObjectItemCaseSensitive(extensions, name);
     return cJSON_IsObject(extension) ? extension : NULL;
+}
+
+bool dip_gltf_requires(const DipGltf *gltf, const char *extension) {
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(gltf->json, "extensionsRequired");
+    for (const cJSON *item = list ? list->child : NULL; item; item = item->next) {
+        if (cJSON_IsString(item) && strcmp(item->valuestring, extension) == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void *dip_gltf_make(DipGltf *gltf, size_t size_bytes) {

@@ -101,6 +101,9 @@ bool dip_gltf_integer(const DipGltf *gltf, const struct cJSON *object, const cha
 // Returns the number of an object with this name, or `otherwise` if there is no finite number.
 double dip_gltf_number_of(const struct cJSON *object, const char *name, double otherwise);
 
+// True if the file lists the extension as one that it requires.
+bool dip_gltf_requires(const DipGltf *gltf, const char *extension);
+
 // Returns an extension of an object, or NULL.
 const struct cJSON *dip_gltf_extension(const struct cJSON *object, const char *name);
 

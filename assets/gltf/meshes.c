@@ -443,7 +443,9 @@ static bool unpack_draco(Primitive *p, const cJSON *json) {
         return false;
     }
     const cJSON *accessor = dip_gltf_item(gltf, DIP_GLTF_accessors, position);
-    return (accessor && cJSON_GetObjectItemCaseSensitive(accessor, "bufferView")) ||
+    const bool is_plain = accessor && cJSON_GetObjectItemCaseSensitive(accessor, "bufferView") &&
+                          !dip_gltf_requires(gltf, "KHR_draco_mesh_compression");
+    return is_plain ||
            dip_gltf_refuse(
                gltf, DIP_ERROR_UNSUPPORTED, "meshes",
                "the mesh \"%s\" is packed by Draco (KHR_draco_mesh_compression), %s", p->mesh->name,

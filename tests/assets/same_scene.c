@@ -26,24 +26,6 @@ static void assert_same_texture(const DipTextureDef *one, const DipTextureDef *o
     assert_same_array(one->rgba8, other->rgba8, 4 * (size_t)one->width * (size_t)one->height);
 }
 
-static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef *other) {
-    assert_string_equal(one->name, other->name);
-    assert_int_equal(one->surface, other->surface);
-    assert_memory_equal(one->base_colour_lin, other->base_colour_lin, sizeof one->base_colour_lin);
-    assert_int_equal(one->colour_texture, other->colour_texture);
-    assert_int_equal(one->light_map, other->light_map);
-    assert_int_equal(one->normal_map, other->normal_map);
-    assert_memory_equal(&one->light_map_scale, &other->light_map_scale, sizeof(float));
-    assert_memory_equal(&one->roughness, &other->roughness, sizeof(float));
-    assert_memory_equal(&one->alpha_cutoff, &other->alpha_cutoff, sizeof(float));
-    assert_memory_equal(one->specular_lin, other->specular_lin, sizeof one->specular_lin);
-    assert_memory_equal(&one->shininess, &other->shininess, sizeof(float));
-    assert_int_equal(one->double_sided, other->double_sided);
-    assert_int_equal(one->lit, other->lit);
-    assert_memory_equal(&one->opacity, &other->opacity, sizeof(float));
-    assert_same_pbr(one->pbr, other->pbr);
-}
-
 static void assert_same_pbr(const DipPbrDef *one, const DipPbrDef *other) {
     assert_int_equal(one == NULL, other == NULL);
     if (!one) {
@@ -62,6 +44,24 @@ static void assert_same_pbr(const DipPbrDef *one, const DipPbrDef *other) {
     assert_memory_equal(&one->normal_scale, &other->normal_scale, sizeof(float));
     assert_memory_equal(&one->coat, &other->coat, sizeof(float));
     assert_memory_equal(&one->coat_roughness, &other->coat_roughness, sizeof(float));
+}
+
+static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef *other) {
+    assert_string_equal(one->name, other->name);
+    assert_int_equal(one->surface, other->surface);
+    assert_memory_equal(one->base_colour_lin, other->base_colour_lin, sizeof one->base_colour_lin);
+    assert_int_equal(one->colour_texture, other->colour_texture);
+    assert_int_equal(one->light_map, other->light_map);
+    assert_int_equal(one->normal_map, other->normal_map);
+    assert_memory_equal(&one->light_map_scale, &other->light_map_scale, sizeof(float));
+    assert_memory_equal(&one->roughness, &other->roughness, sizeof(float));
+    assert_memory_equal(&one->alpha_cutoff, &other->alpha_cutoff, sizeof(float));
+    assert_memory_equal(one->specular_lin, other->specular_lin, sizeof one->specular_lin);
+    assert_memory_equal(&one->shininess, &other->shininess, sizeof(float));
+    assert_int_equal(one->double_sided, other->double_sided);
+    assert_int_equal(one->lit, other->lit);
+    assert_memory_equal(&one->opacity, &other->opacity, sizeof(float));
+    assert_same_pbr(one->pbr, other->pbr);
 }
 
 static void assert_same_mesh(const DipMeshDef *one, const DipMeshDef *other) {
