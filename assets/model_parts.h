@@ -2,8 +2,9 @@
 //
 // A load has these steps. Each file is imported and checked (import.c). model.c walks the file's
 // nodes and turns them into objects. Each object needs a mesh (mesh.c) and a material (material.c),
-// and the material registers its pictures (pictures.c). Then all pictures are decoded and the
-// materials get their textures.
+// and the material registers its pictures (pictures.c). Files of glTF 2 are read by gltf/scene.c
+// and its neighbours instead, which add the same things to the model. Then all pictures are decoded
+// and the materials get their textures.
 #ifndef DIP_ASSETS_MODEL_PARTS_H
 #define DIP_ASSETS_MODEL_PARTS_H
 
