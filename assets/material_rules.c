@@ -77,9 +77,7 @@ typedef struct NameList {
 static void add_name(NameList *list, const char *name) {
     char quoted[80];
     snprintf(quoted, sizeof quoted, "\"%.70s\"", name);
-    for (char *c = quoted; *c; ++c) {
-        *c = (unsigned char)*c < ' ' ? ' ' : *c; // Messages must stay on one line.
-    }
+    dip_make_one_line(quoted);
     if (strstr(list->text, quoted)) {
         return;
     }

@@ -62,6 +62,12 @@ char *dip_model_copy_text(DipModel *model, const char *text) {
     return copy ? memcpy(copy, text, size_bytes) : NULL;
 }
 
+void dip_make_one_line(char *text) {
+    for (; *text; ++text) {
+        *text = (unsigned char)*text < ' ' ? ' ' : *text;
+    }
+}
+
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...) {
     if (!model->warnings) {
         return;
@@ -72,7 +78,9 @@ void dip_model_warn(DipModel *model, const char *file, const char *key, const ch
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     DipError warning;
+    dip_make_one_line(text);
     dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, file, 0, key, "%s", text);
+    dip_make_one_line(warning.key);
     warning.severity = DIP_SEVERITY_WARNING;
     dip_error_list_add(model->warnings, &warning);
 }

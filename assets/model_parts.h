@@ -181,6 +181,9 @@ void *dip_array_grow(void *items, int count, size_t item_bytes);
 void *dip_model_alloc(DipModel *model, size_t count, size_t item_bytes);
 char *dip_model_copy_text(DipModel *model, const char *text);
 
+// model.c: replaces control characters by spaces, because messages must stay on one line.
+void dip_make_one_line(char *text);
+
 // Adds a warning, unless the caller wants no warnings. key may be NULL.
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

@@ -144,6 +144,7 @@ int dip_model_picture_bytes(DipModel *model, int file, const char *name, const u
     }
     char text[512]; // A longer name is cut.
     snprintf(text, sizeof text, "%.250s:%.250s", model->files[file].path, name);
+    dip_make_one_line(text);
     const DipPictureEntry entry = {.name = dip_model_copy_text(model, text),
                                    .file = file,
                                    .bytes = bytes,

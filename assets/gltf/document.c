@@ -41,7 +41,12 @@ bool dip_gltf_refuse(const DipGltf *gltf, DipErrorCode code, const char *key, co
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return dip_error_set(gltf->err, code, gltf->path, 0, key, "%s", text);
+    dip_make_one_line(text);
+    dip_error_set(gltf->err, code, gltf->path, 0, key, "%s", text);
+    if (gltf->err) {
+        dip_make_one_line(gltf->err->key);
+    }
+    return false;
 }
 
 static bool out_of_memory(const DipGltf *gltf) {
