@@ -73,7 +73,9 @@ class Model:
         return use
 
     def mesh(self, attributes, **more):
-        return self.add("meshes", {"primitives": [{"attributes": attributes, **more}]})
+        name = f"mesh {len(self.json.get('meshes', []))}"
+        return self.add("meshes",
+                        {"name": name, "primitives": [{"attributes": attributes, **more}]})
 
     def triangle(self, **more):
         return self.mesh({"POSITION": self.accessor(TRIANGLE), "NORMAL": self.accessor(UP),
