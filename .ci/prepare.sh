@@ -2,8 +2,9 @@
 
 TOP=$PWD
 PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libx11-dev libfreetype-dev libfontconfig-dev
-    fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcjson-dev"
-PACKAGES_TEST="$PACKAGES_RUN g++ git doxygen clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick
+    fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcjson-dev
+    libmeshoptimizer-dev libdraco-dev g++ libwebp-dev" # The last line: packed models and pictures.
+PACKAGES_TEST="$PACKAGES_RUN git doxygen clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick
     python3 python3-cffi dpkg-dev"
 # The cost report's page; one machine that acts as several.
 PACKAGES_LONG="chromium chromium-driver python3-selenium poppler-utils parallel munge slurm-wlm"

@@ -41,7 +41,7 @@ static bool check_extension(const char *path, DipError *err) {
                dot ? "\"" : "", dot ? dot : "a name without an extension", dot ? "\"" : "");
 }
 
-static bool check_file(const char *path, DipError *err) {
+bool dip_model_check_file(const char *path, DipError *err) {
     struct stat info = {0};
     // To open a named pipe would wait until another program writes to it.
     const bool is_pipe = stat(path, &info) == 0 && S_ISFIFO(info.st_mode);
@@ -189,11 +189,9 @@ static bool is_gltf(const struct aiScene *scene) {
     return false;
 }
 
-// Replaces control characters, because messages must stay on one line.
-static void make_one_line(char *text) {
-    for (char *c = text; *c; ++c) {
-        *c = (unsigned char)*c < ' ' ? ' ' : *c;
-    }
+// Makes a text of assimp fit for a message.
+static void tidy(char *text) {
+    dip_make_one_line(text);
     for (size_t end = strlen(text); end > 0 && text[end - 1] == ' '; --end) {
         text[end - 1] = '\0';
     }
@@ -202,7 +200,7 @@ static void make_one_line(char *text) {
 static bool import_error(const char *path, DipError *err) {
     char reason[200] = "";
     snprintf(reason, sizeof reason, "%s", aiGetErrorString());
-    make_one_line(reason);
+    tidy(reason);
     if (strstr(reason, "bad_alloc")) {
         return dip_model_out_of_memory(err, path);
     }
@@ -241,7 +239,7 @@ static void add_log_line(const char *line, char *user) {
     log->indices_dropped = log->indices_dropped || strstr(text, "out-of-range indices");
     char copy[200] = "";
     snprintf(copy, sizeof copy, "%s", text + 2);
-    make_one_line(copy);
+    tidy(copy);
     if (log->warning_count++ < MAX_LOG_WARNINGS) {
         dip_model_warn(log->model, log->path, NULL, "%s", copy);
     }
@@ -302,7 +300,7 @@ static void *import_thread(void *context) {
 }
 
 bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err) {
-    if (!check_file(file->path, err) || !dip_model_precheck(model, file->path, err)) {
+    if (!dip_model_check_file(file->path, err) || !dip_model_precheck(file->path, err)) {
         return false;
     }
     ImportTask task = {.model = model, .file = file, .err = err};

@@ -168,10 +168,8 @@ static bool kind_of(const struct aiLight *light, DipLightKind *kind) {
 
 // --- the lights of a file ------------------------------------------------------------------------
 
-static void warn(DipModel *model, const DipModelFile *file, const struct aiLight *light,
-                 const char *why) {
-    dip_model_warn(model, file->path, light->mName.data[0] ? light->mName.data : NULL,
-                   "the light is left out: %s", why);
+static void warn(DipModel *model, const char *file, const char *name, const char *why) {
+    dip_model_warn(model, file, name[0] ? name : NULL, "the light is left out: %s", why);
 }
 
 static void add_ambient(DipModel *model, const DipModelFile *file, const struct aiLight *light) {
@@ -179,7 +177,7 @@ static void add_ambient(DipModel *model, const DipModelFile *file, const struct 
     set_colour(&light->mColorAmbient, file->linear_colours, lin);
     for (int c = 0; c < 3; ++c) {
         if (!(lin[c] >= 0.0 && lin[c] <= (double)DIP_MAX_LIGHT_LIN)) {
-            warn(model, file, light,
+            warn(model, file->path, light->mName.data,
                  "its colour or strength is negative, too large or not a number");
             return;
         }
@@ -189,19 +187,42 @@ static void add_ambient(DipModel *model, const DipModelFile *file, const struct 
     }
 }
 
-static bool keep_light(DipModel *model, const DipModelFile *file, DipLightDef light,
-                       DipError *err) {
+static bool keep_light(DipModel *model, const char *file, DipLightDef light, DipError *err) {
     light.name = dip_model_copy_text(model, light.name);
     DipLightDef *lights = dip_array_grow(model->lights, model->light_count, sizeof *lights);
     model->lights = lights ? lights : model->lights;
     if (!light.name || !lights) {
-        return dip_model_out_of_memory(err, file->path);
+        return dip_model_out_of_memory(err, file);
     }
     lights[model->light_count++] = light;
     return true;
 }
 
-// Adds a light. A light without strength shows nothing, so it does not count.
+bool dip_model_add_light(DipModel *model, const char *file, const DipLightDef *light,
+                         DipError *err) {
+    if (is_zero(light->colour_lin)) {
+        return true;
+    }
+    if (model->light_count == DIP_MAX_LIGHTS) {
+        model->lights_left_out++;
+        return true;
+    }
+    const char *fault = dip_light_fault(light);
+    if (fault) {
+        warn(model, file, light->name, fault);
+        return true;
+    }
+    return keep_light(model, file, *light, err);
+}
+
+void dip_model_warn_of_lights(DipModel *model, const char *file, int left_out_before) {
+    const int left_out = model->lights_left_out - left_out_before;
+    if (left_out > 0) {
+        dip_model_warn(model, file, NULL, "%d lights are left out, accepted %d in a scene",
+                       left_out, DIP_MAX_LIGHTS);
+    }
+}
+
 static bool add_light(DipModel *model, const DipModelFile *file, const struct aiLight *from,
                       const double above[12], DipError *err) {
     DipLightDef light = {.name = from->mName.data};
@@ -210,7 +231,7 @@ static bool add_light(DipModel *model, const DipModelFile *file, const struct ai
         return true;
     }
     if (!kind_of(from, &light.kind)) {
-        warn(model, file, from,
+        warn(model, file->path, from->mName.data,
              from->mType == aiLightSource_AREA ? "area lights are not drawn"
                                                : "lights of its kind are not drawn");
         return true;
@@ -221,23 +242,11 @@ static bool add_light(DipModel *model, const DipModelFile *file, const struct ai
     for (int c = 0; c < 3; ++c) {
         light.colour_lin[c] = (float)lin[c];
     }
-    if (is_zero(light.colour_lin)) {
-        return true;
-    }
-    if (model->light_count == DIP_MAX_LIGHTS) {
-        model->lights_left_out++;
-        return true;
-    }
     memcpy(world, above, sizeof world);
     const struct aiNode *node = find_node(file->scene->mRootNode, from->mName.data, world);
     set_place(from, world, &light);
     set_fading(from, node, file->linear_colours, &light);
-    const char *fault = dip_light_fault(&light);
-    if (fault) {
-        warn(model, file, from, fault);
-        return true;
-    }
-    return keep_light(model, file, light, err);
+    return dip_model_add_light(model, file->path, &light, err);
 }
 
 bool dip_model_read_lights(DipModel *model, const DipModelFile *file, const double world[12],
@@ -252,10 +261,6 @@ bool dip_model_read_lights(DipModel *model, const DipModelFile *file, const doub
             return false;
         }
     }
-    const int left_out = model->lights_left_out - left_out_before;
-    if (left_out > 0) {
-        dip_model_warn(model, file->path, NULL, "%d lights are left out, accepted %d in a scene",
-                       left_out, DIP_MAX_LIGHTS);
-    }
+    dip_model_warn_of_lights(model, file->path, left_out_before);
     return true;
 }

@@ -23,13 +23,11 @@ float dip_model_colour_to_linear(float value, bool linear) {
     return (float)(x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4));
 }
 
-static DipWrap wrap_of(DipModel *model, const char *path, const char *name, int mode) {
-    if (mode == aiTextureMapMode_Mirror) {
-        dip_model_warn(model, path, name,
-                       "the texture repeats mirrored, but is drawn repeating without mirroring");
-    }
+static DipWrap wrap_of(int mode) {
     const bool clamp = mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal;
-    return clamp ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT;
+    return clamp                             ? DIP_WRAP_CLAMP
+           : mode == aiTextureMapMode_Mirror ? DIP_WRAP_MIRROR
+                                             : DIP_WRAP_REPEAT;
 }
 
 static void warn_of_transform(DipModel *model, const char *path, const char *name,
@@ -71,8 +69,8 @@ static DipTextureUse texture_use(DipModel *model, int file, const char *name,
         warn_of_transform(model, path, name, material, types[i]);
         use.picture = dip_model_picture(model, file, texture.data);
         use.uv_channel = (int)channel;
-        use.wrap_u = wrap_of(model, path, name, (int)modes[0]);
-        use.wrap_v = wrap_of(model, path, name, (int)modes[1]);
+        use.wrap_u = wrap_of((int)modes[0]);
+        use.wrap_v = wrap_of((int)modes[1]);
         return use;
     }
     if (without_coordinates.length > 0) {
@@ -194,6 +192,7 @@ static void read_pictures(DipModel *model, int file, const char *name, const str
         plan->normal = texture_use(model, file, name, mesh, normal, 2);
     }
     plan->light = (DipTextureUse){.picture = DIP_NO_TEXTURE};
+    plan->metal_rough = plan->occlusion = plan->emission = plan->light;
     // In glTF the occlusion picture is a light map only if the object's metadata says so.
     if (plan->light_mapped || !model->files[file].linear_colours) {
         plan->light = light_use(model, file, name, mesh, plan->light_rule);
@@ -203,24 +202,16 @@ static void read_pictures(DipModel *model, int file, const char *name, const str
         plan->colour.picture >= 0 || plan->opacity.picture >= 0 || plan->normal.picture >= 0;
 }
 
-// Sets the highlight of glTF: the exponent follows from the roughness, and the factor (n + 8) / 8
-// keeps the highlight's light the same for all exponents. KHR_materials_pbrSpecularGlossiness gives
-// another colour than that of dielectrics.
-static void set_gltf_highlight(const struct aiMaterial *material, DipMaterialDef *def) {
-    struct aiColor4D specular = {dielectric_specular, dielectric_specular, dielectric_specular, 1};
-    float roughness = def->roughness;
-    const float glossiness = float_property(material, AI_MATKEY_GLOSSINESS_FACTOR, -1.0f);
-    if (glossiness >= 0.0f) {
-        roughness = 1.0f - fminf(glossiness, 1.0f);
-        aiGetMaterialColor(material, AI_MATKEY_COLOR_SPECULAR, &specular);
-    }
+// The exponent follows from the roughness, and the factor (n + 8) / 8 keeps the highlight's light
+// the same for all exponents.
+void dip_material_set_highlight(DipMaterialDef *def, float roughness, const float specular_lin[3]) {
     const double alpha = (double)roughness * (double)roughness;
     const double exponent = 2.0 / fmax(alpha * alpha, 1e-9) - 2.0;
     def->shininess = (float)fmin(fmax(exponent, 1.0), DIP_MAX_SHININESS);
     const float scale = (def->shininess + 8.0f) / 8.0f;
-    def->specular_lin[0] = scale * dip_model_colour_to_linear(specular.r, true);
-    def->specular_lin[1] = scale * dip_model_colour_to_linear(specular.g, true);
-    def->specular_lin[2] = scale * dip_model_colour_to_linear(specular.b, true);
+    for (int c = 0; c < 3; ++c) {
+        def->specular_lin[c] = scale * dip_model_colour_to_linear(specular_lin[c], true);
+    }
 }
 
 // Sets the highlight of the scene's lights. Outside glTF, a material without an exponent has none.
@@ -230,7 +221,8 @@ static void set_highlight(const DipModelFile *file, const struct aiMaterial *mat
     const float shininess = float_property(material, AI_MATKEY_SHININESS, 0.0f);
     const float strength = float_property(material, AI_MATKEY_SHININESS_STRENGTH, 1.0f);
     if (file->linear_colours) {
-        set_gltf_highlight(material, def);
+        const float dielectric[3] = {dielectric_specular, dielectric_specular, dielectric_specular};
+        dip_material_set_highlight(def, def->roughness, dielectric);
     } else if (shininess > 0.0f && strength > 0.0f &&
                aiGetMaterialColor(material, AI_MATKEY_COLOR_SPECULAR, &specular) == AI_SUCCESS) {
         const float scale = fminf(strength, DIP_MAX_LIGHT_LIN);
@@ -275,6 +267,33 @@ static unsigned coordinate_mask(const struct aiMesh *mesh) {
     return mask;
 }
 
+int dip_model_find_material(const DipModel *model, const DipMaterialPlan *plan) {
+    for (int i = 0; i < model->def.material_count; ++i) {
+        const DipMaterialPlan *other = &model->plans[i];
+        if (other->file == plan->file && other->source == plan->source && other->tag == plan->tag &&
+            other->light_mapped == plan->light_mapped && other->coordinates == plan->coordinates) {
+            return i;
+        }
+    }
+    return DIP_NOT_FOUND;
+}
+
+int dip_model_add_material(DipModel *model, const DipMaterialDef *def, const DipMaterialPlan *plan,
+                           DipError *err) {
+    const int count = model->def.material_count;
+    DipMaterialDef *materials = dip_array_grow(model->materials, count, sizeof *materials);
+    model->materials = materials ? materials : model->materials;
+    DipMaterialPlan *plans = dip_array_grow(model->plans, count, sizeof *plans);
+    model->plans = plans ? plans : model->plans;
+    if (!def->name || !materials || !plans) {
+        dip_model_out_of_memory(err, model->files[plan->file].path);
+        return DIP_NOT_FOUND;
+    }
+    materials[count] = *def;
+    plans[count] = *plan;
+    return model->def.material_count++;
+}
+
 int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, DipTag tag,
                        bool light_mapped, DipError *err) {
     DipMaterialPlan plan = {.file = file,
@@ -282,30 +301,19 @@ int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, Dip
                             .coordinates = coordinate_mask(mesh),
                             .tag = tag,
                             .light_mapped = light_mapped};
-    dip_model_apply_rules(model, model->files[file].scene->mMaterials[plan.source], &plan);
-    const int count = model->def.material_count;
-    for (int i = 0; i < count; ++i) {
-        const DipMaterialPlan *other = &model->plans[i];
-        if (other->file == file && other->source == plan.source && other->tag == plan.tag &&
-            other->light_mapped == plan.light_mapped && other->coordinates == plan.coordinates) {
-            return i;
-        }
+    const char *name = model->files[file].material_names[plan.source];
+    dip_model_apply_rules(model, name, &plan);
+    const int known = dip_model_find_material(model, &plan);
+    if (known >= 0) {
+        return known;
     }
-    struct aiString name = {0};
-    aiGetMaterialString(model->files[file].scene->mMaterials[plan.source], AI_MATKEY_NAME, &name);
-    DipMaterialDef def = {.name = dip_model_copy_text(model, name.data)};
-    DipMaterialDef *materials = dip_array_grow(model->materials, count, sizeof *materials);
-    model->materials = materials ? materials : model->materials;
-    DipMaterialPlan *plans = dip_array_grow(model->plans, count, sizeof *plans);
-    model->plans = plans ? plans : model->plans;
-    if (!def.name || !materials || !plans) {
+    DipMaterialDef def = {.name = dip_model_copy_text(model, name), .opacity = 1.0f};
+    if (!def.name) {
         dip_model_out_of_memory(err, model->files[file].path);
         return DIP_NOT_FOUND;
     }
     fill_material(model, file, mesh, &plan, &def);
-    materials[count] = def;
-    plans[count] = plan;
-    return model->def.material_count++;
+    return dip_model_add_material(model, &def, &plan, err);
 }
 
 static const DipPicture *decoded(const DipModel *model, int picture) {
@@ -382,6 +390,25 @@ static int texture_of(DipModel *model, const DipTextureUse *use, const DipTextur
     return index;
 }
 
+// Gives a material's reflection its textures.
+static void finish_pbr(DipModel *model, const DipMaterialPlan *plan, bool *ok) {
+    DipPbrDef *pbr = plan->pbr;
+    pbr->metal_rough_map = texture_of(model, &plan->metal_rough, NULL, DIP_ENCODING_LINEAR, ok);
+    pbr->occlusion_map = texture_of(model, &plan->occlusion, NULL, DIP_ENCODING_LINEAR, ok);
+    pbr->emission_map = texture_of(model, &plan->emission, NULL, DIP_ENCODING_SRGB, ok);
+}
+
+// Makes a surface opaque if nothing of it is transparent.
+static void finish_surface(const DipModel *model, DipMaterialDef *def) {
+    const int colour = def->colour_texture;
+    const bool has_alpha = colour >= 0 && model->texture_keys[colour].has_alpha;
+    const bool clipped = def->surface == DIP_SURFACE_CLIPPED;
+    const bool blended = def->surface == DIP_SURFACE_BLENDED && def->opacity == 1.0f;
+    if (!has_alpha && (clipped || blended)) {
+        def->surface = DIP_SURFACE_OPAQUE;
+    }
+}
+
 bool dip_model_finish_materials(DipModel *model, DipError *err) {
     bool ok = true;
     for (int i = 0; i < model->def.material_count; ++i) {
@@ -392,16 +419,16 @@ bool dip_model_finish_materials(DipModel *model, DipError *err) {
         def->colour_texture = texture_of(model, &plan->colour, &plan->opacity, encoding, &ok);
         def->light_map = texture_of(model, &plan->light, NULL, DIP_ENCODING_SRGB, &ok);
         def->normal_map = texture_of(model, &plan->normal, NULL, DIP_ENCODING_LINEAR, &ok);
+        const bool solid = plan->tag == DIP_TAG_SOLID || plan->tag == DIP_TAG_MASK;
+        def->lit = solid && def->light_map < 0 && !plan->unlit;
+        if (def->lit && plan->pbr) {
+            finish_pbr(model, plan, &ok);
+            def->pbr = plan->pbr;
+        }
         if (!ok) {
             return dip_model_out_of_memory(err, model->files[plan->file].path);
         }
-        const int colour = def->colour_texture;
-        if (def->surface == DIP_SURFACE_CLIPPED &&
-            (colour < 0 || !model->texture_keys[colour].has_alpha)) {
-            def->surface = DIP_SURFACE_OPAQUE;
-        }
-        const bool solid = plan->tag == DIP_TAG_SOLID || plan->tag == DIP_TAG_MASK;
-        def->lit = solid && def->light_map < 0;
+        finish_surface(model, def);
     }
     return true;
 }

@@ -2,9 +2,6 @@
 // no material fits and light maps that cannot be read.
 #include "assets/model_parts.h"
 
-#include <assimp/material.h>
-#include <assimp/scene.h>
-
 #include <stdio.h>
 #include <string.h>
 
@@ -38,23 +35,15 @@ bool dip_material_name_fits(const char *pattern, const char *name) {
     return *pattern == '\0';
 }
 
-static struct aiString name_of(const struct aiMaterial *material) {
-    struct aiString name = {0};
-    aiGetMaterialString(material, AI_MATKEY_NAME, &name);
-    return name;
-}
-
-void dip_model_apply_rules(const DipModel *model, const struct aiMaterial *material,
-                           DipMaterialPlan *plan) {
+void dip_model_apply_rules(const DipModel *model, const char *name, DipMaterialPlan *plan) {
     static const DipTag tags[DIP_MARK_COUNT] = {[DIP_MARK_SOLID] = DIP_TAG_SOLID,
                                                 [DIP_MARK_CLIP] = DIP_TAG_MASK,
                                                 [DIP_MARK_GLASS] = DIP_TAG_GLASS,
                                                 [DIP_MARK_WATER] = DIP_TAG_WATER,
                                                 [DIP_MARK_SKY] = DIP_TAG_SKY};
-    const struct aiString name = name_of(material);
     for (int i = 0; i < model->rule_count; ++i) {
         const DipMaterialRule *rule = &model->rules[i];
-        if (!dip_material_name_fits(rule->pattern, name.data)) {
+        if (!dip_material_name_fits(rule->pattern, name)) {
             continue;
         }
         if (rule->mark == DIP_MARK_LIGHT_MAP) {
@@ -68,10 +57,9 @@ void dip_model_apply_rules(const DipModel *model, const struct aiMaterial *mater
 
 static bool fits_any(const DipModel *model, const char *pattern) {
     for (int f = 0; f < model->file_count; ++f) {
-        const struct aiScene *scene = model->files[f].scene;
-        for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
-            const struct aiString name = name_of(scene->mMaterials[i]);
-            if (dip_material_name_fits(pattern, name.data)) {
+        const DipModelFile *file = &model->files[f];
+        for (int i = 0; i < file->material_count; ++i) {
+            if (dip_material_name_fits(pattern, file->material_names[i])) {
                 return true;
             }
         }
@@ -89,9 +77,7 @@ typedef struct NameList {
 static void add_name(NameList *list, const char *name) {
     char quoted[80];
     snprintf(quoted, sizeof quoted, "\"%.70s\"", name);
-    for (char *c = quoted; *c; ++c) {
-        *c = (unsigned char)*c < ' ' ? ' ' : *c; // Messages must stay on one line.
-    }
+    dip_make_one_line(quoted);
     if (strstr(list->text, quoted)) {
         return;
     }
@@ -107,11 +93,10 @@ static void add_name(NameList *list, const char *name) {
 static bool refuse_pattern(const DipModel *model, const DipMaterialRule *rule, DipError *err) {
     NameList list = {.length = 0};
     for (int f = 0; f < model->file_count; ++f) {
-        const struct aiScene *scene = model->files[f].scene;
-        for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
-            const struct aiString name = name_of(scene->mMaterials[i]);
-            if (name.length > 0) {
-                add_name(&list, name.data);
+        const DipModelFile *file = &model->files[f];
+        for (int i = 0; i < file->material_count; ++i) {
+            if (file->material_names[i][0]) {
+                add_name(&list, file->material_names[i]);
             }
         }
     }
@@ -124,10 +109,33 @@ static bool refuse_pattern(const DipModel *model, const DipMaterialRule *rule, D
                          list.length > 0 ? list.text : "nothing, as no material has a name", more);
 }
 
-bool dip_model_check_rules(const DipModel *model, DipError *err) {
+static bool fits_a_surface(const DipModel *model, const char *pattern) {
+    for (int i = 0; i < model->def.material_count; ++i) {
+        if (dip_material_name_fits(pattern, model->materials[i].name)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void warn_of_unused(DipModel *model, const DipMaterialRule *rule) {
+    DipError warning;
+    dip_error_set(&warning, DIP_ERROR_UNKNOWN, rule->file, rule->line, rule->key,
+                  "'%.60s' fits only materials that no surface uses", rule->pattern);
+    warning.severity = DIP_SEVERITY_WARNING;
+    if (model->warnings) {
+        dip_error_list_add(model->warnings, &warning);
+    }
+}
+
+bool dip_model_check_rules(DipModel *model, DipError *err) {
     for (int i = 0; i < model->rule_count; ++i) {
-        if (!fits_any(model, model->rules[i].pattern)) {
-            return refuse_pattern(model, &model->rules[i], err);
+        const DipMaterialRule *rule = &model->rules[i];
+        if (!fits_any(model, rule->pattern)) {
+            return refuse_pattern(model, rule, err);
+        }
+        if (!fits_a_surface(model, rule->pattern)) {
+            warn_of_unused(model, rule);
         }
     }
     return true;

@@ -1,4 +1,4 @@
-// Converts assimp's meshes to the packed arrays of the scene.
+// Converts assimp's meshes to the packed arrays of the scene, and keeps each mesh once.
 #include "assets/model_parts.h"
 
 #include <assimp/mesh.h>
@@ -85,20 +85,12 @@ static float *pack_colours(DipModel *model, const VertexSource *source, bool lin
     return to;
 }
 
-enum { ATTRIBUTE_COUNT = 5 };
-
-// The arrays of a mesh's vertices: positions, normals, two sets of texture coordinates and colours.
-// The array of an attribute that the mesh lacks is NULL.
-typedef struct VertexArrays {
-    float *values[ATTRIBUTE_COUNT];
-} VertexArrays;
-
-static const size_t attribute_width[ATTRIBUTE_COUNT] = {3, 3, 2, 2, 3};
+static const size_t attribute_width[DIP_ATTRIBUTE_COUNT] = {3, 3, 2, 2, 3};
 
 // Hashes the bits of a vertex's values with FNV-1a.
-static uint32_t hash_vertex(const VertexArrays *arrays, size_t vertex) {
+static uint32_t hash_vertex(const DipVertexArrays *arrays, size_t vertex) {
     uint32_t hash = 2166136261u;
-    for (int a = 0; a < ATTRIBUTE_COUNT; ++a) {
+    for (int a = 0; a < DIP_ATTRIBUTE_COUNT; ++a) {
         for (size_t k = 0; arrays->values[a] && k < attribute_width[a]; ++k) {
             uint32_t bits = 0;
             memcpy(&bits, &arrays->values[a][attribute_width[a] * vertex + k], sizeof bits);
@@ -109,8 +101,8 @@ static uint32_t hash_vertex(const VertexArrays *arrays, size_t vertex) {
     return hash;
 }
 
-static bool same_vertex(const VertexArrays *arrays, size_t one, size_t other) {
-    for (int a = 0; a < ATTRIBUTE_COUNT; ++a) {
+static bool same_vertex(const DipVertexArrays *arrays, size_t one, size_t other) {
+    for (int a = 0; a < DIP_ATTRIBUTE_COUNT; ++a) {
         const size_t width = attribute_width[a];
         const float *values = arrays->values[a];
         if (values &&
@@ -121,8 +113,8 @@ static bool same_vertex(const VertexArrays *arrays, size_t one, size_t other) {
     return true;
 }
 
-static void move_vertex(const VertexArrays *arrays, size_t to, size_t from) {
-    for (int a = 0; a < ATTRIBUTE_COUNT; ++a) {
+static void move_vertex(const DipVertexArrays *arrays, size_t to, size_t from) {
+    for (int a = 0; a < DIP_ATTRIBUTE_COUNT; ++a) {
         const size_t width = attribute_width[a];
         float *values = arrays->values[a];
         if (values) {
@@ -133,7 +125,7 @@ static void move_vertex(const VertexArrays *arrays, size_t to, size_t from) {
 
 // Merges vertices that are equal in every bit of every attribute and packs the rest. Fills remap
 // (from old index to new) and returns the new number of vertices, or 0 when memory runs out.
-static uint32_t join_vertices(const VertexArrays *arrays, uint32_t count, uint32_t *remap) {
+static uint32_t join_vertices(const DipVertexArrays *arrays, uint32_t count, uint32_t *remap) {
     size_t slots = 16;
     while (slots < 2 * (size_t)count) {
         slots *= 2;
@@ -159,6 +151,18 @@ static uint32_t join_vertices(const VertexArrays *arrays, uint32_t count, uint32
     return kept;
 }
 
+bool dip_model_join(DipModel *model, const DipVertexArrays *arrays, uint32_t count, DipMeshDef *def,
+                    uint32_t **remap) {
+    *remap = dip_model_alloc(model, count, sizeof **remap);
+    def->vertex_count = *remap ? join_vertices(arrays, count, *remap) : 0;
+    def->positions = arrays->values[0];
+    def->normals = arrays->values[1];
+    def->uv0 = arrays->values[2];
+    def->uv1 = arrays->values[3];
+    def->colours_lin = arrays->values[4];
+    return def->vertex_count > 0;
+}
+
 static uint32_t *pack_indices(DipModel *model, const struct aiMesh *mesh, const uint32_t *remap) {
     uint32_t *to = dip_model_alloc(model, mesh->mNumFaces, 3 * sizeof *to);
     const bool by_corner = vertex_source(mesh).by_corner;
@@ -170,11 +174,11 @@ static uint32_t *pack_indices(DipModel *model, const struct aiMesh *mesh, const 
     return to;
 }
 
-static int find_mesh(const DipModel *model, const DipMeshKey *key) {
+int dip_model_find_mesh(const DipModel *model, const DipMeshKey *key) {
     for (int i = 0; i < model->def.mesh_count; ++i) {
         const DipMeshKey *other = &model->mesh_keys[i];
         if (other->file == key->file && other->source == key->source &&
-            other->material == key->material) {
+            other->material == key->material && other->object == key->object) {
             return i;
         }
     }
@@ -195,20 +199,17 @@ static bool fill_arrays(DipModel *model, const struct aiMesh *mesh, const DipMes
     float *uvs1 = plan->has_uv1 ? pack_uv(model, &source, plan->light.uv_channel) : NULL;
     const bool has_colours = dip_mesh_has_colours(mesh, linear);
     float *colours = has_colours ? pack_colours(model, &source, linear) : NULL;
-    uint32_t *remap = dip_model_alloc(model, source.count, sizeof *remap);
-    if (!positions || !remap || !normals || (plan->has_uv0 && !uvs0) || (plan->has_uv1 && !uvs1) ||
+    if (!positions || !normals || (plan->has_uv0 && !uvs0) || (plan->has_uv1 && !uvs1) ||
         (has_colours && !colours)) {
         return false;
     }
-    const VertexArrays arrays = {{positions, normals, uvs0, uvs1, colours}};
-    def->vertex_count = join_vertices(&arrays, source.count, remap);
-    def->positions = positions;
-    def->normals = normals;
-    def->uv0 = uvs0;
-    def->uv1 = uvs1;
-    def->colours_lin = colours;
+    const DipVertexArrays arrays = {{positions, normals, uvs0, uvs1, colours}};
+    uint32_t *remap;
+    if (!dip_model_join(model, &arrays, source.count, def, &remap)) {
+        return false;
+    }
     def->indices = pack_indices(model, mesh, remap);
-    return def->vertex_count > 0 && def->indices;
+    return def->indices;
 }
 
 static bool add_room(DipModel *model) {
@@ -227,9 +228,18 @@ static bool add_room(DipModel *model) {
     return true;
 }
 
+int dip_model_add_mesh(DipModel *model, const DipMeshDef *def, const DipMeshKey *key) {
+    if (!add_room(model)) {
+        return DIP_NOT_FOUND;
+    }
+    model->meshes[model->def.mesh_count] = *def;
+    model->mesh_keys[model->def.mesh_count] = *key;
+    return model->def.mesh_count++;
+}
+
 int dip_model_mesh(DipModel *model, int file, unsigned source, int material, DipError *err) {
-    const DipMeshKey key = {file, source, material};
-    const int known = find_mesh(model, &key);
+    const DipMeshKey key = {file, source, material, DIP_NOT_FOUND};
+    const int known = dip_model_find_mesh(model, &key);
     if (known >= 0) {
         return known;
     }
@@ -245,11 +255,10 @@ int dip_model_mesh(DipModel *model, int file, unsigned source, int material, Dip
         .index_count = 3 * mesh->mNumFaces,
         .material = material,
     };
-    if (!def.name || !add_room(model) || !fill_arrays(model, mesh, &key, &def)) {
+    const bool ok = def.name && fill_arrays(model, mesh, &key, &def);
+    const int index = ok ? dip_model_add_mesh(model, &def, &key) : DIP_NOT_FOUND;
+    if (index < 0) {
         dip_model_out_of_memory(err, path);
-        return DIP_NOT_FOUND;
     }
-    model->meshes[model->def.mesh_count] = def;
-    model->mesh_keys[model->def.mesh_count] = key;
-    return model->def.mesh_count++;
+    return index;
 }

@@ -2,12 +2,14 @@
 // and completes the scene description.
 #include "assets/model.h"
 
+#include "assets/gltf/reader.h"
 #include "assets/importer.h"
 #include "assets/model_parts.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 
 #include <assimp/cimport.h>
+#include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <math.h>
@@ -15,6 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { MAX_OBJECTS = 1 << 20 };
 
@@ -59,6 +62,12 @@ char *dip_model_copy_text(DipModel *model, const char *text) {
     return copy ? memcpy(copy, text, size_bytes) : NULL;
 }
 
+void dip_make_one_line(char *text) {
+    for (; *text; ++text) {
+        *text = (unsigned char)*text < ' ' ? ' ' : *text;
+    }
+}
+
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...) {
     if (!model->warnings) {
         return;
@@ -69,7 +78,9 @@ void dip_model_warn(DipModel *model, const char *file, const char *key, const ch
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     DipError warning;
+    dip_make_one_line(text);
     dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, file, 0, key, "%s", text);
+    dip_make_one_line(warning.key);
     warning.severity = DIP_SEVERITY_WARNING;
     dip_error_list_add(model->warnings, &warning);
 }
@@ -104,9 +115,22 @@ static bool metadata_is_true(const struct aiMetadataEntry *entry) {
     }
 }
 
+void dip_model_read_tag(DipModel *model, const char *file, const char *key, const char *name,
+                        DipTag *tag) {
+    static const char *const names[] = {"solid", "mask", "glass", "water", "sky"};
+    for (int i = 0; i <= DIP_TAG_SKY; ++i) {
+        if (strcmp(name, names[i]) == 0) {
+            *tag = (DipTag)i;
+            return;
+        }
+    }
+    dip_model_warn(model, file, key,
+                   "the surface \"%s\" is not known, accepted solid, mask, glass, water or sky",
+                   name);
+}
+
 static void read_tags(DipModel *model, const char *path, const struct aiNode *node,
                       NodeState *state) {
-    static const char *const names[] = {"solid", "mask", "glass", "water", "sky"};
     const struct aiMetadataEntry *light_mapped = dip_model_metadata(node->mMetaData, "lightmapped");
     if (light_mapped) {
         state->light_mapped = metadata_is_true(light_mapped);
@@ -115,16 +139,8 @@ static void read_tags(DipModel *model, const char *path, const struct aiNode *no
     if (!surface || surface->mType != AI_AISTRING) {
         return;
     }
-    const char *name = ((const struct aiString *)surface->mData)->data;
-    for (int i = 0; i <= DIP_TAG_SKY; ++i) {
-        if (strcmp(name, names[i]) == 0) {
-            state->tag = (DipTag)i;
-            return;
-        }
-    }
-    dip_model_warn(model, path, node->mName.data,
-                   "the surface \"%s\" is not known, accepted solid, mask, glass, water or sky",
-                   name);
+    dip_model_read_tag(model, path, node->mName.data,
+                       ((const struct aiString *)surface->mData)->data, &state->tag);
 }
 
 void dip_model_multiply(const double a[12], const struct aiMatrix4x4 *b, double to[12]) {
@@ -141,6 +157,28 @@ void dip_model_multiply(const double a[12], const struct aiMatrix4x4 *b, double 
     }
 }
 
+bool dip_model_add_object(DipModel *model, int file, int mesh, const double transform[12],
+                          const char *name, DipError *err) {
+    const char *path = model->files[file].path;
+    const int count = model->def.object_count;
+    if (count == MAX_OBJECTS) {
+        return dip_error_set(err, DIP_ERROR_RANGE, path, 0, NULL,
+                             "the model has more than %d objects", MAX_OBJECTS);
+    }
+    DipObjectDef object = {.mesh = mesh};
+    for (int i = 0; i < 12; ++i) {
+        object.transform[i] = (float)transform[i];
+    }
+    object.name = dip_model_copy_text(model, name);
+    DipObjectDef *objects = dip_array_grow(model->objects, count, sizeof *objects);
+    model->objects = objects ? objects : model->objects;
+    if (!object.name || !objects) {
+        return dip_model_out_of_memory(err, path);
+    }
+    objects[model->def.object_count++] = object;
+    return true;
+}
+
 static bool add_object(DipModel *model, int file, const struct aiNode *node, unsigned source,
                        const NodeState *state, DipError *err) {
     const struct aiMesh *mesh = model->files[file].scene->mMeshes[source];
@@ -155,27 +193,9 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
     if (model->plans[material].invisible) {
         return true;
     }
-    const char *path = model->files[file].path;
-    if (model->def.object_count == MAX_OBJECTS) {
-        return dip_error_set(err, DIP_ERROR_RANGE, path, 0, NULL,
-                             "the model has more than %d objects", MAX_OBJECTS);
-    }
-    DipObjectDef object = {.mesh = dip_model_mesh(model, file, source, material, err)};
-    if (object.mesh < 0) {
-        return false;
-    }
-    for (int i = 0; i < 12; ++i) {
-        object.transform[i] = (float)state->world[i];
-    }
-    object.name = dip_model_copy_text(model, node->mName.data);
-    DipObjectDef *objects =
-        dip_array_grow(model->objects, model->def.object_count, sizeof *objects);
-    model->objects = objects ? objects : model->objects;
-    if (!object.name || !objects) {
-        return dip_model_out_of_memory(err, path);
-    }
-    objects[model->def.object_count++] = object;
-    return true;
+    const int index = dip_model_mesh(model, file, source, material, err);
+    return index >= 0 &&
+           dip_model_add_object(model, file, index, state->world, node->mName.data, err);
 }
 
 // Adds a node and its children to the objects. The import has already limited how deep nodes nest.
@@ -203,26 +223,60 @@ static bool walk(DipModel *model, int file, const struct aiNode *node, const Nod
     return true;
 }
 
-static bool load_file(DipModel *model, int index, const char *path, DipError *err) {
+// Keeps the names of the file's materials.
+static bool list_materials(DipModel *model, DipModelFile *file, DipError *err) {
+    const unsigned count = file->scene->mNumMaterials;
+    file->material_names = dip_model_alloc(model, count, sizeof *file->material_names);
+    for (unsigned i = 0; file->material_names && i < count; ++i) {
+        struct aiString name = {0};
+        aiGetMaterialString(file->scene->mMaterials[i], AI_MATKEY_NAME, &name);
+        file->material_names[i] = dip_model_copy_text(model, name.data);
+        file->material_names = file->material_names[i] ? file->material_names : NULL;
+    }
+    file->material_count = (int)count;
+    return file->material_names || dip_model_out_of_memory(err, file->path);
+}
+
+// Reads a file with assimp.
+static bool load_with_assimp(DipModel *model, int index, DipError *err) {
     DipModelFile *file = &model->files[index];
-    file->path = dip_model_copy_text(model, path);
-    if (!file->path) {
+    NodeState root = {.tag = DIP_TAG_SOLID};
+    if (!dip_model_import(model, file, err) || !list_materials(model, file, err)) {
+        return false;
+    }
+    dip_model_up_transform(model, file, root.world);
+    return walk(model, index, file->scene->mRootNode, &root, err) &&
+           dip_model_read_lights(model, file, root.world, err);
+}
+
+// Reads a file as glTF 2. Sets *is_other if it is something else.
+static bool load_as_gltf(DipModel *model, int index, bool *is_other, DipError *err) {
+    DipModelFile *file = &model->files[index];
+    const char *dot = strrchr(file->path, '.');
+    double root[12];
+    *is_other = !dot || (strcasecmp(dot, ".gltf") != 0 && strcasecmp(dot, ".glb") != 0);
+    if (*is_other) {
+        return true;
+    }
+    dip_model_up_transform(model, file, root);
+    return dip_model_check_file(file->path, err) &&
+           dip_gltf_read_scene(model, index, root, is_other, err);
+}
+
+static bool load_file(DipModel *model, int index, const char *path, DipError *err) {
+    model->files[index].path = dip_model_copy_text(model, path);
+    if (!model->files[index].path) {
         return dip_model_out_of_memory(err, path);
     }
     model->file_count = index + 1;
-    if (!dip_model_import(model, file, err)) {
-        return false;
-    }
-    NodeState root = {.tag = DIP_TAG_SOLID};
-    dip_model_up_transform(model, file, root.world);
     const int objects_before = model->def.object_count;
-    if (!walk(model, index, file->scene->mRootNode, &root, err)) {
+    bool is_other;
+    if (!load_as_gltf(model, index, &is_other, err) ||
+        (is_other && !load_with_assimp(model, index, err))) {
         return false;
     }
-    if (model->def.object_count == objects_before) {
-        return dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "the model has no triangles");
-    }
-    return dip_model_read_lights(model, file, root.world, err);
+    return model->def.object_count > objects_before ||
+           dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "the model has no triangles");
 }
 
 static void release_scenes(DipModel *model) {
@@ -230,6 +284,11 @@ static void release_scenes(DipModel *model) {
         if (model->files[i].scene) {
             aiReleaseImport(model->files[i].scene);
             model->files[i].scene = NULL;
+        }
+        if (model->files[i].gltf) {
+            dip_gltf_close(model->files[i].gltf);
+            free(model->files[i].gltf);
+            model->files[i].gltf = NULL;
         }
     }
 }

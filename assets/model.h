@@ -1,17 +1,19 @@
 // Loads model files (glTF, OBJ, X, PLY, STL and other formats that assimp reads) and the pictures
-// that they name into one scene description for the renderer.
+// that they name into one scene description for the renderer. Diptych reads glTF 2 itself.
 //
 // docs/models.md explains for authors what the loader reads. In short:
 // - Polygons are triangulated. Points and lines are left out with a warning.
-// - A mesh without normals gets normals, which are smooth where faces meet at less than 60 degrees.
+// - A mesh without normals gets normals: in glTF those of its triangles; in other formats they are
+//   smooth where faces meet at less than 60 degrees.
+// - In glTF, skins and morph targets have their shape at rest.
 // - A mesh that several nodes use stays one mesh with several objects. A node that mirrors uses the
 //   same mesh; the renderer turns the winding back (docs/picture.md, Coverage).
 // - Base colours and vertex colours are linear in glTF. In all other formats they are taken as
 //   sRGB, because the programs that write these formats show them so.
 // - Outside glTF, a black base colour with a colour texture counts as white, because many exporters
 //   write black for "none".
-// - In glTF, MASK keeps its cutoff, and BLEND is drawn as MASK with a cutoff of 0.5 and a warning.
-//   In other formats a surface with an opacity picture is clipped where the opacity is below 0.5. A
+// - In glTF, MASK keeps its cutoff, and BLEND and transmission become blended surfaces. In other
+//   formats a surface with an opacity picture is clipped where the opacity is below 0.5. A
 //   surface whose texture is opaque throughout is an opaque surface.
 // - A surface is double-sided if the file says so. In formats that cannot say so, every surface is
 //   double-sided.
@@ -22,7 +24,7 @@
 // - Rules (DipMaterialRule) mark materials by their names instead.
 // - Solid and mask surfaces without a light map are lit by the lights of the files and of the
 //   options. Without any light, the renderer's fixed light lights them.
-// - Roughness comes from glTF, or is 0.6 if the file has none.
+// - Roughness comes from glTF, or is 0.6 in other formats. Lit surfaces of glTF have a DipPbrDef.
 // - A sky's texture is data (DipSkyDef), not colour, and is read as linear.
 // - Texture coordinates have v = 0 at the picture's upper edge.
 #ifndef DIP_ASSETS_MODEL_H
@@ -52,9 +54,10 @@ enum { DIP_MAX_MODEL_FILES = 256, DIP_MAX_MATERIAL_RULES = 256, DIP_MAX_LIGHT_SC
 // be NULL) reads and decodes pictures in parallel; no other thread may use the pool meanwhile.
 //
 // Codes: MISSING (no such file, or no triangle), IO, TRUNCATED, FORMAT (not a supported format, or
-// malformed), UNSUPPORTED (a required glTF extension), RANGE (an index out of range; a position or
-// transform that is not finite; a picture of more than 8192 pixels in a direction), OVERSIZED (a
-// picture file), RUNTIME, MEMORY. A broken picture only adds a warning.
+// malformed), UNSUPPORTED (a required glTF extension, or a packed model whose library this build
+// lacks), RANGE (an index out of range; a position or transform that is not finite; a picture of
+// more than 8192 pixels in a direction), OVERSIZED (a picture file), RUNTIME, MEMORY. A broken
+// picture only adds a warning.
 //
 // Threads: different models may be loaded at the same time on different threads.
 //

@@ -2,8 +2,9 @@
 //
 // A load has these steps. Each file is imported and checked (import.c). model.c walks the file's
 // nodes and turns them into objects. Each object needs a mesh (mesh.c) and a material (material.c),
-// and the material registers its pictures (pictures.c). Then all pictures are decoded and the
-// materials get their textures.
+// and the material registers its pictures (pictures.c). Files of glTF 2 are read by gltf/scene.c
+// and its neighbours instead, which add the same things to the model. Then all pictures are decoded
+// and the materials get their textures.
 #ifndef DIP_ASSETS_MODEL_PARTS_H
 #define DIP_ASSETS_MODEL_PARTS_H
 
@@ -48,6 +49,12 @@ typedef struct DipPictureEntry {
     DipError error; // why decoding failed; code NONE after success
 } DipPictureEntry;
 
+// Which coordinates of the file become uv0 or uv1 of a mesh, and how they are moved.
+typedef struct DipCoordinates {
+    int set;
+    double matrix[6]; // rows of a 2x3 matrix, for (u, v, 1)
+} DipCoordinates;
+
 // How a material uses a picture.
 typedef struct DipTextureUse {
     int picture;    // index of a picture, or DIP_NO_TEXTURE
@@ -68,10 +75,19 @@ typedef struct DipMaterialPlan {
     bool has_uv0;   // true: the mesh needs coordinates for colour, opacity or normal map
     bool has_uv1;   // true: the mesh needs coordinates for the light map
     bool invisible; // true: the material's own opacity is below its cutoff
+    bool unlit;     // true: no light falls on the surface
     DipTextureUse colour;
     DipTextureUse opacity;
     DipTextureUse light;
     DipTextureUse normal;
+    // The following are those of glTF. For other formats, uv_channel of the pictures says which
+    // coordinates they use, and pbr is NULL.
+    DipTextureUse metal_rough;
+    DipTextureUse occlusion;
+    DipTextureUse emission;
+    DipCoordinates uv0;
+    DipCoordinates uv1;
+    DipPbrDef *pbr; // gets its textures after the pictures are decoded
 } DipMaterialPlan;
 
 // Describes one DipTextureDef: the values that distinguish it from other textures.
@@ -86,12 +102,16 @@ typedef struct DipMeshKey {
     int file;        // index of the model file
     unsigned source; // index of the mesh in that file
     int material;    // index of the DipMaterialDef
+    int object; // object of the file whose shape this is, or DIP_NOT_FOUND for the mesh at rest
 } DipMeshKey;
 
 typedef struct DipModelFile {
     const char *path;            // as the caller gave it; owned by the model
-    const struct aiScene *scene; // owned; NULL before the import and after the load
-    bool linear_colours;         // true: colours are linear, as in glTF; false: colours are sRGB
+    const struct aiScene *scene; // owned; NULL before the import and after the load, and in glTF 2
+    struct DipGltf *gltf; // owned; the file if it is glTF 2, otherwise NULL; NULL after the load
+    const char **material_names; // of all the file's materials; "" for one without a name
+    int material_count;
+    bool linear_colours; // true: colours are linear, as in glTF; false: colours are sRGB
 } DipModelFile;
 
 struct DipModel {
@@ -161,6 +181,9 @@ void *dip_array_grow(void *items, int count, size_t item_bytes);
 void *dip_model_alloc(DipModel *model, size_t count, size_t item_bytes);
 char *dip_model_copy_text(DipModel *model, const char *text);
 
+// model.c: replaces control characters by spaces, because messages must stay on one line.
+void dip_make_one_line(char *text);
+
 // Adds a warning, unless the caller wants no warnings. key may be NULL.
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -174,6 +197,15 @@ float dip_model_colour_to_linear(float value, bool linear);
 
 // model.c: finds a key. Returns NULL if there is none. meta may be NULL.
 const struct aiMetadataEntry *dip_model_metadata(const struct aiMetadata *meta, const char *key);
+
+// model.c: adds an object to the scene. transform: rows of a 3x4 matrix. file: for messages.
+bool dip_model_add_object(DipModel *model, int file, int mesh, const double transform[12],
+                          const char *name, DipError *err);
+
+// model.c: reads the tag that a file gives by its name. Leaves *tag as it is, with a warning, if
+// the name is unknown. key: name of the node.
+void dip_model_read_tag(DipModel *model, const char *file, const char *key, const char *name,
+                        DipTag *tag);
 
 // model.c: multiplies matrices with 3 rows of 4 numbers; of *b, the first three rows are used.
 void dip_model_multiply(const double a[12], const struct aiMatrix4x4 *b, double to[12]);
@@ -194,6 +226,14 @@ float dip_model_near_distance(const DipModelBounds *bounds);
 // Lights that cannot be drawn give a warning. Fails when memory runs out.
 bool dip_model_read_lights(DipModel *model, const DipModelFile *file, const double world[12],
                            DipError *err);
+
+// lights.c: adds a light, or warns that it is left out. A light without strength does not count.
+// Fails when memory runs out.
+bool dip_model_add_light(DipModel *model, const char *file, const DipLightDef *light,
+                         DipError *err);
+
+// lights.c: warns of the lights that were left out since there were left_out_before of them.
+void dip_model_warn_of_lights(DipModel *model, const char *file, int left_out_before);
 
 // lights.c: returns what is wrong with a light, "its ...", or NULL if it is within the ranges of
 // renderer/scene/lights.h. Fields that the light's kind does not use must be in range, too, but may
@@ -236,12 +276,32 @@ void dip_read_colour(const DipColourReader *reader, unsigned vertex, float to[3]
 // up.
 void dip_model_up_transform(const DipModel *model, const DipModelFile *file, double world[12]);
 
-// precheck.c: refuses files that would make assimp run out of stack, memory or time, and glTF files
-// that require an extension Diptych cannot decode.
-bool dip_model_precheck(DipModel *model, const char *path, DipError *err);
+// precheck.c: refuses files that would make assimp run out of stack, memory or time.
+bool dip_model_precheck(const char *path, DipError *err);
 
-// import.c: imports and checks a file, and sets file->scene.
+// import.c: refuses a file that is missing, empty or no regular file, or has another ending than
+// those of models.
+bool dip_model_check_file(const char *path, DipError *err);
+
+// import.c: imports and checks a file with assimp, and sets file->scene.
 bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err);
+
+// The arrays of a mesh's vertices: positions, normals, two sets of texture coordinates and colours.
+// The array of an attribute that the mesh lacks is NULL.
+enum { DIP_ATTRIBUTE_COUNT = 5 };
+typedef struct DipVertexArrays {
+    float *values[DIP_ATTRIBUTE_COUNT];
+} DipVertexArrays;
+
+// mesh.c: merges vertices that are equal in every bit of every attribute, and gives the arrays to
+// *def. *remap maps old indices to new ones. Returns false when memory runs out.
+bool dip_model_join(DipModel *model, const DipVertexArrays *arrays, uint32_t count, DipMeshDef *def,
+                    uint32_t **remap);
+
+// mesh.c: finds a mesh, or returns DIP_NOT_FOUND. Adds a mesh, or returns DIP_NOT_FOUND when memory
+// runs out.
+int dip_model_find_mesh(const DipModel *model, const DipMeshKey *key);
+int dip_model_add_mesh(DipModel *model, const DipMeshDef *def, const DipMeshKey *key);
 
 // mesh.c: returns the index of the mesh with this material. Adds the mesh if it is new. Returns
 // DIP_NOT_FOUND on failure.
@@ -260,6 +320,16 @@ float *dip_model_make_normals(DipModel *model, const struct aiMesh *mesh);
 int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, DipTag tag,
                        bool light_mapped, DipError *err);
 
+// material.c: finds the material that a plan describes, or returns DIP_NOT_FOUND. Adds a material,
+// or fills *err and returns DIP_NOT_FOUND when memory runs out.
+int dip_model_find_material(const DipModel *model, const DipMaterialPlan *plan);
+int dip_model_add_material(DipModel *model, const DipMaterialDef *def, const DipMaterialPlan *plan,
+                           DipError *err);
+
+// material.c: sets the highlight of glTF's materials. specular_lin: light that the surface mirrors
+// straight back.
+void dip_material_set_highlight(DipMaterialDef *def, float roughness, const float specular_lin[3]);
+
 // pictures.c: finds a file that a model names. Returns the path of the file, or the first path
 // tried if there is no such file. The caller frees the path. Returns NULL when memory runs out.
 char *dip_model_find_file(const char *model_path, const char *file_path);
@@ -268,6 +338,13 @@ char *dip_model_find_file(const char *model_path, const char *file_path);
 // memory runs out.
 int dip_model_picture(DipModel *model, int file, const char *path);
 
+// pictures.c: the same for a picture file inside a model. The bytes stay until the load ends.
+int dip_model_picture_bytes(DipModel *model, int file, const char *name, const uint8_t *bytes,
+                            size_t size_bytes);
+
+// pictures.c: the same for a picture file beside a model, as glTF names it.
+int dip_model_picture_beside(DipModel *model, int file, const char *path);
+
 // pictures.c: the same for a picture file that is not looked for in the model's folder.
 int dip_model_picture_file(DipModel *model, int file, const char *path);
 
@@ -275,11 +352,11 @@ int dip_model_picture_file(DipModel *model, int file, const char *path);
 bool dip_material_name_fits(const char *pattern, const char *name);
 
 // material_rules.c: changes the plan's tag, light_mapped and light_rule as the rules say.
-void dip_model_apply_rules(const DipModel *model, const struct aiMaterial *material,
-                           DipMaterialPlan *plan);
+void dip_model_apply_rules(const DipModel *model, const char *name, DipMaterialPlan *plan);
 
-// material_rules.c: fails with UNKNOWN if a rule fits no material of the imported files.
-bool dip_model_check_rules(const DipModel *model, DipError *err);
+// material_rules.c: fails with UNKNOWN if a rule fits no material of the imported files. Warns of
+// rules that fit only materials that no surface uses.
+bool dip_model_check_rules(DipModel *model, DipError *err);
 
 // material_rules.c: fails if the light map of a rule could not be decoded.
 bool dip_model_check_light_maps(const DipModel *model, DipError *err);

@@ -136,6 +136,24 @@ static int embedded_picture(DipModel *model, int file, const char *path,
     return entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
 }
 
+int dip_model_picture_bytes(DipModel *model, int file, const char *name, const uint8_t *bytes,
+                            size_t size_bytes) {
+    const int known = find_picture(model, "", bytes);
+    if (known >= 0) {
+        return known;
+    }
+    char text[512]; // A longer name is cut.
+    snprintf(text, sizeof text, "%.250s:%.250s", model->files[file].path, name);
+    dip_make_one_line(text);
+    const DipPictureEntry entry = {.name = dip_model_copy_text(model, text),
+                                   .file = file,
+                                   .bytes = bytes,
+                                   .size_bytes = size_bytes};
+    const int index = entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
+    model->lost_picture |= index < 0;
+    return index;
+}
+
 static int register_file(DipModel *model, int file, const char *path) {
     const int known = find_picture(model, path, NULL);
     if (known >= 0) {
@@ -145,19 +163,20 @@ static int register_file(DipModel *model, int file, const char *path) {
     return entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
 }
 
-static int register_picture(DipModel *model, int file, const char *path) {
-    const struct aiTexture *texture = find_embedded(model->files[file].scene, path);
-    if (texture && texture->pcData) {
-        return embedded_picture(model, file, path, texture);
-    }
+int dip_model_picture_beside(DipModel *model, int file, const char *path) {
     char *found = dip_model_find_file(model->files[file].path, path);
     const int index = found ? register_file(model, file, found) : DIP_NO_TEXTURE;
     free(found);
+    model->lost_picture |= index < 0;
     return index;
 }
 
 int dip_model_picture(DipModel *model, int file, const char *path) {
-    const int index = register_picture(model, file, path);
+    const struct aiTexture *texture = find_embedded(model->files[file].scene, path);
+    if (!texture || !texture->pcData) {
+        return dip_model_picture_beside(model, file, path);
+    }
+    const int index = embedded_picture(model, file, path, texture);
     model->lost_picture |= index < 0;
     return index;
 }

@@ -1,5 +1,5 @@
-// Checks of model files before assimp reads them. They refuse files that would make assimp run out
-// of stack, memory or time, and glTF files that require an extension Diptych cannot decode.
+// Checks of model files before assimp reads them: they refuse files that would make assimp run out
+// of stack, memory or time.
 #include "assets/model_parts.h"
 #include "renderer/base/file.h"
 
@@ -14,85 +14,35 @@ enum {
     // This number also limits how deep nodes nest, because every node with children has an array.
     // For each level of nodes assimp uses some 600 bytes of stack.
     MAX_JSON_ARRAYS = 400000,
-    MAX_EXTENSION_NAME = 64,
 };
 
 typedef struct JsonScan {
-    DipModel *model; // receives the warnings
     const char *path;
     bool in_string;
     bool escaped; // the character before was an unescaped backslash
     int depth;    // number of objects and arrays that are open
     int max_depth;
     long array_count;
-    char text[MAX_EXTENSION_NAME];    // the string being read; a longer one is cut
-    bool lists_required;              // the last string at depth 1 was "extensionsRequired"
-    char refused[MAX_EXTENSION_NAME]; // the first required extension that cannot be decoded, or ""
 } JsonScan;
-
-// Extensions that describe how surfaces look. The model can be read without them.
-static bool can_read_without(const char *extension) {
-    return strncmp(extension, "KHR_materials_", strlen("KHR_materials_")) == 0 ||
-           strcmp(extension, "KHR_texture_transform") == 0;
-}
-
-// Handles a string that has ended. In the outermost object, a string is a key (or a value, which
-// changes nothing). One level deeper, after the key "extensionsRequired", a string is the name of
-// an extension.
-static void end_string(JsonScan *scan) {
-    if (scan->depth == 1) {
-        scan->lists_required = strcmp(scan->text, "extensionsRequired") == 0;
-    } else if (scan->depth == 2 && scan->lists_required && !scan->refused[0]) {
-        if (strcmp(scan->text, "KHR_lights_punctual") == 0) {
-            return; // lights.c reads these lights.
-        }
-        if (can_read_without(scan->text)) {
-            dip_model_warn(scan->model, scan->path, "extensionsRequired",
-                           "the effect of the glTF extension %s is not drawn", scan->text);
-        } else {
-            memcpy(scan->refused, scan->text, sizeof scan->refused);
-        }
-    }
-}
-
-static void scan_string(JsonScan *scan, int c) {
-    const size_t length = strlen(scan->text);
-    if (c == '"' && !scan->escaped) {
-        scan->in_string = false;
-        end_string(scan);
-    } else if (length + 1 < sizeof scan->text) {
-        scan->text[length] = c >= ' ' && c <= '~' ? (char)c : '?';
-        scan->text[length + 1] = '\0';
-    }
-    scan->escaped = !scan->escaped && c == '\\';
-}
 
 static void scan_character(JsonScan *scan, int c) {
     if (scan->in_string) {
-        scan_string(scan, c);
+        scan->in_string = c != '"' || scan->escaped;
+        scan->escaped = !scan->escaped && c == '\\';
         return;
     }
-    if (c == '"') {
-        scan->in_string = true;
-        scan->text[0] = '\0';
-    }
+    scan->in_string = c == '"';
+    scan->escaped = false;
     scan->array_count += c == '[';
     scan->depth += (c == '{' || c == '[') - (c == '}' || c == ']');
     scan->max_depth = scan->depth > scan->max_depth ? scan->depth : scan->max_depth;
 }
 
 static bool check_scan(const JsonScan *scan, DipError *err) {
-    if (scan->max_depth > MAX_JSON_DEPTH || scan->array_count > MAX_JSON_ARRAYS) {
-        return dip_error_set(err, DIP_ERROR_RANGE, scan->path, 0, NULL,
-                             "JSON is nested %d deep and has %ld arrays, accepted %d and %d",
-                             scan->max_depth, scan->array_count, MAX_JSON_DEPTH, MAX_JSON_ARRAYS);
-    }
-    return !scan->refused[0] ||
-           dip_error_set(err, DIP_ERROR_UNSUPPORTED, scan->path, 0, "extensionsRequired",
-                         "the model needs the glTF extension \"%s\", which cannot be decoded, "
-                         "accepted KHR_materials_*, KHR_lights_punctual and KHR_texture_transform "
-                         "(docs/models.md)",
-                         scan->refused);
+    return (scan->max_depth <= MAX_JSON_DEPTH && scan->array_count <= MAX_JSON_ARRAYS) ||
+           dip_error_set(err, DIP_ERROR_RANGE, scan->path, 0, NULL,
+                         "JSON is nested %d deep and has %ld arrays, accepted %d and %d",
+                         scan->max_depth, scan->array_count, MAX_JSON_DEPTH, MAX_JSON_ARRAYS);
 }
 
 static bool cannot_open(const char *path, DipError *err) {
@@ -100,8 +50,8 @@ static bool cannot_open(const char *path, DipError *err) {
                          strerror(errno));
 }
 
-// Scans the text of a .gltf, or of the first chunk of a .glb (binary).
-static bool check_json(DipModel *model, const char *path, bool binary, DipError *err) {
+// Scans the text of a .gltf of glTF 1, or of the first chunk of a .glb (binary).
+static bool check_json(const char *path, bool binary, DipError *err) {
     FILE *file = fopen(path, "rb");
     unsigned char header[20] = {0}; // glb: 12 bytes, then the JSON chunk's length and type
     if (!file) {
@@ -116,7 +66,7 @@ static bool check_json(DipModel *model, const char *path, bool binary, DipError 
                              ? header[12] | (unsigned long)header[13] << 8 |
                                    (unsigned long)header[14] << 16 | (unsigned long)header[15] << 24
                              : ~0UL;
-    JsonScan scan = {.model = model, .path = path};
+    JsonScan scan = {.path = path};
     for (int c = 0; left > 0 && (c = getc(file)) != EOF; --left) {
         scan_character(&scan, c);
     }
@@ -203,7 +153,7 @@ static bool check_off(const char *path, DipError *err) {
                          "a file of %ld bytes cannot hold %.0f elements", size_bytes, count);
 }
 
-bool dip_model_precheck(DipModel *model, const char *path, DipError *err) {
+bool dip_model_precheck(const char *path, DipError *err) {
     const char *dot = strrchr(path, '.');
     if (!dot) {
         return true;
@@ -215,5 +165,5 @@ bool dip_model_precheck(DipModel *model, const char *path, DipError *err) {
         return check_off(path, err);
     }
     const bool binary = strcasecmp(dot, ".glb") == 0;
-    return (!binary && strcasecmp(dot, ".gltf") != 0) || check_json(model, path, binary, err);
+    return (!binary && strcasecmp(dot, ".gltf") != 0) || check_json(path, binary, err);
 }

@@ -17,7 +17,7 @@ static const size_t max_model_bytes = (size_t)1 << 30;
 // --- memory --------------------------------------------------------------------------------------
 
 void *dip_animated_alloc(DipAnimatedModel *model, size_t count, size_t item_bytes) {
-    const size_t left = max_model_bytes - model->allocated_bytes;
+    const size_t left = model->most_bytes - model->allocated_bytes;
     if (item_bytes > 0 && count > left / item_bytes) {
         model->too_large = true;
         return NULL;
@@ -32,7 +32,7 @@ bool dip_animated_no_room(const DipAnimatedModel *model, DipError *err) {
     }
     return dip_error_set(err, DIP_ERROR_OVERSIZED, model->path, 0, NULL,
                          "the model needs more memory than is accepted: %zu MiB",
-                         max_model_bytes >> 20);
+                         model->most_bytes >> 20);
 }
 
 const char *dip_animated_text(DipAnimatedModel *model, const char *text, size_t length) {
@@ -59,6 +59,7 @@ DipMaterialDef dip_animated_material(const char *name) {
         .alpha_cutoff = 0.5f,
         .double_sided = true,
         .lit = true,
+        .opacity = 1.0f,
     };
 }
 
@@ -147,6 +148,7 @@ static bool read_model(DipAnimatedModel *model, DipError *err) {
 DipAnimatedModel *dip_animated_model_make(const char *path) {
     DipAnimatedModel *model = calloc(1, sizeof *model);
     if (model) {
+        model->most_bytes = max_model_bytes;
         model->store = calloc(1, sizeof *model->store);
         model->path = model->store ? dip_model_copy_text(model->store, path) : NULL;
         if (!model->path) {

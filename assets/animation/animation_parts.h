@@ -75,7 +75,8 @@ struct DipAnimatedModel {
     const char *path;
     const struct DipImporter *importer; // Used only during the load.
     size_t allocated_bytes;
-    bool too_large; // An allocation would have exceeded the limit.
+    size_t most_bytes; // The limit of allocated_bytes.
+    bool too_large;    // An allocation would have exceeded the limit.
     DipAnimatedDef def;
     DipPicture *pictures; // One for each texture.
     DipTextureDef *textures;
@@ -97,6 +98,13 @@ struct DipAnimatedModel {
 // animation.c: makes an empty model, which dip_animated_model_destroy destroys. Returns NULL if
 // memory runs out.
 DipAnimatedModel *dip_animated_model_make(const char *path);
+
+// animation_pose.c: to = a * b, for 3x4 matrices whose fourth row is 0, 0, 0, 1. `to` is neither a
+// nor b.
+void dip_animated_multiply(const double a[12], const double b[12], double to[12]);
+
+// animation_pose.c: computes the transform of a node at rest relative to its parent.
+void dip_animated_local(const DipAnimatedNode *node, double local[12]);
 
 // animation_pose.c: computes the world transform (rows of a 3x4 matrix) of a node at a time of an
 // animation, of which `plan` may hold only the tracks that move the node or the nodes above it.

@@ -34,8 +34,7 @@ struct DipAnimatedPose {
 
 // --- matrices ------------------------------------------------------------------------------------
 
-// to = a * b, for 3x4 matrices whose fourth row is 0, 0, 0, 1. `to` is neither a nor b.
-static void multiply(const double a[12], const double b[12], double to[12]) {
+void dip_animated_multiply(const double a[12], const double b[12], double to[12]) {
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 4; ++column) {
             double sum = column == 3 ? a[4 * row + 3] : 0.0;
@@ -223,6 +222,12 @@ static void place_locally(const DipAnimatedNode *node, NodeState *state, double 
     }
 }
 
+void dip_animated_local(const DipAnimatedNode *node, double local[12]) {
+    NodeState state;
+    rest_node(node, &state);
+    place_locally(node, &state, local);
+}
+
 void dip_animated_place_node(const DipAnimatedModel *model, const DipAnimationPlan *plan, int node,
                              double time_s, double world[12]) {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -239,7 +244,7 @@ void dip_animated_place_node(const DipAnimatedModel *model, const DipAnimationPl
         }
         place_locally(&model->nodes[at], &state, local);
         memcpy(below, world, sizeof below);
-        multiply(local, below, world);
+        dip_animated_multiply(local, below, world);
     }
 }
 
@@ -252,7 +257,7 @@ static void place_nodes(DipAnimatedPose *pose) {
         if (node->parent == DIP_NO_NODE) {
             memcpy(pose->global[i], local, sizeof local);
         } else {
-            multiply(pose->global[node->parent], local, pose->global[i]);
+            dip_animated_multiply(pose->global[node->parent], local, pose->global[i]);
         }
     }
 }
@@ -260,7 +265,8 @@ static void place_nodes(DipAnimatedPose *pose) {
 static void place_joints(DipAnimatedPose *pose, const DipAnimatedSkin *skin, float *to) {
     for (int j = 0; j < skin->joint_count; ++j) {
         double joint[12];
-        multiply(pose->global[skin->nodes[j]], skin->inverse_binds + 12 * (size_t)j, joint);
+        dip_animated_multiply(pose->global[skin->nodes[j]], skin->inverse_binds + 12 * (size_t)j,
+                              joint);
         to_floats(joint, 12, to + 12 * (size_t)j);
     }
 }

@@ -18,6 +18,7 @@ typedef struct Reader {
     PackHeader header;
     uint64_t arrays_end; // End of the last array, in bytes. The next array begins here or later.
     DipError *err;
+    DipPbrDef *pbrs; // One for each material.
 } Reader;
 
 // The lighting that a scene's `lighting` points to. `def` comes first, so that both have the same
@@ -179,11 +180,37 @@ static bool read_texture(Reader *reader, uint64_t index, DipTextureDef *def) {
                            .wrap_u = (DipWrap)record.wrap_u,
                            .wrap_v = (DipWrap)record.wrap_v};
     const uint64_t texel_count = (uint64_t)record.width * (uint64_t)record.height;
-    const bool ok = record.encoding <= DIP_ENCODING_LINEAR && record.wrap_u <= DIP_WRAP_CLAMP &&
-                    record.wrap_v <= DIP_WRAP_CLAMP && read_text(reader, record.name, &def->name) &&
+    const bool ok = record.encoding <= DIP_ENCODING_LINEAR && record.wrap_u <= DIP_WRAP_MIRROR &&
+                    record.wrap_v <= DIP_WRAP_MIRROR &&
+                    read_text(reader, record.name, &def->name) &&
                     read_array(reader, record.rgba8, texel_count, 4, &texels) && texels;
     def->rgba8 = ok ? texels : NULL;
     return ok || refuse(reader, "a texture", index);
+}
+
+// Reads the reflection of a material. Returns false if a value is out of range.
+static bool read_pbr(const Reader *reader, const PackPbr *record, DipPbrDef *def) {
+    *def = (DipPbrDef){.metallic = record->metallic,
+                       .roughness = record->roughness,
+                       .metal_rough_map = record->metal_rough_map,
+                       .occlusion_map = record->occlusion_map,
+                       .occlusion_at_uv1 = record->occlusion_at_uv1 == 1,
+                       .occlusion_strength = record->occlusion_strength,
+                       .emission_map = record->emission_map,
+                       .emission_at_uv1 = record->emission_at_uv1 == 1,
+                       .normal_scale = record->normal_scale,
+                       .coat = record->coat,
+                       .coat_roughness = record->coat_roughness};
+    memcpy(def->f0_lin, record->f0_lin, sizeof def->f0_lin);
+    memcpy(def->emission_lin, record->emission_lin, sizeof def->emission_lin);
+    const float *f0 = record->f0_lin;
+    return within_unit(record->metallic) && within_unit(record->roughness) && within_unit(f0[0]) &&
+           within_unit(f0[1]) && within_unit(f0[2]) && within_unit(record->occlusion_strength) &&
+           within_unit(record->coat) && within_unit(record->coat_roughness) &&
+           are_light(record->emission_lin) && isfinite(record->normal_scale) &&
+           is_boolean(record->occlusion_at_uv1) && is_boolean(record->emission_at_uv1) &&
+           is_texture(reader, record->metal_rough_map) &&
+           is_texture(reader, record->occlusion_map) && is_texture(reader, record->emission_map);
 }
 
 static bool read_material(Reader *reader, uint64_t index, DipMaterialDef *def) {
@@ -198,20 +225,24 @@ static bool read_material(Reader *reader, uint64_t index, DipMaterialDef *def) {
                             .alpha_cutoff = record.alpha_cutoff,
                             .shininess = record.shininess,
                             .double_sided = record.double_sided == 1,
-                            .lit = record.lit == 1};
+                            .lit = record.lit == 1,
+                            .opacity = record.opacity,
+                            .pbr = record.has_pbr == 1 ? &reader->pbrs[index] : NULL};
     memcpy(def->base_colour_lin, record.base_colour_lin, sizeof def->base_colour_lin);
     memcpy(def->specular_lin, record.specular_lin, sizeof def->specular_lin);
     const float *base = record.base_colour_lin;
     const bool numbers = within_unit(base[0]) && within_unit(base[1]) && within_unit(base[2]) &&
                          within_unit(record.roughness) && within_unit(record.alpha_cutoff) &&
-                         record.light_map_scale >= 0.0f && isfinite(record.light_map_scale) &&
-                         are_light(record.specular_lin) && record.shininess >= 0.0f &&
-                         record.shininess <= (float)DIP_MAX_SHININESS;
+                         within_unit(record.opacity) && record.light_map_scale >= 0.0f &&
+                         isfinite(record.light_map_scale) && are_light(record.specular_lin) &&
+                         record.shininess >= 0.0f && record.shininess <= (float)DIP_MAX_SHININESS;
     const bool textures = is_texture(reader, record.colour_texture) &&
                           is_texture(reader, record.light_map) &&
                           is_texture(reader, record.normal_map);
     const bool ok = numbers && textures && record.surface <= DIP_SURFACE_SKY &&
                     is_boolean(record.double_sided) && is_boolean(record.lit) &&
+                    is_boolean(record.has_pbr) &&
+                    (!def->pbr || read_pbr(reader, &record.pbr, &reader->pbrs[index])) &&
                     read_text(reader, record.name, &def->name);
     return ok || refuse(reader, "a material", index);
 }
@@ -330,8 +361,9 @@ static bool allocate_scene(const Reader *reader, DipSceneDef *scene) {
     }                                                                                              \
     scene->number = (int)header->name.count
 
-static bool read_scene(Reader *reader, DipSceneDef *scene) {
+static bool read_scene(Reader *reader, DipScenePack *pack) {
     const PackHeader *header = &reader->header;
+    DipSceneDef *scene = &pack->scene;
     if (!(header->near_m > 0.0f) || !isfinite(header->near_m) ||
         !all_finite(header->background_lin, 3)) {
         return refuse(reader, "near plane or background", 0);
@@ -340,6 +372,11 @@ static bool read_scene(Reader *reader, DipSceneDef *scene) {
     memcpy(scene->background_lin, header->background_lin, sizeof scene->background_lin);
     scene->sky = dip_sky_default();
     reader->arrays_end = sizeof *header;
+    pack->pbrs = calloc(header->materials.count + 1, sizeof *pack->pbrs);
+    reader->pbrs = pack->pbrs;
+    if (!pack->pbrs) {
+        return out_of_memory(reader);
+    }
     if (!allocate_scene(reader, scene)) {
         return false;
     }
@@ -405,7 +442,7 @@ bool dip_scene_pack_read(const void *bytes, size_t size_bytes, DipScenePack *pac
     DIP_ASSERT((uintptr_t)bytes % 8 == 0);
     *pack = (DipScenePack){0};
     const bool ok =
-        read_header(&reader) && read_messages(&reader, pack) && read_scene(&reader, &pack->scene);
+        read_header(&reader) && read_messages(&reader, pack) && read_scene(&reader, pack);
     if (!ok) {
         dip_scene_pack_free(pack);
         return false;
@@ -421,6 +458,7 @@ void dip_scene_pack_free(DipScenePack *pack) {
     free((void *)pack->scene.meshes);
     free((void *)pack->scene.objects);
     free((void *)pack->scene.lighting);
+    free(pack->pbrs);
     dip_error_list_free(&pack->warnings);
     *pack = (DipScenePack){0};
 }

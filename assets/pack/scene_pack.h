@@ -33,6 +33,7 @@ typedef enum DipImportStage {
 // The content of a pack: either a scene or the reason why there is none.
 typedef struct DipScenePack {
     DipSceneDef scene; // Its sky is the default sky, which is not part of the pack.
+    DipPbrDef *pbrs;   // What the materials of a pack that was read point to.
     DipModelTimes times;
     DipErrorList warnings;
     DipError failure; // Why the import failed; the code is NONE if there is a scene.

@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 enum {
-    PACK_VERSION = 2, // Increase this number with every change of the layout.
+    PACK_VERSION = 3, // Increase this number with every change of the layout.
     PACK_ALIGNMENT = 64,
     PACK_MAX_RECORDS = 1 << 24 // Most records in a section.
 };
@@ -68,6 +68,23 @@ typedef struct PackTexture {
     uint32_t unused;
 } PackTexture;
 
+// A DipPbrDef.
+typedef struct PackPbr {
+    float metallic;
+    float roughness;
+    float f0_lin[3];
+    int32_t metal_rough_map;
+    int32_t occlusion_map;
+    uint32_t occlusion_at_uv1;
+    float occlusion_strength;
+    int32_t emission_map;
+    uint32_t emission_at_uv1;
+    float emission_lin[3];
+    float normal_scale;
+    float coat;
+    float coat_roughness;
+} PackPbr;
+
 typedef struct PackMaterial {
     uint64_t name;
     uint32_t surface;
@@ -82,6 +99,10 @@ typedef struct PackMaterial {
     float shininess;
     uint32_t double_sided;
     uint32_t lit;
+    float opacity;
+    uint32_t has_pbr; // 0: the material has no DipPbrDef, and `pbr` is ignored
+    PackPbr pbr;
+    uint32_t unused;
 } PackMaterial;
 
 typedef struct PackMesh {

@@ -104,6 +104,23 @@ static bool add_textures(Writer *writer, const DipSceneDef *scene) {
     return ok;
 }
 
+static PackPbr pbr_of(const DipPbrDef *def) {
+    PackPbr record = {.metallic = def->metallic,
+                      .roughness = def->roughness,
+                      .metal_rough_map = def->metal_rough_map,
+                      .occlusion_map = def->occlusion_map,
+                      .occlusion_at_uv1 = def->occlusion_at_uv1,
+                      .occlusion_strength = def->occlusion_strength,
+                      .emission_map = def->emission_map,
+                      .emission_at_uv1 = def->emission_at_uv1,
+                      .normal_scale = def->normal_scale,
+                      .coat = def->coat,
+                      .coat_roughness = def->coat_roughness};
+    memcpy(record.f0_lin, def->f0_lin, sizeof record.f0_lin);
+    memcpy(record.emission_lin, def->emission_lin, sizeof record.emission_lin);
+    return record;
+}
+
 static bool add_materials(Writer *writer, const DipSceneDef *scene) {
     const size_t count = (size_t)scene->material_count;
     PackMaterial *records = calloc(count + 1, sizeof *records);
@@ -119,7 +136,12 @@ static bool add_materials(Writer *writer, const DipSceneDef *scene) {
                                     .alpha_cutoff = def->alpha_cutoff,
                                     .shininess = def->shininess,
                                     .double_sided = def->double_sided,
-                                    .lit = def->lit};
+                                    .lit = def->lit,
+                                    .opacity = def->opacity,
+                                    .has_pbr = def->pbr != NULL};
+        if (def->pbr) {
+            records[i].pbr = pbr_of(def->pbr);
+        }
         memcpy(records[i].base_colour_lin, def->base_colour_lin, sizeof def->base_colour_lin);
         memcpy(records[i].specular_lin, def->specular_lin, sizeof def->specular_lin);
         ok = add_text(writer, def->name, &records[i].name);

@@ -179,6 +179,8 @@ static bool read_picture(const PictureFile *file, DipPicture *picture) {
         {dip_picture_is_pcx, dip_picture_read_pcx},
         {dip_picture_is_pnm, dip_picture_read_pnm},
         {dip_picture_is_hdr, dip_picture_read_hdr},
+        {dip_picture_is_webp, dip_picture_read_webp},
+        {dip_picture_is_ktx2, dip_picture_refuse_ktx2},
     };
     if (file->size_bytes == 0) {
         return dip_error_set(file->err, DIP_ERROR_TRUNCATED, file->name, 0, NULL,

@@ -3,6 +3,7 @@
 // stb_image reads PNG, JPEG, BMP and TGA (picture.c). Diptych's own readers read the formats below:
 // - DDS and PCX, which stb_image does not know.
 // - PPM and PGM, of which stb_image reads 16-bit values wrongly and ignores the greatest value.
+// - WebP, by the library libwebp where there is one.
 // - HDR, for which the stb_image of Debian 12 never returns if a run-length code is cut off.
 #ifndef DIP_ASSETS_PICTURE_PICTURE_PRIVATE_H
 #define DIP_ASSETS_PICTURE_PICTURE_PRIVATE_H
@@ -53,6 +54,12 @@ bool dip_picture_is_pnm(const PictureFile *file);
 bool dip_picture_read_pnm(const PictureFile *file, DipPicture *picture);
 bool dip_picture_is_hdr(const PictureFile *file);
 bool dip_picture_read_hdr(const PictureFile *file, DipPicture *picture);
+bool dip_picture_is_webp(const PictureFile *file);
+bool dip_picture_read_webp(const PictureFile *file, DipPicture *picture);
+
+// Textures of KTX 2.0 are recognised, but not read: the message says how to convert them.
+bool dip_picture_is_ktx2(const PictureFile *file);
+bool dip_picture_refuse_ktx2(const PictureFile *file, DipPicture *picture);
 
 // Decodes a block of 4x4 texels, row-major, from BC1 (8 bytes), BC2 or BC3 (16 bytes).
 void dip_picture_decode_bc1(const uint8_t *block, uint8_t rgba8[64]);

@@ -24,11 +24,32 @@ extern "C" {
 typedef enum DipSurface {
     DIP_SURFACE_OPAQUE,
     DIP_SURFACE_CLIPPED, // alpha-clipped: cut away where the texture's alpha is below alpha_cutoff
+    DIP_SURFACE_BLENDED, // drawn over what lies behind it, with the texture's alpha * opacity
     DIP_SURFACE_WATER,
     DIP_SURFACE_SKY,
 } DipSurface;
 
 enum { DIP_NO_TEXTURE = -1 };
+
+// The reflection of a surface as glTF's metallic-roughness materials describe it. A surface with
+// one reflects its surroundings, and its highlights follow from its roughness; docs/picture.md
+// defines the formulas. An index of a texture may be DIP_NO_TEXTURE. The maps are read at the first
+// texture coordinates (uv0), unless occlusion_at_uv1 or emission_at_uv1 says otherwise.
+typedef struct DipPbrDef {
+    float metallic;           // 0..1: 1 is a metal. It multiplies the blue of the metal_rough_map.
+    float roughness;          // 0..1: it multiplies the green of the metal_rough_map
+    float f0_lin[3];          // 0..1: reflected share at normal incidence where metallic is 0
+    int metal_rough_map;      // linear encoding
+    int occlusion_map;        // linear encoding; its red is the share of ambient light that arrives
+    bool occlusion_at_uv1;    // true: the occlusion map is read at uv1
+    float occlusion_strength; // 0..1
+    int emission_map;         // sRGB encoding; it multiplies emission_lin
+    bool emission_at_uv1;     // true: the emission map is read at uv1
+    float emission_lin[3];    // 0 or more: light that the surface sends out itself
+    float normal_scale;       // multiplies x and y of the normal map's normals
+    float coat;               // 0..1: strength of a clear coat with a reflected share of .04
+    float coat_roughness;     // 0..1
+} DipPbrDef;
 
 // The colour of a surface is base colour * vertex colour * colour texture * light, in linear light,
 // clamped to 0..1 at the end. The light is
@@ -55,7 +76,9 @@ typedef struct DipMaterialDef {
     float shininess;       // 0..DIP_MAX_SHININESS: their exponent, rounded to a whole number
     float alpha_cutoff;    // 0..1, for DIP_SURFACE_CLIPPED: alpha >= alpha_cutoff is kept
     bool double_sided;     // false: visible only where the winding is counter-clockwise
-    bool lit; // true: without a light map, the scene's lights or the fixed light fall on it
+    bool lit;      // true: without a light map, the scene's lights or the fixed light fall on it
+    float opacity; // 0..1, for DIP_SURFACE_BLENDED
+    const DipPbrDef *pbr; // NULL: the surface reflects nothing but the highlights described above
 } DipMaterialDef;
 
 // Indexed triangles of one material. All arrays are packed. An array of an attribute that the mesh

@@ -26,6 +26,26 @@ static void assert_same_texture(const DipTextureDef *one, const DipTextureDef *o
     assert_same_array(one->rgba8, other->rgba8, 4 * (size_t)one->width * (size_t)one->height);
 }
 
+static void assert_same_pbr(const DipPbrDef *one, const DipPbrDef *other) {
+    assert_int_equal(one == NULL, other == NULL);
+    if (!one) {
+        return;
+    }
+    assert_memory_equal(&one->metallic, &other->metallic, sizeof(float));
+    assert_memory_equal(&one->roughness, &other->roughness, sizeof(float));
+    assert_memory_equal(one->f0_lin, other->f0_lin, sizeof one->f0_lin);
+    assert_int_equal(one->metal_rough_map, other->metal_rough_map);
+    assert_int_equal(one->occlusion_map, other->occlusion_map);
+    assert_int_equal(one->occlusion_at_uv1, other->occlusion_at_uv1);
+    assert_memory_equal(&one->occlusion_strength, &other->occlusion_strength, sizeof(float));
+    assert_int_equal(one->emission_map, other->emission_map);
+    assert_int_equal(one->emission_at_uv1, other->emission_at_uv1);
+    assert_memory_equal(one->emission_lin, other->emission_lin, sizeof one->emission_lin);
+    assert_memory_equal(&one->normal_scale, &other->normal_scale, sizeof(float));
+    assert_memory_equal(&one->coat, &other->coat, sizeof(float));
+    assert_memory_equal(&one->coat_roughness, &other->coat_roughness, sizeof(float));
+}
+
 static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef *other) {
     assert_string_equal(one->name, other->name);
     assert_int_equal(one->surface, other->surface);
@@ -40,6 +60,8 @@ static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef
     assert_memory_equal(&one->shininess, &other->shininess, sizeof(float));
     assert_int_equal(one->double_sided, other->double_sided);
     assert_int_equal(one->lit, other->lit);
+    assert_memory_equal(&one->opacity, &other->opacity, sizeof(float));
+    assert_same_pbr(one->pbr, other->pbr);
 }
 
 static void assert_same_mesh(const DipMeshDef *one, const DipMeshDef *other) {
@@ -126,6 +148,21 @@ static void assert_in_unit(float value) {
     assert_true(value >= 0.0f && value <= 1.0f);
 }
 
+static void check_pbr(const DipPbrDef *pbr, int texture_count) {
+    const int textures[] = {pbr->metal_rough_map, pbr->occlusion_map, pbr->emission_map};
+    for (int i = 0; i < 3; ++i) {
+        assert_true(textures[i] >= DIP_NO_TEXTURE && textures[i] < texture_count);
+        assert_in_unit(pbr->f0_lin[i]);
+        assert_true(pbr->emission_lin[i] >= 0.0f && isfinite(pbr->emission_lin[i]));
+    }
+    assert_in_unit(pbr->metallic);
+    assert_in_unit(pbr->roughness);
+    assert_in_unit(pbr->occlusion_strength);
+    assert_in_unit(pbr->coat);
+    assert_in_unit(pbr->coat_roughness);
+    assert_true(isfinite(pbr->normal_scale));
+}
+
 static void check_material(const DipMaterialDef *material, int texture_count) {
     const int textures[] = {material->colour_texture, material->light_map, material->normal_map};
     for (int i = 0; i < 3; ++i) {
@@ -136,6 +173,10 @@ static void check_material(const DipMaterialDef *material, int texture_count) {
     assert_in_unit(material->roughness);
     assert_in_unit(material->alpha_cutoff);
     assert_true(isfinite(material->light_map_scale));
+    assert_in_unit(material->opacity);
+    if (material->pbr) {
+        check_pbr(material->pbr, texture_count);
+    }
     assert_true(material->shininess >= 0.0f && material->shininess <= DIP_MAX_SHININESS);
     for (int i = 0; i < 3; ++i) {
         assert_true(material->specular_lin[i] >= 0.0f && isfinite(material->specular_lin[i]));

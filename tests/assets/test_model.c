@@ -392,19 +392,19 @@ static void a_required_material_extension_gives_a_warning(void **state) {
     (void)state;
     size_t size_bytes = 0;
     uint8_t *bytes = fixture_read(fixture_data("square.gltf"), &size_bytes);
-    static const char required[] = "{\"extensionsRequired\":[\"KHR_materials_clearcoat\"],";
+    static const char required[] = "{\"extensionsRequired\":[\"KHR_materials_sheen\"],";
     char *text = malloc(sizeof required + size_bytes);
     memcpy(text, required, sizeof required - 1);
     memcpy(text + sizeof required - 1, bytes + 1, size_bytes - 1); // without the first brace
-    fixture_write("clearcoat.gltf", text, sizeof required - 1 + size_bytes - 1);
+    fixture_write("sheen.gltf", text, sizeof required - 1 + size_bytes - 1);
     free(text);
     free(bytes);
     DipErrorList warnings = {0};
-    DipModel *model = load(fixture_path("clearcoat.gltf"), NULL, &warnings);
+    DipModel *model = load(fixture_path("sheen.gltf"), NULL, &warnings);
     assert_int_equal(warnings.count, 1);
     assert_string_equal(warnings.items[0].key, "extensionsRequired");
     assert_string_equal(warnings.items[0].message,
-                        "the effect of the glTF extension KHR_materials_clearcoat is not drawn");
+                        "the effect of the glTF extension KHR_materials_sheen is not drawn");
     dip_error_list_free(&warnings);
     dip_model_destroy(&model);
 }
@@ -440,6 +440,65 @@ static void a_missing_picture_gives_a_warning(void **state) {
     assert_int_equal(warnings.count, 2);
     assert_int_equal(warnings.error_count, 0);
     assert_non_null(strstr(warnings.items[0].message, "colour.tga"));
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
+// The materials of an X file may stand at its top, before or after the meshes that name them.
+static void materials_of_x_files_may_be_named_by_reference(void **state) {
+    (void)state;
+    static const char red[] = "Material Red {\n1;0;0;1;;\n0;\n0;0;0;;\n0;0;0;;\n}\n";
+    static const char mesh[] = "Mesh m {\n3;\n0;0;0;,\n1;0;0;,\n0;1;0;;\n1;\n3;0,1,2;;\n"
+                               "MeshMaterialList {\n1;\n1;\n0;;\n{ Red }\n}\n}\n";
+    for (int after = 0; after < 2; ++after) {
+        char text[512];
+        snprintf(text, sizeof text, "xof 0303txt 0032\n%s%s", after ? mesh : red,
+                 after ? red : mesh);
+        fixture_write_text("reference.x", text);
+        const DipMaterialRule rule = {.mark = DIP_MARK_GLASS, .pattern = "Red"};
+        const DipModelOptions options = {.rules = &rule, .rule_count = 1};
+        const char *path = fixture_path("reference.x");
+        DipErrorList warnings = {0};
+        DipModel *model = dip_model_load_with(&path, 1, &options, NULL, &warnings, NULL);
+        assert_non_null(model);
+        const DipMaterialDef *material = material_of(dip_model_scene_def(model), 0);
+        assert_string_equal(material->name, "Red");
+        assert_true(material->base_colour_lin[0] == 1.0f && material->base_colour_lin[1] == 0.0f);
+        assert_false(material->lit); // The rule makes it glass.
+        assert_int_equal(warnings.count, 0);
+        dip_model_destroy(&model);
+    }
+}
+
+// A rule that only marks what nobody sees is probably a mistake.
+static void a_rule_that_no_surface_uses_gives_a_warning(void **state) {
+    (void)state;
+    static const char text[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"materials\":[{\"name\":\"seen\"},{\"name\":\"spare\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+        "\"accessors\":[{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}]}";
+    fixture_write_text("spare.gltf", text);
+    const DipMaterialRule rules[] = {{.mark = DIP_MARK_GLASS,
+                                      .pattern = "se*",
+                                      .file = "a.ini",
+                                      .line = 3,
+                                      .key = "MATERIAL_GLASS"},
+                                     {.mark = DIP_MARK_WATER,
+                                      .pattern = "spare",
+                                      .file = "a.ini",
+                                      .line = 4,
+                                      .key = "MATERIAL_WATER"}};
+    const DipModelOptions options = {.rules = rules, .rule_count = 2};
+    const char *path = fixture_path("spare.gltf");
+    DipErrorList warnings = {0};
+    DipModel *model = dip_model_load_with(&path, 1, &options, NULL, &warnings, NULL);
+    assert_non_null(model);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.items[0].file, "a.ini");
+    assert_int_equal(warnings.items[0].line, 4);
+    assert_string_equal(warnings.items[0].message,
+                        "'spare' fits only materials that no surface uses");
     dip_error_list_free(&warnings);
     dip_model_destroy(&model);
 }
@@ -565,6 +624,8 @@ int main(void) {
         cmocka_unit_test(a_required_material_extension_gives_a_warning),
         cmocka_unit_test(an_opacity_picture_becomes_alpha),
         cmocka_unit_test(a_missing_picture_gives_a_warning),
+        cmocka_unit_test(materials_of_x_files_may_be_named_by_reference),
+        cmocka_unit_test(a_rule_that_no_surface_uses_gives_a_warning),
         cmocka_unit_test(points_and_lines_give_a_warning_with_their_number),
         cmocka_unit_test(ply_colours_become_linear),
         cmocka_unit_test(stl_and_x_files_load_together),

@@ -121,7 +121,12 @@ static bool is_own_fault(void) {
     const size_t length = fread(report, 1, sizeof report - 1, pipe);
     pclose(pipe);
     report[length] = '\0';
-    const char *library = strstr(report, "libassimp");
+    static const char *const libraries[] = {"libassimp", "libdraco", "libmeshoptimizer", "libwebp"};
+    const char *library = NULL;
+    for (size_t i = 0; i < sizeof libraries / sizeof *libraries; ++i) {
+        const char *found = strstr(report, libraries[i]);
+        library = found && (!library || found < library) ? found : library;
+    }
     const char *own = strstr(report, "/assets/");
     const char *renderer = strstr(report, "/renderer/");
     own = !own || (renderer && renderer < own) ? renderer : own;

@@ -1,0 +1,49 @@
+// The state of the reader that turns a glTF file into a scene, shared by its parts. Private to
+// assets/.
+#ifndef DIP_ASSETS_GLTF_SCENE_H
+#define DIP_ASSETS_GLTF_SCENE_H
+
+#include "assets/gltf/materials.h"
+#include "assets/gltf/reader.h"
+
+// What a node passes on to the nodes below it.
+typedef struct DipGltfNodeState {
+    double world[12]; // rows of a 3x4 matrix
+    DipTag tag;
+    bool light_mapped;
+} DipGltfNodeState;
+
+typedef struct DipGltfScene {
+    DipGltfReader reader;  // Its model has the meshes, nodes and skins of the file.
+    DipModel *model;       // The scene that is loaded.
+    int file;              // Index of the file in the model.
+    DipAnimatedPose *pose; // The model at rest.
+    const double *root;    // The transform of the whole file.
+    DipGltfItems lights;   // Those of KHR_lights_punctual.
+    unsigned warned;       // One bit for each DipGltfLoss that a warning has named.
+} DipGltfScene;
+
+// Features of which there is one warning for each file.
+typedef enum DipGltfLoss {
+    DIP_GLTF_LOSS_COORDINATES,
+    DIP_GLTF_LOSS_LIGHT_MAPPED,
+    DIP_GLTF_LOSS_VERTEX_ALPHA,
+} DipGltfLoss;
+
+// True if the file has not been warned of this loss; it counts as warned from now on.
+bool dip_gltf_warns_of(DipGltfScene *scene, DipGltfLoss loss);
+
+// scene_materials.c: returns the material of the scene for a part of the file in an object with
+// this tag. Fails with DIP_NOT_FOUND.
+int dip_gltf_scene_material(DipGltfScene *scene, int part, DipTag tag, bool light_mapped);
+
+// scene_meshes.c: returns the mesh of the scene for a part with this material. object: the object
+// of the reader's model whose shape the mesh shall have, or DIP_NOT_FOUND for the part itself.
+// Fails with DIP_NOT_FOUND.
+int dip_gltf_scene_mesh(DipGltfScene *scene, int part, int object, int material);
+
+// scene_lights.c: adds the light of a node, if it has one.
+bool dip_gltf_scene_light(DipGltfScene *scene, const struct cJSON *node, int index,
+                          const double world[12]);
+
+#endif
