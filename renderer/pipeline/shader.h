@@ -26,7 +26,7 @@ enum {
     DIP_VERTEX_BATCH = 256,
     DIP_MAX_VARYINGS = 12,   // floats interpolated from the vertices to a fragment
     DIP_MAX_ATTRIBUTES = 16, // floats per vertex
-    DIP_MAX_SAMPLERS = 4,
+    DIP_MAX_SAMPLERS = 8,
 };
 
 // A vertex shader reads in[a][i]: float a of vertex i's attributes in the mesh, and 0 for the

@@ -34,7 +34,7 @@ enum { DIP_NO_TEXTURE = -1 };
 // The reflection of a surface as glTF's metallic-roughness materials describe it. A surface with
 // one reflects its surroundings, and its highlights follow from its roughness; docs/picture.md
 // defines the formulas. An index of a texture may be DIP_NO_TEXTURE. The maps are read at the first
-// texture coordinates (uv0), but for an occlusion map with occlusion_at_uv1.
+// texture coordinates (uv0), unless occlusion_at_uv1 or emission_at_uv1 says otherwise.
 typedef struct DipPbrDef {
     float metallic;           // 0..1: 1 is a metal. It multiplies the blue of the metal_rough_map.
     float roughness;          // 0..1: it multiplies the green of the metal_rough_map
@@ -44,6 +44,7 @@ typedef struct DipPbrDef {
     bool occlusion_at_uv1;    // true: the occlusion map is read at uv1
     float occlusion_strength; // 0..1
     int emission_map;         // sRGB encoding; it multiplies emission_lin
+    bool emission_at_uv1;     // true: the emission map is read at uv1
     float emission_lin[3];    // 0 or more: light that the surface sends out itself
     float normal_scale;       // multiplies x and y of the normal map's normals
     float coat;               // 0..1: strength of a clear coat with a reflected share of .04

@@ -253,6 +253,11 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
     DipCounters counters = {
         .fragments_lit = passes->shader_counts[DIP_SHADER_COUNT_LIT],
         .fragments_normal_mapped = passes->shader_counts[DIP_SHADER_COUNT_NORMAL_MAPPED],
+        .fragments_pbr = passes->shader_counts[DIP_SHADER_COUNT_PBR],
+        .fragments_occluded = passes->shader_counts[DIP_SHADER_COUNT_OCCLUDED],
+        .fragments_emitting = passes->shader_counts[DIP_SHADER_COUNT_EMITTING],
+        .fragments_coated = passes->shader_counts[DIP_SHADER_COUNT_COATED],
+        .fragments_blended = passes->fragments_ordered, // all ordered draws of a scene blend
         .fragments_sky = passes->shader_counts[DIP_SHADER_COUNT_SKY],
         .fragments_reflecting = passes->shader_counts[DIP_SHADER_COUNT_REFLECTING],
     };
