@@ -352,5 +352,6 @@ void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDraw
             add_draw(input, pass, i, set);
         }
     }
+    set->plain_count = set->count;
     add_blended(input, pass, blended, set);
 }

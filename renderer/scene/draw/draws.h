@@ -54,6 +54,7 @@ typedef struct DipDrawSet {
     // objects come last, from far to near.
     DipDraw *draws;
     int count;
+    int plain_count;              // draws that are not blended
     int culled;                   // objects that were left out because they are out of view
     DipSurfaceUniforms *uniforms; // one per draw
     DipDrawMatrices *matrices;    // one per draw

@@ -116,7 +116,9 @@ static void panes_blend_from_far_to_near_in_linear_light(void **state) {
         }
         assert_int_equal(centre_of(&frame)[3], 255);
         assert_true(frame.effects.blend.run);
-        assert_int_equal(frame.counters.fragments_blended, 3 * WIDTH * HEIGHT);
+        // Where two triangles meet in a pixel, each has a fragment.
+        assert_true(frame.counters.fragments_blended >= 3 * WIDTH * HEIGHT);
+        assert_true(o % 2 == 0 || frame.counters.fragments_blended == 3 * WIDTH * HEIGHT);
         close_stage(&stage);
         author_free(&scene);
     }
@@ -167,6 +169,7 @@ static void both_sides_of_a_double_sided_pane_are_seen(void **state) {
         const int object = add_pane(DIP_SURFACE_BLENDED, green, 0.5f, 0.0f);
         scene.objects[object].transform[0] = -1.0f; // turned about the vertical axis
         scene.objects[object].transform[10] = -1.0f;
+        scene.objects[object].transform[3] = 9.0f;
         scene.materials[0].double_sided = two_sided;
         Stage stage = open_stage("aa=none", NULL);
         const DipFrame frame = draw(&stage);
@@ -174,6 +177,28 @@ static void both_sides_of_a_double_sided_pane_are_seen(void **state) {
         close_stage(&stage);
         author_free(&scene);
     }
+}
+
+// Reading samples draws a part of the frame again: its pixels stay, and the samples show what is
+// not blended.
+static void reading_samples_leaves_the_frame_as_it_is(void **state) {
+    (void)state;
+    static DipSampleValue samples[8 * 8 * DIP_READBACK_STRIDE];
+    const DipSampleReadback readback = {.region = {70, 50, 78, 58}, .samples = samples};
+    author_begin(&scene);
+    add_pane(DIP_SURFACE_BLENDED, red, 0.5f, 1.0f);
+    add_pane(DIP_SURFACE_OPAQUE, green, 1.0f, 0.0f);
+    Stage stage = open_stage("aa=4", NULL);
+    const DipFrame frame = draw(&stage);
+    char hashes[2][33];
+    dip_frame_hash(&frame, hashes[0]);
+    assert_true(
+        dip_renderer_read_samples(stage.renderer, stage.scene, &scene.pose, 0, &readback, NULL));
+    dip_frame_hash(&frame, hashes[1]);
+    assert_string_equal(hashes[0], hashes[1]);
+    assert_int_equal(samples[0].linear16[1], lround(0.8 * 65535.0));
+    close_stage(&stage);
+    author_free(&scene);
 }
 
 // --- the order -----------------------------------------------------------------------------------
@@ -270,6 +295,7 @@ static void the_converged_picture_sorts_each_sample(void **state) {
     add_pane(DIP_SURFACE_BLENDED, red, 0.5f, 0.0f);
     add_pane(DIP_SURFACE_BLENDED, green, 0.5f, 0.0f);
     scene.objects[1].transform[8] = 0.5f; // its right half stands before the other pane
+    scene.objects[1].transform[11] = -4.5f;
     DipReference *reference = dip_reference_create(&scene.def, &err);
     double *rgb_lin = malloc(SMALL * SMALL * 3 * sizeof *rgb_lin);
     assert_true(reference && rgb_lin);
@@ -293,6 +319,7 @@ int main(void) {
         cmocka_unit_test(what_is_behind_a_wall_is_hidden),
         cmocka_unit_test(the_texture_has_alpha),
         cmocka_unit_test(both_sides_of_a_double_sided_pane_are_seen),
+        cmocka_unit_test(reading_samples_leaves_the_frame_as_it_is),
         cmocka_unit_test(the_order_is_from_far_to_near),
         cmocka_unit_test(depths_are_measured_along_the_view_axis),
         cmocka_unit_test(panes_equal_the_reference),
