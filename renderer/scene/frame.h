@@ -31,7 +31,7 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(fragments_mirrored, "fragments shaded to draw the mirrored scene")                           \
     X(reflection_bytes, "bytes of the mirrored scene's picture")                                   \
     X(normal_map_bytes, "bytes of all normal maps")                                                \
-    X(clip_map_bytes, "bytes of the alpha of all clip maps")                                       \
+    X(clip_map_bytes, "bytes of the alpha of clip maps and blended textures")                      \
     X(cloud_bytes, "bytes of the textures of skies with clouds")                                   \
     X(meshes, "meshes that the scene's objects are drawn from, in view or not")                    \
     X(geometry_bytes, "bytes of the vertices, indices and bounds of these meshes")
