@@ -67,6 +67,9 @@ typedef struct Work {
     X("texture probe", C(texture_probes) - C(clip_probes))                                         \
     X("texel fetched", C(texels_fetched))                                                          \
     X("fragment with a normal map", C(fragments_normal_mapped))                                    \
+    X("fragment of metal and gloss", C(fragments_pbr))                                             \
+    X("fragment with a clear coat", C(fragments_coated))                                           \
+    X("fragment blended", C(fragments_blended))                                                    \
     X("fragment of the sky", C(fragments_sky))                                                     \
     X("fragment of water", C(fragments_reflecting))                                                \
     X("sample shown", C(samples_shown))                                                            \

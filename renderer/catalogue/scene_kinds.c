@@ -515,6 +515,98 @@ static void make_water_effects(DipTestScene *scene) {
     scene->pose.orientation[3] = dip_cos(-0.1);
 }
 
+// Adds a sphere of radius 1 with normals and texture coordinates, placed by a transform.
+static void add_ball(DipTestScene *scene, int material, const float placed[12]) {
+    const DipTestMesh sphere =
+        dip_test_scene_add_mesh(scene, (RINGS + 1) * (SECTORS + 1), 6 * RINGS * SECTORS,
+                                DIP_TEST_NORMALS | DIP_TEST_UV0, material);
+    fill_sphere(&sphere);
+    wrap_sphere(&sphere);
+    memcpy(scene->objects[scene->def.object_count - 1].transform, placed, 12 * sizeof *placed);
+}
+
+static void make_metal_gloss(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    const int colour = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 64, 64);
+    const int data = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 16, 16);
+    scene->textures[data].encoding = DIP_ENCODING_LINEAR;
+    const int glow = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 8, 8);
+    const int bumps = dip_test_scene_add_bumps(scene, 128);
+    const int floor = dip_test_scene_add_material(scene, colour);
+    DipPbrDef *pbr = dip_test_scene_add_pbr(scene, floor, 1.0f, 1.0f);
+    pbr->metal_rough_map = pbr->occlusion_map = data;
+    pbr->occlusion_strength = 0.7f;
+    const int wall = add_bumpy_material(scene, colour, bumps);
+    pbr = dip_test_scene_add_pbr(scene, wall, 0.4f, 0.3f);
+    pbr->normal_scale = 0.6f;
+    pbr->coat = 0.8f;
+    pbr->coat_roughness = 0.2f;
+    const int sheet = add_bumpy_material(scene, DIP_NO_TEXTURE, bumps);
+    scene->materials[sheet].double_sided = true;
+    pbr = dip_test_scene_add_pbr(scene, sheet, 0.0f, 0.6f);
+    pbr->occlusion_map = data;
+    pbr->occlusion_at_uv1 = true;
+    pbr->emission_map = glow;
+    pbr->emission_lin[0] = pbr->emission_lin[2] = 0.4f;
+    const int gold = dip_test_scene_add_material(scene, DIP_NO_TEXTURE);
+    scene->materials[gold].base_colour_lin[1] = 0.71f;
+    scene->materials[gold].base_colour_lin[2] = 0.29f;
+    dip_test_scene_add_pbr(scene, gold, 1.0f, 0.25f);
+    static const float floor_at[12] = {-3, -1, -1, 3, -1, -1, 3, -1, -12, -3, -1, -12};
+    static const float wall_at[12] = {-3, -1, -8, 0, -1, -8, 0, 2, -8, -3, 2, -8};
+    static const float sheet_at[12] = {3, -1, -7, 1, -1, -7, 1, 2, -7, 3, 2, -7}; // from behind
+    static const float tiled[8] = {0, 5, 3, 5, 3, 0, 0, 0};
+    static const float mirrored[8] = {2, 2, 0, 2, 0, 0, 2, 0};
+    add_bumpy_quad(scene, floor, floor_at, tiled, true);
+    add_bumpy_quad(scene, wall, wall_at, mirrored, false);
+    add_bumpy_quad(scene, sheet, sheet_at, tiled, false);
+    add_ball(scene, gold,
+             (const float[]){-0.6f, 0, 0, -0.4f, 0, 0.8f, 0.1f, 0, 0, 0, 0.6f, -4}); // mirrored
+}
+
+// Adds a pane with one corner at p, 1.6 m wide and high.
+static int add_pane(DipTestScene *scene, int texture, const float p[3], const float colour[3]) {
+    const int material = dip_test_scene_add_material(scene, texture);
+    scene->materials[material].surface = DIP_SURFACE_BLENDED;
+    scene->materials[material].opacity = 0.6f;
+    memcpy(scene->materials[material].base_colour_lin, colour, 3 * sizeof *colour);
+    dip_test_scene_add_quad(scene, material, p, (const float[]){1.6f, 0, 0},
+                            (const float[]){0, 1.6f, 0}, 2, 2);
+    return material;
+}
+
+static void make_blending(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    const int spots = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 32, 32);
+    uint8_t *texels = dip_test_scene_texels(scene, spots);
+    for (int i = 0; i < 32 * 32; i++) {
+        texels[4 * i + 3] = (uint8_t)(255 - texels[4 * i]);
+    }
+    // The nearest pane comes first, and what is not blended last.
+    const int glass = add_pane(scene, DIP_NO_TEXTURE, (const float[]){-1.4f, -0.7f, -2.6f},
+                               (const float[]){0.9f, 0.2f, 0.1f});
+    dip_test_scene_add_pbr(scene, glass, 0.0f, 0.2f);
+    const int ball = dip_test_scene_add_material(scene, DIP_NO_TEXTURE);
+    scene->materials[ball].surface = DIP_SURFACE_BLENDED;
+    scene->materials[ball].opacity = 0.5f;
+    scene->materials[ball].double_sided = true;
+    scene->materials[ball].base_colour_lin[0] = 0.2f;
+    dip_test_scene_add_pbr(scene, ball, 0.0f, 0.3f);
+    add_ball(scene, ball, (const float[]){0.7f, 0, 0, 0.3f, 0, 0.7f, 0, 0.1f, 0, 0, 0.7f, -3.8f});
+    add_pane(scene, spots, (const float[]){-0.6f, -0.8f, -5.0f}, (const float[]){1, 1, 1});
+    add_pane(scene, DIP_NO_TEXTURE, (const float[]){0.2f, -0.6f, -6.0f},
+             (const float[]){0.1f, 0.7f, 0.3f});
+    const int wall = dip_test_scene_add_material(
+        scene, dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 64, 64));
+    dip_test_scene_add_quad(scene, wall, (const float[]){-6, -1, -9}, (const float[]){8, 0, 0},
+                            (const float[]){0, 3.5f, 0}, 6, 2);
+    add_pool(scene, DIP_NO_TEXTURE, (const float[]){-4.0f, -0.8f, -1.2f}, 12.0f);
+    scene->reflection = (DipReflectionDef){.width = 120, .height = 90, .level_m = -0.8};
+    scene->pose.position_world[1] = 0.4;
+    scene->pose.orientation[0] = dip_sin(-0.1);
+    scene->pose.orientation[3] = dip_cos(-0.1);
+}
+
 void dip_test_scene_make(DipTestScene *scene, DipTestSceneKind kind) {
     static void (*const makers[])(DipTestScene *) = {
 #define DIP_TEST_SCENE_MAKER(name, text) make_##name,

@@ -111,6 +111,22 @@ int dip_test_scene_add_material(DipTestScene *scene, int colour_texture) {
     return scene->def.material_count++;
 }
 
+DipPbrDef *dip_test_scene_add_pbr(DipTestScene *scene, int material, float metallic,
+                                  float roughness) {
+    DipPbrDef *pbr = &scene->pbrs[material];
+    *pbr = (DipPbrDef){.metallic = metallic,
+                       .roughness = roughness,
+                       .f0_lin = {0.04f, 0.04f, 0.04f},
+                       .metal_rough_map = DIP_NO_TEXTURE,
+                       .occlusion_map = DIP_NO_TEXTURE,
+                       .occlusion_strength = 1.0f,
+                       .emission_map = DIP_NO_TEXTURE,
+                       .normal_scale = 1.0f};
+    scene->materials[material].pbr = pbr;
+    scene->materials[material].lit = true;
+    return pbr;
+}
+
 // Adds a texture with linear encoding and size x size texels, all zero.
 static uint8_t *add_data(DipTestScene *scene, int size) {
     uint8_t *rgba8 = dip_test_scene_alloc(scene, (size_t)size * (size_t)size, 4);

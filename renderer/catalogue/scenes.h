@@ -28,7 +28,9 @@
     X(gouraud_lights, "the same lights at the vertices")                                           \
     X(sky, "two layers of cloud over a quad to the horizon")                                       \
     X(water, "pools at two heights that reflect what stands in and around them")                   \
-    X(water_effects, "a pool that mirrors clouds, a fence and a bumpy wall: all effects together")
+    X(water_effects, "a pool that mirrors clouds, a fence and a bumpy wall: all effects together") \
+    X(metal_gloss, "metallic-roughness surfaces with all maps, a clear coat and both sides")       \
+    X(blending, "blended panes and a ball, single- and double-sided, mirrored by a pool")
 
 typedef enum DipTestSceneKind {
 #define DIP_TEST_SCENE_ENUM(name, text) DIP_TEST_SCENE_##name,
@@ -47,6 +49,8 @@ typedef struct DipTestScene {
     DipReflectionDef reflection; // width 0 if the scene does not test water
     DipTextureDef textures[DIP_TEST_SCENE_PARTS];
     DipMaterialDef materials[DIP_TEST_SCENE_PARTS];
+    DipPbrDef
+        pbrs[DIP_TEST_SCENE_PARTS]; // of the materials with the same indices, if they have one
     DipMeshDef meshes[DIP_TEST_SCENE_PARTS];
     DipObjectDef objects[DIP_TEST_SCENE_PARTS];
     DipLightDef lights[DIP_TEST_SCENE_PARTS];
@@ -79,6 +83,10 @@ void *dip_test_scene_alloc(DipTestScene *scene, size_t count, size_t size);
 // opaque; the test may change them afterwards.
 int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width, int height);
 int dip_test_scene_add_material(DipTestScene *scene, int colour_texture);
+
+// Gives a material a metallic-roughness surface without maps, lights it and returns the surface.
+DipPbrDef *dip_test_scene_add_pbr(DipTestScene *scene, int material, float metallic,
+                                  float roughness);
 
 // The first function adds a normal map of round bumps, which can be repeated. The second adds soft
 // noise as the data texture of a sky. Both textures have linear encoding.

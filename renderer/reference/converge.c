@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { NOTHING = -1 };
 
@@ -15,6 +16,7 @@ typedef struct Plane {
     double *y;
     double *depths;
     int32_t *triangles;
+    DipRefPeel *peels; // NULL if no blended surface is in view
 } Plane;
 
 typedef struct Converging {
@@ -82,6 +84,10 @@ static void draw_in_pixel(Converging *c, int32_t index, size_t pixel) {
         return;
     }
     const double depth = dip_reference_depth(&place, c->reference->def->near_m);
+    if (triangle->blended) {
+        dip_reference_peel_offer(&c->plane.peels[pixel], depth, index);
+        return;
+    }
     if (depth <= c->plane.depths[pixel]) {
         return;
     }
@@ -93,9 +99,13 @@ static void draw_in_pixel(Converging *c, int32_t index, size_t pixel) {
     c->plane.triangles[pixel] = index;
 }
 
-static void draw_plane(Converging *c) {
+// Draws the triangles that are not blended, or offers the blended ones to each pixel's peel.
+static void draw_triangles(Converging *c, bool blended) {
     for (size_t t = 0; t < c->triangles.count; t++) {
         const DipRefTriangle *triangle = &c->triangles.items[t];
+        if (triangle->blended != blended) {
+            continue;
+        }
         for (int y = triangle->min_y; y <= triangle->max_y; y++) {
             for (int x = triangle->min_x; x <= triangle->max_x; x++) {
                 draw_in_pixel(c, (int32_t)t, (size_t)y * (size_t)c->width + (size_t)x);
@@ -104,7 +114,9 @@ static void draw_plane(Converging *c) {
     }
 }
 
-// Computes the colour of the plane's sample in a pixel.
+static void find_colour(const Converging *c, size_t pixel, double rgb[3]);
+
+// Computes the colour of the plane's sample in a pixel, without blended surfaces.
 static void shade(const Converging *c, size_t pixel, double rgb[3]) {
     const int32_t index = c->plane.triangles[pixel];
     for (int i = 0; i < 3; i++) {
@@ -118,9 +130,48 @@ static void shade(const Converging *c, size_t pixel, double rgb[3]) {
     dip_reference_shade(&place, NULL, rgb);
     if (c->mirrored && place.triangle->material->surface == DIP_SURFACE_WATER) {
         double mirrored[3];
-        shade(c->mirrored, pixel, mirrored);
+        find_colour(c->mirrored, pixel, mirrored);
         dip_reference_blend_water(c->reference, c->pose, c->width, c->height, &place, mirrored,
                                   rgb);
+    }
+}
+
+// Returns the colour of the plane's sample in a pixel with its blended surfaces.
+static void find_colour(const Converging *c, size_t pixel, double rgb[3]) {
+    if (c->plane.peels) {
+        memcpy(rgb, c->plane.peels[pixel].rgb, sizeof c->plane.peels[pixel].rgb);
+    } else {
+        shade(c, pixel, rgb);
+    }
+}
+
+// Blends the farthest surface that is left in each pixel. Returns false if none is left anywhere.
+static bool blend_next(Converging *c) {
+    bool any = false;
+    for (size_t pixel = 0; pixel < (size_t)c->width * (size_t)c->height; pixel++) {
+        DipRefPeel *peel = &c->plane.peels[pixel];
+        if (peel->next != NOTHING) {
+            const DipRefPosition place =
+                place_at(&c->triangles.items[peel->next], c->plane.x[pixel], c->plane.y[pixel]);
+            dip_reference_peel_blend(peel, &place);
+            any = true;
+        }
+    }
+    return any;
+}
+
+static void draw_plane(Converging *c) {
+    draw_triangles(c, false);
+    for (size_t pixel = 0; c->plane.peels && pixel < (size_t)c->width * (size_t)c->height;
+         pixel++) {
+        double rgb[3];
+        shade(c, pixel, rgb);
+        c->plane.peels[pixel] = dip_reference_peel_begin(rgb, c->plane.depths[pixel]);
+    }
+    bool left = c->plane.peels != NULL;
+    while (left) {
+        draw_triangles(c, true);
+        left = blend_next(c);
     }
 }
 
@@ -128,7 +179,7 @@ static void add_plane(const Converging *c, double weight, double *rgb_lin) {
     const size_t pixel_count = (size_t)c->width * (size_t)c->height;
     for (size_t pixel = 0; pixel < pixel_count; pixel++) {
         double rgb[3];
-        shade(c, pixel, rgb);
+        find_colour(c, pixel, rgb);
         for (size_t i = 0; i < 3; i++) {
             rgb_lin[3 * pixel + i] += weight * rgb[i];
         }
@@ -142,13 +193,17 @@ static bool make_plane(Converging *c, DipError *err) {
     plane->y = malloc(count * sizeof *plane->y);
     plane->depths = malloc(count * sizeof *plane->depths);
     plane->triangles = malloc(count * sizeof *plane->triangles);
-    return (plane->x && plane->y && plane->depths && plane->triangles) ||
+    if (c->triangles.has_blended) {
+        plane->peels = malloc(count * sizeof *plane->peels);
+    }
+    return (plane->x && plane->y && plane->depths && plane->triangles &&
+            (plane->peels || !c->triangles.has_blended)) ||
            dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for %zu samples", count);
 }
 
 static bool start(Converging *c, const DipRefShot *shot, DipError *err) {
-    return make_plane(c, err) &&
-           dip_reference_build_triangles(c->reference, shot, &c->triangles, err);
+    return dip_reference_build_triangles(c->reference, shot, &c->triangles, err) &&
+           make_plane(c, err);
 }
 
 static void finish(Converging *c) {
@@ -157,6 +212,7 @@ static void finish(Converging *c) {
     free(c->plane.y);
     free(c->plane.depths);
     free(c->plane.triangles);
+    free(c->plane.peels);
 }
 
 bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,

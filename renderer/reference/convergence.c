@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // TILE is the width and height of a tile, in pixels. A tile's samples fit the second-level cache.
 enum { NOTHING = -1, TILE = 8 };
@@ -41,6 +42,7 @@ typedef struct Samples {
     // Depths of the nearest alpha-clipped triangles, even where alpha removes them.
     double *clip_depths;
     int32_t *triangles;
+    DipRefPeel *peels; // of each sample; NULL if no blended surface is in view
     int per_pixel;
     int x0; // first pixel of the tile
     int y0;
@@ -154,7 +156,9 @@ int dip_convergence_tile_count(const DipConvergence *convergence) {
 
 static bool make_samples(const DipConvergence *c, int tile, int per_pixel, Samples *samples) {
     const size_t count = (size_t)TILE * TILE * (size_t)per_pixel;
-    double *memory = malloc(count * (4 * sizeof(double) + sizeof(int32_t)));
+    const size_t peels = c->triangles.has_blended ? count : 0;
+    double *memory =
+        malloc(peels * sizeof(DipRefPeel) + count * (4 * sizeof(double) + sizeof(int32_t)));
     const int x0 = tile % c->tiles_x * TILE;
     const int y0 = tile / c->tiles_x * TILE;
     *samples = (Samples){
@@ -167,13 +171,15 @@ static bool make_samples(const DipConvergence *c, int tile, int per_pixel, Sampl
         .memory = memory,
     };
     if (memory) {
+        samples->peels = peels ? (DipRefPeel *)memory : NULL;
+        memory = (double *)((DipRefPeel *)memory + peels);
         samples->x = memory;
         samples->y = memory + count;
         samples->depths = memory + 2 * count;
         samples->clip_depths = memory + 3 * count;
         samples->triangles = (int32_t *)(memory + 4 * count);
     }
-    return memory != NULL;
+    return samples->memory != NULL;
 }
 
 // Returns the index of a pixel's first sample.
@@ -236,6 +242,10 @@ static bool misses_pixel(const Edge edges[3], int x, int y) {
 static void draw_in_sample(Samples *samples, const DipRefTriangle *triangle, int32_t index,
                            size_t i, const DipRefPosition *place) {
     const double depth = dip_reference_depth(place, samples->convergence->reference->def->near_m);
+    if (triangle->blended) {
+        dip_reference_peel_offer(&samples->peels[i], depth, index);
+        return;
+    }
     if (triangle->clipped) {
         samples->clip_depths[i] = fmax(samples->clip_depths[i], depth);
     }
@@ -271,11 +281,15 @@ static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
-static void draw_triangles(Samples *samples, int tile) {
+// Draws the triangles that are not blended, or offers the blended ones to each sample's peel.
+static void draw_triangles(Samples *samples, int tile, bool blended) {
     const DipConvergence *c = samples->convergence;
     for (size_t k = c->bins.first[tile]; k < c->bins.first[tile + 1]; k++) {
         const int32_t index = c->bins.items[k];
         const DipRefTriangle *triangle = &c->triangles.items[index];
+        if (triangle->blended != blended) {
+            continue;
+        }
         Edge edges[3];
         find_edges(triangle, edges);
         const int last_x = smaller(triangle->max_x, samples->x1 - 1);
@@ -308,6 +322,9 @@ static bool shows_water(const Samples *samples, size_t i) {
     return seen != NOTHING && triangles[seen].material->surface == DIP_SURFACE_WATER;
 }
 
+static void find_colour(const Samples *samples, size_t i, double rgb[3]);
+
+// Shades what is not blended.
 static void shade_sample(const Samples *samples, size_t i, double rgb[3]) {
     const DipConvergence *c = samples->convergence;
     for (int k = 0; k < 3; k++) {
@@ -321,16 +338,68 @@ static void shade_sample(const Samples *samples, size_t i, double rgb[3]) {
     dip_reference_shade(&place, NULL, rgb);
     if (samples->mirrored && shows_water(samples, i)) {
         double mirrored[3];
-        shade_sample(samples->mirrored, i, mirrored);
+        find_colour(samples->mirrored, i, mirrored);
         dip_reference_blend_water(c->reference, &c->pose, c->width, c->height, &place, mirrored,
                                   rgb);
     }
 }
 
+// Returns the colour of a sample with its blended surfaces.
+static void find_colour(const Samples *samples, size_t i, double rgb[3]) {
+    if (samples->peels) {
+        memcpy(rgb, samples->peels[i].rgb, sizeof samples->peels[i].rgb);
+    } else {
+        shade_sample(samples, i, rgb);
+    }
+}
+
+// Calls a function for each sample within the frame. Returns whether any call returned true.
+static bool for_each_sample(Samples *samples, bool (*visit)(Samples *samples, size_t i)) {
+    bool any = false;
+    for (int y = samples->y0; y < samples->y1; y++) {
+        for (int x = samples->x0; x < samples->x1; x++) {
+            const size_t first = first_of(samples, x, y);
+            for (size_t i = first; i < first + (size_t)samples->per_pixel; i++) {
+                any = visit(samples, i) || any;
+            }
+        }
+    }
+    return any;
+}
+
+static bool begin_peel(Samples *samples, size_t i) {
+    double rgb[3];
+    shade_sample(samples, i, rgb);
+    samples->peels[i] = dip_reference_peel_begin(rgb, samples->depths[i]);
+    return false;
+}
+
+static bool blend_next(Samples *samples, size_t i) {
+    DipRefPeel *peel = &samples->peels[i];
+    if (peel->next == NOTHING) {
+        return false;
+    }
+    const DipRefPosition place =
+        place_on(&samples->convergence->triangles.items[peel->next], samples->x[i], samples->y[i]);
+    dip_reference_peel_blend(peel, &place);
+    return true;
+}
+
+// Draws the blended surfaces of all samples. Each round draws the farthest that is left of each.
+static void blend_samples(Samples *samples, int tile) {
+    if (!samples->peels) {
+        return;
+    }
+    for_each_sample(samples, begin_peel);
+    do {
+        draw_triangles(samples, tile, true);
+    } while (for_each_sample(samples, blend_next));
+}
+
 static void shade_pixel(const Samples *samples, size_t first, double share, double *rgb_lin) {
     for (size_t i = first; i < first + (size_t)samples->per_pixel; i++) {
         double rgb[3];
-        shade_sample(samples, i, rgb);
+        find_colour(samples, i, rgb);
         for (int k = 0; k < 3; k++) {
             rgb_lin[k] += share / samples->per_pixel * rgb[k];
         }
@@ -411,7 +480,7 @@ static bool draw_samples(const DipConvergence *convergence, int tile, int sample
         return false;
     }
     place_samples(samples, side, seed);
-    draw_triangles(samples, tile);
+    draw_triangles(samples, tile, false);
     return true;
 }
 
@@ -435,6 +504,10 @@ bool dip_convergence_add_tile(const DipConvergence *convergence, int tile, int s
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for %d samples",
                              sample_count);
     }
+    if (samples.mirrored) {
+        blend_samples(&mirrored, tile);
+    }
+    blend_samples(&samples, tile);
     for (int y = samples.y0; y < samples.y1; y++) {
         for (int x = samples.x0; x < samples.x1; x++) {
             const size_t pixel = (size_t)y * (size_t)convergence->width + (size_t)x;

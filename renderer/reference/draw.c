@@ -18,6 +18,24 @@ typedef struct Samples {
     int32_t *triangles;
 } Samples;
 
+// A blended triangle in a pixel.
+typedef struct Layer {
+    int32_t triangle;
+    unsigned mask; // samples that it covers
+    size_t next;   // index of another layer of the pixel, plus 1; 0: there is none
+    bool shaded;   // rgba is valid
+    double rgba[4];
+} Layer;
+
+// The layers of a picture.
+typedef struct Layers {
+    Layer *items;
+    size_t count;
+    size_t capacity;
+    size_t *first; // for each pixel, the index of one of its layers, plus 1; NULL: none are blended
+    bool complete; // false: memory ran out
+} Layers;
+
 typedef struct Drawing {
     const DipReference *reference;
     const DipSamplePattern *pattern;
@@ -28,6 +46,7 @@ typedef struct Drawing {
     DipRefFilter filter;
     DipRefFilter group_filter; // filter of surfaces that have several sample groups in a pixel
     Samples samples;
+    Layers layers;
     DipRefShot shot;
     int width;
     int height;
@@ -167,6 +186,23 @@ static unsigned clip_samples(const Drawing *drawing, const DipRefTriangle *trian
     return kept;
 }
 
+static void add_layer(Drawing *drawing, int32_t index, int x, int y, unsigned mask) {
+    Layers *layers = &drawing->layers;
+    if (layers->count == layers->capacity) {
+        const size_t capacity = layers->capacity ? 2 * layers->capacity : 1024;
+        Layer *items = realloc(layers->items, capacity * sizeof *items);
+        if (!items) {
+            layers->complete = false;
+            return;
+        }
+        layers->items = items;
+        layers->capacity = capacity;
+    }
+    size_t *first = &layers->first[(size_t)y * (size_t)drawing->width + (size_t)x];
+    layers->items[layers->count++] = (Layer){.triangle = index, .mask = mask, .next = *first};
+    *first = layers->count;
+}
+
 static void draw_in_pixel(Drawing *drawing, int32_t index, int x, int y) {
     const DipRefTriangle *triangle = &drawing->triangles.items[index];
     const DipSamplePattern *pattern = drawing->pattern;
@@ -178,6 +214,12 @@ static void draw_in_pixel(Drawing *drawing, int32_t index, int x, int y) {
     }
     if (mask && triangle->clipped) {
         mask = clip_samples(drawing, triangle, x, y, mask);
+    }
+    if (triangle->blended) {
+        if (mask) {
+            add_layer(drawing, index, x, y, mask);
+        }
+        return;
     }
     const size_t first = ((size_t)y * (size_t)drawing->width + (size_t)x) * (size_t)pattern->count;
     for (int s = 0; s < pattern->count; s++) {
@@ -238,6 +280,75 @@ static unsigned shaded_with(const Drawing *drawing, const int32_t *surfaces, int
     return mask;
 }
 
+// Returns the farthest layer of a sample that is left: one in front of the depth `behind`, or at
+// this depth and submitted after the triangle `last`. Returns NULL if none is left.
+static Layer *next_layer(const Drawing *drawing, int x, int y, int s, double behind, int32_t last,
+                         double *depth) {
+    const Layers *layers = &drawing->layers;
+    Layer *found = NULL;
+    size_t at = layers->first[(size_t)y * (size_t)drawing->width + (size_t)x];
+    for (; at; at = layers->items[at - 1].next) {
+        Layer *layer = &layers->items[at - 1];
+        if (!(layer->mask >> s & 1)) {
+            continue;
+        }
+        const DipRefPosition place =
+            place_at_sample(drawing, &drawing->triangles.items[layer->triangle], x, y, s);
+        const double own = dip_reference_depth(&place, drawing->reference->def->near_m);
+        const bool is_left = own > behind || (own == behind && layer->triangle > last);
+        const bool is_first =
+            !found || own < *depth || (own == *depth && layer->triangle < found->triangle);
+        if (is_left && is_first) {
+            found = layer;
+            *depth = own;
+        }
+    }
+    return found;
+}
+
+// Blends the layers of a sample over its colour, from far to near.
+static void blend_sample(const Drawing *drawing, int x, int y, int s, double rgb[3]) {
+    const size_t pixel = (size_t)y * (size_t)drawing->width + (size_t)x;
+    double behind = drawing->samples.depths[pixel * (size_t)drawing->pattern->count + (size_t)s];
+    int32_t last = INT32_MAX; // a layer at the depth of the opaque surface is hidden
+    double depth = 0.0;
+    Layer *layer = next_layer(drawing, x, y, s, behind, last, &depth);
+    while (layer) {
+        if (!layer->shaded) {
+            const DipRefPosition place = place_to_shade(
+                drawing, &drawing->triangles.items[layer->triangle], x, y, layer->mask);
+            dip_reference_shade(&place, &drawing->filter, layer->rgba);
+            layer->rgba[3] = dip_reference_opacity(&place, &drawing->filter);
+            layer->shaded = true;
+        }
+        for (int c = 0; c < 3; c++) {
+            rgb[c] = layer->rgba[3] * layer->rgba[c] + (1.0 - layer->rgba[3]) * rgb[c];
+        }
+        behind = depth;
+        last = layer->triangle;
+        layer = next_layer(drawing, x, y, s, behind, last, &depth);
+    }
+}
+
+// Adds the colours of the samples in mask, which show one colour below their layers.
+static void add_samples(const Drawing *drawing, int x, int y, unsigned mask, const double colour[3],
+                        double sum[3]) {
+    const size_t pixel = (size_t)y * (size_t)drawing->width + (size_t)x;
+    if (!drawing->layers.first || !drawing->layers.first[pixel]) {
+        for (int c = 0; c < 3; c++) {
+            sum[c] += colour[c] * __builtin_popcount(mask);
+        }
+        return;
+    }
+    for (unsigned left = mask; left; left &= left - 1) {
+        double rgb[3] = {colour[0], colour[1], colour[2]};
+        blend_sample(drawing, x, y, __builtin_ctz(left), rgb);
+        for (int c = 0; c < 3; c++) {
+            sum[c] += rgb[c];
+        }
+    }
+}
+
 // Computes the mean of a pixel's samples. Each surface among them is shaded once, or once per
 // sample group.
 static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
@@ -260,9 +371,7 @@ static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
         } else {
             shade(drawing, surfaces[s], x, y, mask, colour);
         }
-        for (int c = 0; c < 3; c++) {
-            sum[c] += colour[c] * __builtin_popcount(mask);
-        }
+        add_samples(drawing, x, y, mask, colour, sum);
     }
     for (int c = 0; c < 3; c++) {
         rgb[c] = sum[c] / count;
@@ -284,6 +393,21 @@ static bool make_samples(Drawing *drawing, DipError *err) {
     return true;
 }
 
+static bool out_of_layers(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL,
+                         "out of memory for blended surfaces");
+}
+
+static bool make_layers(Drawing *drawing, DipError *err) {
+    drawing->layers = (Layers){.complete = true};
+    if (drawing->triangles.has_blended) {
+        const size_t pixels = (size_t)drawing->width * (size_t)drawing->height;
+        drawing->layers.first = calloc(pixels, sizeof *drawing->layers.first);
+        return drawing->layers.first || out_of_layers(err);
+    }
+    return true;
+}
+
 static bool sees_water(const Drawing *drawing) {
     for (size_t t = 0; t < drawing->triangles.count; t++) {
         if (drawing->triangles.items[t].material->surface == DIP_SURFACE_WATER) {
@@ -296,9 +420,12 @@ static bool sees_water(const Drawing *drawing) {
 // Draws the picture of a shot (a view that is drawn to one picture). The caller must have built the
 // shot's triangles.
 static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
-    const bool made = make_samples(drawing, err);
+    bool made = make_samples(drawing, err) && make_layers(drawing, err);
     if (made) {
         draw_triangles(drawing);
+        made = drawing->layers.complete || out_of_layers(err);
+    }
+    if (made) {
         for (int y = 0; y < drawing->height; y++) {
             for (int x = 0; x < drawing->width; x++) {
                 resolve_pixel(drawing, x, y,
@@ -308,6 +435,8 @@ static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
     }
     free(drawing->samples.depths);
     free(drawing->samples.triangles);
+    free(drawing->layers.items);
+    free(drawing->layers.first);
     return made;
 }
 

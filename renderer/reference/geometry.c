@@ -238,6 +238,7 @@ static bool append(DipRefTriangles *triangles, const DipRefTriangle *triangle) {
         triangles->capacity = capacity;
     }
     triangles->items[triangles->count++] = *triangle;
+    triangles->has_blended = triangles->has_blended || triangle->blended;
     return true;
 }
 
@@ -316,6 +317,29 @@ static bool add_mesh(const DipReference *reference, const Camera *camera, int me
     return true;
 }
 
+// Sets the values of a metallic-roughness surface.
+static void describe_pbr(const DipReference *reference, const DipMeshDef *mesh,
+                         DipRefTriangle *like) {
+    const DipMaterialDef *material = like->material;
+    const DipPbrDef *pbr = material->pbr;
+    const float *const sets[2] = {mesh->uv0, mesh->uv1};
+    if (!pbr || !material->lit || !dip_reference_is_solid(material) || !mesh->normals ||
+        like->light_map) {
+        return;
+    }
+    like->pbr = pbr;
+    like->pbr_tables = reference->pbr_tables;
+    if (pbr->metal_rough_map != DIP_NO_TEXTURE && mesh->uv0) {
+        like->metal_rough = &reference->textures[pbr->metal_rough_map];
+    }
+    if (pbr->occlusion_map != DIP_NO_TEXTURE && sets[pbr->occlusion_at_uv1]) {
+        like->occlusion = &reference->textures[pbr->occlusion_map];
+    }
+    if (pbr->emission_map != DIP_NO_TEXTURE && sets[pbr->emission_at_uv1]) {
+        like->emission = &reference->textures[pbr->emission_map];
+    }
+}
+
 // Returns the values that all triangles of a mesh share.
 static DipRefTriangle describe_mesh(const DipReference *reference, const DipMeshDef *mesh) {
     const DipMaterialDef *material = &reference->def->materials[mesh->material];
@@ -334,19 +358,23 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
         like.sky = &reference->def->sky;
         like.time_ns = reference->time_ns;
     }
-    const bool solid =
-        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
-    if (reference->def->lighting && solid && material->lit && mesh->normals && !like.light_map) {
+    if (reference->def->lighting && dip_reference_is_solid(material) && material->lit &&
+        mesh->normals && !like.light_map) {
         const bool phong = reference->def->lighting->shading == DIP_SHADING_PHONG;
         like.lit = (DipRefLit){.lighting = reference->def->lighting,
                                .material = material,
                                .fragments = phong || like.normal_map};
     }
     like.clipped = material->surface == DIP_SURFACE_CLIPPED && like.colour;
+    like.blended = material->surface == DIP_SURFACE_BLENDED;
+    describe_pbr(reference, mesh, &like);
     return like;
 }
 
 static VertexLight vertex_light(const DipRefTriangle *like, const DipMeshDef *mesh) {
+    if (like->pbr) {
+        return LIGHT_NONE;
+    }
     if (like->lit.lighting) {
         return like->lit.fragments ? LIGHT_NONE : LIGHT_OF_SCENE;
     }

@@ -31,10 +31,8 @@ static double find_cone(const DipLightDef *light, const double to_light[3]) {
     return share * share;
 }
 
-// Finds the direction to a light and returns the part of its light that arrives at a place. `place`
-// is relative to the eye.
-static double find_arrival(const DipLightDef *light, const double eye[3], const double place[3],
-                           double to_light[3]) {
+double dip_reference_arrival(const DipLightDef *light, const double eye[3], const double place[3],
+                             double to_light[3]) {
     const bool is_far = light->kind == DIP_LIGHT_DIRECTIONAL;
     for (int i = 0; i < 3; i++) {
         to_light[i] = is_far ? -(double)light->direction_world[i]
@@ -67,7 +65,7 @@ void dip_reference_lights(const DipRefLit *lit, const double place[3], const dou
     for (int l = 0; l < lit->lighting->light_count; l++) {
         const DipLightDef *light = &lit->lighting->lights[l];
         double to_light[3];
-        const double share = find_arrival(light, lit->eye, place, to_light);
+        const double share = dip_reference_arrival(light, lit->eye, place, to_light);
         const double facing = dot(normal, to_light);
         if (!(facing > 0.0)) {
             continue;

@@ -26,11 +26,14 @@ double dip_reference_light(const double normal[3], double sunlit) {
     return 0.35 + 0.15 * normal[1] + 0.65 * sunlit * meet_sun(normal);
 }
 
+bool dip_reference_is_solid(const DipMaterialDef *material) {
+    return material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED ||
+           material->surface == DIP_SURFACE_BLENDED;
+}
+
 bool dip_reference_is_bumpy(const DipMaterialDef *material) {
-    const bool is_solid =
-        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
     const bool has_light = material->lit || material->light_map != DIP_NO_TEXTURE;
-    return is_solid && has_light && material->normal_map != DIP_NO_TEXTURE;
+    return dip_reference_is_solid(material) && has_light && material->normal_map != DIP_NO_TEXTURE;
 }
 
 // Returns the size of a texture coordinate's derivatives, which the derivatives' rounding errors
@@ -77,8 +80,9 @@ static bool find_tangents(const DipRefVaryings *varyings, const double normal[3]
     return is_flat;
 }
 
-// Turns a normal by the map's filtered normal. Returns the length of the filtered normal.
-static double map_normal(const DipRefVaryings *varyings, const double texel[3],
+// Turns a normal by the map's filtered normal, whose x and y are multiplied by scale. Returns the
+// length of the filtered normal before that.
+static double map_normal(const DipRefVaryings *varyings, const double texel[3], double scale,
                          const double normal[3], double mapped[3]) {
     double along_u[3];
     double against_v[3];
@@ -89,9 +93,13 @@ static double map_normal(const DipRefVaryings *varyings, const double texel[3],
     }
     m[2] = fmax(m[2], 0.125);
     const double length = sqrt(dot(m, m));
+    m[0] *= scale;
+    m[1] *= scale;
+    const double scaled_length = sqrt(dot(m, m));
     if (find_tangents(varyings, normal, along_u, against_v)) {
         for (int i = 0; i < 3; i++) {
-            mapped[i] = (m[0] * along_u[i] + m[1] * against_v[i] + m[2] * normal[i]) / length;
+            mapped[i] =
+                (m[0] * along_u[i] + m[1] * against_v[i] + m[2] * normal[i]) / scaled_length;
         }
     }
     return length;
@@ -117,7 +125,7 @@ static double find_highlight(double roughness, double length, const double place
     return 0.04 * 0.65 * meet_sun(mapped) * sunlit * lobe;
 }
 
-double dip_reference_normal(const DipRefVaryings *varyings, const double texel[3],
+double dip_reference_normal(const DipRefVaryings *varyings, const double texel[3], double scale,
                             double normal[3]) {
     double mesh[3];
     for (int i = 0; i < 3; i++) {
@@ -125,15 +133,15 @@ double dip_reference_normal(const DipRefVaryings *varyings, const double texel[3
     }
     normalise(mesh);
     normalise(normal);
-    return texel ? map_normal(varyings, texel, mesh, normal) : 1.0;
+    return texel ? map_normal(varyings, texel, scale, mesh, normal) : 1.0;
 }
 
 void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryings *varyings,
                                const double texel[3], const double light[3], double rgb[3]) {
     double normal[3];
     double mapped[3];
-    dip_reference_normal(varyings, NULL, normal);
-    const double length = dip_reference_normal(varyings, texel, mapped);
+    dip_reference_normal(varyings, NULL, 1.0, normal);
+    const double length = dip_reference_normal(varyings, texel, 1.0, mapped);
     double sunlit = 1.0;
     double ratio = 1.0;
     if (light) {

@@ -14,6 +14,17 @@ static bool check_index(const char *name, const char *what, int index, int count
                          "%s %d is out of range, accepted %d..%d", what, index, least, count - 1);
 }
 
+static bool check_pbr(const DipSceneDef *def, const DipMaterialDef *material, DipError *err) {
+    const DipPbrDef *pbr = material->pbr;
+    const int count = def->texture_count;
+    return !pbr || (check_index(material->name, "metal-rough map", pbr->metal_rough_map, count,
+                                DIP_NO_TEXTURE, err) &&
+                    check_index(material->name, "occlusion map", pbr->occlusion_map, count,
+                                DIP_NO_TEXTURE, err) &&
+                    check_index(material->name, "emission map", pbr->emission_map, count,
+                                DIP_NO_TEXTURE, err));
+}
+
 static bool check_mesh(const DipMeshDef *mesh, int material_count, DipError *err) {
     if (!check_index(mesh->name, "material", mesh->material, material_count, 0, err)) {
         return false;
@@ -40,7 +51,8 @@ static bool check_scene(const DipSceneDef *def, DipError *err) {
             !check_index(material->name, "light map", material->light_map, def->texture_count,
                          DIP_NO_TEXTURE, err) ||
             !check_index(material->name, "normal map", material->normal_map, def->texture_count,
-                         DIP_NO_TEXTURE, err)) {
+                         DIP_NO_TEXTURE, err) ||
+            !check_pbr(def, material, err)) {
             return false;
         }
     }
@@ -81,10 +93,23 @@ bool dip_reference_stopped(const DipReference *reference, DipError *err) {
            !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, NULL, "stopped");
 }
 
+static bool load_pbr(DipReference *reference, const DipPbrDef *pbr, DipError *err) {
+    if (!reference->pbr_tables) {
+        reference->pbr_tables = dip_reference_pbr_tables_create();
+    }
+    if (!reference->pbr_tables) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
+    }
+    return load_texture(reference, pbr->metal_rough_map, err) &&
+           load_texture(reference, pbr->occlusion_map, err) &&
+           load_texture(reference, pbr->emission_map, err);
+}
+
 static bool load_material(DipReference *reference, const DipMaterialDef *material, DipError *err) {
     return !dip_reference_stopped(reference, err) &&
            load_texture(reference, material->colour_texture, err) &&
            load_texture(reference, material->light_map, err) &&
+           (!material->pbr || load_pbr(reference, material->pbr, err)) &&
            (!dip_reference_is_bumpy(material) ||
             load_texture(reference, material->normal_map, err));
 }
@@ -161,6 +186,7 @@ void dip_reference_destroy(DipReference **reference) {
     }
     free((*reference)->patches);
     free((*reference)->textures);
+    free((*reference)->pbr_tables);
     free(*reference);
     *reference = NULL;
 }

@@ -74,10 +74,15 @@ double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter
     return rgba[3];
 }
 
-static void read_normal_map(const DipRefTexture *map, const DipRefFilter *filter,
-                            const DipRefVaryings *varyings, double texel[4]) {
+double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *filter) {
+    const double alpha = place->triangle->colour ? dip_reference_alpha(place, filter) : 1.0;
+    return alpha * place->triangle->material->opacity;
+}
+
+void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filter,
+                             const DipRefVaryings *varyings, int coordinate, double texel[4]) {
     const DipRefFilter own = filter ? dip_reference_data_filter(filter) : (DipRefFilter){0};
-    read_texture(map, filter ? &own : NULL, varyings, DIP_REF_U0, texel);
+    read_texture(map, filter ? &own : NULL, varyings, coordinate, texel);
 }
 
 // Lights a surface's own colour by the lights of the scene. texel: its normal map's, or NULL.
@@ -87,7 +92,7 @@ static void add_lights(const DipRefTriangle *triangle, const DipRefVaryings *var
     double highlight[3];
     double normal[3];
     if (triangle->lit.fragments) {
-        dip_reference_normal(varyings, texel, normal);
+        dip_reference_normal(varyings, texel, 1.0, normal);
         dip_reference_lights(&triangle->lit, &varyings->value[DIP_REF_X], normal, diffuse,
                              highlight);
     }
@@ -102,8 +107,9 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
     const DipRefTriangle *triangle = place->triangle;
     const DipMaterialDef *material = triangle->material;
     DipRefVaryings varyings;
-    dip_reference_interpolate(place, 0, DIP_REF_VARYINGS, filter || triangle->normal_map,
-                              &varyings);
+    const bool needs_plane = triangle->pbr && material->double_sided;
+    dip_reference_interpolate(place, 0, DIP_REF_VARYINGS,
+                              filter || triangle->normal_map || needs_plane, &varyings);
     const bool mip_colours = filter && filter->mip_colours && triangle->colour;
     if (triangle->sky && !mip_colours) {
         dip_reference_shade_sky(triangle, filter, &varyings, rgb);
@@ -127,9 +133,12 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
     }
     double texel[4];
     if (triangle->normal_map) {
-        read_normal_map(triangle->normal_map, filter, &varyings, texel);
+        dip_reference_read_data(triangle->normal_map, filter, &varyings, DIP_REF_U0, texel);
     }
-    if (triangle->lit.lighting) {
+    if (triangle->pbr) {
+        dip_reference_shade_pbr(triangle, filter, &varyings, triangle->normal_map ? texel : NULL,
+                                rgb);
+    } else if (triangle->lit.lighting) {
         add_lights(triangle, &varyings, triangle->normal_map ? texel : NULL, rgb);
     } else if (triangle->normal_map) {
         dip_reference_light_bumps(material, &varyings, texel, triangle->light_map ? light : NULL,

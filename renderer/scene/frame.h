@@ -21,12 +21,17 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
 #define DIP_SCENE_COUNTER_LIST(X)                                                                  \
     X(fragments_lit, "fragments that the scene's own lights light")                                \
     X(fragments_normal_mapped, "fragments whose normal came from a normal map")                    \
+    X(fragments_pbr, "fragments of metallic-roughness surfaces")                                   \
+    X(fragments_occluded, "fragments of such surfaces with an occlusion map")                      \
+    X(fragments_emitting, "fragments of such surfaces that send out light")                        \
+    X(fragments_coated, "fragments of such surfaces with a clear coat")                            \
+    X(fragments_blended, "fragments of blended surfaces")                                          \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
     X(fragments_reflecting, "fragments of water that show the reflection")                         \
     X(fragments_mirrored, "fragments shaded to draw the mirrored scene")                           \
     X(reflection_bytes, "bytes of the mirrored scene's picture")                                   \
     X(normal_map_bytes, "bytes of all normal maps")                                                \
-    X(clip_map_bytes, "bytes of the alpha of all clip maps")                                       \
+    X(clip_map_bytes, "bytes of the alpha of clip maps and blended textures")                      \
     X(cloud_bytes, "bytes of the textures of skies with clouds")                                   \
     X(meshes, "meshes that the scene's objects are drawn from, in view or not")                    \
     X(geometry_bytes, "bytes of the vertices, indices and bounds of these meshes")                 \
@@ -54,6 +59,11 @@ typedef struct DipCounters {
     X(light_map, "light map")                                                                      \
     X(lights, "lights")                                                                            \
     X(normal_map, "normal maps")                                                                   \
+    X(pbr, "metal and gloss")                                                                      \
+    X(occlusion, "occlusion maps")                                                                 \
+    X(emission, "emission")                                                                        \
+    X(coat, "clear coats")                                                                         \
+    X(blend, "blending")                                                                           \
     X(sky, "clouds")                                                                               \
     X(post, "post-process AA")                                                                     \
     X(sharpen, "sharpening")

@@ -335,7 +335,7 @@ static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *
     DipTarget *target = &mirror->target;
     target->width = dip_quality_drawn_size(&renderer->quality, renderer->reflection.width);
     target->height = dip_quality_drawn_size(&renderer->quality, renderer->reflection.height);
-    if (!dip_draw_set_make(&mirror->set, scene->object_count, false, err) ||
+    if (!dip_draw_set_make(&mirror->set, scene, false, err) ||
         !make_target(renderer->pool, renderer->isa, target->width, target->height,
                      &mirror->pipeline, &target->rgba8, &target->stride_bytes, err)) {
         return false;
@@ -360,7 +360,7 @@ static bool make_for_scene(DipRenderer *renderer, const DipScene *scene, DipErro
                                             "no memory for %d materials", scene->material_count);
     const bool reflects =
         scene->has_water && renderer->reflection.width && !renderer->plain_surfaces;
-    made = made && dip_draw_set_make(&renderer->set, scene->object_count, reflects, err) &&
+    made = made && dip_draw_set_make(&renderer->set, scene, reflects, err) &&
            (!reflects || make_mirror(renderer, scene, err));
     if (!made) {
         forget_scene(renderer);

@@ -7,6 +7,7 @@
 #include "renderer/scene/resources/placement.h"
 #include "renderer/scene/resources/repeats.h"
 #include "renderer/scene/resources/scene_check.h"
+#include "renderer/scene/resources/vertex_layout.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -15,129 +16,7 @@
 
 // --- meshes ------------------------------------------------------------------------------------
 
-// The arrays whose elements make up a vertex, in order; see DipSurfaceUniforms.
-typedef struct VertexLayout {
-    const float *source[5];
-    int size[5]; // floats per vertex of each array
-    int count;   // number of arrays
-    int attribute_count;
-} VertexLayout;
-
-// Appends an array and returns the index of its first attribute.
-static int add_source(VertexLayout *layout, const float *source, int size) {
-    const int first = layout->attribute_count;
-    layout->source[layout->count] = source;
-    layout->size[layout->count++] = size;
-    layout->attribute_count += size;
-    return first;
-}
-
-// Whether a material's normal map is drawn: only on opaque and clipped surfaces, and only if the
-// surface has a light that the normal map can change. Water and sky have shaders of their own.
-static bool draws_normal_map(const DipMaterialDef *material) {
-    const bool solid =
-        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
-    return solid && material->normal_map != DIP_NO_TEXTURE &&
-           (material->lit || material->light_map != DIP_NO_TEXTURE);
-}
-
-// Lays out the varyings of a mesh whose fragments are lit: texture coordinates, normal, depth and,
-// if the mesh has them, vertex colours. Returns the number of varyings.
-static int lay_out_lit_fragments(DipSurfaceUniforms *uniforms, int normal_attribute) {
-    uniforms->normal_attribute = normal_attribute;
-    uniforms->normal_varying = uniforms->copied_varying_count;
-    uniforms->depth_varying = uniforms->copied_varying_count + 3;
-    uniforms->light_varying = DIP_ABSENT;
-    uniforms->highlight_varying = DIP_ABSENT;
-    if (uniforms->colour_attribute == DIP_ABSENT) {
-        return uniforms->copied_varying_count + 4;
-    }
-    uniforms->light_varying = uniforms->copied_varying_count + 4;
-    return uniforms->copied_varying_count + 7;
-}
-
-// Lays out the varyings of a mesh that is lit at its vertices, or not at all: texture coordinates,
-// light and highlight. Returns the number of varyings.
-static int lay_out_lit_vertices(DipSurfaceUniforms *uniforms, bool highlight) {
-    int count = uniforms->copied_varying_count;
-    if (uniforms->normal_attribute != DIP_ABSENT || uniforms->colour_attribute != DIP_ABSENT) {
-        uniforms->light_varying = count;
-        count += 3;
-    }
-    if (highlight) {
-        uniforms->highlight_varying = count;
-        count += 3;
-    }
-    return count;
-}
-
-// Whether the scene's lights light a mesh. Water and sky have the fixed light.
-static bool is_lit_by_lights(const DipSceneDef *def, const DipMeshDef *mesh,
-                             const DipMaterialDef *material) {
-    const bool light_mapped = material->light_map != DIP_NO_TEXTURE && mesh->uv1;
-    const bool solid =
-        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
-    return def->lighting && solid && material->lit && mesh->normals && !light_mapped;
-}
-
-// Lays out the vertices of a mesh. Only the arrays that its material uses are kept.
-static VertexLayout lay_out(const DipSceneDef *def, const DipMeshDef *mesh, DipSceneMesh *out) {
-    const DipMaterialDef *material = &def->materials[mesh->material];
-    VertexLayout layout = {.count = 0};
-    DipSurfaceUniforms *uniforms = &out->layout;
-    *uniforms = (DipSurfaceUniforms){
-        .normal_attribute = DIP_ABSENT,
-        .colour_attribute = DIP_ABSENT,
-        .light_varying = DIP_ABSENT,
-        .colour_varying = DIP_ABSENT,
-        .light_map_varying = DIP_ABSENT,
-        .normal_map_varying = DIP_ABSENT,
-        .normal_varying = DIP_ABSENT,
-        .depth_varying = DIP_ABSENT,
-        .highlight_varying = DIP_ABSENT,
-        .shininess = (unsigned)(material->shininess + 0.5f),
-        .roughness = material->roughness,
-        .light_map_scale = material->light_map_scale,
-        .alpha_cutoff = material->alpha_cutoff,
-    };
-    memcpy(uniforms->base_colour_lin, material->base_colour_lin, sizeof uniforms->base_colour_lin);
-    memcpy(uniforms->specular_lin, material->specular_lin, sizeof uniforms->specular_lin);
-    add_source(&layout, mesh->positions, 3);
-    const bool light_mapped = material->light_map != DIP_NO_TEXTURE && mesh->uv1;
-    out->normal_mapped =
-        draws_normal_map(material) && mesh->uv0 && mesh->normals && (light_mapped || material->lit);
-    const bool textured = material->colour_texture != DIP_NO_TEXTURE && mesh->uv0;
-    out->sky = material->surface == DIP_SURFACE_SKY && textured;
-    if (textured || out->normal_mapped) {
-        const int varying = add_source(&layout, mesh->uv0, 2) - 3;
-        uniforms->colour_varying = textured ? varying : DIP_ABSENT;
-    }
-    if (light_mapped) {
-        uniforms->light_map_varying = add_source(&layout, mesh->uv1, 2) - 3;
-    }
-    uniforms->copied_varying_count = layout.attribute_count - 3;
-    out->lit_by_lights = is_lit_by_lights(def, mesh, material);
-    out->fragments_lit = out->lit_by_lights && def->lighting->shading == DIP_SHADING_PHONG;
-    const bool lit = !light_mapped && material->lit && mesh->normals;
-    int normal_attribute = DIP_ABSENT;
-    if (lit || out->normal_mapped) {
-        normal_attribute = add_source(&layout, mesh->normals, 3);
-        uniforms->normal_attribute = lit ? normal_attribute : DIP_ABSENT;
-    }
-    if (mesh->colours_lin) {
-        uniforms->colour_attribute = add_source(&layout, mesh->colours_lin, 3);
-    }
-    if (out->normal_mapped) {
-        out->mapped_layout = out->layout;
-        out->mapped_layout.normal_map_varying = 0;
-        out->mapped_varying_count = lay_out_lit_fragments(&out->mapped_layout, normal_attribute);
-    }
-    out->varying_count = out->fragments_lit ? lay_out_lit_fragments(uniforms, normal_attribute)
-                                            : lay_out_lit_vertices(uniforms, out->lit_by_lights);
-    return layout;
-}
-
-static float *interleave(const VertexLayout *layout, uint32_t vertex_count) {
+static float *interleave(const DipVertexLayout *layout, uint32_t vertex_count) {
     const size_t stride = (size_t)layout->attribute_count;
     float *rows = malloc((stride * vertex_count + 1) * sizeof *rows);
     for (uint32_t v = 0; rows && v < vertex_count; v++) {
@@ -151,10 +30,22 @@ static float *interleave(const VertexLayout *layout, uint32_t vertex_count) {
     return rows;
 }
 
+// Describes the metallic-roughness surface of a mesh.
+static void add_pbr_surface(const DipSceneDef *def, int index, DipScene *scene) {
+    DipSceneMesh *mesh = &scene->meshes[index];
+    DipPbrUniforms *surface = &scene->pbr->surfaces[index];
+    *surface = dip_pbr_surface(def, &def->meshes[index], &scene->pbr->tables, mesh->uv_varyings[0],
+                               mesh->uv_varyings[1]);
+    mesh->full_layout.pbr = surface;
+    scene->has_occlusion |= surface->occlusion_varying != DIP_ABSENT;
+    scene->has_emission |= surface->emits;
+    scene->has_coat |= surface->coat > 0.0f;
+}
+
 static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipError *err) {
     const DipMeshDef *mesh = &def->meshes[index];
     DipSceneMesh *out = &scene->meshes[index];
-    const VertexLayout layout = lay_out(def, mesh, out);
+    const DipVertexLayout layout = dip_mesh_lay_out(def, mesh, out);
     float *rows = interleave(&layout, mesh->vertex_count);
     if (!rows) {
         return dip_error_set(err, DIP_ERROR_MEMORY, mesh->name, 0, "mesh", "out of memory");
@@ -169,6 +60,9 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
     };
     out->mesh = dip_mesh_create(&data, err);
     out->material = mesh->material;
+    if (out->pbr) {
+        add_pbr_surface(def, index, scene);
+    }
     out->repeating_varyings = dip_scene_repeating_varyings(def, mesh, out);
     scene->has_normal_map |= out->normal_mapped;
     scene->has_sky |= out->sky;
@@ -179,32 +73,35 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
 
 // --- textures ----------------------------------------------------------------------------------
 
-static void mark_used_textures(const DipSceneDef *def, bool *used, bool *clip) {
-    for (int i = 0; i < def->material_count; i++) {
-        const DipMaterialDef *material = &def->materials[i];
+static void mark_used_textures(const DipScene *scene, bool *used, bool *alpha) {
+    for (int i = 0; i < scene->material_count; i++) {
+        const DipSceneMaterial *material = &scene->materials[i];
         const int textures[] = {material->colour_texture, material->light_map,
-                                draws_normal_map(material) ? material->normal_map : DIP_NO_TEXTURE};
+                                material->normal_map,     material->pbr.metal_rough,
+                                material->pbr.occlusion,  material->pbr.emission};
         for (size_t k = 0; k < sizeof textures / sizeof *textures; k++) {
             if (textures[k] != DIP_NO_TEXTURE) {
                 used[textures[k]] = true;
             }
         }
-        if (material->surface == DIP_SURFACE_CLIPPED &&
-            material->colour_texture != DIP_NO_TEXTURE) {
-            clip[material->colour_texture] = true;
+        const bool cut =
+            material->surface == DIP_SURFACE_CLIPPED || material->surface == DIP_SURFACE_BLENDED;
+        if (cut && material->colour_texture != DIP_NO_TEXTURE) {
+            alpha[material->colour_texture] = true;
         }
     }
 }
 
-// Creates only the textures that materials draw with. Alpha is kept only for clip maps.
+// Creates only the textures that materials draw with. Alpha is kept only for clip maps and for the
+// textures of blended surfaces.
 static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *pool, DipError *err) {
     bool *used = calloc(2 * (size_t)def->texture_count + 1, sizeof *used);
     if (!used) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "textures", "out of memory");
     }
-    bool *clip = used + def->texture_count;
-    mark_used_textures(def, used, clip);
-    const bool made = dip_textures_create(def->textures, used, clip, def->texture_count, pool,
+    bool *alpha = used + def->texture_count;
+    mark_used_textures(scene, used, alpha);
+    const bool made = dip_textures_create(def->textures, used, alpha, def->texture_count, pool,
                                           scene->textures, err);
     free(used);
     return made;
@@ -315,6 +212,11 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
             scene->geometry_bytes += dip_mesh_bytes(scene->meshes[object->mesh].mesh);
         }
         scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
+        const DipSceneMaterial *material = &scene->materials[scene->meshes[object->mesh].material];
+        if (material->surface == DIP_SURFACE_BLENDED) {
+            scene->blended_count++;
+            scene->blended_two_sided += material->double_sided;
+        }
     }
     scene->has_water = bound_objects(scene, is_water);
     scene->water_level = scene->has_water ? (double)scene->min_world[1] : 0.0;
@@ -345,7 +247,9 @@ static void copy_materials(const DipSceneDef *def, DipScene *scene) {
             .surface = material->surface,
             .colour_texture = material->colour_texture,
             .light_map = material->light_map,
-            .normal_map = draws_normal_map(material) ? material->normal_map : DIP_NO_TEXTURE,
+            .normal_map =
+                dip_material_draws_normal_map(material) ? material->normal_map : DIP_NO_TEXTURE,
+            .pbr = dip_pbr_maps(material),
             .double_sided = material->double_sided,
         };
         scene->has_light_map |= material->light_map != DIP_NO_TEXTURE;
@@ -391,6 +295,10 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
         return NULL;
     }
+    if (!dip_scene_pbr_create(def, &scene->pbr, err)) {
+        dip_scene_destroy(&scene);
+        return NULL;
+    }
     copy_materials(def, scene);
     mark_compressible(def, scene);
     const int64_t begin_ns = dip_clock_ns();
@@ -427,6 +335,7 @@ void dip_scene_destroy(DipScene **scene_pointer) {
     free(scene->meshes);
     free(scene->objects);
     free(scene->lighting);
+    dip_scene_pbr_destroy(&scene->pbr);
     free(scene);
     *scene_pointer = NULL;
 }

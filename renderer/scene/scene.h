@@ -57,9 +57,9 @@ typedef struct DipPbrDef {
 // - otherwise, on a `lit` surface with normals, the lights of the scene (lights.h). A scene without
 //   lights has a fixed light of sky and sun at the vertices,
 // - otherwise 1.
-// The lights of the scene add their highlights. On an opaque or clipped surface that has one of the
-// first two lights, a normal map changes that light; with a light map or the fixed light, it adds a
-// highlight of the sun. docs/picture.md defines the formulas.
+// The lights of the scene add highlights. On opaque, clipped and blended surfaces, a normal map
+// changes the first two lights and may add a highlight of the sun; and lit ones with `pbr`, normals
+// and no light map have its colour instead of all this. docs/picture.md defines the formulas.
 typedef struct DipMaterialDef {
     const char *name;
     DipSurface surface;

@@ -46,6 +46,23 @@ static void forget_no_interval(cJSON *object) {
     }
 }
 
+// Adds the counters that reports lacked before surfaces could be blended or reflect their
+// surroundings. Such surfaces did no work then.
+static void add_counters(cJSON *counters) {
+    static const char *const later[] = {"fragments_pbr", "fragments_occluded", "fragments_emitting",
+                                        "fragments_coated", "fragments_blended"};
+    for (int i = 0; i < 5 && cJSON_IsObject(counters); i++) {
+        add_missing(counters, later[i], add_zero);
+    }
+}
+
+static void add_counters_of(cJSON *items) {
+    cJSON *item;
+    cJSON_ArrayForEach(item, items) {
+        add_counters(cJSON_GetObjectItemCaseSensitive(item, "counters"));
+    }
+}
+
 // Adds the members that format 3 always has and format 2 leaves out: they are null or empty.
 static void upgrade(cJSON *root) {
     static const char *const nulls[] = {"machine", "predicted", "smaller"};
@@ -179,6 +196,9 @@ static bool read_report(cJSON *root, size_t size_bytes, DipCostReport *report, c
                              "the report again",
                              DIP_COST_JSON_FORMAT - 1, DIP_COST_JSON_FORMAT);
     }
+    add_counters_of(cJSON_GetObjectItemCaseSensitive(root, "rows"));
+    add_counters_of(cJSON_GetObjectItemCaseSensitive(
+        cJSON_GetObjectItemCaseSensitive(root, "smaller"), "combinations"));
     if (!times_fit(root, size_bytes)) {
         return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, "rows",
                              "are fewer than their number of rounds and frames says");
@@ -207,7 +227,7 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) 
         (ran_out ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
                  : dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file"));
     bool read = parsed && read_report(root, size_bytes, report, file, err);
-    if (ran_out && parsed) { // upgrade() may have failed to add a member.
+    if (ran_out && parsed) { // Adding a member may have failed.
         read = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
     cJSON_Delete(root);

@@ -273,7 +273,7 @@ static bool draw_floor(StabilityRun *run, const DipTestScene *scene) {
     DipPipeline *pipeline =
         made ? dip_pipeline_create(run->pool, run->isa, WIDTH, HEIGHT, &err) : NULL;
     DipDrawSet set = {.count = 0};
-    bool drawn = pipeline && dip_draw_set_make(&set, 1, false, &err);
+    bool drawn = pipeline && dip_draw_set_make(&set, made, false, &err);
     if (drawn) {
         const DipQuality quality = dip_quality_default();
         const DipView view =

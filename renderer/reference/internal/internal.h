@@ -7,6 +7,9 @@
 
 #include <stddef.h>
 
+// Tables of the light that metallic-roughness surfaces reflect.
+typedef struct DipRefPbrTables DipRefPbrTables;
+
 struct DipReference {
     const DipSceneDef *def; // borrowed
     uint64_t frame_index;
@@ -18,6 +21,7 @@ struct DipReference {
     // Textures, with the same indices as in the description. A texture that no surface shows has no
     // levels.
     DipRefTexture *textures;
+    DipRefPbrTables *pbr_tables; // owned; NULL if no material has a metallic-roughness surface
 };
 
 // The varyings: values that a vertex carries besides its position. They are interpolated with
@@ -72,17 +76,24 @@ typedef struct DipRefTriangle {
     const DipRefTexture *light_map;
     const DipRefTexture *normal_map;
     DipRefLit lit;
+    const DipPbrDef *pbr; // NULL unless the surface is drawn by its metallic-roughness description
+    DipRefPbrTables *pbr_tables;
+    const DipRefTexture *metal_rough; // maps of such a surface, or NULL
+    const DipRefTexture *occlusion;
+    const DipRefTexture *emission;
     const DipSkyDef *sky; // the clouds of a sky surface; NULL for other surfaces
     int64_t time_ns;      // time of the clouds
     uint64_t patch;   // number of a patch, which is shaded as one surface; unique among all objects
     bool mirrored;    // true if the object's transform mirrors, which reverses the winding
     bool clipped;     // true if the alpha of `colour` clips the surface
+    bool blended;     // true if the surface is drawn over what lies behind it
     int min_x, max_x; // pixels of the frame that the triangle may touch, inclusive
     int min_y, max_y;
 } DipRefTriangle;
 
 typedef struct DipRefTriangles {
     DipRefTriangle *items;
+    bool has_blended; // some triangle is blended
     size_t count;
     size_t capacity;
 } DipRefTriangles;
@@ -130,6 +141,9 @@ double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filt
 double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter *filter,
                                  double *slope);
 
+// Returns the share of what lies behind that a blended surface covers. filter: as above.
+double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *filter);
+
 // Shades a triangle at a position; the result is linear light, 0..1. filter is the colour texture's
 // filter. If filter is NULL, all textures are read bilinearly from level 0.
 void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter, double rgb[3]);
@@ -144,6 +158,15 @@ double dip_reference_light(const double normal[3], double sunlit);
 void dip_reference_lights(const DipRefLit *lit, const double place[3], const double normal[3],
                           double diffuse[3], double highlight[3]);
 
+// Finds the direction to a light and returns the part of its light that arrives at a place. `place`
+// is relative to the eye, and `eye` is the eye's position in the world.
+double dip_reference_arrival(const DipLightDef *light, const double eye[3], const double place[3],
+                             double to_light[3]);
+
+// Returns true for opaque, clipped and blended surfaces, which may have normal maps, the lights of
+// the scene and metallic-roughness descriptions.
+bool dip_reference_is_solid(const DipMaterialDef *material);
+
 // Returns true if surfaces with this material show its normal map.
 bool dip_reference_is_bumpy(const DipMaterialDef *material);
 
@@ -156,8 +179,9 @@ typedef struct DipRefVaryings {
 } DipRefVaryings;
 
 // Finds the unit normal at a position: the interpolated normal, or the normal map's if texel is not
-// NULL. Returns the length of the normal map's filtered normal, or 1.
-double dip_reference_normal(const DipRefVaryings *varyings, const double texel[3],
+// NULL. scale multiplies x and y of the map's normal. Returns the length of the normal map's
+// filtered normal before it is scaled, or 1.
+double dip_reference_normal(const DipRefVaryings *varyings, const double texel[3], double scale,
                             double normal[3]);
 
 // Interpolates `count` varyings from `first` on, with perspective correction. If derive is true,
@@ -170,6 +194,18 @@ void dip_reference_interpolate(const DipRefPosition *place, int first, int count
 // map's value, or NULL if there is no light map.
 void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryings *varyings,
                                const double texel[3], const double light[3], double rgb[3]);
+
+// Reads a map that holds data or emission, at the varyings `coordinate` and the next one. filter is
+// that of the colour texture.
+void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filter,
+                             const DipRefVaryings *varyings, int coordinate, double texel[4]);
+
+// pbr.c: the tables, or NULL when memory runs out. The caller frees them with free().
+DipRefPbrTables *dip_reference_pbr_tables_create(void);
+
+// Shades a metallic-roughness surface, whose own colour is rgb. texel: its normal map's, or NULL.
+void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                             const DipRefVaryings *varyings, const double texel[3], double rgb[3]);
 
 // sky.c: shades a sky surface. If filter is NULL, the texture is read bilinearly from level 0.
 void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,
@@ -188,6 +224,22 @@ void dip_reference_blend_water(const DipReference *reference, const DipPose *pos
 // picture, which has the given width and height.
 void dip_reference_read_mirrored(const double *mirrored, const int size[2], int width, int height,
                                  const DipRefPosition *place, double rgb[3]);
+
+// A sample whose blended surfaces are drawn from far to near, one at a time.
+typedef struct DipRefPeel {
+    double rgb[3]; // with the surfaces so far
+    double depth;  // of the surface that was drawn last
+    int32_t last;  // its triangle
+    double next_depth;
+    int32_t next; // triangle of the farthest surface that is left, or -1
+} DipRefPeel;
+
+// Begins with the colour and the depth of what is opaque.
+DipRefPeel dip_reference_peel_begin(const double rgb[3], double depth);
+// Offers a triangle that covers the sample. Surfaces of equal depth keep their submission order.
+void dip_reference_peel_offer(DipRefPeel *peel, double depth, int32_t triangle);
+// Draws the farthest of the offered surfaces. `place` lies on its triangle.
+void dip_reference_peel_blend(DipRefPeel *peel, const DipRefPosition *place);
 
 // Computes the position of sample `index` of the converged picture in a pixel. The sample is
 // jittered within its cell of a side x side grid. pixel is y * width + x. The position is relative

@@ -8,15 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipError *err) {
-    const size_t room = (size_t)object_count + 1;
+bool dip_draw_set_make(DipDrawSet *set, const DipScene *scene, bool reflects, DipError *err) {
+    const size_t room = (size_t)scene->object_count + (size_t)scene->blended_two_sided + 1;
+    const size_t blended = (size_t)scene->blended_count;
     set->draws = calloc(room, sizeof *set->draws);
     set->uniforms = calloc(room, sizeof *set->uniforms);
     set->matrices = calloc(room, sizeof *set->matrices);
     set->water = reflects ? calloc(room, sizeof *set->water) : NULL;
-    if (!set->draws || !set->uniforms || !set->matrices || (reflects && !set->water)) {
+    set->blended = blended ? calloc(blended, sizeof *set->blended) : NULL;
+    if (!set->draws || !set->uniforms || !set->matrices || (reflects && !set->water) ||
+        (blended && !set->blended)) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "no memory for %d objects",
-                             object_count);
+                             scene->object_count);
     }
     return true;
 }
@@ -26,6 +29,7 @@ void dip_draw_set_free(DipDrawSet *set) {
     free(set->uniforms);
     free(set->matrices);
     free(set->water);
+    free(set->blended);
     *set = (DipDrawSet){0};
 }
 
@@ -76,11 +80,20 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
             samplers[i][DIP_SURFACE_SAMPLER_LIGHT_MAP] =
                 (DipSampler){.texture = scene->textures[material->light_map], .max_anisotropy = 1};
         }
-        if (material->normal_map != DIP_NO_TEXTURE) {
-            DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_NORMAL_MAP];
-            *sampler = colour_sampler(quality, shown, scene->textures[material->normal_map]);
-            sampler->bias_lod8 += own_bias_lod8;
-            sampler->shown = NULL; // mip colours replace colour textures only
+        const int data[DIP_SURFACE_SAMPLER_COUNT] = {
+            [DIP_SURFACE_SAMPLER_COLOUR] = DIP_NO_TEXTURE,
+            [DIP_SURFACE_SAMPLER_LIGHT_MAP] = DIP_NO_TEXTURE,
+            [DIP_SURFACE_SAMPLER_NORMAL_MAP] = material->normal_map,
+            [DIP_SURFACE_SAMPLER_METAL_ROUGH] = material->pbr.metal_rough,
+            [DIP_SURFACE_SAMPLER_OCCLUSION] = material->pbr.occlusion,
+            [DIP_SURFACE_SAMPLER_EMISSION] = material->pbr.emission,
+        };
+        for (int k = 0; k < DIP_SURFACE_SAMPLER_COUNT; k++) {
+            if (data[k] != DIP_NO_TEXTURE) {
+                samplers[i][k] = colour_sampler(quality, shown, scene->textures[data[k]]);
+                samplers[i][k].bias_lod8 += own_bias_lod8;
+                samplers[i][k].shown = NULL; // mip colours replace colour textures only
+            }
         }
     }
 }
@@ -112,18 +125,17 @@ static DipViewRays view_rays(const double m[16], int width, int height) {
     return rays;
 }
 
-// If the scene's lights light the mesh of a draw, gives them to the draw and sets its shaders.
-static void set_lights(const DipDrawInput *input, const DipDrawSet *set,
-                       const DipSceneObject *object, DipSurfaceUniforms *uniforms, DipDraw *draw) {
+// If the scene's lights light the mesh of a draw, finds those that reach it and sets the shaders.
+static void set_lights(const DipDrawInput *input, const DipSceneObject *object,
+                       DipSurfaceUniforms *uniforms, DipDraw *draw) {
     const DipMaterialKernels *kernels = input->kernels;
     const DipSceneMesh *mesh = &input->scene->meshes[object->mesh];
     if (!mesh->lit_by_lights) {
         return;
     }
-    uniforms->lighting = &set->lighting;
-    uniforms->lights = input->all_lights
-                           ? UINT64_MAX
-                           : dip_lights_reaching(input->scene->lighting, &object->bounds);
+    if (!input->all_lights) {
+        uniforms->lights = dip_lights_reaching(input->scene->lighting, &object->bounds);
+    }
     if (mesh->fragments_lit) {
         draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
         draw->fragment_shader = kernels->dip_kernel_phong_fragment;
@@ -134,9 +146,21 @@ static void set_lights(const DipDrawInput *input, const DipDrawSet *set,
     }
 }
 
-// If the mesh of a draw has an effect (normal map or clouds), sets the effect's shaders. If mip
-// colours are on, a sky keeps the plain shader, so that the colours of its texture's levels can be
-// seen.
+// Draws a mesh with its metallic-roughness surface.
+static void set_pbr(const DipMaterialKernels *kernels, const DipSceneMesh *mesh,
+                    DipSurfaceUniforms *uniforms, DipDraw *draw) {
+    draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
+    draw->fragment_shader = kernels->dip_kernel_pbr_fragment;
+    draw->varying_count = mesh->full_varying_count;
+    // The plane of a triangle follows from the derivatives of the depth.
+    const bool needs_plane = mesh->normal_mapped || uniforms->pbr->two_sided;
+    const int derived = needs_plane ? uniforms->depth_varying + 1 : uniforms->normal_varying;
+    draw->value_only_varying_count = mesh->full_varying_count - derived;
+}
+
+// If the mesh of a draw has an effect (metallic-roughness surface, normal map or clouds), sets the
+// effect's shaders. If mip colours are on, a sky keeps the plain shader, so that the colours of its
+// texture's levels can be seen.
 static void set_effect(const DipDrawInput *input, const DipSceneMesh *mesh,
                        DipSurfaceUniforms *uniforms, DipDraw *draw) {
     const DipMaterialKernels *kernels = input->kernels;
@@ -144,11 +168,13 @@ static void set_effect(const DipDrawInput *input, const DipSceneMesh *mesh,
     if (input->plain_surfaces) {
         return;
     }
-    if (mesh->normal_mapped) {
+    if (mesh->pbr) {
+        set_pbr(kernels, mesh, uniforms, draw);
+    } else if (mesh->normal_mapped) {
         draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
         draw->fragment_shader = mesh->lit_by_lights ? kernels->dip_kernel_phong_fragment
                                                     : kernels->dip_kernel_normal_map_fragment;
-        draw->varying_count = mesh->mapped_varying_count;
+        draw->varying_count = mesh->full_varying_count;
         draw->value_only_varying_count = 0;
     } else if (mesh->sky && !input->quality->step[DIP_SETTING_MIPDEBUG]) {
         draw->fragment_shader = kernels->dip_kernel_sky_fragment;
@@ -215,7 +241,8 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     const DipSceneMaterial *material = &input->scene->materials[mesh->material];
     DipDraw *draw = &set->draws[set->count];
     DipSurfaceUniforms *uniforms = &set->uniforms[set->count++];
-    *uniforms = mesh->normal_mapped && !input->plain_surfaces ? mesh->mapped_layout : mesh->layout;
+    const bool full = (mesh->normal_mapped || mesh->pbr) && !input->plain_surfaces;
+    *uniforms = full ? mesh->full_layout : mesh->layout;
     uniforms->sample_count = dip_quality_sample_count(input->quality);
     set_matrices(pass->view, object, set);
     if (input->quality->step[DIP_SETTING_MIPDEBUG] && uniforms->colour_varying != DIP_ABSENT) {
@@ -246,32 +273,79 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
         .cull = cull_of(material, object, pass->mirrored),
     };
     uniforms->rays = &set->rays;
-    set_lights(input, set, object, uniforms, draw);
+    uniforms->lighting = &set->lighting;
+    uniforms->lights = UINT64_MAX;
+    set_lights(input, object, uniforms, draw);
     set_effect(input, mesh, uniforms, draw);
     if (pass->shown && material->surface == DIP_SURFACE_WATER) {
         set_reflecting(input, pass, set);
     }
 }
 
+// Blends the draw that was added last. A double-sided surface becomes two draws: first its back
+// faces, then its front faces.
+static void blend_last(const DipDrawInput *input, const DipDrawView *pass, int object,
+                       DipDrawSet *set) {
+    // The alpha of the target stays 1.
+    static const DipDrawState over = {
+        .blend = DIP_BLEND_MODE_ALPHA, .kept_channels = DIP_CHANNEL_ALPHA, .keep_depth = true};
+    const DipScene *scene = input->scene;
+    const DipSceneObject *shown = &scene->objects[object];
+    const DipSceneMaterial *material = &scene->materials[scene->meshes[shown->mesh].material];
+    DipDraw *draw = &set->draws[set->count - 1];
+    DipSurfaceUniforms *uniforms = &set->uniforms[set->count - 1];
+    uniforms->colour_shader = draw->fragment_shader;
+    draw->fragment_shader = input->kernels->dip_kernel_blended_fragment;
+    draw->state = &over;
+    if (material->double_sided) {
+        const bool reversed = shown->mirrors != pass->mirrored;
+        draw->cull = reversed ? DIP_CULL_BACK : DIP_CULL_FRONT;
+        draw[1] = *draw;
+        draw[1].cull = reversed ? DIP_CULL_FRONT : DIP_CULL_BACK;
+        set->count++;
+    }
+}
+
+// Adds the blended objects, of which there are `count` in set->blended, from far to near.
+static void add_blended(const DipDrawInput *input, const DipDrawView *pass, int count,
+                        DipDrawSet *set) {
+    dip_blend_sort(set->blended, count);
+    for (int i = 0; i < count; i++) {
+        add_draw(input, pass, set->blended[i].object, set);
+        blend_last(input, pass, set->blended[i].object, set);
+    }
+}
+
+static void see_lights(const DipScene *scene, const DipView *view, DipDrawSet *set) {
+    if (scene->lighting && (scene->has_lit || scene->pbr)) {
+        dip_lighting_at(scene->lighting, view->eye, &set->lighting);
+    } else if (scene->pbr) {
+        dip_lighting_at(scene->pbr->fixed, view->eye, &set->lighting);
+    }
+}
+
 void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDrawView *pass) {
     const DipScene *scene = input->scene;
+    int blended = 0;
     set->count = 0;
     set->culled = 0;
     set->rays = view_rays(pass->view->world_to_clip, pass->width, pass->height);
-    if (scene->has_lit) {
-        dip_lighting_at(scene->lighting, pass->view->eye, &set->lighting);
-    }
+    see_lights(scene, pass->view, set);
     for (int i = 0; i < scene->object_count; i++) {
         const DipSceneObject *object = &scene->objects[i];
-        const bool water =
-            scene->materials[scene->meshes[object->mesh].material].surface == DIP_SURFACE_WATER;
-        if (pass->mirrored && water) {
+        const DipSurface surface = scene->materials[scene->meshes[object->mesh].material].surface;
+        if (pass->mirrored && surface == DIP_SURFACE_WATER) {
             continue;
         }
         if (pass->seen && dip_cull_outside(pass->seen, &object->bounds)) {
             set->culled++;
+        } else if (surface == DIP_SURFACE_BLENDED) {
+            set->blended[blended++] =
+                (DipBlendedObject){dip_blend_depth(pass->view, &object->bounds), i};
         } else {
             add_draw(input, pass, i, set);
         }
     }
+    set->plain_count = set->count;
+    add_blended(input, pass, blended, set);
 }

@@ -6,6 +6,7 @@
 #include "renderer/base/error.h"
 #include "renderer/pipeline/cull.h"
 #include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/draw/blend_order.h"
 #include "renderer/scene/draw/view.h"
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/surface.h"
@@ -49,19 +50,23 @@ typedef struct DipDrawMatrices {
 
 // The draws of one pass and everything they point to. All members of an empty set are 0.
 typedef struct DipDrawSet {
-    DipDraw *draws; // one per object that may be visible
+    // One per object that may be visible, and two for a double-sided blended object. Blended
+    // objects come last, from far to near.
+    DipDraw *draws;
     int count;
+    int plain_count;              // draws that are not blended
     int culled;                   // objects that were left out because they are out of view
     DipSurfaceUniforms *uniforms; // one per draw
     DipDrawMatrices *matrices;    // one per draw
     DipWaterUniforms *water;      // one per draw; NULL if the set has no reflecting water
+    DipBlendedObject *blended;    // the blended objects in view; NULL if the scene has none
     DipViewRays rays;
-    DipLightingUniforms lighting; // only if the scene has lights
+    DipLightingUniforms lighting; // only if the scene has lights or metallic-roughness surfaces
 } DipDrawSet;
 
-// Allocates a set for up to object_count draws. reflects: the set may hold reflecting water. If the
+// Allocates a set for the objects of a scene. reflects: the set may hold reflecting water. If the
 // call fails (DIP_ERROR_MEMORY), the caller must still free the set.
-bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipError *err);
+bool dip_draw_set_make(DipDrawSet *set, const DipScene *scene, bool reflects, DipError *err);
 void dip_draw_set_free(DipDrawSet *set);
 
 // Replaces the set's draws by the draws of a pass. Allocates nothing.

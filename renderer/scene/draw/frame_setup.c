@@ -262,6 +262,11 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
     DipCounters counters = {
         .fragments_lit = passes->shader_counts[DIP_SHADER_COUNT_LIT],
         .fragments_normal_mapped = passes->shader_counts[DIP_SHADER_COUNT_NORMAL_MAPPED],
+        .fragments_pbr = passes->shader_counts[DIP_SHADER_COUNT_PBR],
+        .fragments_occluded = passes->shader_counts[DIP_SHADER_COUNT_OCCLUDED],
+        .fragments_emitting = passes->shader_counts[DIP_SHADER_COUNT_EMITTING],
+        .fragments_coated = passes->shader_counts[DIP_SHADER_COUNT_COATED],
+        .fragments_blended = passes->fragments_ordered, // all ordered draws of a scene blend
         .fragments_sky = passes->shader_counts[DIP_SHADER_COUNT_SKY],
         .fragments_reflecting = passes->shader_counts[DIP_SHADER_COUNT_REFLECTING],
     };
@@ -372,6 +377,24 @@ static bool check_region(const DipRenderer *renderer, const DipTargetRegion *reg
                          region->x1, region->y0, region->y1, renderer->width, renderer->height);
 }
 
+// Draws the pass that reads the samples. The pipeline reads samples of plain draws only, so the
+// blended surfaces of the region are drawn by another pass.
+static bool draw_readback(FrameSetup *setup, DipError *err) {
+    DipRenderer *renderer = setup->renderer;
+    DipPass *pass = &setup->pass;
+    pass->draw_count = renderer->set.plain_count;
+    if (!draw_frames(setup, 1, true, err)) {
+        return false;
+    }
+    if (renderer->set.plain_count == renderer->set.count) {
+        return true;
+    }
+    pass->draw_count = renderer->set.count;
+    pass->readback = NULL;
+    return dip_pipeline_draw(renderer->pipeline, pass, &setup->counters, &setup->frame->stages,
+                             err);
+}
+
 bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                                int64_t time_ns, const DipSampleReadback *readback, DipError *err) {
     DIP_FP_MODE_SCOPE();
@@ -384,7 +407,7 @@ bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene, con
     }
     if (!check_region(renderer, &readback->region, err) ||
         !begin_frame(&setup, renderer, scene, pose, time_ns, readback, &frame, err) ||
-        !draw_frames(&setup, 1, true, err)) {
+        !draw_readback(&setup, err)) {
         return false;
     }
     end_frame(&setup);

@@ -111,8 +111,9 @@ VEC_INLINE Vf3 mesh_normal(DipFragmentBatch *batch, int i) {
     return vf3_scale(vertex, inverse_length(vf3_dot(vertex, vertex)));
 }
 
-VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
-                              float (*map)[DIP_FRAGMENT_BATCH]) {
+// scale multiplies x and y of the map's normals. The length of the filtered normal is that before.
+VEC_INLINE Facing find_scaled_facing(DipFragmentBatch *batch, int i, Vf3 ray,
+                                     float (*map)[DIP_FRAGMENT_BATCH], float scale) {
     Facing facing = {.mesh = mesh_normal(batch, i)};
     const Tangents tangents = find_tangents(batch, i, ray, facing.mesh);
     Vf3 m = vf3_load(map, i);
@@ -120,7 +121,12 @@ VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
     m.y = m.y * (255.0f / 127.0f) - (128.0f / 127.0f);
     m.z = vf_max(m.z * (255.0f / 127.0f) - (128.0f / 127.0f), vf_splat(LEAST_RISE));
     facing.inverse_length = inverse_length(vf3_dot(m, m));
-    m = vf3_scale(m, facing.inverse_length);
+    if (scale == 1.0f) {
+        m = vf3_scale(m, facing.inverse_length);
+    } else {
+        m = (Vf3){m.x * scale, m.y * scale, m.z};
+        m = vf3_scale(m, inverse_length(vf3_dot(m, m)));
+    }
     const Vf3 n = facing.mesh;
     const Vf3 mapped = {(tangents.u.x * m.x + tangents.v.x * m.y) + n.x * m.z,
                         (tangents.u.y * m.x + tangents.v.y * m.y) + n.y * m.z,
@@ -129,6 +135,11 @@ VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
         (Vf3){vf_select(tangents.there, mapped.x, n.x), vf_select(tangents.there, mapped.y, n.y),
               vf_select(tangents.there, mapped.z, n.z)};
     return facing;
+}
+
+VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
+                              float (*map)[DIP_FRAGMENT_BATCH]) {
+    return find_scaled_facing(batch, i, ray, map, 1.0f);
 }
 
 // Sets the batch's colours to base colour times texture, and reads the normal map. If both textures

@@ -1,13 +1,9 @@
 // The shaders of surfaces that the scene's lights light, at the vertices (Gouraud) or at the
 // fragments (Phong). Compiled once per instruction set. docs/picture.md, Lights, defines the
 // formulas.
+#include "renderer/scene/materials/arrival_simd.h"
 #include "renderer/scene/materials/facing_simd.h"
 #include "renderer/scene/materials/material_kernels.h"
-
-// Squared lengths are at least LEAST_LENGTH2, and the light that arrives at a point is at most
-// GREATEST_LIGHT, so that no result is infinite or NaN.
-#define LEAST_LENGTH2  1e-36f
-#define GREATEST_LIGHT 1e18f
 
 // A point of a surface, relative to the eye.
 typedef struct LitPoint {
@@ -22,18 +18,6 @@ typedef struct PointLight {
     Vf3 highlight;
 } PointLight;
 
-VEC_INLINE Vf3 vf3_splat(const float v[3]) {
-    return (Vf3){vf_splat(v[0]), vf_splat(v[1]), vf_splat(v[2])};
-}
-
-VEC_INLINE Vf3 vf3_sum(Vf3 a, Vf3 b) {
-    return (Vf3){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-VEC_INLINE Vf3 vf3_unit(Vf3 v) {
-    return vf3_scale(v, vf_splat(1.0f) / vf_sqrt(vf_max(vf3_dot(v, v), vf_splat(LEAST_LENGTH2))));
-}
-
 // Raises x to a whole power.
 VEC_INLINE Vf power(Vf x, unsigned exponent) {
     Vf product = vf_splat(1.0f);
@@ -44,42 +28,11 @@ VEC_INLINE Vf power(Vf x, unsigned exponent) {
     return product;
 }
 
-// The direction to a light, and the part of its light that arrives.
-typedef struct Arrival {
-    Vf3 to_light; // unit
-    Vf share;
-} Arrival;
-
-VEC_INLINE Arrival arrive(const DipLightUniforms *light, Vf3 place) {
-    if (light->kind == DIP_LIGHT_DIRECTIONAL) {
-        return (Arrival){vf3_splat(light->to_light), vf_splat(1.0f)};
-    }
-    const Vf3 way = {light->from_eye[0] - place.x, light->from_eye[1] - place.y,
-                     light->from_eye[2] - place.z};
-    const Vf length2 = vf_max(vf3_dot(way, way), vf_splat(LEAST_LENGTH2));
-    const Vf length = vf_sqrt(length2);
-    const float *a = light->attenuation;
-    const Vf loss = (length * a[1] + length2 * a[2]) + a[0];
-    const Vf relative2 = length2 * light->inverse_range2;
-    const Vf window = clamp01(1.0f - relative2 * relative2);
-    Arrival arrival = {.to_light = vf3_scale(way, vf_splat(1.0f) / length),
-                       .share = window / vf_max(loss, vf_splat(LEAST_LENGTH2))};
-    if (light->kind == DIP_LIGHT_SPOT) {
-        const Vf cosine = vf3_dot(arrival.to_light, vf3_splat(light->to_light));
-        const Vf cone = clamp01(cosine * light->cone_scale + light->cone_shift);
-        arrival.share = arrival.share * (cone * cone);
-    }
-    return arrival;
-}
-
 VEC_INLINE void add_light(const DipLightUniforms *light, const LitPoint *point, bool shines,
                           unsigned shininess, PointLight *sum) {
-    const Vf most = vf_splat(GREATEST_LIGHT);
     const Vf none = vf_splat(0.0f);
     const Arrival arrival = arrive(light, point->place);
-    const Vf3 colour = {vf_min(arrival.share * light->colour_lin[0], most),
-                        vf_min(arrival.share * light->colour_lin[1], most),
-                        vf_min(arrival.share * light->colour_lin[2], most)};
+    const Vf3 colour = arriving_colour(light, arrival.share);
     const Vf facing = vf3_dot(point->normal, arrival.to_light);
     sum->diffuse = vf3_sum(sum->diffuse, vf3_scale(colour, vf_max(facing, none)));
     if (shines) {

@@ -18,6 +18,8 @@
     X(void, dip_kernel_gouraud_vertex, (const DipVertexBatch *batch))                              \
     X(void, dip_kernel_gouraud_fragment, (DipFragmentBatch * batch))                               \
     X(void, dip_kernel_phong_fragment, (DipFragmentBatch * batch))                                 \
+    X(void, dip_kernel_pbr_fragment, (DipFragmentBatch * batch))                                   \
+    X(void, dip_kernel_blended_fragment, (DipFragmentBatch * batch))                               \
     X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))                                   \
     X(void, dip_kernel_water_fragment, (DipFragmentBatch * batch))
 

@@ -3,25 +3,34 @@
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 #define DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 
+#include "renderer/pipeline/shader.h"
 #include "renderer/scene/lights.h"
+#include "renderer/scene/materials/pbr.h"
+#include "renderer/scene/scene.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// The materials' shaders count fragments that have a normal map, fragments of sky with clouds,
-// fragments of reflecting water and fragments lit by the scene's lights. These are the indices of
-// the counts in DipShaderWork.counts.
+// The materials' shaders count the fragments of each effect. These are the indices of the counts in
+// DipShaderWork.counts.
 enum {
     DIP_SHADER_COUNT_NORMAL_MAPPED,
     DIP_SHADER_COUNT_SKY,
     DIP_SHADER_COUNT_REFLECTING,
-    DIP_SHADER_COUNT_LIT,
+    DIP_SHADER_COUNT_LIT, // by the scene's own lights
+    DIP_SHADER_COUNT_PBR,
+    DIP_SHADER_COUNT_OCCLUDED,
+    DIP_SHADER_COUNT_EMITTING,
+    DIP_SHADER_COUNT_COATED,
 };
 
 enum {
     DIP_SURFACE_SAMPLER_COLOUR,
     DIP_SURFACE_SAMPLER_LIGHT_MAP,
     DIP_SURFACE_SAMPLER_NORMAL_MAP,
+    DIP_SURFACE_SAMPLER_METAL_ROUGH,
+    DIP_SURFACE_SAMPLER_OCCLUSION,
+    DIP_SURFACE_SAMPLER_EMISSION,
     DIP_SURFACE_SAMPLER_COUNT,
     DIP_ABSENT = -1 // an attribute or varying that a mesh does not have
 };
@@ -37,6 +46,13 @@ typedef struct DipViewRays {
     float up[3];
     float ahead[3];
 } DipViewRays;
+
+// Whether a surface is drawn as a solid one is: it may be lit by the scene's lights, and have
+// normal maps and metallic-roughness materials. Water and sky are not.
+static inline bool dip_surface_is_solid(DipSurface surface) {
+    return surface == DIP_SURFACE_OPAQUE || surface == DIP_SURFACE_CLIPPED ||
+           surface == DIP_SURFACE_BLENDED;
+}
 
 // A light of the scene as an eye sees it.
 typedef struct DipLightUniforms {
@@ -113,6 +129,12 @@ typedef struct DipSurfaceUniforms {
     int highlight_varying; // index of the first of three: highlight of the vertex, or DIP_ABSENT
     float specular_lin[3];
     unsigned shininess; // 0..DIP_MAX_SHININESS
+    // Of a metallic-roughness surface, which also has the four fields of surfaces whose fragments
+    // are lit, `lighting` and `lights`; NULL for other surfaces.
+    const DipPbrUniforms *pbr;
+    // The next two are set for blended surfaces.
+    float opacity;
+    DipFragmentShader *colour_shader; // computes the colour
 } DipSurfaceUniforms;
 
 #endif

@@ -85,3 +85,21 @@ void DIP_KERNEL(dip_kernel_surface_cover)(DipFragmentBatch *batch) {
         batch->keep[i] = (uint8_t)covered[i];
     }
 }
+
+// Computes the colour of a blended surface by the shader that an opaque one would have, and its
+// alpha.
+void DIP_KERNEL(dip_kernel_blended_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    uniforms->colour_shader(batch);
+    if (uniforms->colour_varying != DIP_ABSENT) {
+        batch->sample_alpha(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                            uniforms->colour_varying, batch->alpha);
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
+            vf_store(batch->alpha + i, vf_load(batch->alpha + i) * uniforms->opacity);
+        }
+        return;
+    }
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        vf_store(batch->alpha + i, vf_splat(uniforms->opacity));
+    }
+}

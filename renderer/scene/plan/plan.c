@@ -49,6 +49,29 @@ static bool is_normal_mapped(const DipScene *scene, int object) {
     return mesh_of(scene, object)->normal_mapped;
 }
 
+static bool is_pbr(const DipScene *scene, int object) {
+    return mesh_of(scene, object)->pbr;
+}
+
+static bool is_occluded(const DipScene *scene, int object) {
+    const DipPbrUniforms *pbr = mesh_of(scene, object)->full_layout.pbr;
+    return pbr && pbr->occlusion_varying != DIP_ABSENT;
+}
+
+static bool is_emitting(const DipScene *scene, int object) {
+    const DipPbrUniforms *pbr = mesh_of(scene, object)->full_layout.pbr;
+    return pbr && pbr->emits;
+}
+
+static bool is_coated(const DipScene *scene, int object) {
+    const DipPbrUniforms *pbr = mesh_of(scene, object)->full_layout.pbr;
+    return pbr && pbr->coat > 0.0f;
+}
+
+static bool is_blended(const DipScene *scene, int object) {
+    return material_of(scene, object)->surface == DIP_SURFACE_BLENDED;
+}
+
 static bool is_clouded(const DipScene *scene, int object) {
     return mesh_of(scene, object)->sky;
 }
@@ -246,6 +269,64 @@ static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) 
                : skip("no normal-mapped surface is in view");
 }
 
+static DipEffect plan_pbr(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!input->scene->pbr) {
+        return skip("the scene has no metallic-roughness surface");
+    }
+    if (input->plain_surfaces) {
+        return skip(plain);
+    }
+    return input->force_all || any_in_view(input, plan, is_pbr)
+               ? run(input, "metallic-roughness surfaces are in view")
+               : skip("no metallic-roughness surface is in view");
+}
+
+// Occlusion, emission and coats are parts of metallic-roughness surfaces: without `pbr`, none runs.
+static DipEffect plan_occlusion(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!plan->effects.pbr.run) {
+        return plan->effects.pbr;
+    }
+    if (!input->scene->has_occlusion) {
+        return skip("no metallic-roughness surface has an occlusion map");
+    }
+    return input->force_all || any_in_view(input, plan, is_occluded)
+               ? run(input, "surfaces with an occlusion map are in view")
+               : skip("no surface with an occlusion map is in view");
+}
+
+static DipEffect plan_emission(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!plan->effects.pbr.run) {
+        return plan->effects.pbr;
+    }
+    if (!input->scene->has_emission) {
+        return skip("no metallic-roughness surface sends out light");
+    }
+    return input->force_all || any_in_view(input, plan, is_emitting)
+               ? run(input, "surfaces that send out light are in view")
+               : skip("no surface that sends out light is in view");
+}
+
+static DipEffect plan_coat(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!plan->effects.pbr.run) {
+        return plan->effects.pbr;
+    }
+    if (!input->scene->has_coat) {
+        return skip("no metallic-roughness surface has a clear coat");
+    }
+    return input->force_all || any_in_view(input, plan, is_coated)
+               ? run(input, "surfaces with a clear coat are in view")
+               : skip("no surface with a clear coat is in view");
+}
+
+static DipEffect plan_blend(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!input->scene->blended_count) {
+        return skip("the scene has no blended surface");
+    }
+    return input->force_all || any_in_view(input, plan, is_blended)
+               ? run(input, "blended surfaces are in view")
+               : skip("no blended surface is in view");
+}
+
 // This function need not find out what covers the sky: the visibility buffer keeps covered sky from
 // being shaded.
 static DipEffect plan_sky(const DipPlanInput *input, DipFramePlan *plan) {
@@ -301,5 +382,10 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, Dip
     }
     settle(&effects->lights, counters->fragments_lit);
     settle(&effects->normal_map, counters->fragments_normal_mapped);
+    settle(&effects->pbr, counters->fragments_pbr);
+    settle(&effects->occlusion, counters->fragments_occluded);
+    settle(&effects->emission, counters->fragments_emitting);
+    settle(&effects->coat, counters->fragments_coated);
+    settle(&effects->blend, counters->fragments_blended);
     settle(&effects->sky, counters->fragments_sky);
 }

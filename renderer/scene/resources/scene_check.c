@@ -37,6 +37,25 @@ static bool check_range(const float *values, size_t count, double least, double 
     return true;
 }
 
+static bool check_pbr(const DipSceneDef *def, const DipMaterialDef *material, DipError *err) {
+    const DipPbrDef *pbr = material->pbr;
+    const char *name = material->name;
+    const int textures = def->texture_count;
+    return !pbr ||
+           (check_range(&pbr->metallic, 1, 0.0, 1.0, name, "metallic", err) &&
+            check_range(&pbr->roughness, 1, 0.0, 1.0, name, "roughness", err) &&
+            check_range(pbr->f0_lin, 3, 0.0, 1.0, name, "f0_lin", err) &&
+            check_range(&pbr->occlusion_strength, 1, 0.0, 1.0, name, "occlusion_strength", err) &&
+            check_range(pbr->emission_lin, 3, 0.0, (double)DIP_MAX_LIGHT_LIN, name, "emission_lin",
+                        err) &&
+            check_floats(&pbr->normal_scale, 1, 1, name, "normal_scale", err) &&
+            check_range(&pbr->coat, 1, 0.0, 1.0, name, "coat", err) &&
+            check_range(&pbr->coat_roughness, 1, 0.0, 1.0, name, "coat_roughness", err) &&
+            check_index(pbr->metal_rough_map, textures, name, "metal_rough_map", err) &&
+            check_index(pbr->occlusion_map, textures, name, "occlusion_map", err) &&
+            check_index(pbr->emission_map, textures, name, "emission_map", err));
+}
+
 static bool check_material(const DipSceneDef *def, const DipMaterialDef *material, DipError *err) {
     return check_floats(material->base_colour_lin, 3, 3, material->name, "base_colour_lin", err) &&
            check_floats(&material->light_map_scale, 1, 1, material->name, "light_map_scale", err) &&
@@ -46,6 +65,8 @@ static bool check_material(const DipSceneDef *def, const DipMaterialDef *materia
            check_range(&material->shininess, 1, 0.0, DIP_MAX_SHININESS, material->name, "shininess",
                        err) &&
            check_floats(&material->alpha_cutoff, 1, 1, material->name, "alpha_cutoff", err) &&
+           check_range(&material->opacity, 1, 0.0, 1.0, material->name, "opacity", err) &&
+           check_pbr(def, material, err) &&
            check_index(material->colour_texture, def->texture_count, material->name,
                        "colour_texture", err) &&
            check_index(material->light_map, def->texture_count, material->name, "light_map", err) &&

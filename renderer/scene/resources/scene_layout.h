@@ -8,6 +8,7 @@
 #include "renderer/scene/materials/surface.h"
 #include "renderer/scene/resources/late_textures.h"
 #include "renderer/scene/resources/lighting.h"
+#include "renderer/scene/resources/pbr.h"
 #include "renderer/scene/scene.h"
 
 typedef struct DipSceneMesh {
@@ -20,9 +21,12 @@ typedef struct DipSceneMesh {
     bool lit_by_lights; // the scene's lights light the mesh
     bool fragments_lit; // `layout` has the light computed at the fragments
     bool normal_mapped;
-    // `layout` and `varying_count` for the normal-mapped shaders; valid if normal_mapped is true.
-    DipSurfaceUniforms mapped_layout;
-    int mapped_varying_count;
+    bool pbr; // the surface is drawn by its metallic-roughness description
+    // `layout` and `varying_count` for the shaders of normal-mapped and metallic-roughness
+    // surfaces; valid if normal_mapped or pbr is true.
+    DipSurfaceUniforms full_layout;
+    int full_varying_count;
+    int uv_varyings[2];          // index of the first varying of uv0 and of uv1, or DIP_ABSENT
     uint32_t repeating_varyings; // see DipDraw
     bool sky; // true for a sky that has the texture and the coordinates that moving clouds need
 } DipSceneMesh;
@@ -44,6 +48,7 @@ typedef struct DipSceneMaterial {
     int colour_texture; // index or DIP_NO_TEXTURE
     int light_map;
     int normal_map; // DIP_NO_TEXTURE also if the material's normal map is not drawn
+    DipPbrMaps pbr; // the maps of a metallic-roughness surface
     bool double_sided;
 } DipSceneMaterial;
 
@@ -69,9 +74,15 @@ struct DipScene {
     bool has_light_map;      // some material has a light map
     bool has_clipped;        // some material is alpha-clipped
     bool has_normal_map;     // some mesh is normal-mapped
+    bool has_occlusion;      // some metallic-roughness mesh has an occlusion map
+    bool has_emission;       // some metallic-roughness mesh sends out light
+    bool has_coat;           // some metallic-roughness mesh has a clear coat
     bool has_sky;            // some mesh is a sky with moving clouds
+    int blended_count;       // objects with a blended surface
+    int blended_two_sided;   // those of them that are double-sided, which take two draws each
     DipSkyDef sky;
     DipSceneLighting *lighting; // NULL: the fixed light of sky and sun
+    DipScenePbr *pbr;           // NULL: no mesh has a metallic-roughness surface
     bool has_lit;               // the scene's lights light some mesh
     bool has_water;             // some object is water
     double water_level;         // least world y of all water; 0 without water

@@ -312,14 +312,16 @@ static void only_effects_that_the_scene_has_take_memory(void **state) {
         const DipCounters counters = draw(&stage, 0).counters;
         const bool all = kind == DIP_TEST_SCENE_water_effects;
         const bool lit = kind == DIP_TEST_SCENE_lights || kind == DIP_TEST_SCENE_gouraud_lights;
-        assert_int_equal(counters.normal_map_bytes > 0,
-                         all || lit || kind == DIP_TEST_SCENE_normal_map);
+        const bool bumpy = kind == DIP_TEST_SCENE_normal_map || kind == DIP_TEST_SCENE_metal_gloss;
+        assert_int_equal(counters.normal_map_bytes > 0, all || lit || bumpy);
         assert_int_equal(counters.cloud_bytes > 0, all || kind == DIP_TEST_SCENE_sky);
-        assert_int_equal(counters.clip_map_bytes > 0, all || lit || kind == DIP_TEST_SCENE_fence);
+        assert_int_equal(counters.clip_map_bytes > 0, all || lit || kind == DIP_TEST_SCENE_fence ||
+                                                          kind == DIP_TEST_SCENE_blending);
         close_stage(&stage);
         // Alpha that clips nothing is not stored.
         for (int i = 0; i < scene.def.material_count; i++) {
-            if (scene.materials[i].surface == DIP_SURFACE_CLIPPED) {
+            if (scene.materials[i].surface == DIP_SURFACE_CLIPPED ||
+                scene.materials[i].surface == DIP_SURFACE_BLENDED) {
                 scene.materials[i].surface = DIP_SURFACE_OPAQUE;
             }
         }

@@ -298,7 +298,7 @@ static void run_shader(const Case *test, float clip[4][DIP_VERTEX_BATCH]) {
                                 .samplers = no_samplers};
     const DipDrawView pass = {.view = &view, .width = 1, .height = 1};
     DipDrawSet set = {.count = 0};
-    assert_true(dip_draw_set_make(&set, 1, false, NULL));
+    assert_true(dip_draw_set_make(&set, scene, false, NULL));
     dip_draw_set_fill(&set, &input, &pass);
     float in[3][DIP_VERTEX_BATCH] = {{0}};
     for (int i = 0; i < 3 * VERTICES; i++) {

@@ -215,7 +215,7 @@ static void draw_floor(const DipTestScene *scene) {
                                 .samplers = (const DipMaterialSamplers *)samplers};
     const DipDrawView pass_view = {.view = &view, .width = WIDTH, .height = HEIGHT};
     DipDrawSet set = {.count = 0};
-    assert_true(dip_draw_set_make(&set, 1, false, NULL));
+    assert_true(dip_draw_set_make(&set, made, false, NULL));
     dip_draw_set_fill(&set, &input, &pass_view);
     set.draws[0].fragment_shader = record;
     static uint32_t pixels[WIDTH * HEIGHT];

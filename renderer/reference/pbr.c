@@ -1,0 +1,356 @@
+// Metallic-roughness surfaces: docs/picture.md, "Metal and gloss".
+#include "renderer/reference/internal/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double pi = 3.14159265358979323846;
+
+// Steps of the tables along each axis, and of the integrals along each of their two axes.
+enum { STEPS = 64, INTEGRAL_STEPS = 24 };
+
+// Shares of reflected light. Entry i of an axis is the value at (i + 0.5) / STEPS.
+struct DipRefPbrTables {
+    double a[STEPS][STEPS]; // over roughness and n.v
+    double b[STEPS][STEPS];
+    double grazing[STEPS]; // over n.v
+};
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void normalise(double v[3]) {
+    const double length = sqrt(dot(v, v));
+    for (int i = 0; i < 3; i++) {
+        v[i] = length > 0.0 ? v[i] / length : 0.0;
+    }
+}
+
+static double clamp01(double x) {
+    return fmin(fmax(x, 0.0), 1.0);
+}
+
+// --- tables --------------------------------------------------------------------------------------
+
+// Smith's Lambda of the GGX distribution.
+static double lambda(double cosine, double alpha) {
+    const double tangent2 = 1.0 / (cosine * cosine) - 1.0;
+    return 0.5 * (sqrt(1.0 + alpha * alpha * tangent2) - 1.0);
+}
+
+// Finds a visible half vector: "Sampling visible GGX normals with spherical caps" (Dupuy and
+// Benyoub 2023). u and w are 0..1.
+static void find_half(const double view[3], double alpha, double u, double w, double half[3]) {
+    double stretched[3] = {alpha * view[0], alpha * view[1], view[2]};
+    normalise(stretched);
+    const double z = (1.0 - w) * (1.0 + stretched[2]) - stretched[2];
+    const double radius = sqrt(clamp01(1.0 - z * z));
+    half[0] = alpha * (radius * cos(2.0 * pi * u) + stretched[0]);
+    half[1] = alpha * (radius * sin(2.0 * pi * u) + stretched[1]);
+    half[2] = z + stretched[2];
+    normalise(half);
+}
+
+// Adds one sample of the integrals of A and B.
+static void add_lobe(const double view[3], double alpha, double u, double w, double *a, double *b) {
+    double half[3];
+    find_half(view, alpha, u, w, half);
+    const double v_h = dot(view, half);
+    const double light_z = 2.0 * v_h * half[2] - view[2];
+    if (light_z > 0.0) {
+        const double seen = 1.0 + lambda(view[2], alpha);
+        const double share = seen / (seen + lambda(light_z, alpha));
+        const double grazing = pow(clamp01(1.0 - v_h), 5.0);
+        *a += share * (1.0 - grazing);
+        *b += share * grazing;
+    }
+}
+
+static void fill_entry(DipRefPbrTables *tables, int r, int v) {
+    const double count = INTEGRAL_STEPS * INTEGRAL_STEPS;
+    const double roughness = (r + 0.5) / STEPS;
+    const double cosine = (v + 0.5) / STEPS;
+    const double view[3] = {sqrt(1.0 - cosine * cosine), 0.0, cosine};
+    for (int i = 0; i < INTEGRAL_STEPS * INTEGRAL_STEPS; i++) {
+        const double u = (i / INTEGRAL_STEPS + 0.5) / INTEGRAL_STEPS;
+        const double w = (i % INTEGRAL_STEPS + 0.5) / INTEGRAL_STEPS;
+        add_lobe(view, fmax(roughness * roughness, 1e-4), u, w, &tables->a[r][v], &tables->b[r][v]);
+        if (r == 0) {
+            const double light[3] = {sqrt(w) * cos(2.0 * pi * u), sqrt(w) * sin(2.0 * pi * u),
+                                     sqrt(1.0 - w)};
+            const double v_h = sqrt(0.5 * (1.0 + dot(view, light)));
+            tables->grazing[v] += pow(1.0 - v_h, 5.0) / count;
+        }
+    }
+    tables->a[r][v] /= count;
+    tables->b[r][v] /= count;
+}
+
+DipRefPbrTables *dip_reference_pbr_tables_create(void) {
+    DipRefPbrTables *tables = calloc(1, sizeof *tables);
+    for (int i = 0; tables && i < STEPS * STEPS; i++) {
+        fill_entry(tables, i / STEPS, i % STEPS);
+    }
+    return tables;
+}
+
+// Reads between entries. fast: position on the axis whose entries follow each other.
+static double interpolate(double (*table)[STEPS], double slow, double fast) {
+    const double at[2] = {fmin(fmax(slow * STEPS - 0.5, 0.0), STEPS - 1.0),
+                          fmin(fmax(fast * STEPS - 0.5, 0.0), STEPS - 1.0)};
+    const int r = (int)fmin(at[0], STEPS - 2.0);
+    const int v = (int)fmin(at[1], STEPS - 2.0);
+    const double dr = at[0] - r, dv = at[1] - v;
+    return (1.0 - dr) * ((1.0 - dv) * table[r][v] + dv * table[r][v + 1]) +
+           dr * ((1.0 - dv) * table[r + 1][v] + dv * table[r + 1][v + 1]);
+}
+
+static double interpolate_row(const double row[STEPS], double value) {
+    const double at = fmin(fmax(value * STEPS - 0.5, 0.0), STEPS - 1.0);
+    const int i = (int)fmin(at, STEPS - 2.0);
+    return row[i] + (row[i + 1] - row[i]) * (at - i);
+}
+
+// --- lobes ---------------------------------------------------------------------------------------
+
+// A surface or its coat at one point.
+typedef struct Lobe {
+    double normal[3];
+    double to_eye[3];
+    double roughness;
+    double light_alpha; // width for lights
+    double a, b;
+} Lobe;
+
+static double facing_of(const Lobe *lobe) {
+    return clamp01(dot(lobe->normal, lobe->to_eye));
+}
+
+static void read_lobe(const DipRefTriangle *triangle, Lobe *lobe) {
+    DipRefPbrTables *tables = triangle->pbr_tables;
+    lobe->a = interpolate(tables->a, lobe->roughness, facing_of(lobe));
+    lobe->b = interpolate(tables->b, lobe->roughness, facing_of(lobe));
+}
+
+// The radiance that a lobe sees in a channel.
+static double reflect(const Lobe *lobe, const DipLightingDef *lighting, int c) {
+    const double alpha = lobe->roughness * lobe->roughness;
+    const double lean = (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha);
+    double towards[3];
+    for (int i = 0; i < 3; i++) {
+        const double mirrored = 2.0 * facing_of(lobe) * lobe->normal[i] - lobe->to_eye[i];
+        towards[i] = lobe->normal[i] + (mirrored - lobe->normal[i]) * lean;
+    }
+    normalise(towards);
+    const double blur = fmin(1.0, 1.0083 - 0.6222 * alpha + 0.2566 * alpha * alpha +
+                                      0.0316 * alpha * alpha * alpha);
+    return fmax(0.0, lighting->ambient_lin[c] + 1.5 * lighting->sky_lin[c] * blur * towards[1]);
+}
+
+// What the lobe makes of a light of strength 1, without its colour, and (1 - v.h)^5.
+static double meet(const Lobe *lobe, const double to_light[3], double *fresnel) {
+    double half[3];
+    for (int i = 0; i < 3; i++) {
+        half[i] = lobe->to_eye[i] + to_light[i];
+    }
+    normalise(half);
+    const double alpha2 = lobe->light_alpha * lobe->light_alpha;
+    const double n_l = clamp01(dot(lobe->normal, to_light));
+    const double n_v = fmax(facing_of(lobe), 1e-4);
+    const double n_h = clamp01(dot(lobe->normal, half));
+    const double spread = n_h * n_h * (alpha2 - 1.0) + 1.0;
+    const double density = alpha2 / (pi * spread * spread);
+    const double visibility = 0.5 / (n_l * sqrt(n_v * n_v * (1.0 - alpha2) + alpha2) +
+                                     n_v * sqrt(n_l * n_l * (1.0 - alpha2) + alpha2));
+    *fresnel = pow(1.0 - clamp01(dot(lobe->to_eye, half)), 5.0);
+    return pi * n_l * density * visibility;
+}
+
+// --- surfaces ------------------------------------------------------------------------------------
+
+// A metallic-roughness surface at one point.
+typedef struct Surface {
+    const DipRefTriangle *triangle;
+    const DipLightingDef *lighting;
+    double place[3];
+    double base[3];
+    double metallic;
+    double occlusion;
+    double f0_greatest; // of what is not metal
+    double f90;         // of what is not metal
+} Surface;
+
+static const DipLightingDef *lighting_of(const DipRefTriangle *triangle) {
+    static const DipLightDef sun = {.kind = DIP_LIGHT_DIRECTIONAL,
+                                    .colour_lin = {0.65f, 0.65f, 0.65f},
+                                    .direction_world = {0.42f, -0.67f, -0.61f}};
+    static const DipLightingDef fixed = {.ambient_lin = {0.35f, 0.35f, 0.35f},
+                                         .sky_lin = {0.15f, 0.15f, 0.15f},
+                                         .lights = &sun,
+                                         .light_count = 1};
+    return triangle->lit.lighting ? triangle->lit.lighting : &fixed;
+}
+
+// Whether the surface is seen from the side away from its normal.
+static bool is_behind(const DipRefVaryings *varyings, const double normal[3]) {
+    const double *x = &varyings->ddx[DIP_REF_X];
+    const double *y = &varyings->ddy[DIP_REF_X];
+    const double plane[3] = {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2],
+                             x[0] * y[1] - x[1] * y[0]};
+    const double eye_side = -dot(plane, &varyings->value[DIP_REF_X]);
+    return eye_side > 0.0 ? dot(plane, normal) < 0.0 : dot(plane, normal) > 0.0;
+}
+
+// Finds the normals of the mesh and of the surface. Returns the length of the map's normal.
+static double find_normals(const DipRefTriangle *triangle, const DipRefVaryings *varyings,
+                           const double texel[3], double mesh[3], double mapped[3]) {
+    dip_reference_normal(varyings, NULL, 1.0, mesh);
+    const double length =
+        dip_reference_normal(varyings, texel, triangle->pbr->normal_scale, mapped);
+    if (triangle->material->double_sided && is_behind(varyings, mesh)) {
+        for (int i = 0; i < 3; i++) {
+            mesh[i] = -mesh[i];
+            mapped[i] = -mapped[i];
+        }
+    }
+    return length;
+}
+
+// Adds one light to a colour.
+static void add_light(const Surface *surface, const Lobe *lobe, const DipLightDef *light,
+                      double rgb[3]) {
+    const double rest = 1.0 - surface->metallic;
+    double to_light[3];
+    double fresnel;
+    const double share =
+        dip_reference_arrival(light, surface->triangle->lit.eye, surface->place, to_light);
+    const double strength = meet(lobe, to_light, &fresnel);
+    const double n_l = clamp01(dot(lobe->normal, to_light));
+    const double f90 = rest * surface->f90 + surface->metallic;
+    const double kept =
+        1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * fresnel);
+    for (int c = 0; c < 3; c++) {
+        const double f0 =
+            rest * surface->triangle->pbr->f0_lin[c] + surface->metallic * surface->base[c];
+        const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
+        rgb[c] +=
+            share * light->colour_lin[c] *
+            ((f0 + (f90 - f0) * fresnel) * gain * strength + kept * rest * surface->base[c] * n_l);
+    }
+}
+
+static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3]) {
+    const DipRefPbrTables *tables = surface->triangle->pbr_tables;
+    const double rest = 1.0 - surface->metallic;
+    const double grazing = interpolate_row(tables->grazing, facing_of(lobe));
+    const double f90 = rest * surface->f90 + surface->metallic;
+    const double kept =
+        1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * grazing);
+    for (int c = 0; c < 3; c++) {
+        const double f0 =
+            rest * surface->triangle->pbr->f0_lin[c] + surface->metallic * surface->base[c];
+        const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
+        const double soft =
+            surface->lighting->ambient_lin[c] + surface->lighting->sky_lin[c] * lobe->normal[1];
+        rgb[c] = surface->occlusion *
+                 ((f0 * lobe->a + f90 * lobe->b) * gain * reflect(lobe, surface->lighting, c) +
+                  kept * rest * surface->base[c] * soft);
+    }
+    for (int l = 0; l < surface->lighting->light_count; l++) {
+        add_light(surface, lobe, &surface->lighting->lights[l], rgb);
+    }
+}
+
+// Covers the colour with the clear coat.
+static void add_coat(const Surface *surface, const double normal[3], const double to_eye[3],
+                     double rgb[3]) {
+    const DipPbrDef *pbr = surface->triangle->pbr;
+    Lobe lobe = {.roughness = pbr->coat_roughness};
+    for (int i = 0; i < 3; i++) {
+        lobe.normal[i] = normal[i];
+        lobe.to_eye[i] = to_eye[i];
+    }
+    lobe.light_alpha = fmax(0.1, lobe.roughness * lobe.roughness);
+    read_lobe(surface->triangle, &lobe);
+    const double gain = 1.0 + 0.04 * (1.0 / (lobe.a + lobe.b) - 1.0);
+    const double below = 1.0 - pbr->coat * (0.04 + 0.96 * pow(1.0 - facing_of(&lobe), 5.0));
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = rgb[c] * below + pbr->coat * gain * surface->occlusion * (0.04 * lobe.a + lobe.b) *
+                                      reflect(&lobe, surface->lighting, c);
+    }
+    for (int l = 0; l < surface->lighting->light_count; l++) {
+        const DipLightDef *light = &surface->lighting->lights[l];
+        double to_light[3];
+        double fresnel;
+        const double share =
+            dip_reference_arrival(light, surface->triangle->lit.eye, surface->place, to_light);
+        const double strength = meet(&lobe, to_light, &fresnel);
+        for (int c = 0; c < 3; c++) {
+            rgb[c] += share * light->colour_lin[c] * pbr->coat * gain * strength *
+                      (0.04 + 0.96 * fresnel);
+        }
+    }
+}
+
+// Finds the numbers that maps change: metallic and occlusion. Returns the roughness.
+static double read_maps(const DipRefFilter *filter, const DipRefVaryings *varyings,
+                        Surface *surface) {
+    const DipRefTriangle *triangle = surface->triangle;
+    const DipPbrDef *pbr = triangle->pbr;
+    double texel[4];
+    double roughness = pbr->roughness;
+    surface->metallic = pbr->metallic;
+    surface->occlusion = 1.0;
+    if (triangle->metal_rough) {
+        dip_reference_read_data(triangle->metal_rough, filter, varyings, DIP_REF_U0, texel);
+        roughness *= texel[1];
+        surface->metallic *= texel[2];
+    }
+    if (triangle->occlusion) {
+        dip_reference_read_data(triangle->occlusion, filter, varyings,
+                                pbr->occlusion_at_uv1 ? DIP_REF_U1 : DIP_REF_U0, texel);
+        surface->occlusion = 1.0 + pbr->occlusion_strength * (texel[0] - 1.0);
+    }
+    return roughness;
+}
+
+static void add_emission(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                         const DipRefVaryings *varyings, double rgb[3]) {
+    double texel[4] = {1.0, 1.0, 1.0, 1.0};
+    if (triangle->emission) {
+        dip_reference_read_data(triangle->emission, filter, varyings,
+                                triangle->pbr->emission_at_uv1 ? DIP_REF_U1 : DIP_REF_U0, texel);
+    }
+    for (int c = 0; c < 3; c++) {
+        rgb[c] += triangle->pbr->emission_lin[c] * texel[c];
+    }
+}
+
+void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                             const DipRefVaryings *varyings, const double texel[3], double rgb[3]) {
+    const DipPbrDef *pbr = triangle->pbr;
+    Surface surface = {.triangle = triangle, .lighting = lighting_of(triangle)};
+    Lobe lobe = {.roughness = read_maps(filter, varyings, &surface)};
+    double mesh[3];
+    const double length = find_normals(triangle, varyings, texel, mesh, lobe.normal);
+    for (int i = 0; i < 3; i++) {
+        surface.place[i] = varyings->value[DIP_REF_X + i];
+        surface.base[i] = rgb[i];
+        surface.f0_greatest = fmax(surface.f0_greatest, pbr->f0_lin[i]);
+        lobe.to_eye[i] = -surface.place[i];
+    }
+    surface.f90 = fmin(1.0, 50.0 * surface.f0_greatest);
+    normalise(lobe.to_eye);
+    const double spread = 2.0 * fmax(0.0, 1.0 / fmax(length, 0.1) - 1.0);
+    const double alpha = lobe.roughness * lobe.roughness;
+    const double least = fmax(0.1, alpha);
+    lobe.light_alpha = sqrt(fmin(1.0, least * least + spread));
+    lobe.roughness = pow(fmin(1.0, alpha * alpha + spread), 0.25);
+    read_lobe(triangle, &lobe);
+    light_surface(&surface, &lobe, rgb);
+    add_emission(triangle, filter, varyings, rgb);
+    if (pbr->coat > 0.0f) {
+        add_coat(&surface, mesh, lobe.to_eye, rgb);
+    }
+}

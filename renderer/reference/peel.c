@@ -1,0 +1,32 @@
+// Draws the blended surfaces of one sample of a converged picture in their order: from far to near.
+#include "renderer/reference/internal/internal.h"
+
+enum { NOTHING = -1 };
+
+DipRefPeel dip_reference_peel_begin(const double rgb[3], double depth) {
+    // A blended surface at the depth of the opaque one is hidden.
+    return (DipRefPeel){
+        .rgb = {rgb[0], rgb[1], rgb[2]}, .depth = depth, .last = INT32_MAX, .next = NOTHING};
+}
+
+void dip_reference_peel_offer(DipRefPeel *peel, double depth, int32_t triangle) {
+    const bool is_left = depth > peel->depth || (depth == peel->depth && triangle > peel->last);
+    const bool is_first = peel->next == NOTHING || depth < peel->next_depth ||
+                          (depth == peel->next_depth && triangle < peel->next);
+    if (is_left && is_first) {
+        peel->next_depth = depth;
+        peel->next = triangle;
+    }
+}
+
+void dip_reference_peel_blend(DipRefPeel *peel, const DipRefPosition *place) {
+    double rgb[3];
+    dip_reference_shade(place, NULL, rgb);
+    const double opacity = dip_reference_opacity(place, NULL);
+    for (int c = 0; c < 3; c++) {
+        peel->rgb[c] = opacity * rgb[c] + (1.0 - opacity) * peel->rgb[c];
+    }
+    peel->depth = peel->next_depth;
+    peel->last = peel->next;
+    peel->next = NOTHING;
+}

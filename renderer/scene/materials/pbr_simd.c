@@ -1,0 +1,392 @@
+// The shader of metallic-roughness surfaces. Compiled once per instruction set. docs/picture.md,
+// Metal and gloss, defines the formulas.
+#include "renderer/scene/materials/arrival_simd.h"
+#include "renderer/scene/materials/facing_simd.h"
+#include "renderer/scene/materials/material_kernels.h"
+
+// Reflected share of a clear coat at normal incidence.
+#define COAT_F0 0.04f
+// Least width (GGX alpha) of the highlights of lights.
+#define LEAST_ALPHA 0.1f
+
+// The maps of a batch. A pointer is NULL if the surface lacks the map.
+typedef struct Maps {
+    float (*normal)[DIP_FRAGMENT_BATCH];
+    float (*metal_rough)[DIP_FRAGMENT_BATCH];
+    const float *occlusion;
+    float (*emission)[DIP_FRAGMENT_BATCH];
+} Maps;
+
+// A point that is shaded, relative to the eye.
+typedef struct PbrPoint {
+    Vf3 place;
+    Vf3 to_eye; // unit
+    Vf3 base;   // own colour
+    Vf metallic;
+    Vf occlusion; // share of the ambient light that arrives
+} PbrPoint;
+
+// A lobe of reflected light: that of the surface or that of its coat.
+typedef struct Lobe {
+    Vf3 normal; // unit
+    Vf facing;  // n.v
+    Vf n_v;     // n.v, 0..1
+    Vf alpha;   // width for the surroundings
+    Vf alpha2;  // squared width for lights
+    Vf a, b;    // shares of f0 and f90 that uniform light gives
+    Vf grazing; // mean of (1 - v.h)^5 over diffuse light
+} Lobe;
+
+// --- tables --------------------------------------------------------------------------------------
+
+// A position between two entries of a table: the first of them, and the share of the second.
+typedef struct Entry {
+    Vi index;
+    Vf share;
+} Entry;
+
+VEC_INLINE Entry find_entry(Vf value) {
+    const float last = (float)(DIP_PBR_TABLE - 1);
+    const Vf at =
+        vf_min(vf_max(value * (float)DIP_PBR_TABLE - 0.5f, vf_splat(0.0f)), vf_splat(last));
+    const Vi index = vi_min(vi_from_float(at), vi_splat(DIP_PBR_TABLE - 2));
+    return (Entry){index, at - vf_from_int(index)};
+}
+
+VEC_INLINE Vf low_half(Vi pair) {
+    return vf_from_int(pair & 0xffff);
+}
+
+VEC_INLINE Vf high_half(Vi pair) {
+    return vf_from_int((Vi)((Vu)pair >> 16));
+}
+
+VEC_INLINE Vf mix(Vf a, Vf b, Vf share) {
+    return a + (b - a) * share;
+}
+
+// Reads the tables for the lobe of a surface of this roughness.
+VEC_INLINE void read_tables(const DipPbrTables *tables, Vf roughness, Lobe *lobe) {
+    const float unit = 1.0f / 65535.0f;
+    const Entry r = find_entry(roughness);
+    const Entry v = find_entry(lobe->n_v);
+    const Vi first = r.index * DIP_PBR_TABLE + v.index;
+    const Vi near = vi_gather(tables->lobe, first);
+    const Vi near_v = vi_gather(tables->lobe, first + 1);
+    const Vi near_r = vi_gather(tables->lobe, first + DIP_PBR_TABLE);
+    const Vi far = vi_gather(tables->lobe, first + (DIP_PBR_TABLE + 1));
+    lobe->a = unit * mix(mix(low_half(near), low_half(near_v), v.share),
+                         mix(low_half(near_r), low_half(far), v.share), r.share);
+    lobe->b = unit * mix(mix(high_half(near), high_half(near_v), v.share),
+                         mix(high_half(near_r), high_half(far), v.share), r.share);
+    const Vi grazing = vi_gather(tables->grazing, v.index);
+    lobe->grazing = unit * mix(low_half(grazing), high_half(grazing), v.share);
+}
+
+// --- lobes ---------------------------------------------------------------------------------------
+
+VEC_INLINE Lobe make_lobe(const DipPbrTables *tables, Vf3 normal, Vf3 to_eye, Vf roughness) {
+    Lobe lobe = {.normal = normal, .facing = vf3_dot(normal, to_eye)};
+    lobe.n_v = clamp01(lobe.facing);
+    lobe.alpha = roughness * roughness;
+    const Vf least = vf_max(lobe.alpha, vf_splat(LEAST_ALPHA));
+    lobe.alpha2 = least * least;
+    read_tables(tables, roughness, &lobe);
+    return lobe;
+}
+
+// Returns the height (y) of the direction in which a lobe sees the surroundings, times the share
+// that blurring leaves of it. The direction leans from the mirrored one towards the normal.
+VEC_INLINE Vf reflected_height(const Lobe *lobe, Vf3 to_eye) {
+    const Vf smooth = 1.0f - lobe->alpha;
+    const Vf s = smooth * (vf_sqrt(smooth) + lobe->alpha);
+    const Vf rest = 1.0f - s;
+    const Vf mirrored = lobe->n_v * lobe->normal.y * 2.0f - to_eye.y;
+    const Vf cosine = lobe->n_v * 2.0f - lobe->facing; // between the normal and the mirrored eye
+    const Vf length2 = (rest * rest + s * s) + (s * rest) * cosine * 2.0f;
+    const Vf t = lobe->alpha;
+    const Vf blur = ((t * 0.0316f + 0.2566f) * t - 0.6222f) * t + 1.0083f;
+    return (lobe->normal.y * rest + mirrored * s) * inverse_length(length2) *
+           vf_min(blur, vf_splat(1.0f));
+}
+
+// What a light gives to a lobe, as shares of the light on a white surface that faces it.
+typedef struct LightShares {
+    Vf facing;    // n.l, at least 0
+    Vf highlight; // of the lobe, without its colour
+    Vf fresnel;   // (1 - v.h)^5
+} LightShares;
+
+// Let c be v.l, and h the half vector of v and l. Then (v + l)^2 = 2 (1 + c), and v.h is half the
+// root of that. GGX's denominator is computed times 2 (1 + c).
+VEC_INLINE LightShares meet_light(const Lobe *lobe, Vf3 to_eye, Vf3 to_light) {
+    const Vf n_l = vf3_dot(lobe->normal, to_light);
+    const Vf sum2 = vf_max(vf3_dot(to_eye, to_light) * 2.0f + 2.0f, vf_splat(1e-6f));
+    const Vf along = vf_max(n_l + lobe->facing, vf_splat(0.0f));
+    const Vf d = along * along * (lobe->alpha2 - 1.0f) + sum2;
+    const Vf narrow = 1.0f - lobe->alpha2;
+    LightShares shares = {.facing = vf_max(n_l, vf_splat(0.0f))};
+    const Vf n_v = vf_max(lobe->n_v, vf_splat(1e-4f));
+    const Vf met = vf_min(shares.facing, vf_splat(1.0f));
+    const Vf shadows = met * vf_sqrt(n_v * n_v * narrow + lobe->alpha2) +
+                       n_v * vf_sqrt(met * met * narrow + lobe->alpha2);
+    shares.highlight = (met * lobe->alpha2 * 0.5f) * (sum2 * sum2) / (d * d * shadows);
+    const Vf rest = clamp01(1.0f - vf_sqrt(sum2) * 0.5f);
+    shares.fresnel = (rest * rest) * (rest * rest) * rest;
+    return shares;
+}
+
+// --- the surface ---------------------------------------------------------------------------------
+
+// Returns the lanes whose surface is seen from the side away from its normal.
+VEC_INLINE Mask seen_from_behind(const DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const int w = uniforms->depth_varying;
+    const Vf depth = vf_load(batch->varying[w] + i);
+    const Vf3 plane =
+        cross(position_step(uniforms->rays->per_x, depth, ray, vf_load(batch->varying_dx[w] + i)),
+              position_step(uniforms->rays->per_y, depth, ray, vf_load(batch->varying_dy[w] + i)));
+    const Vf zero = vf_splat(0.0f);
+    const Vf side = vf3_dot(plane, normal);
+    const Mask away = vf_lt(zero, vf3_dot(plane, ray));
+    return vf_lt(zero, vf_select(away, side, zero - side));
+}
+
+// Finds the normals of a surface, turned to the side from which it is seen.
+VEC_INLINE Facing face_eye(DipFragmentBatch *batch, int i, Vf3 ray, const Maps *maps) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    Facing facing;
+    if (maps->normal) {
+        facing = find_scaled_facing(batch, i, ray, maps->normal, uniforms->pbr->normal_scale);
+    } else {
+        facing.mesh = facing.mapped = mesh_normal(batch, i);
+        facing.inverse_length = vf_splat(1.0f);
+    }
+    if (uniforms->pbr->two_sided) {
+        const Mask behind = seen_from_behind(batch, i, ray, facing.mesh);
+        const Vf sign = vf_select(behind, vf_splat(-1.0f), vf_splat(1.0f));
+        facing.mesh = vf3_scale(facing.mesh, sign);
+        facing.mapped = vf3_scale(facing.mapped, sign);
+    }
+    return facing;
+}
+
+// Makes the lobe of the surface itself. It widens where the normals of the map spread (Toksvig).
+VEC_INLINE Lobe surface_lobe(const DipPbrUniforms *pbr, int i, const Facing *facing, Vf3 to_eye,
+                             const Maps *maps) {
+    Vf roughness = vf_splat(pbr->roughness);
+    if (maps->metal_rough) {
+        roughness = roughness * vf_load(maps->metal_rough[1] + i);
+    }
+    if (!maps->normal) {
+        return make_lobe(pbr->tables, facing->mapped, to_eye, roughness);
+    }
+    const Vf bounded = vf_min(facing->inverse_length, vf_splat(10.0f));
+    const Vf spread = vf_max(bounded - 1.0f, vf_splat(0.0f)) * 2.0f;
+    const Vf alpha = roughness * roughness;
+    const Vf wide = vf_sqrt(vf_min(alpha * alpha + spread, vf_splat(1.0f)));
+    Lobe lobe = make_lobe(pbr->tables, facing->mapped, to_eye, vf_sqrt(wide));
+    const Vf least = vf_max(alpha, vf_splat(LEAST_ALPHA));
+    lobe.alpha2 = vf_min(least * least + spread, vf_splat(1.0f));
+    return lobe;
+}
+
+// The colours of a channel that no light changes.
+typedef struct Channel {
+    Vf f0;
+    Vf gain;    // of the lobe, for light that bounces several times between facets
+    Vf diffuse; // own colour of what is not metal
+} Channel;
+
+VEC_INLINE Channel channel_of(const DipPbrUniforms *pbr, const PbrPoint *point, int c, Vf base,
+                              Vf lost) {
+    const Vf rest = 1.0f - point->metallic;
+    Channel channel = {.f0 = rest * pbr->f0_lin[c] + base * point->metallic,
+                       .diffuse = base * rest};
+    channel.gain = channel.f0 * lost + 1.0f;
+    return channel;
+}
+
+// Returns 1 / (A + B) - 1: what a white lobe loses, relative to what it keeps.
+VEC_INLINE Vf lost_light(const Lobe *lobe) {
+    return vf_splat(1.0f) / vf_max(lobe->a + lobe->b, vf_splat(1e-3f)) - 1.0f;
+}
+
+VEC_INLINE Vf surroundings(const DipLightingUniforms *lighting, int c, Vf height) {
+    return vf_max(height * (1.5f * lighting->sky_lin[c]) + lighting->ambient_lin[c],
+                  vf_splat(0.0f));
+}
+
+// Adds what a light gives to the surface.
+VEC_INLINE void add_light(const DipPbrUniforms *pbr, const Lobe *lobe, const PbrPoint *point,
+                          const DipLightUniforms *light, const Channel channels[3], Vf f90,
+                          Vf sum[3]) {
+    const Arrival arrival = arrive(light, point->place);
+    const Vf3 colour = arriving_colour(light, arrival.share);
+    const LightShares shares = meet_light(lobe, point->to_eye, arrival.to_light);
+    const Vf kept = (1.0f - pbr->f0_greatest) - shares.fresnel * (pbr->f90 - pbr->f0_greatest);
+    const Vf diffuse = kept * shares.facing;
+    const Vf arriving[3] = {colour.x, colour.y, colour.z};
+    for (int c = 0; c < 3; c++) {
+        const Vf f0 = channels[c].f0;
+        const Vf highlight = (f0 + (f90 - f0) * shares.fresnel) * channels[c].gain;
+        sum[c] =
+            sum[c] + arriving[c] * (highlight * shares.highlight + channels[c].diffuse * diffuse);
+    }
+}
+
+VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms, const Lobe *lobe,
+                              const PbrPoint *point, Vf sum[3]) {
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    const DipLightingUniforms *lighting = uniforms->lighting;
+    const Vf base[3] = {point->base.x, point->base.y, point->base.z};
+    const Vf height = reflected_height(lobe, point->to_eye);
+    const Vf lost = lost_light(lobe);
+    const Vf f90 = (1.0f - point->metallic) * pbr->f90 + point->metallic;
+    const Vf kept = (1.0f - pbr->f0_greatest) - lobe->grazing * (pbr->f90 - pbr->f0_greatest);
+    Channel channels[3];
+    for (int c = 0; c < 3; c++) {
+        channels[c] = channel_of(pbr, point, c, base[c], lost);
+        const Vf mirrored = (channels[c].f0 * lobe->a + f90 * lobe->b) * channels[c].gain;
+        const Vf soft = lobe->normal.y * lighting->sky_lin[c] + lighting->ambient_lin[c];
+        sum[c] =
+            (mirrored * surroundings(lighting, c, height) + (kept * channels[c].diffuse) * soft) *
+            point->occlusion;
+    }
+    for (int l = 0; l < lighting->count; l++) {
+        if (uniforms->lights >> l & 1) {
+            add_light(pbr, lobe, point, &lighting->lights[l], channels, f90, sum);
+        }
+    }
+}
+
+// Covers a colour with the clear coat, which takes a share of what is below and adds its own lobe.
+VEC_INLINE void add_coat(const DipSurfaceUniforms *uniforms, Vf3 normal, const PbrPoint *point,
+                         Vf sum[3]) {
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    const DipLightingUniforms *lighting = uniforms->lighting;
+    const Lobe lobe = make_lobe(pbr->tables, normal, point->to_eye, vf_splat(pbr->coat_roughness));
+    const Vf rest = 1.0f - lobe.n_v;
+    const Vf fresnel = (rest * rest) * (rest * rest) * rest * (1.0f - COAT_F0) + COAT_F0;
+    const Vf left = 1.0f - fresnel * pbr->coat;
+    const Vf height = reflected_height(&lobe, point->to_eye);
+    const Vf gain = (lost_light(&lobe) * COAT_F0 + 1.0f) * pbr->coat;
+    const Vf mirrored = (lobe.a * COAT_F0 + lobe.b) * gain * point->occlusion;
+    for (int c = 0; c < 3; c++) {
+        sum[c] = sum[c] * left + mirrored * surroundings(lighting, c, height);
+    }
+    for (int l = 0; l < lighting->count; l++) {
+        if (uniforms->lights >> l & 1) {
+            const DipLightUniforms *light = &lighting->lights[l];
+            const Arrival arrival = arrive(light, point->place);
+            const Vf3 colour = arriving_colour(light, arrival.share);
+            const LightShares shares = meet_light(&lobe, point->to_eye, arrival.to_light);
+            const Vf highlight =
+                (shares.fresnel * (1.0f - COAT_F0) + COAT_F0) * gain * shares.highlight;
+            sum[0] = sum[0] + colour.x * highlight;
+            sum[1] = sum[1] + colour.y * highlight;
+            sum[2] = sum[2] + colour.z * highlight;
+        }
+    }
+}
+
+VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Vf3 ray, const Maps *maps) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    PbrPoint point = {
+        .place = vf3_scale(ray, vf_load(batch->varying[uniforms->depth_varying] + i)),
+        .to_eye = vf3_unit(vf3_scale(ray, vf_splat(-1.0f))),
+        .base = {vf_load(batch->colour[0] + i), vf_load(batch->colour[1] + i),
+                 vf_load(batch->colour[2] + i)},
+        .metallic = vf_splat(pbr->metallic),
+        .occlusion = vf_splat(1.0f),
+    };
+    if (maps->metal_rough) {
+        point.metallic = point.metallic * vf_load(maps->metal_rough[2] + i);
+    }
+    if (maps->occlusion) {
+        point.occlusion = (vf_load(maps->occlusion + i) - 1.0f) * pbr->occlusion_strength + 1.0f;
+    }
+    return point;
+}
+
+VEC_INLINE void shade_fragments(DipFragmentBatch *batch, int i, const Maps *maps) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    const Vf3 ray = view_ray(uniforms->rays, batch, i);
+    const PbrPoint point = find_point(batch, i, ray, maps);
+    const Facing facing = face_eye(batch, i, ray, maps);
+    const Lobe lobe = surface_lobe(pbr, i, &facing, point.to_eye, maps);
+    Vf sum[3];
+    light_surface(uniforms, &lobe, &point, sum);
+    for (int c = 0; c < 3 && pbr->emits; c++) {
+        const Vf share = maps->emission ? vf_load(maps->emission[c] + i) : vf_splat(1.0f);
+        sum[c] = sum[c] + share * pbr->emission_lin[c];
+    }
+    if (pbr->coat > 0.0f) {
+        add_coat(uniforms, facing.mesh, &point, sum);
+    }
+    for (int c = 0; c < 3; c++) {
+        vf_store(batch->colour[c] + i, sum[c]);
+    }
+}
+
+// --- the shader ----------------------------------------------------------------------------------
+
+// Reads the maps that the surface has. Three textures' memory is the caller's.
+VEC_INLINE void read_maps(DipFragmentBatch *batch, float (*memory)[3][DIP_FRAGMENT_BATCH],
+                          Maps *maps) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    if (pbr->metal_rough_varying != DIP_ABSENT) {
+        maps->metal_rough = memory[0];
+        batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_METAL_ROUGH],
+                             pbr->metal_rough_varying, memory[0]);
+    }
+    if (pbr->occlusion_in_metal_rough) {
+        maps->occlusion = memory[0][0];
+    } else if (pbr->occlusion_varying != DIP_ABSENT) {
+        maps->occlusion = memory[1][0];
+        batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_OCCLUSION],
+                             pbr->occlusion_varying, memory[1]);
+    }
+    if (pbr->emission_varying != DIP_ABSENT) {
+        maps->emission = memory[2];
+        batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_EMISSION],
+                             pbr->emission_varying, memory[2]);
+    }
+}
+
+VEC_INLINE void count_parts(DipFragmentBatch *batch, const Maps *maps) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    const uint64_t count = (uint64_t)batch->count;
+    batch->work.counts[DIP_SHADER_COUNT_PBR] += count;
+    batch->work.counts[DIP_SHADER_COUNT_NORMAL_MAPPED] += maps->normal ? count : 0;
+    batch->work.counts[DIP_SHADER_COUNT_LIT] += pbr->own_lights ? count : 0;
+    batch->work.counts[DIP_SHADER_COUNT_OCCLUDED] += maps->occlusion ? count : 0;
+    batch->work.counts[DIP_SHADER_COUNT_EMITTING] += pbr->emits ? count : 0;
+    batch->work.counts[DIP_SHADER_COUNT_COATED] += pbr->coat > 0.0f ? count : 0;
+}
+
+void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    float texture[3][DIP_FRAGMENT_BATCH];
+    float normals[3][DIP_FRAGMENT_BATCH];
+    float memory[3][3][DIP_FRAGMENT_BATCH];
+    Maps maps = {.normal = NULL};
+    if (uniforms->normal_map_varying != DIP_ABSENT) {
+        maps.normal = normals;
+        start_mapped_colour(batch, texture, normals);
+    } else {
+        start_colour(batch, texture);
+    }
+    if (uniforms->light_varying != DIP_ABSENT) {
+        scale_colour(batch, batch->varying + uniforms->light_varying, 1.0f);
+    }
+    read_maps(batch, memory, &maps);
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        shade_fragments(batch, i, &maps);
+    }
+    count_parts(batch, &maps);
+}

@@ -1,0 +1,42 @@
+// What metallic-roughness surfaces keep for a scene. Private to the renderer.
+#ifndef DIP_RENDERER_SCENE_RESOURCES_PBR_H
+#define DIP_RENDERER_SCENE_RESOURCES_PBR_H
+
+#include "renderer/scene/materials/pbr.h"
+#include "renderer/scene/resources/lighting.h"
+#include "renderer/scene/scene.h"
+
+#include <stdbool.h>
+
+// Exists only in scenes that have a metallic-roughness surface.
+typedef struct DipScenePbr {
+    DipPbrTables tables;
+    DipSceneLighting *fixed;   // the fixed light, in a scene without lights of its own; or NULL
+    DipPbrUniforms surfaces[]; // one per mesh; meshes without such a surface do not use theirs
+} DipScenePbr;
+
+// Returns whether the surface of a mesh is drawn by its metallic-roughness description: it must be
+// lit and have normals, and no light map. Water and sky are drawn without.
+bool dip_mesh_has_pbr(const DipSceneDef *def, const DipMeshDef *mesh);
+
+// Creates *pbr, or sets it to NULL if the scene has no such surface. Fails with DIP_ERROR_MEMORY.
+bool dip_scene_pbr_create(const DipSceneDef *def, DipScenePbr **pbr, DipError *err);
+void dip_scene_pbr_destroy(DipScenePbr **pbr);
+
+// Describes the surface of a mesh. uv0 and uv1: index of the first varying of each set of texture
+// coordinates, or DIP_ABSENT.
+DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
+                               const DipPbrTables *tables, int uv0, int uv1);
+
+// The textures of a metallic-roughness material that are drawn, or DIP_NO_TEXTURE.
+typedef struct DipPbrMaps {
+    int metal_rough;
+    int occlusion;
+    int emission;
+} DipPbrMaps;
+DipPbrMaps dip_pbr_maps(const DipMaterialDef *material);
+
+// Returns whether the mesh has maps of its metallic-roughness surface at uv0 (set 0) or uv1 (1).
+bool dip_pbr_uses_set(const DipMaterialDef *material, int set);
+
+#endif

@@ -1,0 +1,330 @@
+// Tests blended surfaces: colours against closed forms, the order from far to near, and scenes of
+// panes against the reference renderer, which sorts each sample by itself.
+#include "author_scenes.h"
+#include "image.h"
+
+#include "renderer/reference/reference.h"
+#include "renderer/scene/draw/blend_order.h"
+#include "renderer/scene/renderer.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 160, HEIGHT = 120 };
+
+static AuthorScene scene;
+
+// A renderer for `scene`.
+typedef struct Stage {
+    DipPool *pool;
+    DipScene *scene;
+    DipRenderer *renderer;
+} Stage;
+
+static Stage open_stage(const char *settings, const DipReflectionDef *reflection) {
+    DipError err = {0};
+    Stage stage = {.pool = dip_pool_create(2, NULL),
+                   .scene = dip_scene_create(&scene.def, NULL, &err)};
+    DipRendererDef def = dip_renderer_default_def();
+    def.pool = stage.pool;
+    def.width = WIDTH;
+    def.height = HEIGHT;
+    if (reflection) {
+        def.reflection = *reflection;
+    }
+    assert_true(dip_quality_parse(settings, &def.quality, NULL));
+    stage.renderer = dip_renderer_create(&def, NULL);
+    if (!stage.scene) {
+        fail_msg("%s: %s", err.key, err.message);
+    }
+    assert_non_null(stage.renderer);
+    return stage;
+}
+
+static void close_stage(Stage *stage) {
+    dip_renderer_destroy(&stage->renderer);
+    dip_scene_destroy(&stage->scene);
+    dip_pool_destroy(&stage->pool);
+}
+
+static DipFrame draw(const Stage *stage) {
+    DipFrame frame;
+    DipError err = {0};
+    if (!dip_renderer_draw(stage->renderer, stage->scene, &scene.pose, 0, &frame, &err)) {
+        fail_msg("%s: %s", err.key, err.message);
+    }
+    return frame;
+}
+
+static const uint8_t *centre_of(const DipFrame *frame) {
+    return frame->rgba8 + HEIGHT / 2 * frame->stride_bytes + WIDTH / 2 * 4;
+}
+
+static int encode(double x) {
+    return (int)lround(255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055));
+}
+
+// --- closed forms --------------------------------------------------------------------------------
+
+// Adds an unlit pane of one colour that fills the picture, at a distance from the origin towards
+// the eye.
+static int add_pane(DipSurface surface, const float colour[3], float opacity, float z) {
+    const int material = author_add_pbr(&scene, 0.0f, 1.0f);
+    DipMaterialDef *pane = &scene.materials[material];
+    pane->lit = false;
+    pane->surface = surface;
+    pane->opacity = opacity;
+    memcpy(pane->base_colour_lin, colour, 3 * sizeof *colour);
+    return author_add_quad(&scene, material, (const float[]){-9.0f, -9.0f, z},
+                           (const float[]){18.0f, 0.0f, 0.0f}, (const float[]){0.0f, 18.0f, 0.0f});
+}
+
+static const float red[3] = {1.0f, 0.1f, 0.0f};
+static const float green[3] = {0.0f, 0.8f, 0.2f};
+static const float blue[3] = {0.1f, 0.2f, 0.9f};
+
+// Three panes before a wall, whichever of them the scene names first.
+static void panes_blend_from_far_to_near_in_linear_light(void **state) {
+    (void)state;
+    const float *const colours[3] = {red, green, blue};
+    static const float opacities[3] = {0.5f, 0.3f, 0.6f};
+    static const int orders[4][3] = {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}};
+    for (int o = 0; o < 4; o++) {
+        author_begin(&scene);
+        for (int i = 0; i < 3; i++) {
+            const int pane = orders[o][i];
+            add_pane(DIP_SURFACE_BLENDED, colours[pane], opacities[pane], (float)pane);
+        }
+        add_pane(DIP_SURFACE_OPAQUE, (const float[]){0.5f, 0.5f, 0.5f}, 1.0f, -1.0f);
+        Stage stage = open_stage(o % 2 ? "aa=none" : "aa=4", NULL);
+        const DipFrame frame = draw(&stage);
+        for (int c = 0; c < 3; c++) {
+            double expected = 0.5;
+            for (int pane = 0; pane < 3; pane++) {
+                expected = (double)colours[pane][c] * (double)opacities[pane] +
+                           expected * (1.0 - (double)opacities[pane]);
+            }
+            assert_true(abs(centre_of(&frame)[c] - encode(expected)) <= 1);
+        }
+        assert_int_equal(centre_of(&frame)[3], 255);
+        assert_true(frame.effects.blend.run);
+        // Where two triangles meet in a pixel, each has a fragment.
+        assert_true(frame.counters.fragments_blended >= 3 * WIDTH * HEIGHT);
+        assert_true(o % 2 == 0 || frame.counters.fragments_blended == 3 * WIDTH * HEIGHT);
+        close_stage(&stage);
+        author_free(&scene);
+    }
+}
+
+static void what_is_behind_a_wall_is_hidden(void **state) {
+    (void)state;
+    author_begin(&scene);
+    add_pane(DIP_SURFACE_BLENDED, red, 0.5f, -1.0f);
+    add_pane(DIP_SURFACE_OPAQUE, green, 1.0f, 0.0f);
+    Stage stage = open_stage("aa=2", NULL);
+    const DipFrame frame = draw(&stage);
+    for (int c = 0; c < 3; c++) {
+        assert_int_equal(centre_of(&frame)[c], encode((double)green[c]));
+    }
+    assert_false(frame.effects.blend.run);
+    assert_string_equal(frame.effects.blend.why, "no fragment of it is visible");
+    close_stage(&stage);
+    author_free(&scene);
+}
+
+// The alpha of the texture multiplies the opacity.
+static void the_texture_has_alpha(void **state) {
+    (void)state;
+    author_begin(&scene);
+    const int texture = author_add_texture(&scene, 4, DIP_ENCODING_LINEAR);
+    for (int i = 0; i < 16; i++) {
+        memcpy(author_texels(&scene, texture) + (size_t)4 * (size_t)i,
+               (const uint8_t[]){255, 255, 255, 102}, 4);
+    }
+    add_pane(DIP_SURFACE_BLENDED, blue, 0.5f, 0.0f);
+    scene.materials[0].colour_texture = texture;
+    Stage stage = open_stage("aa=none", NULL);
+    const DipFrame frame = draw(&stage);
+    for (int c = 0; c < 3; c++) {
+        const int expected = encode((double)blue[c] * 0.5 * 102.0 / 255.0);
+        assert_true(abs(centre_of(&frame)[c] - expected) <= 1);
+    }
+    close_stage(&stage);
+    author_free(&scene);
+}
+
+// A double-sided pane is one surface, and its back shows too; a single-sided one has no back.
+static void both_sides_of_a_double_sided_pane_are_seen(void **state) {
+    (void)state;
+    for (int two_sided = 0; two_sided < 2; two_sided++) {
+        author_begin(&scene);
+        const int object = add_pane(DIP_SURFACE_BLENDED, green, 0.5f, 0.0f);
+        scene.objects[object].transform[0] = -1.0f; // turned about the vertical axis
+        scene.objects[object].transform[10] = -1.0f;
+        scene.objects[object].transform[3] = 9.0f;
+        scene.materials[0].double_sided = two_sided;
+        Stage stage = open_stage("aa=none", NULL);
+        const DipFrame frame = draw(&stage);
+        assert_int_equal(centre_of(&frame)[1], two_sided ? encode(0.4) : 0);
+        close_stage(&stage);
+        author_free(&scene);
+    }
+}
+
+// Reading samples draws a part of the frame again: its pixels stay, and the samples show what is
+// not blended.
+static void reading_samples_leaves_the_frame_as_it_is(void **state) {
+    (void)state;
+    static DipSampleValue samples[8 * 8 * DIP_READBACK_STRIDE];
+    const DipSampleReadback readback = {.region = {70, 50, 78, 58}, .samples = samples};
+    author_begin(&scene);
+    add_pane(DIP_SURFACE_BLENDED, red, 0.5f, 1.0f);
+    add_pane(DIP_SURFACE_OPAQUE, green, 1.0f, 0.0f);
+    Stage stage = open_stage("aa=4", NULL);
+    const DipFrame frame = draw(&stage);
+    char hashes[2][33];
+    dip_frame_hash(&frame, hashes[0]);
+    assert_true(
+        dip_renderer_read_samples(stage.renderer, stage.scene, &scene.pose, 0, &readback, NULL));
+    dip_frame_hash(&frame, hashes[1]);
+    assert_string_equal(hashes[0], hashes[1]);
+    assert_int_equal(samples[0].linear16[1], lround(0.8 * 65535.0));
+    close_stage(&stage);
+    author_free(&scene);
+}
+
+// --- the order -----------------------------------------------------------------------------------
+
+static void the_order_is_from_far_to_near(void **state) {
+    (void)state;
+    enum { COUNT = 500 };
+    static DipBlendedObject objects[COUNT];
+    uint32_t random = 1;
+    for (int i = 0; i < COUNT; i++) {
+        random = random * 1664525u + 1013904223u;
+        objects[i] = (DipBlendedObject){(int64_t)(random >> 26), i};
+    }
+    dip_blend_sort(objects, COUNT);
+    for (int i = 1; i < COUNT; i++) {
+        assert_true(objects[i - 1].depth >= objects[i].depth);
+        assert_true(objects[i - 1].depth > objects[i].depth ||
+                    objects[i - 1].object < objects[i].object);
+    }
+    dip_blend_sort(objects, 0);
+    dip_blend_sort(objects, 1);
+}
+
+static void depths_are_measured_along_the_view_axis(void **state) {
+    (void)state;
+    const DipPose pose = {
+        .position_world = {1.0, 2.0, 3.0}, .orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 50.0};
+    const DipView view = dip_view_make(&pose, 0.25, 1.0);
+    const DipBox near = {.centre = {90.0f, -70.0f, 2.0f}};
+    const DipBox behind = {.centre = {0.0f, 0.0f, 5.0f}};
+    const DipBox far = {.centre = {0.0f, 0.0f, -3e38f}};
+    assert_int_equal(dip_blend_depth(&view, &near), 4 * 65536);
+    assert_int_equal(dip_blend_depth(&view, &behind), -8 * 65536);
+    assert_int_equal(dip_blend_depth(&view, &far), (int64_t)1 << 62);
+}
+
+// --- against the reference -----------------------------------------------------------------------
+
+static void compare(const char *name, const char *settings, const DipReflectionDef *reflection) {
+    DipError err = {0};
+    Stage stage = open_stage(settings, reflection);
+    const DipFrame frame = draw(&stage);
+    const DipQuality quality = dip_renderer_quality(stage.renderer);
+    DipReference *reference = dip_reference_create(&scene.def, &err);
+    assert_non_null(reference);
+    if (reflection) {
+        dip_reference_set_reflection(reference, reflection);
+    }
+    double *rgb_lin = malloc(WIDTH * HEIGHT * 3 * sizeof *rgb_lin);
+    assert_non_null(rgb_lin);
+    assert_true(dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, rgb_lin, &err));
+    const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
+    printf("%s %s: rms %.5f, max %.3f, %zu over 0.02, %.1f dB\n", name, settings, error.rms_lin,
+           error.max_lin, error.over_count, error.psnr_db);
+    static const DipImageBounds bounds = {
+        .rms_lin = 0.004, .pixel_lin = 0.02, .over_share = 0.003, .over_max_lin = 0.6};
+    assert_true(dip_image_check(name, rgb_lin, &frame, &bounds));
+    free(rgb_lin);
+    dip_reference_destroy(&reference);
+    close_stage(&stage);
+}
+
+static void panes_equal_the_reference(void **state) {
+    (void)state;
+    author_make_panes(&scene);
+    compare("panes", "aa=none", NULL);
+    compare("panes", "aa=4,af=8", NULL);
+    compare("panes", "aa=8,aaa=on,asd=1", NULL);
+    author_free(&scene);
+}
+
+// The mirrored scene has its own order: what is far above the water is near below it.
+static void water_mirrors_panes(void **state) {
+    (void)state;
+    author_make_panes(&scene);
+    const int water = author_add_pbr(&scene, 0.0f, 1.0f);
+    scene.materials[water].surface = DIP_SURFACE_WATER;
+    scene.materials[water].pbr = NULL;
+    scene.materials[water].base_colour_lin[0] = 0.05f;
+    author_add_quad(&scene, water, (const float[]){-9.0f, -1.0f, 6.0f}, (const float[]){18, 0, 0},
+                    (const float[]){0, 0, -8});
+    const DipReflectionDef reflection = {.width = WIDTH, .height = HEIGHT, .level_m = -1.0};
+    compare("panes_in_water", "aa=2", &reflection);
+    author_free(&scene);
+}
+
+// The converged picture is the mean of many samples that are sorted by themselves. A pane that
+// stands in another has no right order of objects, so only the reference is right there.
+static void the_converged_picture_sorts_each_sample(void **state) {
+    (void)state;
+    enum { SMALL = 24, SAMPLES = 64 };
+    DipError err = {0};
+    author_begin(&scene);
+    add_pane(DIP_SURFACE_BLENDED, red, 0.5f, 0.0f);
+    add_pane(DIP_SURFACE_BLENDED, green, 0.5f, 0.0f);
+    scene.objects[1].transform[8] = 0.5f; // its right half stands before the other pane
+    scene.objects[1].transform[11] = -4.5f;
+    DipReference *reference = dip_reference_create(&scene.def, &err);
+    double *rgb_lin = malloc(SMALL * SMALL * 3 * sizeof *rgb_lin);
+    assert_true(reference && rgb_lin);
+    assert_true(
+        dip_reference_converge(reference, &scene.pose, SMALL, SMALL, SAMPLES, 1, rgb_lin, &err));
+    const double *left = rgb_lin + 3 * (SMALL * SMALL / 2 + 3);
+    const double *right = rgb_lin + 3 * (SMALL * SMALL / 2 + SMALL - 4);
+    for (int c = 0; c < 3; c++) {
+        const double r = (double)red[c], g = (double)green[c];
+        assert_true(fabs(left[c] - (0.5 * r + 0.25 * g)) < 1e-6);
+        assert_true(fabs(right[c] - (0.5 * g + 0.25 * r)) < 1e-6);
+    }
+    free(rgb_lin);
+    dip_reference_destroy(&reference);
+    author_free(&scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(panes_blend_from_far_to_near_in_linear_light),
+        cmocka_unit_test(what_is_behind_a_wall_is_hidden),
+        cmocka_unit_test(the_texture_has_alpha),
+        cmocka_unit_test(both_sides_of_a_double_sided_pane_are_seen),
+        cmocka_unit_test(reading_samples_leaves_the_frame_as_it_is),
+        cmocka_unit_test(the_order_is_from_far_to_near),
+        cmocka_unit_test(depths_are_measured_along_the_view_axis),
+        cmocka_unit_test(panes_equal_the_reference),
+        cmocka_unit_test(water_mirrors_panes),
+        cmocka_unit_test(the_converged_picture_sorts_each_sample),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
