@@ -11,6 +11,11 @@ import subprocess
 import sys
 
 
+def output_of(entry):
+    words = shlex.split(entry["command"])
+    return pathlib.Path(entry["directory"], words[words.index("-o") + 1])
+
+
 def check(entry):
     """Returns the compiler's messages; none if the file has no fault."""
     words = shlex.split(entry["command"])
@@ -26,7 +31,7 @@ def main():
     build = pathlib.Path(sys.argv[1])
     entries = json.loads((build / "compile_commands.json").read_text("utf-8"))
     rest = [entry for entry in entries
-            if os.path.exists(entry["file"]) and not (build / entry["output"]).exists()]
+            if os.path.exists(entry["file"]) and not output_of(entry).exists()]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         messages = [message for message in pool.map(check, rest) if message]
     print("".join(messages), end="")
