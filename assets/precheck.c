@@ -71,6 +71,11 @@ static bool check_json(const char *path, bool binary, DipError *err) {
         scan_character(&scan, c);
     }
     fclose(file);
+    // assimp would allocate the whole length that the header tells, and find out then.
+    if (binary && left > 0) {
+        return dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL,
+                             "the model file ends too early");
+    }
     return check_scan(&scan, err);
 }
 

@@ -2,7 +2,7 @@
 // llvmpipe, and compares the pictures. The target has four floats per pixel and one sample, where
 // llvmpipe rounds no intermediate result to bytes. Exit code 77 means that there is no llvmpipe.
 //
-//     test_peer_merge [--lists N]    (default 60; the long run draws 300)
+//     test_peer_merge [--lists N]    (default 30; the long run draws 300)
 #include "tests/peer/gl.h"
 #include "tests/renderer/pipeline/merge_list.h"
 
@@ -20,7 +20,7 @@ enum { VERTICES = 3 * MODEL_TRIANGLES };
 
 typedef float Picture[MODEL_HEIGHT][MODEL_WIDTH][4];
 
-static int list_count = 60;
+static int list_count = 30;
 static DipGl gl;
 static GLuint program;
 static GLint colour_place, clips_place, reads_front_place;

@@ -124,13 +124,13 @@ static void close_display(void *context) {
     SdlDisplay *sdl = context;
     const bool quits = can_quit(sdl);
     SDL_free(sdl->dropped_file);
-    dip_sdl_x_errors_end();
     if (sdl->window && quits) {
         SDL_DestroyWindow(sdl->window);
     }
     if (sdl->sdl_open && quits) {
         SDL_Quit();
     }
+    dip_sdl_x_errors_end(); // Errors of the last requests arrive until the connection is closed.
     dip_sdl_host_close(&sdl->host);
     free(sdl);
 }

@@ -33,10 +33,10 @@ static bool add_thread(DipThreadWatch *watch, const char *folder, const char *th
     char name[96];
     const int length = snprintf(name, sizeof name, "%s/%.20s/schedstat", folder, thread);
     int *files = realloc(watch->files, ((size_t)watch->count + 1) * sizeof *files);
+    watch->files = files ? files : watch->files;
     if (!files || length >= (int)sizeof name) {
         return false;
     }
-    watch->files = files;
     const int file = open(name, O_RDONLY | O_CLOEXEC);
     if (file < 0) {
         return false;

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Gives hostile texts to every form of a report: hostile.py MAKE_PAGE DIPTYCH.
+"""Gives hostile texts to every form of a report: hostile.py MAKE_PAGE DIPTYCH [--one].
 
-Every text of a made-up cost.json is replaced in turn, and `cost merge`, `cost diff` and `cost
-advise` read the file. They may refuse it. Otherwise the page has the same elements and attributes
-as with harmless texts, its scripts' data is JSON, no cell of the CSV is a formula, and no control
-character reaches the terminal.
+Every text of a made-up cost.json is replaced in turn by each hostile text, or with --one by one of
+them, and `cost merge`, `cost diff` and `cost advise` read the file. They may refuse it. Otherwise
+the page has the same elements and attributes as with harmless texts, its scripts' data is JSON, no
+cell of the CSV is a formula, and no control character reaches the terminal.
 """
 import copy
 import csv
@@ -150,10 +150,11 @@ def main():
         if name in seen:
             continue
         seen.add(name)
-        for text in HOSTILE:
+        one = len(seen) % len(HOSTILE)
+        for text in HOSTILE[one:one + 1] if "--one" in sys.argv else HOSTILE:
             what = "/".join(name) + " " + repr(text[:12])
             shown += check_forms(diptych, replaced(good, path, text), what, elements) is not None
-    check("too few hostile texts were read", shown >= 20, shown)
+    check("too few hostile texts were read", shown >= (4 if "--one" in sys.argv else 20), shown)
     check("too few places have texts", len(seen) >= 12, seen)
     print(f"{len(seen)} places, {shown} hostile reports shown, {failures} failures")
     sys.exit(failures > 0)

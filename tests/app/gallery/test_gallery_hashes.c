@@ -3,8 +3,10 @@
 // gcc and clang builds share, and the counters of work must not differ. The list must not hold
 // hashes of pictures that nobody draws any more.
 //
-// Usage: test_gallery_hashes ASSETS LIST [--write] [--scene NAME]. --write creates the list with
-// the scalar kernels on one thread. --scene draws one scene only.
+// Usage: test_gallery_hashes ASSETS LIST [--write] [--scene NAME] [--half N]. --write creates the
+// list with the scalar kernels on one thread. --scene draws one scene only. --half 0 and --half 1
+// draw each instruction set with one of both thread counts, in turns; together they draw
+// everything.
 #include "app/gallery/gallery.h"
 
 #include <stdio.h>
@@ -159,6 +161,7 @@ int main(int argc, char **argv) {
     static Picture first[MAX_PICTURES];
     static Picture found[MAX_PICTURES];
     int only = -1;
+    int half = -1;
     bool write = false;
     for (int i = 3; i < argc; i++) {
         if (strcmp(argv[i], "--write") == 0) {
@@ -167,21 +170,26 @@ int main(int argc, char **argv) {
             if (!dip_gallery_find(argv[++i], &only, NULL)) {
                 return 2;
             }
+        } else if (strcmp(argv[i], "--half") == 0 && i + 1 < argc) {
+            half = atoi(argv[++i]);
         }
     }
     if (argc < 3) {
-        fprintf(stderr, "usage: test_gallery_hashes ASSETS LIST [--write] [--scene NAME]\n");
+        fprintf(stderr,
+                "usage: test_gallery_hashes ASSETS LIST [--write] [--scene NAME] [--half N]\n");
         return 2;
     }
-    const int count = draw_all(argv[1], only, DIP_ISA_SCALAR, 1, first);
+    const int first_threads = half == 1 ? 3 : 1;
+    const int count = draw_all(argv[1], only, DIP_ISA_SCALAR, first_threads, first);
     if (count < 0 || write) {
         return count < 0 || !write_list(argv[2], first, count);
     }
     char *text = read_text(argv[2]);
-    int differences = compare(text, first, first, count, DIP_ISA_SCALAR, 1);
+    int differences = compare(text, first, first, count, DIP_ISA_SCALAR, first_threads);
     for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
         for (int threads = 1; threads <= 3 && dip_isa_available((DipIsa)isa); threads += 2) {
-            if (isa == DIP_ISA_SCALAR && threads == 1) {
+            const bool drawn = isa == DIP_ISA_SCALAR && threads == first_threads;
+            if (drawn || half == (isa + threads / 2 + 1) % 2) {
                 continue;
             }
             if (draw_all(argv[1], only, (DipIsa)isa, threads, found) != count) {

@@ -250,7 +250,7 @@ static void wait_for_result(void) {
 // Lets some seconds of the display's clock pass.
 static void wait_seconds(int seconds) {
     for (int i = 0; i < 60 * seconds; ++i) {
-        const struct timespec pause = {0, 2000000};
+        const struct timespec pause = {0, 500000};
         nanosleep(&pause, NULL);
         turn();
     }

@@ -170,7 +170,7 @@ static void wait_for_result(void) {
 // the thread that opens a session needs.
 static void wait_seconds(int seconds) {
     for (int i = 0; i < 60 * seconds; ++i) {
-        const struct timespec pause = {0, 2000000};
+        const struct timespec pause = {0, 500000};
         nanosleep(&pause, NULL);
         turn();
     }

@@ -30,13 +30,13 @@ await() {
     done
 }
 
-# Takes a screenshot and writes both panes, without the labels and notices, to left.png and
-# right.png, and the contents of the dock to dock.png.
+# Takes a screenshot and writes both panes, without the labels and notices, to left.bmp and
+# right.bmp, and the contents of the dock to dock.bmp.
 shoot() {
-    import -window root screen.png
-    convert screen.png -crop 640x360+0+70 +repage left.png
-    convert screen.png -crop 640x360+642+70 +repage right.png
-    convert screen.png -crop 1282x200+0+516 +repage dock.png
+    import -window root screen.bmp
+    convert screen.bmp \( -clone 0 -crop 640x360+0+70 +repage -write left.bmp +delete \) \
+        \( -clone 0 -crop 640x360+642+70 +repage -write right.bmp +delete \) \
+        -crop 1282x200+0+516 +repage dock.bmp
 }
 
 differing() { # prints the number of pixels that differ between two pictures
@@ -47,20 +47,20 @@ deviation() { # prints the spread of grey values; 0 for a picture of one colour
     convert "$1" -colorspace Gray -format '%[fx:int(1000*standard_deviation)]' info:
 }
 
-panes_equal() { shoot; [ "$(differing left.png right.png)" = 0 ]; }
-panes_differ() { shoot; [ "$(differing left.png right.png)" -gt "$1" ] 2>/dev/null; }
+panes_equal() { shoot; [ "$(differing left.bmp right.bmp)" = 0 ]; }
+panes_differ() { shoot; [ "$(differing left.bmp right.bmp)" -gt "$1" ] 2>/dev/null; }
 both_show_something() {
     shoot
-    [ "$(deviation left.png)" -gt 50 ] && [ "$(deviation right.png)" -gt 50 ]
+    [ "$(deviation left.bmp)" -gt 50 ] && [ "$(deviation right.bmp)" -gt 50 ]
 }
-left_changed() { shoot; [ "$(differing left.png "$1")" -gt 1000 ] 2>/dev/null; }
-dock_changed() { shoot; [ "$(differing dock.png "$1")" -gt 1000 ] 2>/dev/null; }
-left_same() { shoot; [ "$(differing left.png "$1")" = 0 ]; }
+left_changed() { shoot; [ "$(differing left.bmp "$1")" -gt 1000 ] 2>/dev/null; }
+dock_changed() { shoot; [ "$(differing dock.bmp "$1")" -gt 1000 ] 2>/dev/null; }
+left_same() { shoot; [ "$(differing left.bmp "$1")" = 0 ]; }
 stands_still() {
     shoot
-    cp left.png still.png
+    cp left.bmp still.bmp
     sleep 0.5
-    left_same still.png
+    left_same still.bmp
 }
 screenshot_there() { [ -s diptych-0001.png ]; }
 window_is() {
@@ -75,25 +75,25 @@ xdotool windowfocus "$window" 2>/dev/null
 await "both panes show the scene" both_show_something
 
 # The picture moves by itself and stands still when paused. Equal settings give equal pictures.
-cp left.png before.png
-await "the picture moves" left_changed before.png
+cp left.bmp before.bmp
+await "the picture moves" left_changed before.bmp
 xdotool key space
 await "the paused picture stands still" stands_still
 panes_equal || fail "panes with equal settings differ"
-cp left.png before.png
+cp left.bmp before.bmp
 xdotool key period period period
-await "stepping moves the picture" left_changed before.png
+await "stepping moves the picture" left_changed before.bmp
 
 # A setting changes its pane at once. Apply copies the setting to the other pane.
 xdotool key f
 await "anisotropic filtering changes the requested pane" panes_differ 2000
 xdotool key Return
 await "after Apply both panes are equal" panes_equal
-cp left.png before.png
+cp left.bmp before.bmp
 xdotool key m
 await "mip colours show" panes_differ 100000
 shoot
-left_same before.png || fail "a setting of the requested pane changed the current pane"
+left_same before.bmp || fail "a setting of the requested pane changed the current pane"
 xdotool key grave m
 await "the key of the panes makes the keys act on the current pane" panes_equal
 
@@ -118,24 +118,24 @@ xdotool key ctrl+z
 await "Undo takes the drag back" panes_equal
 
 # Camera, help, screenshot.
-cp left.png before.png
+cp left.bmp before.bmp
 xdotool key c
 xdotool keydown w
-await "the free camera moves" left_changed before.png
+await "the free camera moves" left_changed before.bmp
 xdotool keyup w
 await "the released camera stands still" stands_still
-cp left.png before.png
+cp left.bmp before.bmp
 xdotool key F1
-await "the help shows" left_changed before.png
+await "the help shows" left_changed before.bmp
 xdotool key F1
-await "the help goes away" left_same before.png
-cp dock.png settings.png
+await "the help goes away" left_same before.bmp
+cp dock.bmp settings.bmp
 xdotool key r
-await "the times show in the dock" dock_changed settings.png
+await "the times show in the dock" dock_changed settings.bmp
 xdotool key u
-await "the costs sheet says how to make a report" left_changed before.png
+await "the costs sheet says how to make a report" left_changed before.bmp
 xdotool key u
-await "the costs go away" left_same before.png
+await "the costs go away" left_same before.bmp
 xdotool key F12
 await "a screenshot is written" screenshot_there
 [ "$(identify -format '%wx%h' diptych-0001.png)" = 1282x720 ] || fail "the screenshot has the wrong size"
@@ -146,10 +146,10 @@ xdotool key c slash
 xdotool windowsize "$window" 800 300
 await "the window is resized" window_is 800x300
 resized_panes_show() {
-    import -window "$window" small.png
-    convert small.png -crop 390x180+0+60 +repage left.png
-    convert small.png -crop 390x180+405+60 +repage right.png
-    [ "$(deviation left.png)" -gt 50 ] && [ "$(deviation right.png)" -gt 50 ]
+    import -window "$window" small.bmp
+    convert small.bmp -crop 390x180+0+60 +repage left.bmp
+    convert small.bmp -crop 390x180+405+60 +repage right.bmp
+    [ "$(deviation left.bmp)" -gt 50 ] && [ "$(deviation right.bmp)" -gt 50 ]
 }
 await "both panes show in the smaller window" resized_panes_show
 

@@ -3,9 +3,11 @@
 // list, also while tiles are recorded. The gcc and clang builds share this list. The test fails if
 // a hash is missing or different, or if any work counter differs.
 //
-// Usage: test_determinism LIST [--write] [--every N] [--size WxH] --write creates the list with the
-// scalar kernels on one thread. --every N draws every N-th frame of the path instead of the list's
-// few frames, and compares the pictures of the runs with each other instead of with the list.
+// Usage: test_determinism LIST [--write] [--every N] [--size WxH] [--half N]. --write creates the
+// list with the scalar kernels on one thread. --every N draws every N-th frame of the path instead
+// of the list's few frames, and compares the pictures of the runs with each other instead of with
+// the list. --half 0 and --half 1 draw each instruction set with one of both thread counts, in
+// turns; together they draw everything.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -22,6 +24,7 @@ typedef struct Options {
     int every; // value of --every; 0 draws only the frames of the list
     int width;
     int height;
+    int half; // value of --half; -1 draws both halves
 } Options;
 
 typedef struct Stage {
@@ -227,12 +230,15 @@ static int compare(const Stage *stage, const Hash *expected, const Hash *found, 
 }
 
 static bool parse_options(int argc, char **argv, Options *options) {
-    *options = (Options){.list = argc > 1 ? argv[1] : NULL, .width = 320, .height = 240};
+    *options =
+        (Options){.list = argc > 1 ? argv[1] : NULL, .width = 320, .height = 240, .half = -1};
     for (int i = 2; i < argc; i++) {
         if (strcmp(argv[i], "--write") == 0) {
             options->write = true;
         } else if (strcmp(argv[i], "--every") == 0 && i + 1 < argc) {
             options->every = atoi(argv[++i]);
+        } else if (strcmp(argv[i], "--half") == 0 && i + 1 < argc) {
+            options->half = atoi(argv[++i]);
         } else if (strcmp(argv[i], "--size") == 0 && i + 1 < argc) {
             if (sscanf(argv[++i], "%dx%d", &options->width, &options->height) != 2) {
                 return false;
@@ -255,6 +261,9 @@ static int run(Stage *stage, Hash *expected, Hash *found) {
     int differences = 0;
     for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
         for (int threads = 1; threads <= 2 && dip_isa_available((DipIsa)isa); threads++) {
+            if (stage->options.half == (isa + threads) % 2) {
+                continue;
+            }
             if (!draw_all(stage, (DipIsa)isa, threads, found)) {
                 return 1;
             }
@@ -268,7 +277,8 @@ static int run(Stage *stage, Hash *expected, Hash *found) {
 int main(int argc, char **argv) {
     static Stage stage;
     if (!parse_options(argc, argv, &stage.options)) {
-        fprintf(stderr, "usage: test_determinism LIST [--write] [--every N] [--size WxH]\n");
+        fprintf(stderr,
+                "usage: test_determinism LIST [--write] [--every N] [--size WxH] [--half N]\n");
         return 2;
     }
     if (!load(&stage)) {

@@ -14,7 +14,7 @@
 
 static const char *const settings[] = {"aa=none", "aa=8,af=16,aaf=on", "aa=6,mipdebug=on",
                                        "aa=8,aaa=on,asd=2"};
-static const int sizes[][2] = {{200, 150}, {1, 1}, {65, 3}};
+static const int sizes[][2] = {{130, 70}, {1, 1}, {65, 3}}; // The first has six tiles.
 
 enum { MAX_THREADS = 4, SETTINGS = 4, SIZES = 3, DRAWN_TWICE = 2 };
 
