@@ -45,6 +45,16 @@ static bool set_scene(DipPeerOptions *options, const char *key, const char *valu
     return true;
 }
 
+static bool set_api(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    for (int i = 0; i < DIP_PEER_API_COUNT; i++) {
+        if (strcmp(value, dip_peer_api_names[i]) == 0) {
+            options->api = (DipPeerApi)i;
+            return true;
+        }
+    }
+    return refuse(err, key, value, "gl or vulkan");
+}
+
 static bool set_path(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     (void)key;
     (void)err;
@@ -147,6 +157,7 @@ static const struct {
 } rows[] = {
     {"--model", "FILE", set_model, "draw a model instead of the courtyard; may be repeated"},
     {"--scene", "NAME", set_scene, "draw a synthetic scene: large, tiny or grid=N"},
+    {"--api", "NAME", set_api, "the peer: gl (llvmpipe) or vulkan (lavapipe) (gl)"},
     {"--path", "FILE", set_path, "follow this camera path, not the scene's own (models: an orbit)"},
     {"--fov", "DEG", set_fov, "vertical field of view, in degrees"},
     {"--turn", "DEG", set_turn,
@@ -208,7 +219,8 @@ bool dip_peer_options_parse(int argc, char *const *argv, DipPeerOptions *options
 
 void dip_peer_options_help(FILE *out) {
     fprintf(out,
-            "Draws the same frames with Diptych's renderer and with Mesa's llvmpipe, in turn.\n"
+            "Draws the same frames with Diptych's renderer and with Mesa's llvmpipe or lavapipe, "
+            "in turn.\n"
             "Usage: dip_peer [OPTION]...\n\n");
     for (size_t i = 0; i < DIP_ARRAY_COUNT(rows); i++) {
         fprintf(out, "  %-10s %-5s %s\n", rows[i].name, rows[i].argument ? rows[i].argument : "",
@@ -216,6 +228,6 @@ void dip_peer_options_help(FILE *out) {
     }
     fprintf(
         out,
-        "\nExit codes: 0 success, 1 failure, 2 bad command line, 77 llvmpipe is not installed.\n"
+        "\nExit codes: 0 success, 1 failure, 2 bad command line, 77 the peer is not installed.\n"
         "docs/peer.md explains the table.\n");
 }

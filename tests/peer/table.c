@@ -4,6 +4,7 @@
 #include "app/cli/machine.h"
 #include "app/measure/stats/rounds.h"
 
+#include <commit.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -22,8 +23,9 @@ void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const Dip
         fprintf(out, ", %d rounds", options->rounds);
     }
     fprintf(out, "\nmachine  %s, %d threads each\n", processor, options->threads);
-    fprintf(out, "ours     %s\n", dip_isa_name(options->isa));
-    fprintf(out, "peer     %s, OpenGL %s\n\n", dip_peer_renderer(peer), dip_peer_version(peer));
+    fprintf(out, "ours     Diptych at commit %s, %s\n", DIP_PEER_COMMIT,
+            dip_isa_name(options->isa));
+    fprintf(out, "peer     %s, %s\n\n", dip_peer_renderer(peer), dip_peer_version(peer));
 }
 
 // --- rows --------------------------------------------------------------------------------------
