@@ -111,7 +111,10 @@ static bool report(const Session *session, DipError *err) {
             dip_table_print_triangles(stdout, session->measurements, session->measured,
                                       session->scene.triangle_count, err)) &&
            (!options->csv ||
-            dip_table_write_csv(options->csv, session->measurements, session->measured, err));
+            dip_table_write_csv(options->csv, session->measurements, session->measured, err)) &&
+           (!options->append || options->check ||
+            dip_table_append(options->append, options, &session->scene, session->peer,
+                             session->measurements, session->measured, err));
 }
 
 static int judge(const Session *session) {

@@ -125,6 +125,18 @@ static bool set_csv(DipPeerOptions *options, const char *key, const char *value,
     return true;
 }
 
+static bool set_append(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    const char *comma = strchr(value, ',');
+    const size_t length = comma ? (size_t)(comma - value) : 0;
+    if (length == 0 || length >= sizeof options->label || !comma[1]) {
+        return refuse(err, key, value, "LABEL,FILE");
+    }
+    memcpy(options->label, value, length);
+    options->label[length] = '\0';
+    options->append = comma + 1;
+    return true;
+}
+
 static bool set_pictures(DipPeerOptions *options, const char *key, const char *value,
                          DipError *err) {
     (void)key;
@@ -170,6 +182,7 @@ static const struct {
     {"--rounds", "N", set_rounds, "how often each frame is measured (5)"},
     {"--rows", "LIST", set_rows, "rows to measure: none,af4,af16,4x,4x+af16,8x,8x+af16 (all)"},
     {"--csv", "FILE", set_csv, "write the times of every measured frame to this file"},
+    {"--append", "L,FILE", set_append, "append a line per row, with the label L, to this file"},
     {"--pictures", "DIR", set_pictures, "write both pictures of every row and frame there, as PPM"},
     {"--check", NULL, set_check,
      "only compare pictures; exit with 1 if a row without AF is below 40 dB"},
@@ -223,7 +236,7 @@ void dip_peer_options_help(FILE *out) {
             "in turn.\n"
             "Usage: dip_peer [OPTION]...\n\n");
     for (size_t i = 0; i < DIP_ARRAY_COUNT(rows); i++) {
-        fprintf(out, "  %-10s %-5s %s\n", rows[i].name, rows[i].argument ? rows[i].argument : "",
+        fprintf(out, "  %-10s %-6s %s\n", rows[i].name, rows[i].argument ? rows[i].argument : "",
                 rows[i].text);
     }
     fprintf(

@@ -38,6 +38,8 @@ typedef struct DipPeerOptions {
     int rounds;    // number of times that each frame is drawn and measured
     unsigned rows; // bit i is set if row i of dip_peer_rows (measure.h) is measured
     const char *csv;
+    char label[64];       // names this run in the file `append`
+    const char *append;   // file that gets a line per row; NULL writes none
     const char *pictures; // folder for the pictures; NULL writes none
     bool check;
     bool help;
