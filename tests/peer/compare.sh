@@ -127,22 +127,22 @@ measure() {
     list_work >"$scratch.work"
     total=$(awk '{ sum += $1 } END { printf "%d", sum }' "$scratch.work")
     begin=$(date +%s)
-    done=0
+    finished=0
     # The file descriptor 3 keeps standard input free for the programs.
     while read -r pixels peer scene size left <&3; do
         seconds=$(($(date +%s) - begin))
         estimate=
-        if [ "$done" -gt 0 ]; then
-            estimate=", about $(((total - done) * seconds / done / 60 + 1)) min left"
+        if [ "$finished" -gt 0 ]; then
+            estimate=", about $(((total - finished) * seconds / finished / 60 + 1)) min left"
         fi
-        echo "compare.sh: $((100 * done / total)) %: $scene $size, $peer$estimate" >&2
+        echo "compare.sh: $((100 * finished / total)) %: $scene $size, $peer$estimate" >&2
         # The arguments of a scene are several words.
         # shellcheck disable=SC2046
         run_peer "$peer" $(scene_arguments "$scene") --size "$size" --rows "$left" \
             --frames "$frames" --rounds "$rounds" --threads "$threads" ${isa:+--isa "$isa"} \
             --append "$peer:$scene,$results" >"$scratch" 2>&1 ||
             echo "compare.sh: $scene $size, $peer: $(tail -n 1 "$scratch")" >&2
-        done=$((done + pixels))
+        finished=$((finished + pixels))
     done 3<"$scratch.work"
 }
 
