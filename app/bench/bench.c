@@ -6,6 +6,7 @@
 #include "app/bench/plots.h"
 #include "app/bench/synthetic.h"
 #include "app/bench/table.h"
+#include "app/cli/machine.h"
 #include "app/cli/progress.h"
 #include "app/files/whole_file.h"
 #include "app/measure/timing/child.h"
