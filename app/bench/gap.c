@@ -1,8 +1,9 @@
 // Prints the gap between the stages' times and their floors.
 #include "app/bench/gap.h"
 
-#include "app/cli/machine.h"
 #include "renderer/base/assert.h"
+
+#include <math.h>
 
 typedef struct Unit {
     const char *name;
@@ -26,15 +27,19 @@ static const Unit units[] = {
     {"probe", DIP_BENCH_STAGE_shading, DIP_COUNTER_texture_probes, {DIP_BENCH_FLOOR_PROBE}},
 };
 
-static double mean_ms(const DipBenchResult *result, int combination, DipBenchStage stage) {
+// Returns the mean over the frames of each frame's fastest round, which has the least noise.
+static double fastest_ms(const DipBenchResult *result, int combination, DipBenchStage stage) {
     const DipBenchOptions *options = &result->plan->options;
     const double *ms = dip_bench_result_ms(result, combination, stage);
-    const int count = options->measure.rounds * options->frames;
     double sum = 0.0;
-    for (int i = 0; i < count; i++) {
-        sum += ms[i];
+    for (int frame = 0; frame < options->frames; frame++) {
+        double least = ms[frame];
+        for (int round = 1; round < options->measure.rounds; round++) {
+            least = fmin(least, ms[round * options->frames + frame]);
+        }
+        sum += least;
     }
-    return sum / count;
+    return sum / options->frames;
 }
 
 // With 6 samples, the floor is that with 4.
@@ -53,8 +58,8 @@ static void print_row(const DipBenchResult *result, int combination, double ns_p
     for (size_t i = 0; i < DIP_ARRAY_COUNT(units); i++) {
         const Unit *unit = &units[i];
         if (work[unit->counter] > 0.0) {
-            const double cycles = mean_ms(result, combination, unit->stage) * 1e6 * values.threads /
-                                  ns_per_cycle / work[unit->counter];
+            const double cycles = fastest_ms(result, combination, unit->stage) * 1e6 *
+                                  values.threads / ns_per_cycle / work[unit->counter];
             fprintf(out, " %9.1f %7.1fx", cycles, cycles / floor_of(unit, sample_count));
         } else {
             fprintf(out, " %9s %8s", "-", "-");
@@ -66,7 +71,8 @@ static void print_row(const DipBenchResult *result, int combination, double ns_p
 void dip_bench_print_gap(const DipBenchResult *result, double ns_per_cycle, FILE *out) {
     fprintf(out,
             "\nCycles of all threads per unit of work, and how many times the floor that is. A\n"
-            "stage's whole time is divided by each of its units. One cycle is %.3f ns.\n"
+            "stage's whole time, in each frame's fastest round, is divided by each of its units.\n"
+            "One cycle is %.3f ns.\n"
             "%-12s",
             ns_per_cycle, "stage");
     for (size_t i = 0; i < DIP_ARRAY_COUNT(units); i++) {
