@@ -24,8 +24,9 @@
 #define DIP_BENCH_FLOOR_PROBE         (106.0 / 16)
 
 // Prints for each combination the cycles per triangle, tile triangle, sub-block, fragment and
-// probe, and how many times the floor they are. A stage's cycles are those of all threads: its mean
-// time, times the number of threads, over the length of a cycle.
+// probe, and how many times the floor they are. A stage's cycles are those of all threads: the
+// mean of its times in each frame's fastest round, times the number of threads, over the length of
+// a cycle.
 void dip_bench_print_gap(const DipBenchResult *result, double ns_per_cycle, FILE *out);
 
 #endif
