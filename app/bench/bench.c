@@ -1,9 +1,11 @@
 // Runs the command `diptych bench`: makes the pools, scenes and renderers that the plan (plan.h)
 // needs, and measures this program, or two programs in turn.
+#include "app/bench/gap.h"
 #include "app/bench/measure.h"
 #include "app/bench/plots.h"
 #include "app/bench/synthetic.h"
 #include "app/bench/table.h"
+#include "app/cli/machine.h"
 #include "app/cli/progress.h"
 #include "app/files/whole_file.h"
 #include "app/measure/timing/child.h"
@@ -319,6 +321,7 @@ static bool print_and_write(const Programs *programs, const DipBenchPlan *plan,
     } else {
         dip_bench_print_times(&results[0], stdout);
         dip_bench_print_work(&results[0], stdout);
+        dip_bench_print_gap(&results[0], dip_machine_ns_per_cycle(), stdout);
     }
     return (!options->csv || dip_bench_write_csv(options->csv, results, programs->count, err)) &&
            (!options->svg || dip_bench_write_plots(options->svg, &results[0], err));
@@ -393,6 +396,9 @@ const DipCommand dip_bench_command = {
         "favours no combination. Each row's ratio compares it with the base: the first value of "
         "each list, but the greatest render scale. The pictures of all instruction sets and "
         "numbers of threads must be the same; if one differs, the bench fails.\n\n"
+        "The last table has the cycles that each stage takes per triangle, tile triangle, "
+        "sub-block, fragment and probe, beside a floor: what the machine can do. app/bench/gap.h "
+        "has the floors and their sources.\n\n"
         "Times are wall-clock milliseconds per frame. docs/bench.md explains how to read them.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),

@@ -1,8 +1,10 @@
-// Reads the machine's properties from Linux, and hashes the program's file.
+// Reads the machine's properties from Linux, measures its cycle, and hashes the program's file.
 #include "app/cli/machine.h"
 
+#include "renderer/base/clock.h"
 #include "renderer/base/hash.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -45,6 +47,29 @@ void dip_machine_build(char hex[33]) {
 int dip_machine_processor_count(void) {
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
     return online < 1 ? 1 : (int)online;
+}
+
+// Times a chain of additions, each of which needs the result of the one before and takes one cycle.
+// The empty assembler statements hide the values from the compiler. The addend is in a register,
+// since some processors fold chains of constants. The fastest round counts.
+double dip_machine_ns_per_cycle(void) {
+    enum { ROUNDS = 60, STEPS = 200000, PER_STEP = 8 };
+    double fastest = 1e30;
+    for (int round = 0; round < ROUNDS; round++) {
+        uint64_t sum = 0;
+        uint64_t addend = (uint64_t)round;
+        const int64_t begin_ns = dip_clock_ns();
+        for (int i = 0; i < STEPS; i++) {
+            for (int k = 0; k < PER_STEP; k++) { // unrolled
+                __asm__ volatile("" : "+r"(sum), "+r"(addend));
+                sum += addend;
+            }
+        }
+        __asm__ volatile("" : "+r"(sum));
+        const double ns = (double)(dip_clock_ns() - begin_ns) / (STEPS * PER_STEP);
+        fastest = ns < fastest ? ns : fastest;
+    }
+    return fastest;
 }
 
 size_t dip_machine_peak_rss_bytes(void) {

@@ -14,6 +14,9 @@ void dip_machine_build(char hex[33]);
 // Returns the number of processors that are online, at least 1.
 int dip_machine_processor_count(void);
 
+// Measures the length of a cycle of this processor, in nanoseconds. Takes a twentieth of a second.
+double dip_machine_ns_per_cycle(void);
+
 // Returns the greatest resident memory of this process so far, in bytes, or 0 if it is unknown.
 size_t dip_machine_peak_rss_bytes(void);
 

@@ -260,6 +260,8 @@ check "the table has a row per combination" test "$(grep -cE '^ +[1-8]  .*median
 check "each row has its p95 and its minimum" test "$(grep -cE '^ +(p95|min) ' out.txt)" = 16
 check "the table has the work counters" test "$(awk '$1 == "fragments_shaded" { all = $2 }
     $1 == "fragments_mirrored" { print all - $2 }' out.txt)" = 768
+check "a cycle takes less than 10 ns" grep -qE 'One cycle is [0-9]\.[0-9]{3} ns' out.txt
+check "the table of gaps has a row per combination" test "$(grep -cE '^ +[1-8] +[0-9.]+ +[0-9.]+x ' out.txt)" = 8
 check "the CSV has a line per combination, round and frame" test "$(wc -l <all.csv)" = 33
 check "the names of the CSV's columns have units" grep -q '^settings,width_px,.*,total_ms,.*_count' all.csv
 for axis in pixels samples threads; do

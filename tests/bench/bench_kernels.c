@@ -5,6 +5,7 @@
 //
 // Cycles are core cycles. Their length is measured with a chain of dependent additions, each of
 // which takes one cycle. Every number is the fastest of many measurements.
+#include "app/cli/machine.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
@@ -243,29 +244,6 @@ static double fastest_ns_per_unit(const Row *row, const DipKernels *kernels) {
     return fastest;
 }
 
-// Times a chain of additions. Each addition needs the result of the one before. The empty assembler
-// statements hide the values from the compiler. The addend is in a register, since some processors
-// fold chains of constants.
-static double measure_ns_per_cycle(void) {
-    enum { STEPS = 200000, PER_STEP = 8 };
-    double fastest = 1e30;
-    for (int round = 0; round < ROUNDS; round++) {
-        uint64_t sum = 0;
-        uint64_t addend = (uint64_t)round;
-        const int64_t begin = dip_clock_ns();
-        for (int i = 0; i < STEPS; i++) {
-            for (int k = 0; k < PER_STEP; k++) { // unrolled
-                __asm__ volatile("" : "+r"(sum), "+r"(addend));
-                sum += addend;
-            }
-        }
-        __asm__ volatile("" : "+r"(sum));
-        const double ns = (double)(dip_clock_ns() - begin) / (STEPS * PER_STEP);
-        fastest = ns < fastest ? ns : fastest;
-    }
-    return fastest;
-}
-
 static void measure_row(const Row *row, const char *only_isa, double ns_per_cycle) {
     for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
         const bool wanted = !only_isa || strcmp(only_isa, dip_isa_name((DipIsa)isa)) == 0;
@@ -285,7 +263,7 @@ int main(int argc, char **argv) {
         return 2;
     }
     dip_fp_mode_set();
-    const double ns_per_cycle = measure_ns_per_cycle();
+    const double ns_per_cycle = dip_machine_ns_per_cycle();
     printf("one cycle is %.3f ns\n", ns_per_cycle);
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(rows); i++) {
         if (argc < 2 || strstr(rows[i].name, argv[1])) {

@@ -73,7 +73,7 @@ static bool has_extension(const DipGl *gl, const char *name) {
 
 static bool identify(DipGl *gl, DipError *err) {
     snprintf(gl->renderer, sizeof gl->renderer, "%s", (const char *)gl->GetString(GL_RENDERER));
-    snprintf(gl->version, sizeof gl->version, "%s", (const char *)gl->GetString(GL_VERSION));
+    snprintf(gl->version, sizeof gl->version, "OpenGL %s", (const char *)gl->GetString(GL_VERSION));
     gl->GetIntegerv(GL_MAX_SAMPLES, &gl->max_samples);
     if (strncmp(gl->renderer, "llvmpipe", strlen("llvmpipe")) != 0) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "EGL",

@@ -89,21 +89,21 @@ static void set_locations(const DipGl *gl, DipGlProgram *program) {
 bool dip_gl_program_make(const DipGl *gl, int features, DipGlProgram *program, DipError *err) {
     char defines[160];
     snprintf(defines, sizeof defines, "%s%s%s%s%s",
-             features & DIP_GL_TEXTURED ? "#define TEXTURED\n" : "",
-             features & DIP_GL_LIGHT_MAPPED ? "#define LIGHT_MAPPED\n" : "",
-             features & DIP_GL_LIT ? "#define LIT\n" : "",
-             features & DIP_GL_COLOURED ? "#define COLOURED\n" : "",
-             features & DIP_GL_CLIPPED ? "#define CLIPPED\n" : "");
+             features & DIP_PEER_TEXTURED ? "#define TEXTURED\n" : "",
+             features & DIP_PEER_LIGHT_MAPPED ? "#define LIGHT_MAPPED\n" : "",
+             features & DIP_PEER_LIT ? "#define LIT\n" : "",
+             features & DIP_PEER_COLOURED ? "#define COLOURED\n" : "",
+             features & DIP_PEER_CLIPPED ? "#define CLIPPED\n" : "");
     const GLuint vertex = make_shader(gl, GL_VERTEX_SHADER, defines, vertex_source);
     const GLuint fragment = make_shader(gl, GL_FRAGMENT_SHADER, defines, fragment_source);
     program->name = gl->CreateProgram();
     gl->AttachShader(program->name, vertex);
     gl->AttachShader(program->name, fragment);
-    gl->BindAttribLocation(program->name, DIP_GL_POSITION, "position");
-    gl->BindAttribLocation(program->name, DIP_GL_UV0, "uv0");
-    gl->BindAttribLocation(program->name, DIP_GL_UV1, "uv1");
-    gl->BindAttribLocation(program->name, DIP_GL_NORMAL, "normal");
-    gl->BindAttribLocation(program->name, DIP_GL_COLOUR, "colour_lin");
+    gl->BindAttribLocation(program->name, DIP_PEER_POSITION, "position");
+    gl->BindAttribLocation(program->name, DIP_PEER_UV0, "uv0");
+    gl->BindAttribLocation(program->name, DIP_PEER_UV1, "uv1");
+    gl->BindAttribLocation(program->name, DIP_PEER_NORMAL, "normal");
+    gl->BindAttribLocation(program->name, DIP_PEER_COLOUR, "colour_lin");
     gl->LinkProgram(program->name);
     gl->DeleteShader(vertex);
     gl->DeleteShader(fragment);

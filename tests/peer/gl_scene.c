@@ -3,100 +3,36 @@
 
 #include "tests/peer/gl_texture.h"
 #include "tests/peer/matrices.h"
+#include "tests/peer/surfaces.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 // --- meshes ------------------------------------------------------------------------------------
 
-// Returns the features that the mesh has and that its material uses (docs/picture.md, Shading).
-static int features_of(const DipMeshDef *mesh, const DipMaterialDef *material) {
-    int features = 0;
-    if (material->colour_texture != DIP_NO_TEXTURE && mesh->uv0) {
-        features |= DIP_GL_TEXTURED;
-        features |= material->surface == DIP_SURFACE_CLIPPED ? DIP_GL_CLIPPED : 0;
-    }
-    if (material->light_map != DIP_NO_TEXTURE && mesh->uv1) {
-        features |= DIP_GL_LIGHT_MAPPED;
-    } else if (material->lit && mesh->normals) {
-        features |= DIP_GL_LIT;
-    }
-    return features | (mesh->colours_lin ? DIP_GL_COLOURED : 0);
-}
-
-static void set_bounds(const DipMeshDef *def, DipGlMesh *mesh) {
-    for (int axis = 0; axis < 3; axis++) {
-        mesh->min[axis] = INFINITY;
-        mesh->max[axis] = -INFINITY;
-    }
-    for (size_t i = 0; i < 3 * (size_t)def->vertex_count; i++) {
-        mesh->min[i % 3] = fminf(mesh->min[i % 3], def->positions[i]);
-        mesh->max[i % 3] = fmaxf(mesh->max[i % 3], def->positions[i]);
-    }
-}
-
-typedef struct Attribute {
-    GLuint location;
-    GLint size; // number of floats per vertex
-    const float *source;
-} Attribute;
-
-// Copies the attributes into one interleaved buffer, as OpenGL's vendors advise. Returns NULL if
-// memory runs out.
-static float *interleave(const Attribute *attributes, int count, size_t stride,
-                         uint32_t vertex_count) {
-    float *rows = malloc((stride * vertex_count + 1) * sizeof *rows);
-    for (uint32_t v = 0; rows && v < vertex_count; v++) {
-        float *row = rows + stride * v;
-        for (int i = 0; i < count; i++) {
-            const size_t size = (size_t)attributes[i].size;
-            memcpy(row, attributes[i].source + size * v, size * sizeof *row);
-            row += size;
-        }
-    }
-    return rows;
-}
-
 static bool upload_mesh(const DipGl *gl, const DipMeshDef *def, DipGlMesh *mesh, DipError *err) {
-    Attribute attributes[5] = {{DIP_GL_POSITION, 3, def->positions}};
-    int count = 1;
-    if (mesh->features & DIP_GL_TEXTURED) {
-        attributes[count++] = (Attribute){DIP_GL_UV0, 2, def->uv0};
-    }
-    if (mesh->features & DIP_GL_LIGHT_MAPPED) {
-        attributes[count++] = (Attribute){DIP_GL_UV1, 2, def->uv1};
-    }
-    if (mesh->features & DIP_GL_LIT) {
-        attributes[count++] = (Attribute){DIP_GL_NORMAL, 3, def->normals};
-    }
-    if (mesh->features & DIP_GL_COLOURED) {
-        attributes[count++] = (Attribute){DIP_GL_COLOUR, 3, def->colours_lin};
-    }
-    size_t stride = 0;
-    for (int i = 0; i < count; i++) {
-        stride += (size_t)attributes[i].size;
-    }
-    float *rows = interleave(attributes, count, stride, def->vertex_count);
+    const DipPeerLayout layout = dip_peer_layout(def, mesh->features);
+    const size_t stride_bytes = (size_t)layout.stride * sizeof(float);
+    float *rows = dip_peer_interleave(def, &layout, err);
     if (!rows) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, def->name, 0, "mesh", "out of memory");
+        return false;
     }
     GLuint buffers[2];
     gl->GenBuffers(2, buffers);
     gl->GenVertexArrays(1, &mesh->vertex_array);
     gl->BindVertexArray(mesh->vertex_array);
     gl->BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
-    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(stride * def->vertex_count * sizeof *rows), rows,
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(stride_bytes * def->vertex_count), rows,
                    GL_STATIC_DRAW);
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
     gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(def->index_count * sizeof(uint32_t)),
                    def->indices, GL_STATIC_DRAW);
     const char *offset = NULL;
-    for (int i = 0; i < count; i++) {
-        gl->EnableVertexAttribArray(attributes[i].location);
-        gl->VertexAttribPointer(attributes[i].location, attributes[i].size, GL_FLOAT, GL_FALSE,
-                                (GLsizei)(stride * sizeof *rows), offset);
-        offset += (size_t)attributes[i].size * sizeof *rows;
+    for (int i = 0; i < layout.count; i++) {
+        const DipPeerAttribute *attribute = &layout.attributes[i];
+        gl->EnableVertexAttribArray(attribute->location);
+        gl->VertexAttribPointer(attribute->location, attribute->size, GL_FLOAT, GL_FALSE,
+                                (GLsizei)stride_bytes, offset);
+        offset += (size_t)attribute->size * sizeof *rows;
     }
     free(rows);
     return dip_gl_check(gl, def->name, err);
@@ -105,10 +41,10 @@ static bool upload_mesh(const DipGl *gl, const DipMeshDef *def, DipGlMesh *mesh,
 static bool make_mesh(const DipGl *gl, DipGlScene *scene, int index, DipError *err) {
     const DipMeshDef *def = &scene->def->meshes[index];
     DipGlMesh *mesh = &scene->meshes[index];
-    mesh->features = features_of(def, &scene->def->materials[def->material]);
+    mesh->features = dip_peer_features(def, &scene->def->materials[def->material]);
     mesh->material = def->material;
     mesh->index_count = (GLsizei)def->index_count;
-    set_bounds(def, mesh);
+    dip_peer_bounds(def, mesh->min, mesh->max);
     DipGlProgram *program = &scene->programs[mesh->features];
     return (program->name || dip_gl_program_make(gl, mesh->features, program, err)) &&
            upload_mesh(gl, def, mesh, err);
@@ -199,10 +135,10 @@ static void bind_material(const DipGl *gl, const DipGlScene *scene, const DipGlM
     gl->Uniform3fv(program->base_colour, 1, material->base_colour_lin);
     gl->Uniform1f(program->light_map_scale, material->light_map_scale);
     gl->Uniform1f(program->alpha_cutoff, material->alpha_cutoff);
-    if (mesh->features & DIP_GL_TEXTURED) {
+    if (mesh->features & DIP_PEER_TEXTURED) {
         bind_texture(gl, scene, DIP_GL_COLOUR_UNIT, material->colour_texture, &scene->colour);
     }
-    if (mesh->features & DIP_GL_LIGHT_MAPPED) {
+    if (mesh->features & DIP_PEER_LIGHT_MAPPED) {
         bind_texture(gl, scene, DIP_GL_LIGHT_MAP_UNIT, material->light_map, &scene->light_map);
     }
     if (material->double_sided) {

@@ -11,7 +11,7 @@ typedef struct DipGlMesh {
     GLuint vertex_array;
     GLsizei index_count;
     int material;
-    int features; // features (gl_program.h) of the program that draws the mesh
+    int features; // features (surfaces.h) of the program that draws the mesh
     float min[3]; // corners of the bounding box
     float max[3];
 } DipGlMesh;
@@ -25,7 +25,7 @@ typedef struct DipGlScene {
     const DipSceneDef *def; // the description, borrowed
     DipGlMesh *meshes;      // one per mesh
     GLuint *textures;       // one per texture; 0 if no material uses it
-    DipGlProgram programs[DIP_GL_PROGRAM_COUNT];
+    DipGlProgram programs[DIP_PEER_SURFACE_COUNT];
     DipGlSamplers colour;
     DipGlSamplers light_map;
 } DipGlScene;

@@ -1,76 +1,25 @@
 // Uploads textures level by level.
 #include "tests/peer/gl_texture.h"
 
-#include "renderer/base/srgb.h"
-#include "renderer/pipeline/texture/mip.h"
+#include "tests/peer/mips.h"
 
-#include <math.h>
-#include <stdlib.h>
+typedef struct Upload {
+    const DipGl *gl;
+    GLint format;
+} Upload;
 
-// Converts interleaved 8-bit values to the rows of a level. renderer/pipeline/texture/mip.h
-// describes the layout of rows.
-static void decode(const DipTextureDef *def, float *rows) {
-    DipSrgbDecodeTable srgb;
-    dip_srgb_decode_table(&srgb);
-    const size_t width = (size_t)def->width;
-    for (size_t i = 0; i < width * (size_t)def->height; i++) {
-        for (size_t c = 0; c < 4; c++) {
-            const uint8_t code = def->rgba8[4 * i + c];
-            const bool linear = def->encoding == DIP_ENCODING_LINEAR || c == 3;
-            rows[(4 * (i / width) + c) * width + i % width] =
-                linear ? (float)code / 255.0f : (float)srgb.linear[code];
-        }
-    }
-}
-
-static void encode(const DipMipLevel *level, DipEncoding encoding, const DipSrgbEncodeTable *srgb,
-                   uint8_t *rgba8) {
-    const size_t width = (size_t)level->width;
-    for (size_t i = 0; i < width * (size_t)level->height; i++) {
-        for (size_t c = 0; c < 4; c++) {
-            const float light = level->rows[(4 * (i / width) + c) * width + i % width];
-            const bool linear = encoding == DIP_ENCODING_LINEAR || c == 3;
-            rgba8[4 * i + c] = linear ? (uint8_t)lrintf(light * 255.0f)
-                                      : srgb->code[lrintf(light * DIP_LINEAR16_MAX)];
-        }
-    }
-}
-
-static void upload(const DipGl *gl, int level, DipEncoding encoding, int width, int height,
-                   const uint8_t *rgba8) {
-    gl->TexImage2D(GL_TEXTURE_2D, level, encoding == DIP_ENCODING_SRGB ? GL_SRGB8_ALPHA8 : GL_RGBA8,
-                   width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba8);
+static bool upload(void *context, int level, int width, int height, const uint8_t *rgba8,
+                   DipError *err) {
+    (void)err;
+    const Upload *to = context;
+    to->gl->TexImage2D(GL_TEXTURE_2D, level, to->format, width, height, 0, GL_RGBA,
+                       GL_UNSIGNED_BYTE, rgba8);
+    return true;
 }
 
 bool dip_gl_texture_make(const DipGl *gl, const DipTextureDef *def, GLuint *name, DipError *err) {
-    const size_t texels = (size_t)def->width * (size_t)def->height;
-    DipMipLevel from = {def->width, def->height, malloc(texels * 4 * sizeof(float))};
-    DipMipLevel to = {0, 0, malloc((texels / 2 + 1) * 4 * sizeof(float))};
-    uint8_t *rgba8 = malloc((texels / 2 + 1) * 4);
-    DipSrgbEncodeTable *srgb = malloc(sizeof *srgb);
-    const bool allocated = from.rows && to.rows && rgba8 && srgb;
-    if (allocated) {
-        gl->GenTextures(1, name);
-        gl->BindTexture(GL_TEXTURE_2D, *name);
-        upload(gl, 0, def->encoding, def->width, def->height, def->rgba8);
-        dip_srgb_encode_table(srgb);
-        decode(def, from.rows);
-    }
-    for (int level = 1; allocated && (from.width > 1 || from.height > 1); level++) {
-        to.width = dip_mip_next_size(from.width);
-        to.height = dip_mip_next_size(from.height);
-        dip_mip_halve(&from, &to);
-        encode(&to, def->encoding, srgb, rgba8);
-        upload(gl, level, def->encoding, to.width, to.height, rgba8);
-        const DipMipLevel swap = from;
-        from = to;
-        to = swap;
-    }
-    free(from.rows);
-    free(to.rows);
-    free(rgba8);
-    free(srgb);
-    return allocated
-               ? dip_gl_check(gl, def->name, err)
-               : dip_error_set(err, DIP_ERROR_MEMORY, def->name, 0, "texture", "out of memory");
+    Upload to = {gl, def->encoding == DIP_ENCODING_SRGB ? GL_SRGB8_ALPHA8 : GL_RGBA8};
+    gl->GenTextures(1, name);
+    gl->BindTexture(GL_TEXTURE_2D, *name);
+    return dip_peer_mips(def, upload, &to, err) && dip_gl_check(gl, def->name, err);
 }

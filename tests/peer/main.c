@@ -1,4 +1,4 @@
-// dip_peer: compares our renderer with Mesa's llvmpipe on the same frames. See docs/peer.md.
+// dip_peer: compares our renderer with a renderer of Mesa on the same frames. See docs/peer.md.
 #include "app/files/whole_file.h"
 #include "tests/peer/measure.h"
 #include "tests/peer/options.h"
@@ -111,7 +111,10 @@ static bool report(const Session *session, DipError *err) {
             dip_table_print_triangles(stdout, session->measurements, session->measured,
                                       session->scene.triangle_count, err)) &&
            (!options->csv ||
-            dip_table_write_csv(options->csv, session->measurements, session->measured, err));
+            dip_table_write_csv(options->csv, session->measurements, session->measured, err)) &&
+           (!options->append || options->check ||
+            dip_table_append(options->append, options, &session->scene, session->peer,
+                             session->measurements, session->measured, err));
 }
 
 static int judge(const Session *session) {
@@ -132,8 +135,9 @@ static int run(Session *session) {
         return complain(&err);
     }
     const DipPeerOptions *options = &session->options;
-    session->peer = dip_peer_create(&session->scene.def, options->width, options->height,
-                                    options->threads, &err);
+    const DipPeerDef peer = {options->api, &session->scene.def, options->width, options->height,
+                             options->threads};
+    session->peer = dip_peer_create(&peer, &err);
     if (!session->peer) {
         complain(&err);
         return err.code == DIP_ERROR_UNSUPPORTED ? EXIT_NO_PEER : EXIT_FAILURE;

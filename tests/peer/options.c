@@ -45,6 +45,16 @@ static bool set_scene(DipPeerOptions *options, const char *key, const char *valu
     return true;
 }
 
+static bool set_api(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    for (int i = 0; i < DIP_PEER_API_COUNT; i++) {
+        if (strcmp(value, dip_peer_api_names[i]) == 0) {
+            options->api = (DipPeerApi)i;
+            return true;
+        }
+    }
+    return refuse(err, key, value, "gl or vulkan");
+}
+
 static bool set_path(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     (void)key;
     (void)err;
@@ -115,6 +125,18 @@ static bool set_csv(DipPeerOptions *options, const char *key, const char *value,
     return true;
 }
 
+static bool set_append(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    const char *comma = strchr(value, ',');
+    const size_t length = comma ? (size_t)(comma - value) : 0;
+    if (length == 0 || length >= sizeof options->label || !comma[1]) {
+        return refuse(err, key, value, "LABEL,FILE");
+    }
+    memcpy(options->label, value, length);
+    options->label[length] = '\0';
+    options->append = comma + 1;
+    return true;
+}
+
 static bool set_pictures(DipPeerOptions *options, const char *key, const char *value,
                          DipError *err) {
     (void)key;
@@ -147,6 +169,7 @@ static const struct {
 } rows[] = {
     {"--model", "FILE", set_model, "draw a model instead of the courtyard; may be repeated"},
     {"--scene", "NAME", set_scene, "draw a synthetic scene: large, tiny or grid=N"},
+    {"--api", "NAME", set_api, "the peer: gl (llvmpipe) or vulkan (lavapipe) (gl)"},
     {"--path", "FILE", set_path, "follow this camera path, not the scene's own (models: an orbit)"},
     {"--fov", "DEG", set_fov, "vertical field of view, in degrees"},
     {"--turn", "DEG", set_turn,
@@ -159,6 +182,7 @@ static const struct {
     {"--rounds", "N", set_rounds, "how often each frame is measured (5)"},
     {"--rows", "LIST", set_rows, "rows to measure: none,af4,af16,4x,4x+af16,8x,8x+af16 (all)"},
     {"--csv", "FILE", set_csv, "write the times of every measured frame to this file"},
+    {"--append", "L,FILE", set_append, "append a line per row, with the label L, to this file"},
     {"--pictures", "DIR", set_pictures, "write both pictures of every row and frame there, as PPM"},
     {"--check", NULL, set_check,
      "only compare pictures; exit with 1 if a row without AF is below 40 dB"},
@@ -208,14 +232,15 @@ bool dip_peer_options_parse(int argc, char *const *argv, DipPeerOptions *options
 
 void dip_peer_options_help(FILE *out) {
     fprintf(out,
-            "Draws the same frames with Diptych's renderer and with Mesa's llvmpipe, in turn.\n"
+            "Draws the same frames with Diptych's renderer and with Mesa's llvmpipe or lavapipe, "
+            "in turn.\n"
             "Usage: dip_peer [OPTION]...\n\n");
     for (size_t i = 0; i < DIP_ARRAY_COUNT(rows); i++) {
-        fprintf(out, "  %-10s %-5s %s\n", rows[i].name, rows[i].argument ? rows[i].argument : "",
+        fprintf(out, "  %-10s %-6s %s\n", rows[i].name, rows[i].argument ? rows[i].argument : "",
                 rows[i].text);
     }
     fprintf(
         out,
-        "\nExit codes: 0 success, 1 failure, 2 bad command line, 77 llvmpipe is not installed.\n"
+        "\nExit codes: 0 success, 1 failure, 2 bad command line, 77 the peer is not installed.\n"
         "docs/peer.md explains the table.\n");
 }

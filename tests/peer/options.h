@@ -1,10 +1,11 @@
-// The command line of the peer bench, which compares Diptych's renderer with Mesa's llvmpipe (the
-// peer).
+// The command line of the peer bench, which compares Diptych's renderer with a renderer of Mesa
+// (the peer).
 #ifndef DIP_TESTS_PEER_OPTIONS_H
 #define DIP_TESTS_PEER_OPTIONS_H
 
 #include "renderer/base/error.h"
 #include "renderer/base/isa.h"
+#include "tests/peer/peer.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -21,6 +22,7 @@ typedef enum DipPeerSceneKind {
 
 // The parsed options. Texts are borrowed from argv; they are NULL if not given.
 typedef struct DipPeerOptions {
+    DipPeerApi api;
     DipPeerSceneKind scene;
     int grid_triangles;
     const char *models[DIP_PEER_MAX_MODELS];
@@ -36,6 +38,8 @@ typedef struct DipPeerOptions {
     int rounds;    // number of times that each frame is drawn and measured
     unsigned rows; // bit i is set if row i of dip_peer_rows (measure.h) is measured
     const char *csv;
+    char label[64];       // names this run in the file `append`
+    const char *append;   // file that gets a line per row; NULL writes none
     const char *pictures; // folder for the pictures; NULL writes none
     bool check;
     bool help;

@@ -1,80 +1,54 @@
-// Creates the peer's OpenGL context, its scene and its targets, and draws with them.
+// Passes each call on to the peer's kind.
 #include "tests/peer/peer.h"
 
-#include "tests/peer/gl.h"
-#include "tests/peer/gl_scene.h"
-#include "tests/peer/gl_target.h"
+#include "tests/peer/peer_kind.h"
 
-#include <stdlib.h>
+#include <stddef.h>
 
-enum { MAX_SAMPLES = 4 };
+const char *const dip_peer_api_names[DIP_PEER_API_COUNT] = {
+    [DIP_PEER_GL] = "gl", [DIP_PEER_VULKAN] = "vulkan"};
 
-struct DipPeer {
-    DipGl gl;
-    DipGlScene scene;
-    int width;
-    int height;
-    DipGlTarget targets[MAX_SAMPLES + 1]; // by sample count; created at first use
-    int sample_count;
+static const DipPeerKind *const kinds[DIP_PEER_API_COUNT] = {
+    [DIP_PEER_GL] = &dip_peer_kind_gl,
+#ifdef DIP_PEER_HAS_VULKAN
+    [DIP_PEER_VULKAN] = &dip_peer_kind_vulkan,
+#endif
 };
 
-DipPeer *dip_peer_create(const DipSceneDef *def, int width, int height, int threads,
-                         DipError *err) {
-    DipPeer *peer = calloc(1, sizeof *peer);
-    if (!peer) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "peer", "out of memory");
+DipPeer *dip_peer_create(const DipPeerDef *def, DipError *err) {
+    const DipPeerKind *kind = kinds[def->api];
+    if (!kind) {
+        dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "--api",
+                      "this program was built without Vulkan; its build needs libvulkan-dev and "
+                      "glslang-tools");
         return NULL;
     }
-    peer->width = width;
-    peer->height = height;
-    if (!dip_gl_open(&peer->gl, threads, err) ||
-        !dip_gl_scene_make(&peer->gl, def, &peer->scene, err) || !dip_peer_set(peer, 1, 1, err)) {
-        dip_peer_destroy(&peer);
-    }
-    return peer;
+    return kind->create(def, err);
 }
 
 void dip_peer_destroy(DipPeer **peer) {
     if (*peer) {
-        dip_gl_scene_free(&(*peer)->scene);
-        dip_gl_close(&(*peer)->gl);
-        free(*peer);
+        (*peer)->kind->destroy(*peer);
         *peer = NULL;
     }
 }
 
 const char *dip_peer_renderer(const DipPeer *peer) {
-    return peer->gl.renderer;
+    return peer->kind->renderer(peer);
 }
 
 const char *dip_peer_version(const DipPeer *peer) {
-    return peer->gl.version;
+    return peer->kind->version(peer);
 }
 
 bool dip_peer_set(DipPeer *peer, int sample_count, int max_anisotropy, DipError *err) {
-    if (sample_count < 1 || sample_count > MAX_SAMPLES || sample_count > peer->gl.max_samples) {
-        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "samples",
-                             "llvmpipe does not support %d samples per pixel; give 1 or 4",
-                             sample_count);
-    }
-    DipGlTarget *target = &peer->targets[sample_count];
-    if (!target->drawn &&
-        !dip_gl_target_make(&peer->gl, peer->width, peer->height, sample_count, target, err)) {
-        return false;
-    }
-    peer->sample_count = sample_count;
-    dip_gl_scene_set_anisotropy(&peer->gl, &peer->scene, max_anisotropy);
-    return dip_gl_check(&peer->gl, "settings", err);
+    return peer->kind->set(peer, sample_count, max_anisotropy, err);
 }
 
 void dip_peer_draw(DipPeer *peer, const DipPose *pose) {
-    const DipGlTarget *target = &peer->targets[peer->sample_count];
-    dip_gl_target_begin(&peer->gl, target, peer->scene.def->background_lin);
-    dip_gl_scene_draw(&peer->gl, &peer->scene, pose, (double)peer->width / peer->height);
-    dip_gl_target_finish(&peer->gl, target);
+    peer->kind->draw(peer, pose);
 }
 
 bool dip_peer_read(DipPeer *peer, uint8_t *rgba8, DipError *err) {
-    dip_gl_target_read(&peer->gl, &peer->targets[peer->sample_count], rgba8);
-    return dip_gl_check(&peer->gl, "frame", err);
+    return peer->kind->read(peer, rgba8, err);
 }

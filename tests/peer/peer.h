@@ -1,6 +1,6 @@
-// The peer is Mesa's software renderer llvmpipe, with which the peer bench compares Diptych's
-// renderer. It draws a scene from a pose, with the settings that Diptych and llvmpipe have in
-// common.
+// The peer is one of Mesa's software renderers, with which the peer bench compares Diptych's
+// renderer: llvmpipe by OpenGL, or lavapipe by Vulkan. It draws a scene from a pose, with the
+// settings that Diptych and the peer have in common.
 #ifndef DIP_TESTS_PEER_PEER_H
 #define DIP_TESTS_PEER_PEER_H
 
@@ -13,11 +13,21 @@
 
 typedef struct DipPeer DipPeer;
 
-// Creates the peer for frames of width x height pixels. def must stay valid until the peer is
-// destroyed. threads is the number of llvmpipe's rasteriser threads. A process has at most one
-// peer, which only the thread that created it may use. Fails with UNSUPPORTED if llvmpipe is not
-// installed.
-DipPeer *dip_peer_create(const DipSceneDef *def, int width, int height, int threads, DipError *err);
+typedef enum DipPeerApi { DIP_PEER_GL, DIP_PEER_VULKAN, DIP_PEER_API_COUNT } DipPeerApi;
+
+extern const char *const dip_peer_api_names[DIP_PEER_API_COUNT]; // gl, vulkan
+
+typedef struct DipPeerDef {
+    DipPeerApi api;
+    const DipSceneDef *scene; // must stay valid until the peer is destroyed
+    int width;                // of the frames, in pixels
+    int height;
+    int threads; // number of the peer's rasteriser threads
+} DipPeerDef;
+
+// Creates a peer. A process has at most one peer, which only the thread that created it may use.
+// Fails with UNSUPPORTED if the peer is not installed, or if the program was built without its API.
+DipPeer *dip_peer_create(const DipPeerDef *def, DipError *err);
 void dip_peer_destroy(DipPeer **peer);
 
 const char *dip_peer_renderer(const DipPeer *peer); // valid until the peer is destroyed

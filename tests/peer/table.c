@@ -4,6 +4,7 @@
 #include "app/cli/machine.h"
 #include "app/measure/stats/rounds.h"
 
+#include <commit.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -22,8 +23,9 @@ void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const Dip
         fprintf(out, ", %d rounds", options->rounds);
     }
     fprintf(out, "\nmachine  %s, %d threads each\n", processor, options->threads);
-    fprintf(out, "ours     %s\n", dip_isa_name(options->isa));
-    fprintf(out, "peer     %s, OpenGL %s\n\n", dip_peer_renderer(peer), dip_peer_version(peer));
+    fprintf(out, "ours     Diptych at commit %s, %s\n", DIP_PEER_COMMIT,
+            dip_isa_name(options->isa));
+    fprintf(out, "peer     %s, %s\n\n", dip_peer_renderer(peer), dip_peer_version(peer));
 }
 
 // --- rows --------------------------------------------------------------------------------------
@@ -185,6 +187,42 @@ bool dip_table_write_csv(const char *file, const DipPeerMeasurement *measurement
         written = false;
     }
     return written || dip_error_set(err, DIP_ERROR_IO, file, 0, "--csv", "%s", strerror(errno));
+}
+
+bool dip_table_append(const char *file, const DipPeerOptions *options, const DipPeerScene *scene,
+                      const DipPeer *peer, const DipPeerMeasurement *measurements, int count,
+                      DipError *err) {
+    char processor[128];
+    double *scratch = allocate_scratch(measurements, count, err);
+    if (!scratch) {
+        return false;
+    }
+    dip_machine_processor(processor, sizeof processor);
+    FILE *out = fopen(file, "a");
+    bool written = out != NULL;
+    for (int i = 0; written && i < count; i++) {
+        const DipPeerMeasurement *m = &measurements[i];
+        const int values = m->frames * m->rounds;
+        if (!dip_peer_row_has_peer(m->row)) {
+            continue;
+        }
+        const DipEstimate ratio = ratio_of(m);
+        written =
+            fprintf(out, "%s\t%s\t%" PRIu64 "\t%dx%d\t%s\t", options->label, scene->name,
+                    scene->triangle_count, options->width, options->height, m->row->name) > 0 &&
+            fprintf(out, "%.3f\t%.3f\t%.3f\t%.3f\t%.3f\t%.1f\t",
+                    dip_percentile_of(m->peer_ms, values, 0.5, scratch),
+                    dip_percentile_of(m->ours_ms, values, 0.5, scratch), ratio.value, ratio.low,
+                    ratio.high, m->psnr_db) > 0 &&
+            fprintf(out, "%s, %s\t%s\t%s\t%d\t%s\n", dip_peer_renderer(peer),
+                    dip_peer_version(peer), DIP_PEER_COMMIT, dip_isa_name(options->isa),
+                    options->threads, processor) > 0;
+    }
+    if (out && fclose(out) != 0) {
+        written = false;
+    }
+    free(scratch);
+    return written || dip_error_set(err, DIP_ERROR_IO, file, 0, "--append", "%s", strerror(errno));
 }
 
 double dip_table_lowest_psnr_db(const DipPeerMeasurement *measurements, int count) {

@@ -26,6 +26,13 @@ bool dip_table_print_triangles(FILE *out, const DipPeerMeasurement *measurements
 bool dip_table_write_csv(const char *file, const DipPeerMeasurement *measurements, int count,
                          DipError *err);
 
+// Appends a line per row that the peer can draw to the file, whose columns are separated by tabs:
+// the label of --append, scene, triangles, size, row, median ms of the peer and of ours, ratio, the
+// ends of its 95 % interval, PSNR, peer, commit, instruction set, threads, processor.
+bool dip_table_append(const char *file, const DipPeerOptions *options, const DipPeerScene *scene,
+                      const DipPeer *peer, const DipPeerMeasurement *measurements, int count,
+                      DipError *err);
+
 // Returns the lowest PSNR of the rows whose pictures should be alike.
 double dip_table_lowest_psnr_db(const DipPeerMeasurement *measurements, int count);
 

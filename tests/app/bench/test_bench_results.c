@@ -1,4 +1,5 @@
 // Tests of results, tables, comparison and CSV. The expected numbers were computed by hand.
+#include "app/bench/gap.h"
 #include "app/bench/measure.h"
 #include "app/bench/table.h"
 #include "tests/app/bench/made_result.h"
@@ -23,6 +24,11 @@ static bool print_times(void *context, FILE *out) {
 
 static bool print_work(void *context, FILE *out) {
     dip_bench_print_work(context, out);
+    return true;
+}
+
+static bool print_gap(void *context, FILE *out) {
+    dip_bench_print_gap(context, 0.5, out);
     return true;
 }
 
@@ -102,6 +108,37 @@ static void work_is_the_mean_over_frames(void **state) {
     char *text = dip_printed(print_work, &result);
     assert_int_equal(numbers_after(text, "texels_fetched", means, 2), 1);
     expect_near(means[0], 20.0);
+    free(text);
+    dip_bench_result_free(&result);
+}
+
+// Frames of 4 and 12 ms in their fastest rounds, a quarter of each in every stage: 2 ms in the
+// mean, which are 4 million cycles of 0.5 ns on one thread. The frames have 1000 and 3000
+// triangles, so a triangle takes 2000 cycles; a probe takes 400 cycles. Work that was not counted
+// has no gap.
+static void gaps_are_cycles_per_unit_beside_the_floor(void **state) {
+    (void)state;
+    const double ms[4] = {40, 12, 4, 14};
+    double numbers[2];
+    DipBenchResult result;
+    dip_made_single_plan(&plan, 2, 2);
+    dip_made_result(&result, &plan, ms);
+    for (int i = 0; i < 2; i++) {
+        DipCounters *counters = &dip_bench_result_first(&result, 0, i)->counters;
+        counters->triangles_in = 1000 + 2000 * (uint64_t)i;
+        counters->texture_probes = 10000;
+    }
+    char *text = dip_printed(print_gap, &result);
+    const char *row = strstr(text, "\n           1 ");
+    assert_non_null(row);
+    assert_int_equal(sscanf(row + 13, "%lf %lfx - - - - - -", &numbers[0], &numbers[1]), 2);
+    expect_near(numbers[0], 2000.0);
+    expect_near(numbers[1], 333.3); // the floor is 6 cycles
+    const char *probe = strrchr(text, '-');
+    assert_non_null(probe);
+    assert_int_equal(sscanf(probe + 1, "%lf %lfx", &numbers[0], &numbers[1]), 2);
+    expect_near(numbers[0], 400.0);
+    expect_near(numbers[1], 60.4); // the floor is 106 / 16 cycles
     free(text);
     dip_bench_result_free(&result);
 }
@@ -346,6 +383,7 @@ static void other_pictures_end_the_measurement(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_are_found_where_they_were_put),
+        cmocka_unit_test(gaps_are_cycles_per_unit_beside_the_floor),
         cmocka_unit_test(work_is_the_mean_over_frames),
         cmocka_unit_test(quantiles_are_over_frames_and_rounds),
         cmocka_unit_test(ratios_are_the_other_programs_time_over_this_ones),
