@@ -308,7 +308,7 @@ static void the_clip_test_runs_once_per_pixel_and_decides_what_is_drawn(void **s
             memset(&chequer, 0, sizeof chequer);
             chequer.c = &c;
             chequer.covered = expected;
-            const DipClipTest clip = {&chequer.list, ask_chequer, &chequer, NULL};
+            const DipClipTest clip = {&chequer.list, ask_chequer, &chequer, NULL, NULL};
             DipTile tile;
             draw_fast(dip_kernels((DipIsa)isa), &c, &clip, &tile);
             read_masks(&c, &tile, found);
