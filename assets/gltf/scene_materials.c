@@ -235,10 +235,6 @@ static void read_surface(Maker *maker) {
         def->surface = DIP_SURFACE_BLENDED;
         def->opacity = (float)opacity_of(from);
     }
-    if (maker->part->has_alpha && from->alpha != DIP_GLTF_OPAQUE &&
-        dip_gltf_warns_of(maker->scene, DIP_GLTF_LOSS_VERTEX_ALPHA)) {
-        warn(maker, "the alpha of vertex colours is not drawn");
-    }
     if (maker->plan.tag == DIP_TAG_WATER) {
         def->surface = DIP_SURFACE_WATER;
     } else if (maker->plan.tag == DIP_TAG_SKY) {
@@ -295,6 +291,17 @@ static int add(Maker *maker, DipGltfScene *scene) {
                      : DIP_NOT_FOUND;
 }
 
+// Several parts may share a material, so this is checked for each.
+static void warn_of_vertex_alpha(DipGltfScene *scene, const DipGltfPart *part, int material) {
+    const DipMaterialDef *def = material < 0 ? NULL : &scene->model->materials[material];
+    if (def && part->has_alpha &&
+        (def->surface == DIP_SURFACE_CLIPPED || def->surface == DIP_SURFACE_BLENDED) &&
+        dip_gltf_warns_of(scene, DIP_GLTF_LOSS_VERTEX_ALPHA)) {
+        dip_model_warn(scene->model, scene->reader.gltf.path, def->name,
+                       "the alpha of vertex colours is not drawn");
+    }
+}
+
 int dip_gltf_scene_material(DipGltfScene *scene, int part, DipTag tag, bool light_mapped) {
     const DipGltfPart *source = &scene->reader.parts[part];
     const int count = scene->reader.gltf.tables[DIP_GLTF_materials].count;
@@ -311,11 +318,12 @@ int dip_gltf_scene_material(DipGltfScene *scene, int part, DipTag tag, bool ligh
     }
     const char *name = scene->model->files[scene->file].material_names[maker.plan.source];
     dip_model_apply_rules(scene->model, name, &maker.plan);
-    const int known = dip_model_find_material(scene->model, &maker.plan);
-    if (known >= 0) {
-        return known;
+    int material = dip_model_find_material(scene->model, &maker.plan);
+    if (material < 0) {
+        const bool ok =
+            dip_gltf_describe_material(&scene->reader.gltf, source->material, &maker.from);
+        material = ok ? add(&maker, scene) : DIP_NOT_FOUND;
     }
-    return dip_gltf_describe_material(&scene->reader.gltf, source->material, &maker.from)
-               ? add(&maker, scene)
-               : DIP_NOT_FOUND;
+    warn_of_vertex_alpha(scene, source, material);
+    return material;
 }

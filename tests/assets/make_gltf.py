@@ -147,7 +147,7 @@ def colours():
     base = {"POSITION": m.accessor(TRIANGLE), "NORMAL": m.accessor(UP)}
     three = m.accessor([1, .5, 0, 0, 2, 0, 0, 0, .25])
     m.node("three", m.mesh({**base, "COLOR_0": three}))
-    four = m.accessor([255, 51, 0, 0, 0, 255, 102, 255, 0, 0, 255], "VEC4", UBYTE,
+    four = m.accessor([255, 51, 0, 0, 0, 0, 255, 102, 255, 0, 0, 255], "VEC4", UBYTE,
                       normalized=True)
     m.node("four", m.mesh({**base, "COLOR_0": four}, material=0))
     m.save("colours")

@@ -244,8 +244,8 @@ uint64_t read_whole_scene(const DipSceneDef *scene) {
         assert_in_range(texture->width, 1, DIP_MAX_TEXTURE_SIZE);
         assert_in_range(texture->height, 1, DIP_MAX_TEXTURE_SIZE);
         assert_in_range(texture->encoding, DIP_ENCODING_SRGB, DIP_ENCODING_LINEAR);
-        assert_in_range(texture->wrap_u, DIP_WRAP_REPEAT, DIP_WRAP_CLAMP);
-        assert_in_range(texture->wrap_v, DIP_WRAP_REPEAT, DIP_WRAP_CLAMP);
+        assert_in_range(texture->wrap_u, DIP_WRAP_REPEAT, DIP_WRAP_MIRROR);
+        assert_in_range(texture->wrap_v, DIP_WRAP_REPEAT, DIP_WRAP_MIRROR);
         sum += strlen(texture->name) +
                sum_bytes(texture->rgba8, 4 * (size_t)texture->width * (size_t)texture->height);
     }
