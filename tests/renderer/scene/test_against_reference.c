@@ -115,8 +115,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // The displacement of the clouds is read from rounded texels, which moves the clouds a little.
     // The cover makes the edges of clouds steep.
     static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
-    // Where a surface is seen nearly from the side, its reflection changes within a step of the fast
-    // renderer's tables, which are coarser than those of the reference.
+    // Where a surface is seen nearly from the side, its reflection changes within a step of the
+    // fast renderer's tables, which are coarser than those of the reference.
     static const DipImageBounds gloss = {0.0025, 0.01, 0.004, 0.1};
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
