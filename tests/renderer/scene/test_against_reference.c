@@ -128,6 +128,9 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     static const DipImageBounds huge_narrow_all = {0.0018, 0.01, 0.001, 0.08};
     // A larger picture has more slivers, whose vertices may be rounded to either step.
     static const DipImageBounds scaled = {0.0016, 0.01, 0.0002, 0.13};
+    // Where a surface is seen nearly from the side, its reflection changes within a step of the
+    // fast renderer's tables, which are coarser than those of the reference.
+    static const DipImageBounds gloss = {0.0025, 0.01, 0.004, 0.1};
     const bool is_scaled = quality->step[DIP_SETTING_SCALE] != 0;
     const bool covers = dip_quality_covers_by_alpha(quality);
     const bool all = dip_quality_groups_shade_all(quality);
@@ -152,6 +155,9 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
                : covers              ? &fence_coverage
                : passes              ? &fence_passes
                                      : &fence;
+    case DIP_TEST_SCENE_metal_gloss:
+    case DIP_TEST_SCENE_blending:
+        return &gloss;
     case DIP_TEST_SCENE_slivers:
         return &slivers;
     case DIP_TEST_SCENE_huge:
