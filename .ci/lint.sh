@@ -1,5 +1,5 @@
 # ./test long: clang-tidy with the checks of .clang-tidy, and cppcheck, over the code that users
-# get. ./test sources this file.
+# get. ./test sources this file. Each line of cppcheck.txt is a fault that cppcheck tells wrongly.
 
 CHECKED_FOLDERS="renderer assets campaths config app"
 
