@@ -118,11 +118,13 @@ static bool write_png(Buffer *buffer, const uint8_t *pixels, int width, int heig
     memory = &own;
     if (setjmp(own.ran_out) != 0) {
         free_blocks();
+        memory = NULL;
         return false;
     }
-    return stbi_write_png_to_func(append, buffer, width, height, channels, pixels,
-                                  width * channels) &&
-           !buffer->failed;
+    const int written =
+        stbi_write_png_to_func(append, buffer, width, height, channels, pixels, width * channels);
+    memory = NULL;
+    return written && !buffer->failed;
 }
 
 // Encodes a PNG if `quality` is 0, and otherwise a JPEG of this quality.
