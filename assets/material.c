@@ -271,7 +271,8 @@ int dip_model_find_material(const DipModel *model, const DipMaterialPlan *plan) 
     for (int i = 0; i < model->def.material_count; ++i) {
         const DipMaterialPlan *other = &model->plans[i];
         if (other->file == plan->file && other->source == plan->source && other->tag == plan->tag &&
-            other->light_mapped == plan->light_mapped && other->coordinates == plan->coordinates) {
+            other->light_mapped == plan->light_mapped && other->plain == plan->plain &&
+            other->coordinates == plan->coordinates) {
             return i;
         }
     }

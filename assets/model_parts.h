@@ -70,7 +70,8 @@ typedef struct DipMaterialPlan {
     unsigned source;      // index of the material in that file
     unsigned coordinates; // bit i is set if the mesh has texture coordinates i
     DipTag tag;
-    bool light_mapped;                 // true: the occlusion picture is a light map
+    bool light_mapped; // true: the occlusion picture is a light map
+    bool plain; // true: stands beside light-mapped surfaces, which reflect nothing, and so does it
     const DipMaterialRule *light_rule; // the rule that says so, or NULL
     bool has_uv0;   // true: the mesh needs coordinates for colour, opacity or normal map
     bool has_uv1;   // true: the mesh needs coordinates for the light map

@@ -51,7 +51,7 @@ static bool add_object(DipGltfScene *scene, int object, const DipGltfNodeState *
                        const double world[12]) {
     const DipAnimatedModel *from = scene->reader.model;
     const int part = from->objects[object].mesh;
-    const int material = dip_gltf_scene_material(scene, part, state->tag, state->light_mapped);
+    const int material = dip_gltf_scene_material(scene, part, state);
     if (material < 0) {
         return false;
     }
@@ -164,6 +164,7 @@ static void read_tags(DipGltfScene *scene, const cJSON *node, const char *name,
     const cJSON *light_mapped = cJSON_GetObjectItemCaseSensitive(extras, "lightmapped");
     const cJSON *surface = cJSON_GetObjectItemCaseSensitive(extras, "surface");
     if (light_mapped) {
+        state->plain = true;
         state->light_mapped = cJSON_IsTrue(light_mapped) ||
                               (cJSON_IsNumber(light_mapped) && light_mapped->valuedouble != 0.0);
     }

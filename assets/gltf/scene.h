@@ -11,6 +11,7 @@ typedef struct DipGltfNodeState {
     double world[12]; // rows of a 3x4 matrix
     DipTag tag;
     bool light_mapped;
+    bool plain; // the node or one above has the key `lightmapped`, whatever its value
 } DipGltfNodeState;
 
 typedef struct DipGltfScene {
@@ -35,7 +36,7 @@ bool dip_gltf_warns_of(DipGltfScene *scene, DipGltfLoss loss);
 
 // scene_materials.c: returns the material of the scene for a part of the file in an object with
 // this tag. Fails with DIP_NOT_FOUND.
-int dip_gltf_scene_material(DipGltfScene *scene, int part, DipTag tag, bool light_mapped);
+int dip_gltf_scene_material(DipGltfScene *scene, int part, const DipGltfNodeState *state);
 
 // scene_meshes.c: returns the mesh of the scene for a part with this material. object: the object
 // of the reader's model whose shape the mesh shall have, or DIP_NOT_FOUND for the part itself.

@@ -267,7 +267,8 @@ static void fill(Maker *maker) {
     }
     if (plan->light_mapped) {
         read_light_map(maker);
-    } else if ((plan->tag == DIP_TAG_SOLID || plan->tag == DIP_TAG_MASK) && !plan->unlit) {
+    } else if ((plan->tag == DIP_TAG_SOLID || plan->tag == DIP_TAG_MASK) && !plan->unlit &&
+               !plan->plain) {
         read_pbr(maker);
     }
     read_surface(maker);
@@ -302,7 +303,7 @@ static void warn_of_vertex_alpha(DipGltfScene *scene, const DipGltfPart *part, i
     }
 }
 
-int dip_gltf_scene_material(DipGltfScene *scene, int part, DipTag tag, bool light_mapped) {
+int dip_gltf_scene_material(DipGltfScene *scene, int part, const DipGltfNodeState *state) {
     const DipGltfPart *source = &scene->reader.parts[part];
     const int count = scene->reader.gltf.tables[DIP_GLTF_materials].count;
     Maker maker = {.scene = scene,
@@ -311,8 +312,9 @@ int dip_gltf_scene_material(DipGltfScene *scene, int part, DipTag tag, bool ligh
                    .ok = true,
                    .plan = {.file = scene->file,
                             .source = (unsigned)(source->material < 0 ? count : source->material),
-                            .tag = tag,
-                            .light_mapped = light_mapped}};
+                            .tag = state->tag,
+                            .light_mapped = state->light_mapped,
+                            .plain = state->plain}};
     for (int set = 0; set < DIP_GLTF_MAX_SETS; ++set) {
         maker.plan.coordinates |= source->sets[set] ? 1u << set : 0u;
     }

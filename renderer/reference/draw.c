@@ -124,7 +124,8 @@ static DipRefPosition place_to_shade(const Drawing *drawing, const DipRefTriangl
 }
 
 static bool has_groups(const Drawing *drawing, const DipRefTriangle *triangle) {
-    return (triangle->clipped || drawing->groups_shade_all) && drawing->groups.count > 1;
+    const bool all = drawing->groups_shade_all && !triangle->blended;
+    return (triangle->clipped || all) && drawing->groups.count > 1;
 }
 
 static const DipRefFilter *filter_of(const Drawing *drawing, const DipRefTriangle *triangle) {

@@ -6,6 +6,8 @@
 // is a whole number, and the overlaps of a pixel of the smaller picture add up to `from`.
 #include "renderer/scene/draw/box.h"
 
+#include "renderer/base/srgb.h"
+
 #include <stdbool.h>
 
 enum {
@@ -53,6 +55,38 @@ static void store(const DipBoxFilter *box, uint8_t *pixel, const uint32_t light1
         pixel[c] = box->srgb_code[light16[c]];
     }
     pixel[3] = 255;
+}
+
+// --- light of codes ------------------------------------------------------------------------------
+
+typedef struct Decoding {
+    const DipTarget *picture;
+    uint16_t *light16;
+    uint16_t light16_of[256];
+} Decoding;
+
+static void decode_rows(void *context, int job, int worker) {
+    (void)worker;
+    const Decoding *decoding = context;
+    const DipTarget *picture = decoding->picture;
+    const int end = (job + 1) * ROWS < picture->height ? (job + 1) * ROWS : picture->height;
+    for (int y = job * ROWS; y < end; y++) {
+        const uint8_t *from = picture->rgba8 + (size_t)y * picture->stride_bytes;
+        uint16_t *to = decoding->light16 + (size_t)y * (size_t)picture->width * CHANNELS;
+        for (int i = 0; i < picture->width * CHANNELS; i++) {
+            to[i] = decoding->light16_of[from[i]];
+        }
+    }
+}
+
+void dip_box_decode(const DipTarget *picture, uint16_t *light16, DipPool *pool) {
+    Decoding decoding = {.picture = picture, .light16 = light16};
+    DipSrgbDecodeTable table;
+    dip_srgb_decode_table(&table);
+    for (int code = 0; code < 256; code++) {
+        decoding.light16_of[code] = (uint16_t)(DIP_LINEAR16_MAX * table.linear[code] + 0.5);
+    }
+    dip_pool_run(pool, (picture->height + ROWS - 1) / ROWS, decode_rows, &decoding);
 }
 
 // --- any ratio -----------------------------------------------------------------------------------

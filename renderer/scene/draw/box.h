@@ -3,6 +3,7 @@
 #define DIP_RENDERER_SCENE_DRAW_BOX_H
 
 #include "renderer/base/pool.h"
+#include "renderer/pipeline/target.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -22,6 +23,10 @@ typedef struct DipBoxFilter {
     int height;
     const uint8_t *srgb_code; // sRGB code of each 16-bit light (DipSrgbEncodeTable)
 } DipBoxFilter;
+
+// Fills in the light of a picture that has only sRGB codes, with the picture's width as the stride
+// in pixels. The light is that of each code, rounded to 16 bits.
+void dip_box_decode(const DipTarget *picture, uint16_t *light16, DipPool *pool);
 
 // Fills in the smaller picture, on the pool or, if the pool is NULL, on the caller's thread. Pixel
 // x of a row is the mean over the larger picture's pixels from x * ratio to (x + 1) * ratio, each

@@ -68,8 +68,10 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
                       DipMaterialSamplers *samplers) {
     for (int i = 0; i < scene->material_count; i++) {
         const DipSceneMaterial *material = &scene->materials[i];
-        const bool has_groups =
-            material->surface == DIP_SURFACE_CLIPPED || dip_quality_groups_shade_all(quality);
+        // Blended surfaces are shaded once per pixel, whatever the settings.
+        const bool all = dip_quality_groups_shade_all(quality);
+        const bool has_groups = material->surface == DIP_SURFACE_CLIPPED ||
+                                (all && material->surface != DIP_SURFACE_BLENDED);
         const int32_t own_bias_lod8 = has_groups ? dip_quality_groups_bias_lod8(quality) : 0;
         if (material->colour_texture != DIP_NO_TEXTURE) {
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_COLOUR];

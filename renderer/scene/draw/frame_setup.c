@@ -133,7 +133,8 @@ static void make_scene_pass(FrameSetup *setup) {
     };
     setup->pass = begin_pass(renderer, setup->scene, &setup->plan);
     setup->pass.target = dip_renderer_target(renderer);
-    setup->pass.light16 = renderer->larger.light16;
+    // A pass with blended surfaces is merged, and a merged pass stores no light.
+    setup->pass.light16 = setup->scene->blended_count ? NULL : renderer->larger.light16;
     if (setup->readback) {
         setup->pass.readback = setup->readback;
         setup->pass.region = setup->readback->region;
@@ -276,8 +277,9 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
     return counters;
 }
 
-// Averages the larger picture of a render scale to the frame.
-static void shrink(const DipRenderer *renderer, DipFrame *frame) {
+// Averages the larger picture of a render scale to the frame. has_codes_only: its pass stored no
+// light, so the light is that of its codes.
+static void shrink(const DipRenderer *renderer, bool has_codes_only, DipFrame *frame) {
     const DipLarger *larger = &renderer->larger;
     const DipBoxFilter box = {
         .light16 = larger->light16,
@@ -291,6 +293,9 @@ static void shrink(const DipRenderer *renderer, DipFrame *frame) {
         .srgb_code = larger->codes->code,
     };
     const int64_t begin_ns = dip_clock_ns();
+    if (has_codes_only) {
+        dip_box_decode(&larger->target, larger->light16, renderer->pool);
+    }
     dip_box_filter(&box, renderer->pool);
     const double ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
     frame->stages.resolve_ms += ms;
@@ -304,7 +309,7 @@ static void end_frame(const FrameSetup *setup) {
     frame->counters.fragments_mirrored = setup->fragments_mirrored;
     const bool reflects = setup->plan.effects.reflection.run;
     if (renderer->larger.pipeline) {
-        shrink(renderer, frame);
+        shrink(renderer, setup->scene->blended_count > 0, frame);
     }
     count_mirror(&renderer->mirror, reflects, &frame->counters);
     // The pipeline counts only the draws that it was given.

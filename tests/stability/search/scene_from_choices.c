@@ -29,6 +29,10 @@ static void choose_settings(SearchMaker *maker) {
     DipQuality *quality = &maker->made->quality;
     *quality = dip_quality_default();
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        // Filters of the finished picture are not part of what the judges compare.
+        if (s == DIP_SETTING_POST || s == DIP_SETTING_SHARPEN) {
+            continue;
+        }
         if (s != DIP_SETTING_MIPDEBUG || choices_rarely(maker->choices, 3)) {
             choose_step(maker, (DipSetting)s);
         }
