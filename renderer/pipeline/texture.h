@@ -116,8 +116,10 @@ DIP_API int dip_texture_level_count(const DipTexture *texture);
 // Size of a level in texels; level 0 is the largest. level: 0..dip_texture_level_count - 1.
 DIP_API void dip_texture_level_size(const DipTexture *texture, int level, int *width, int *height);
 
-// Returns the bytes of the texture's colours. If the texture has an alpha plane of its own, the
-// plane's bytes are added. Returns 0 for NULL.
+// The first function returns the bytes of the texture's colours, the second one the bytes of its
+// alpha plane, or 0 if it has no alpha plane of its own. A texel of any level takes 8 bytes for its
+// colour and 2 bytes for its alpha, because it is stored together with the texel below it. Both
+// return 0 for NULL.
 DIP_API uint64_t dip_texture_colour_bytes(const DipTexture *texture);
 DIP_API uint64_t dip_texture_alpha_bytes(const DipTexture *texture);
 

@@ -1,5 +1,5 @@
-// Vectors of pairs: each lane has two values that are neighbours in memory, for example two texels.
-// Also operations on the 16-bit halves of lanes.
+// Vectors of pairs: each lane has two values that are neighbours in memory, for example two numbers
+// of a triangle's planes.
 #ifndef DIP_RENDERER_SIMD_PAIRS_H
 #define DIP_RENDERER_SIMD_PAIRS_H
 
@@ -14,33 +14,6 @@ typedef struct VuPair {
     Vu a;
     Vu b;
 } VuPair;
-
-// Multiplies the unsigned 16-bit halves of a and b and returns the upper 16 bits of each product.
-VEC_INLINE Vu vu_mulhi16(Vu a, Vu b) {
-#if VEC_AVX512
-    return (Vu)_mm512_mulhi_epu16((__m512i)a, (__m512i)b);
-#elif VEC_AVX2
-    return (Vu)_mm256_mulhi_epu16((__m256i)a, (__m256i)b);
-#elif VEC_SSE2
-    return (Vu)_mm_mulhi_epu16((__m128i)a, (__m128i)b);
-#else
-    return ((a & 0xffffu) * (b & 0xffffu)) >> 16 | (((a >> 16) * (b >> 16)) & 0xffff0000u);
-#endif
-}
-
-// Multiplies the lower 16-bit half of each lane of a by the lower half of b, and the upper half by
-// the upper half. Returns the sum of both products. All halves must be below 2^15.
-VEC_INLINE Vu vu_dot16(Vu a, uint32_t b) {
-#if VEC_AVX512
-    return (Vu)_mm512_madd_epi16((__m512i)a, (__m512i)vu_splat(b));
-#elif VEC_AVX2
-    return (Vu)_mm256_madd_epi16((__m256i)a, (__m256i)vu_splat(b));
-#elif VEC_SSE2
-    return (Vu)_mm_madd_epi16((__m128i)a, (__m128i)vu_splat(b));
-#else
-    return (a & 0xffffu) * (b & 0xffffu) + (a >> 16) * (b >> 16);
-#endif
-}
 
 // Brings lanes into pair order. vu_gather_pairs expects its indices in this order.
 VEC_INLINE Vi vi_pair_order(Vi v) {
@@ -82,61 +55,6 @@ VEC_INLINE VuPair vu_gather_pairs(const uint32_t *base, Vi index) {
 #endif
 }
 
-// Returns pairs in which the left and the right value are both the lane's value.
-VEC_INLINE VuPair vu_pair_same(Vu v) {
-#if VEC_AVX512
-    return (VuPair){(Vu)_mm512_unpacklo_epi32((__m512i)v, (__m512i)v),
-                    (Vu)_mm512_unpackhi_epi32((__m512i)v, (__m512i)v)};
-#elif VEC_AVX2
-    return (VuPair){(Vu)_mm256_unpacklo_epi32((__m256i)v, (__m256i)v),
-                    (Vu)_mm256_unpackhi_epi32((__m256i)v, (__m256i)v)};
-#elif VEC_SSE2
-    return (VuPair){(Vu)_mm_unpacklo_epi32((__m128i)v, (__m128i)v),
-                    (Vu)_mm_unpackhi_epi32((__m128i)v, (__m128i)v)};
-#else
-    return (VuPair){v, v};
-#endif
-}
-
-// Returns pairs in which the left and the right value are equal. Each 16-bit half of these values
-// is 256 times the lane's lowest byte.
-VEC_INLINE VuPair vu_pair_both(Vi v) {
-#if VEC_AVX512 || VEC_AVX2
-    const __m128i spread_a = _mm_set_epi8(4, -1, 4, -1, 4, -1, 4, -1, 0, -1, 0, -1, 0, -1, 0, -1);
-    const __m128i spread_b =
-        _mm_set_epi8(12, -1, 12, -1, 12, -1, 12, -1, 8, -1, 8, -1, 8, -1, 8, -1);
-#endif
-#if VEC_AVX512
-    return (VuPair){(Vu)_mm512_shuffle_epi8((__m512i)v, _mm512_broadcast_i32x4(spread_a)),
-                    (Vu)_mm512_shuffle_epi8((__m512i)v, _mm512_broadcast_i32x4(spread_b))};
-#elif VEC_AVX2
-    return (VuPair){(Vu)_mm256_shuffle_epi8((__m256i)v, _mm256_broadcastsi128_si256(spread_a)),
-                    (Vu)_mm256_shuffle_epi8((__m256i)v, _mm256_broadcastsi128_si256(spread_b))};
-#else
-    const Vu byte = ((Vu)v & 0xffu) << 8;
-    return vu_pair_same(byte | byte << 16);
-#endif
-}
-
-// Returns the 16-bit weights of a blend from left to right. The right weights are the values of
-// vu_pair_both; the left weights are their bitwise complement. A left and a right weight sum to
-// 65535.
-VEC_INLINE VuPair vu_pair_ramp(Vi v) {
-    const VuPair both = vu_pair_both(v);
-#if VEC_AVX512
-    const Vu left = (Vu)_mm512_set1_epi64(0xffffffff);
-#elif VEC_AVX2
-    const Vu left = (Vu)_mm256_set1_epi64x(0xffffffff);
-#elif VEC_SSE2
-    const Vu left = (Vu)_mm_set1_epi64x(0xffffffff);
-#else
-    return (VuPair){~both.a, both.b};
-#endif
-#if VEC_AVX512 || VEC_AVX2 || VEC_SSE2
-    return (VuPair){both.a ^ left, both.b ^ left};
-#endif
-}
-
 // Returns the left values, in the order of lanes.
 VEC_INLINE Vu vu_pair_left(VuPair pair) {
 #if VEC_AVX512
@@ -161,11 +79,6 @@ VEC_INLINE Vu vu_pair_right(VuPair pair) {
 #else
     return pair.b;
 #endif
-}
-
-// Returns the sum of each lane's left and right value, in the order of lanes.
-VEC_INLINE Vu vu_pair_sum(VuPair pair) {
-    return vu_pair_left(pair) + vu_pair_right(pair);
 }
 
 #endif

@@ -299,6 +299,33 @@ VEC_INLINE Vi vi_dot16(Vi a, Vi b) {
 #endif
 }
 
+// Multiplies the unsigned 16-bit halves of a and b and returns the upper 16 bits of each product.
+VEC_INLINE Vu vu_mulhi16(Vu a, Vu b) {
+#if VEC_AVX512
+    return (Vu)_mm512_mulhi_epu16((__m512i)a, (__m512i)b);
+#elif VEC_AVX2
+    return (Vu)_mm256_mulhi_epu16((__m256i)a, (__m256i)b);
+#elif VEC_SSE2
+    return (Vu)_mm_mulhi_epu16((__m128i)a, (__m128i)b);
+#else
+    return ((a & 0xffffu) * (b & 0xffffu)) >> 16 | (((a >> 16) * (b >> 16)) & 0xffff0000u);
+#endif
+}
+
+// Multiplies the lower 16-bit half of each lane of a by the lower half of b, and the upper half by
+// the upper half. Returns the sum of both products. All halves must be below 2^15.
+VEC_INLINE Vu vu_dot16(Vu a, uint32_t b) {
+#if VEC_AVX512
+    return (Vu)_mm512_madd_epi16((__m512i)a, (__m512i)vu_splat(b));
+#elif VEC_AVX2
+    return (Vu)_mm256_madd_epi16((__m256i)a, (__m256i)vu_splat(b));
+#elif VEC_SSE2
+    return (Vu)_mm_madd_epi16((__m128i)a, (__m128i)vu_splat(b));
+#else
+    return (a & 0xffffu) * (b & 0xffffu) + (a >> 16) * (b >> 16);
+#endif
+}
+
 // --- memory ------------------------------------------------------------------------------------
 
 // Returns base[index[i]] in lane i.

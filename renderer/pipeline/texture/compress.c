@@ -1,19 +1,17 @@
 // Compressed textures: encodes the colours of every level as BC1 and decodes them again, on many
 // threads.
 //
-// The result has the same layout as any other texture. A texel therefore costs one load. If the
-// kernels read BC1 blocks, each read of a texel would have to compute the block's four colours,
+// The result has the same layout as any other texture. A bilinear read therefore costs one load. If
+// the kernels read BC1 blocks, each read of a texel would have to compute the block's four colours,
 // select one by the texel's index, and decode it from sRGB. A CPU has no hardware for this
 // decoding. So BC1 changes the picture here as it does on a graphics card, but it saves neither
 // time nor memory.
 #include "renderer/pipeline/texture/texture_layout.h"
 
 #include "renderer/base/fp_mode.h"
-#include "renderer/base/pages.h"
 #include "renderer/pipeline/bc1.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 // A level that is being compressed. Each task compresses one row of blocks.
 typedef struct Level {
@@ -38,12 +36,12 @@ static void read_block(const DipRootCodes *codes, const DipTexture *texture, int
     const int width = texture->level_width[level];
     const int height = texture->level_height[level];
     const size_t stride = dip_texture_stride(texture, level);
-    const uint32_t *texels = texture->texels + texture->level_offset[level];
+    const DipTexelPair *texels = texture->texels + texture->level_offset[level];
     for (int j = 0; j < DIP_BC1_SIDE; j++) {
         const int row_index = y + j < height ? y + j : height - 1;
-        const uint32_t *row = texels + (size_t)row_index * stride;
+        const DipTexelPair *row = texels + (size_t)row_index * stride;
         for (int i = 0; i < DIP_BC1_SIDE; i++, rgba8 += 4) {
-            dip_root_codes_read(codes, row[x + i < width ? x + i : width - 1], rgba8);
+            dip_root_codes_read(codes, row[x + i < width ? x + i : width - 1].here, rgba8);
             rgba8[3] = 255;
         }
     }
@@ -54,14 +52,14 @@ static void write_block(const DipBc1Light *light, DipTexture *texture, int level
     const int width = texture->level_width[level];
     const int height = texture->level_height[level];
     const size_t stride = dip_texture_stride(texture, level);
-    uint32_t *texels = texture->texels + texture->level_offset[level];
+    DipTexelPair *texels = texture->texels + texture->level_offset[level];
     uint32_t palette[4];
     dip_bc1_palette(light, block, palette);
     for (int i = 0; i < 16; i++) {
         const int column = x + (i & 3);
         const int row = y + (i >> 2);
         if (column < width && row < height) {
-            texels[(size_t)row * stride + (size_t)column] = palette[dip_bc1_choice(block, i)];
+            texels[(size_t)row * stride + (size_t)column].here = palette[dip_bc1_choice(block, i)];
         }
     }
 }
@@ -94,7 +92,7 @@ static void make_row(void *context, int index, int worker) {
         write_block(&job->light, level->to, level->level, x, y, block);
     }
     for (int row = y; row < y + DIP_BC1_SIDE && row < height; row++) {
-        dip_texture_pad_row(level->to, level->level, row);
+        dip_texture_finish_row(level->to, level->level, row);
     }
 }
 
@@ -105,12 +103,7 @@ static DipTexture *begin_texture(const DipTexture *from) {
         *texture = *from;
         texture->alpha = NULL;
         texture->shares_alpha = true;
-        // Reads may run past the last texel; the 8 spare texels keep them inside the array.
-        const size_t size_bytes = (from->texel_count + 8) * sizeof *texture->texels;
-        texture->texels = dip_pages_alloc(size_bytes);
-        if (texture->texels) {
-            memset(texture->texels, 0, size_bytes);
-        } else {
+        if (!dip_texture_allocate(texture)) {
             dip_texture_destroy(&texture);
         }
     }

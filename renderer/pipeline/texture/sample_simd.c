@@ -3,14 +3,17 @@
 //
 // Colours are filtered in 16-bit fixed point. A texel holds square roots of linear light
 // (texture_layout.h). The roots are squared and the squares are multiplied by 16-bit weights; each
-// product keeps its upper 16 bits. Two neighbouring texels are fetched at once and stay side by
-// side ("pair order", simd/pairs.h) until they are summed. Sums are integers, so the order of lanes
-// and probes does not matter. A footprint blends two mip levels: `near` is the finer level and
-// `far` is the coarser level.
+// product keeps its upper 16 bits. The four texels of a bilinear read are loaded at once and stay
+// side by side (simd/quads.h) until they are summed. Sums are integers, so the order of lanes and
+// probes does not matter. A footprint blends two mip levels: `near` is the finer level and `far` is
+// the coarser level.
+//
+// All bilinear reads of a batch are listed before the first texel is read. While they are listed,
+// their texels are prefetched, so that the processor waits for many texels at once.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/footprint_simd.h"
 #include "renderer/pipeline/texture/texture_layout.h"
-#include "renderer/simd/pairs.h"
+#include "renderer/simd/quads.h"
 
 #include <string.h>
 
@@ -178,13 +181,12 @@ VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampl
 // The layout of the level that each lane reads.
 typedef struct Level {
     Vi offset;
-    Vi stride;
-    Vi stride_pairs; // stride, in pair order
-    Vi width;        // width in texels, or log2 of the width if the mode is in_bits
+    Vi stride; // not used if the mode is in_bits
+    Vi width;  // width in texels, or log2 of the width if the mode is in_bits
     Vi height;
 } Level;
 
-// A bilinear read: the index of its first texel, and its position within the level in 1/256 texel.
+// A bilinear read: the index of its quad, and its position within the level in 1/256 texel.
 typedef struct Taps {
     Vi index;
     Vi x8;
@@ -202,13 +204,12 @@ VEC_INLINE Level read_level(const DipTexture *texture, ReadMode mode, Vi level) 
     if (mode.in_bits) {
         out.width = vi_lookup16(texture->level_log2_width, level);
         out.height = vi_lookup16(texture->level_log2_height, level);
-        out.stride = (vi_splat(1) << out.width) + 1;
+        out.stride = vi_splat(0);
     } else {
         out.width = vi_lookup16(texture->level_width, level);
         out.height = vi_lookup16(texture->level_height, level);
         out.stride = row_stride(texture, mode, out.width);
     }
-    out.stride_pairs = vi_pair_order(out.stride);
     return out;
 }
 
@@ -342,35 +343,98 @@ VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
     return sampler->shown ? vi_lookup16(sampler->shown_level, level) : level;
 }
 
+// --- the list of reads ---------------------------------------------------------------------------
+
+// The most probes of a vector in a level (DipSampler), and the most reads in its two levels.
+enum { MOST_PROBES = 16, MOST_READS = 2 * MOST_PROBES };
+
+// The bilinear reads of a batch: for each vector those in the finer level, then those in the
+// coarser one.
+typedef struct ReadList {
+    int near[VECTORS]; // number of reads of each vector in the finer level
+    int far[VECTORS];
+    int32_t index[VECTORS * MOST_READS][DIP_LANES]; // the quads
+    // Positions between the texels in 1/256 texel: x in the lowest 8 bits, y in the highest 8 bits.
+    int32_t between[VECTORS * MOST_READS][DIP_LANES];
+} ReadList;
+
+// Lists the reads of vector n in a level, from number `first` on, and returns how many these are.
+// Lanes that have run out of probes read the quad of zeroes.
+VEC_INLINE int list_level(ReadList *list, int first, const DipTexture *texture, ReadMode mode,
+                          Vi level, const Footprints *footprints, const Line *line, int n) {
+    const Vi zeroes = vi_splat((int32_t)texture->texel_count);
+    Walk walk = begin_walk(texture, mode, level, footprints, line, n);
+    // A sampler with a greater max_anisotropy than is allowed must not overrun the list.
+    walk.count = walk.count < MOST_PROBES ? walk.count : MOST_PROBES;
+    while (walk.probe < walk.count) {
+        const Taps taps = find_taps(texture, mode, &walk);
+        const int i = first + walk.probe;
+        if (mode.anisotropic) {
+            const Mask reads = vi_lt(vi_splat(walk.probe), line->count[n]);
+            vi_store(list->index[i], vi_select(reads, taps.index, zeroes));
+        } else {
+            vi_store(list->index[i], taps.index);
+        }
+        vi_store(list->between[i], (taps.x8 & 255) | (Vi)((Vu)taps.y8 << 24));
+        next_probe(&walk, mode);
+    }
+    return walk.count;
+}
+
+// Lists the reads of vector n in the levels `near` and `far`, from number `first` on, and returns
+// how many these are.
+VEC_INLINE int list_vector(ReadList *list, int first, const DipTexture *texture, ReadMode mode,
+                           Vi near, Vi far, const Footprints *footprints, int n) {
+    list->near[n] = list_level(list, first, texture, mode, near, footprints, &footprints->near, n);
+    list->far[n] = 0;
+    if (mask_any(vi_lt(vi_splat(0), footprints->lod8[n] & 255))) {
+        list->far[n] = list_level(list, first + list->near[n], texture, mode, far, footprints,
+                                  &footprints->far, n);
+    }
+    return list->near[n] + list->far[n];
+}
+
 // --- colour ------------------------------------------------------------------------------------
 
-// Sums of weighted texels in pair order, with 16 bits per channel. Red and green share a 32-bit
-// word; blue has a word of its own.
-typedef struct PairSum {
-    VuPair red_green;
-    VuPair blue;
-} PairSum;
+// The one or two textures that are read at the same footprints.
+typedef struct Read {
+    const DipTexture *texture[2];
+    int count;
+} Read;
 
-// Sums of several PairSums, with 32 bits per channel.
-typedef struct WideSum {
-    VuPair red_green; // packed sums modulo 2^32; green is this minus red << 16
-    VuPair red;
-    VuPair blue;
-} WideSum;
+// Sums of weighted texels per lane, with 32 bits per channel.
+typedef struct LightSum {
+    Vu red_green; // packed sums modulo 2^32; green is this minus red << 16
+    Vu red;
+    Vu blue;
+} LightSum;
 
-#define NO_PAIR                                                                                    \
-    { vu_splat(0), vu_splat(0) }
-#define NO_SUM      ((PairSum){NO_PAIR, NO_PAIR})
-#define NO_WIDE_SUM ((WideSum){NO_PAIR, NO_PAIR, NO_PAIR})
+// 16-bit weights of the texels of a bilinear read. The weight of the upper texel of a column is in
+// the lower half, the weight of the lower texel is in the upper half.
+typedef struct Weights {
+    Vu left;
+    Vu right;
+} Weights;
 
-// Adds a PairSum to a WideSum.
-VEC_INLINE void widen(WideSum *wide, const PairSum *sum) {
-    wide->red_green.a += sum->red_green.a;
-    wide->red_green.b += sum->red_green.b;
-    wide->red.a += sum->red_green.a >> 16;
-    wide->red.b += sum->red_green.b >> 16;
-    wide->blue.a += sum->blue.a;
-    wide->blue.b += sum->blue.b;
+// Multiplies the weights of a read's rows (as those of a column in Weights) by those of its
+// columns. The weights of a blend sum to 65535.
+VEC_INLINE Weights join_weights(Vu down, Vi between) {
+    const Vu x = (Vu)between << 24;
+    const Vu right = x | x >> 16; // 256 times the position, in both halves
+    return (Weights){vu_mulhi16(down, ~right), vu_mulhi16(down, right)};
+}
+
+// Returns the weights of a probe.
+VEC_INLINE Weights weigh_probe(Vi between) {
+    const Vu lower = (Vu)between & 0xff000000u;
+    return join_weights(lower | (lower >> 16 ^ 0xffffu), between);
+}
+
+// Returns the weights of the single read of a level, multiplied by the weight of the level, which
+// is in both halves of level_weight.
+VEC_INLINE Weights weigh_level(Vi between, Vu level_weight) {
+    const Vu lower = vu_mulhi16((Vu)between & 0xff000000u, level_weight);
+    return join_weights(lower | ((level_weight & 0xffffu) - (lower >> 16)), between);
 }
 
 // Adds weighted texels to *red_green and *blue. The squares of a texel's roots are its linear
@@ -381,131 +445,96 @@ VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
     *blue += vu_mulhi16(vu_mulhi16(b, b), weight);
 }
 
-VEC_INLINE void add_row(PairSum *sum, const DipTexture *texture, Vi index_pairs, VuPair weight) {
-    const VuPair texels = vu_gather_pairs(texture->texels, index_pairs);
-    add_texels(&sum->red_green.a, &sum->blue.a, texels.a, weight.a);
-    add_texels(&sum->red_green.b, &sum->blue.b, texels.b, weight.b);
-}
-
-// Sets to zero the weights of lanes that have run out of probes. count: the number of probes of
-// each lane, as both values of a pair.
-VEC_INLINE VuPair zero_finished(VuPair ramp, VuPair count, int probe) {
-    const Vi at = vi_splat(probe);
-    return (VuPair){(Vu)vi_select(vi_lt(at, (Vi)count.a), (Vi)ramp.a, vi_splat(0)),
-                    (Vu)vi_select(vi_lt(at, (Vi)count.b), (Vi)ramp.b, vi_splat(0))};
-}
-
-// The weights of a bilinear read's four texels.
-typedef struct Weights {
-    VuPair upper;
-    VuPair lower;
-} Weights;
-
-VEC_INLINE Weights join_weights(VuPair across, VuPair upper, VuPair lower) {
-    return (Weights){{vu_mulhi16(across.a, upper.a), vu_mulhi16(across.b, upper.b)},
-                     {vu_mulhi16(across.a, lower.a), vu_mulhi16(across.b, lower.b)}};
-}
-
-// Returns the weights of a probe. count: the number of probes of each lane, as both values of a
-// pair; lanes with fewer probes get the weight 0.
-VEC_INLINE Weights weigh_probe(const Taps *taps, VuPair count, int probe) {
-    const VuPair down = vu_pair_both(taps->y8);
-    return join_weights(zero_finished(vu_pair_ramp(taps->x8), count, probe),
-                        (VuPair){~down.a, ~down.b}, down);
-}
-
-// Returns the weights of the single read of a level, multiplied by the weight of the level.
-VEC_INLINE Weights weigh_level(const Taps *taps, VuPair weight) {
-    const VuPair down = vu_pair_both(taps->y8);
-    const VuPair lower = {vu_mulhi16(down.a, weight.a), vu_mulhi16(down.b, weight.b)};
-    return join_weights(vu_pair_ramp(taps->x8), (VuPair){weight.a - lower.a, weight.b - lower.b},
-                        lower);
-}
-
-VEC_INLINE void add_taps(PairSum *sum, const DipTexture *texture, const Level *level,
-                         const Taps *taps, const Weights *weights) {
-    const Vi index = vi_pair_order(taps->index);
-    add_row(sum, texture, index, weights->upper);
-    add_row(sum, texture, index + level->stride_pairs, weights->lower);
+// Adds the light of a listed read. The weights of its texels sum to less than 65536, so red and
+// green do not overflow their halves.
+VEC_INLINE void add_read(LightSum *sum, const DipTexture *texture, const int32_t *index,
+                         const Weights *weights) {
+    const uint32_t *texels = (const uint32_t *)(const void *)texture->texels;
+    Vu red_green[4];
+    Vu blue[4];
+    for (int k = 0; k < 4; k++) {
+        red_green[k] = blue[k] = vu_splat(0);
+        add_texels(&red_green[k], &blue[k], vu_load_quads(texels, index, k),
+                   vu_quad_weights(weights->left, weights->right, k));
+    }
+    const Vu both = vu_quad_sum(red_green);
+    sum->red_green += both;
+    sum->red += both >> 16;
+    sum->blue += vu_quad_sum(blue);
 }
 
 // Converts a sum to linear light, in which white is 1. The divisors are below 65535 because the
 // products are rounded down. The sum of a white texel differs from the divisor by at most 6.
-VEC_INLINE void sum_channels(const WideSum *sum, Vf light[3]) {
-    const Vu red = vu_pair_sum(sum->red);
-    light[0] = vf_from_int((Vi)red) * (1.0f / 65526.0f);
-    light[1] = vf_from_int((Vi)(vu_pair_sum(sum->red_green) - (red << 16))) * (1.0f / 65526.0f);
-    light[2] = vf_from_int((Vi)vu_pair_sum(sum->blue)) * (1.0f / 65402.0f);
+VEC_INLINE void sum_channels(const LightSum *sum, Vf light[3]) {
+    light[0] = vf_from_int((Vi)sum->red) * (1.0f / 65526.0f);
+    light[1] = vf_from_int((Vi)(sum->red_green - (sum->red << 16))) * (1.0f / 65526.0f);
+    light[2] = vf_from_int((Vi)sum->blue) * (1.0f / 65402.0f);
 }
 
-// The one or two textures that are read at the same footprints.
-typedef struct Read {
-    const DipTexture *texture[2];
-    int count;
-} Read;
+#define NO_LIGHT ((LightSum){vu_splat(0), vu_splat(0), vu_splat(0)})
 
-// Adds the light of vector n's probes in a level.
-VEC_INLINE void add_line(const Read *read, ReadMode mode, Vi level, const Footprints *footprints,
-                         const Line *line, int n, Vf light[2][3]) {
-    const VuPair count = vu_pair_same((Vu)line->count[n]);
-    WideSum sum[2] = {NO_WIDE_SUM, NO_WIDE_SUM};
-    Walk walk = begin_walk(read->texture[0], mode, level, footprints, line, n);
-    while (walk.probe < walk.count) {
-        const Taps taps = find_taps(read->texture[0], mode, &walk);
-        const Weights weights = weigh_probe(&taps, count, walk.probe);
+// Adds the light of `count` listed probes, each of which has this weight.
+VEC_INLINE void add_probes(const Read *read, const ReadList *list, int first, int count, Vf weight,
+                           Vf light[2][3]) {
+    LightSum sum[2] = {NO_LIGHT, NO_LIGHT};
+    for (int i = first; i < first + count; i++) {
+        const Weights weights = weigh_probe(vi_load(list->between[i]));
         for (int t = 0; t < read->count; t++) {
-            PairSum probe = NO_SUM;
-            add_taps(&probe, read->texture[t], &walk.level, &taps, &weights);
-            widen(&sum[t], &probe);
+            add_read(&sum[t], read->texture[t], list->index[i], &weights);
         }
-        next_probe(&walk, mode);
     }
     for (int t = 0; t < read->count; t++) {
         Vf of_level[3];
         sum_channels(&sum[t], of_level);
         for (int c = 0; c < 3; c++) {
-            light[t][c] += of_level[c] * line->weight[n];
+            light[t][c] += of_level[c] * weight;
         }
     }
 }
 
-// Adds the light of vector n's single read of a level, multiplied by the weight of the level.
-VEC_INLINE void add_level(const Read *read, ReadMode mode, Vi level, const Footprints *footprints,
-                          int n, VuPair weight, PairSum sum[2]) {
-    const Walk walk = begin_walk(read->texture[0], mode, level, footprints, NULL, n);
-    const Taps taps = find_taps(read->texture[0], mode, &walk);
-    const Weights weights = weigh_level(&taps, weight);
+// Adds the light of a level's single read. level_weight: 256 times the level's weight, or the
+// complement, in both halves.
+VEC_INLINE void add_level(const Read *read, const ReadList *list, int i, Vu level_weight,
+                          LightSum sum[2]) {
+    const Weights weights = weigh_level(vi_load(list->between[i]), level_weight);
     for (int t = 0; t < read->count; t++) {
-        add_taps(&sum[t], read->texture[t], &walk.level, &taps, &weights);
+        add_read(&sum[t], read->texture[t], list->index[i], &weights);
     }
 }
 
-VEC_INLINE void read_vector(const Read *read, const DipSampler *sampler, ReadMode mode,
-                            const Footprints *footprints, int n, Vf light[2][3]) {
-    const Vi lod8 = footprints->lod8[n];
-    const Vi near = shown_level(sampler, near_level(lod8));
-    const Vi far = shown_level(sampler, far_level(sampler, lod8));
-    const bool blends = mask_any(vi_lt(vi_splat(0), lod8 & 255));
+// Filters the listed reads of vector n, of which number `first` is the first one.
+VEC_INLINE void filter_vector(const Read *read, ReadMode mode, const ReadList *list, int first,
+                              const Footprints *footprints, int n, Vf light[2][3]) {
+    const int far = first + list->near[n];
     if (mode.anisotropic) {
         for (int i = 0; i < 3 * read->count; i++) {
             light[i / 3][i % 3] = vf_splat(0.0f);
         }
-        add_line(read, mode, near, footprints, &footprints->near, n, light);
-        if (blends) {
-            add_line(read, mode, far, footprints, &footprints->far, n, light);
+        add_probes(read, list, first, list->near[n], footprints->near.weight[n], light);
+        if (list->far[n] > 0) {
+            add_probes(read, list, far, list->far[n], footprints->far.weight[n], light);
         }
         return;
     }
-    const VuPair weight = vu_pair_both(lod8 & 255);
-    PairSum sum[2] = {NO_SUM, NO_SUM};
-    add_level(read, mode, near, footprints, n, (VuPair){~weight.a, ~weight.b}, sum);
-    if (blends) {
-        add_level(read, mode, far, footprints, n, weight, sum);
+    const Vu fraction = (Vu)(footprints->lod8[n] & 255);
+    const Vu weight = fraction << 8 | fraction << 24;
+    LightSum sum[2] = {NO_LIGHT, NO_LIGHT};
+    add_level(read, list, first, ~weight, sum);
+    if (list->far[n] > 0) {
+        add_level(read, list, far, weight, sum);
     }
     for (int t = 0; t < read->count; t++) {
-        WideSum wide = NO_WIDE_SUM;
-        widen(&wide, &sum[t]);
-        sum_channels(&wide, light[t]);
+        sum_channels(&sum[t], light[t]);
+    }
+}
+
+// Prefetches the texels of `count` listed reads. Each quad lies in one or two cache lines, mostly
+// in one; only the first one is prefetched.
+VEC_INLINE void prefetch_texels(const DipTexture *texture, const ReadList *list, int first,
+                                int count) {
+    const int32_t *index = list->index[first];
+    for (int i = 0; i < count * DIP_LANES; i++) {
+        __builtin_prefetch(texture->texels + (uint32_t)index[i]);
     }
 }
 
@@ -513,15 +542,27 @@ VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, 
                             Read read, int u_varying, float (*const out[2])[DIP_FRAGMENT_BATCH]) {
     const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
     Footprints footprints;
+    ReadList list;
     find_footprints(batch, sampler, mode, u_varying, read.count, &footprints);
-    for (int n = 0; n < vectors; n++) {
+    for (int n = 0, first = 0; n < vectors; n++) {
+        const Vi near = shown_level(sampler, near_level(footprints.lod8[n]));
+        const Vi far = shown_level(sampler, far_level(sampler, footprints.lod8[n]));
+        const int count =
+            list_vector(&list, first, read.texture[0], mode, near, far, &footprints, n);
+        for (int t = 0; t < read.count; t++) {
+            prefetch_texels(read.texture[t], &list, first, count);
+        }
+        first += count;
+    }
+    for (int n = 0, first = 0; n < vectors; n++) {
         Vf light[2][3];
-        read_vector(&read, sampler, mode, &footprints, n, light);
+        filter_vector(&read, mode, &list, first, &footprints, n, light);
         for (int t = 0; t < read.count; t++) {
             for (int c = 0; c < 3; c++) {
                 vf_store(out[t][c] + n * DIP_LANES, light[t][c]);
             }
         }
+        first += list.near[n] + list.far[n];
     }
 }
 
@@ -534,50 +575,65 @@ VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler
 
 // --- alpha -------------------------------------------------------------------------------------
 
-VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, const Taps *taps) {
-    const Vf fx = vf_from_int(taps->x8 & 255);
-    const Vf fy = vf_from_int(taps->y8 & 255);
-    const Vf gx = 256.0f - fx;
-    const Vf gy = 256.0f - fy;
-    const Vi upper = (Vi)vu_gather_bytes(texture->alpha, taps->index);
-    const Vi lower = (Vi)vu_gather_bytes(texture->alpha, taps->index + level->stride);
-    return (vf_from_int(upper & 255) * (gx * gy) + vf_from_int(upper >> 8 & 255) * (fx * gy)) +
-           (vf_from_int(lower & 255) * (gx * fy) + vf_from_int(lower >> 8 & 255) * (fx * fy));
+// Returns the alpha of a listed read, in units of 1 / (255 * 65536). All numbers are whole and
+// below 2^24, so they are exact.
+VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const ReadList *list, int i) {
+    const Vi between = vi_load(list->between[i]);
+    const Vi x = between & 255;
+    const Vi across = (256 - x) | x << 16;
+    const Vf down = vf_from_int((Vi)((Vu)between >> 24));
+    const uint8_t *alpha = (const uint8_t *)texture->alpha;
+    const Vi quad = (Vi)vu_gather_bytes(alpha, vi_load(list->index[i]) * 2);
+    const Vf upper = vf_from_int(vi_dot16(quad & 0x00ff00ff, across));
+    const Vf lower = vf_from_int(vi_dot16(quad >> 8 & 0x00ff00ff, across));
+    return upper * (256.0f - down) + lower * down;
 }
 
-// Returns the mean alpha over vector n's probes in a level, in units of 1 / (255 * 65536). The sum
-// is divided by the number of probes, so that a constant alpha stays exact.
-VEC_INLINE Vf mean_alpha(const DipTexture *texture, ReadMode mode, Vi level,
-                         const Footprints *footprints, const Line *line, int n) {
+// Returns the mean alpha over `count` listed probes. probes: the number of probes of each lane. The
+// sum is divided by it, so that a constant alpha stays exact.
+VEC_INLINE Vf mean_alpha(const DipTexture *texture, ReadMode mode, const ReadList *list, int first,
+                         int count, const Vi *probes) {
     Vf total = vf_splat(0.0f);
-    Walk walk = begin_walk(texture, mode, level, footprints, line, n);
-    while (walk.probe < walk.count) {
-        const Taps taps = find_taps(texture, mode, &walk);
-        const Vf alpha = bilinear_alpha(texture, &walk.level, &taps);
-        total += mode.anisotropic
-                     ? vf_select(vi_lt(vi_splat(walk.probe), line->count[n]), alpha, vf_splat(0.0f))
-                     : alpha;
-        next_probe(&walk, mode);
+    for (int i = first; i < first + count; i++) {
+        total += bilinear_alpha(texture, list, i);
     }
-    return mode.anisotropic ? total / vf_from_int(vi_max(line->count[n], vi_splat(1))) : total;
+    return mode.anisotropic ? total / vf_from_int(vi_max(*probes, vi_splat(1))) : total;
+}
+
+VEC_INLINE void prefetch_alpha(const DipTexture *texture, const ReadList *list, int first,
+                               int count) {
+    const int32_t *index = list->index[first];
+    for (int i = 0; i < count * DIP_LANES; i++) {
+        __builtin_prefetch(texture->alpha + (uint32_t)index[i]);
+    }
 }
 
 VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
                              int u_varying, float *out) {
     const DipTexture *texture = sampler->texture;
+    const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
     Footprints footprints;
+    ReadList list;
     find_footprints(batch, sampler, mode, u_varying, 1, &footprints);
-    for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
-        const Vi lod8 = footprints.lod8[n];
-        const Vf fraction = vf_from_int(lod8 & 255);
-        Vf alpha = mean_alpha(texture, mode, near_level(lod8), &footprints, &footprints.near, n) *
-                   (256.0f - fraction);
-        if (mask_any(vi_lt(vi_splat(0), lod8 & 255))) {
-            alpha += mean_alpha(texture, mode, far_level(sampler, lod8), &footprints,
-                                &footprints.far, n) *
+    for (int n = 0, first = 0; n < vectors; n++) {
+        const Vi near = near_level(footprints.lod8[n]);
+        const Vi far = far_level(sampler, footprints.lod8[n]);
+        const int count = list_vector(&list, first, texture, mode, near, far, &footprints, n);
+        prefetch_alpha(texture, &list, first, count);
+        first += count;
+    }
+    for (int n = 0, first = 0; n < vectors; n++) {
+        const Vf fraction = vf_from_int(footprints.lod8[n] & 255);
+        const int far = first + list.near[n];
+        Vf alpha =
+            mean_alpha(texture, mode, &list, first, list.near[n], &footprints.near.count[n]) *
+            (256.0f - fraction);
+        if (list.far[n] > 0) {
+            alpha += mean_alpha(texture, mode, &list, far, list.far[n], &footprints.far.count[n]) *
                      fraction;
         }
-        vf_store(out + i, alpha / 4278190080.0f);
+        vf_store(out + n * DIP_LANES, alpha / 4278190080.0f);
+        first = far + list.far[n];
     }
 }
 

@@ -132,26 +132,26 @@ static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
         const size_t position =
             (size_t)texture->level_offset[level] + (size_t)y * dip_texture_stride(texture, level);
         const uint8_t *code = def->rgba8 + (size_t)y * (size_t)def->width * 4;
-        uint32_t *texels = texture->texels + position;
+        DipTexelPair *texels = texture->texels + position;
         for (int x = 0; x < def->width; x++) {
-            texels[x] = pack_code(tables, code + 4 * (size_t)x);
+            texels[x].here = pack_code(tables, code + 4 * (size_t)x);
         }
         for (int x = 0; texture->alpha && x < def->width; x++) {
-            texture->alpha[position + (size_t)x] = code[4 * (size_t)x + 3];
+            texture->alpha[position + (size_t)x].here = code[4 * (size_t)x + 3];
         }
-        dip_texture_pad_row(texture, level, y);
+        dip_texture_finish_row(texture, level, y);
     }
 }
 
 // Packs a row of a filtered level, without its padding.
-static void pack_row(const float *row, int width, uint32_t *restrict texels,
-                     uint8_t *restrict alpha) {
+static void pack_row(const float *row, int width, DipTexelPair *restrict texels,
+                     DipAlphaPair *restrict alpha) {
     for (int x = 0; x < width; x++) {
         const double rgb[3] = {row[x], row[width + x], row[2 * width + x]};
-        texels[x] = pack_texel(rgb);
+        texels[x].here = pack_texel(rgb);
     }
     for (int x = 0; alpha && x < width; x++) {
-        alpha[x] = (uint8_t)(row[3 * width + x] * 255.0f + 0.5f);
+        alpha[x].here = (uint8_t)(row[3 * width + x] * 255.0f + 0.5f);
     }
 }
 
@@ -198,7 +198,7 @@ static void store_row(DipTexture *texture, int level, int y, const float *row) {
         (size_t)texture->level_offset[level] + (size_t)y * dip_texture_stride(texture, level);
     pack_row(row, width, texture->texels + position,
              texture->alpha ? texture->alpha + position : NULL);
-    dip_texture_pad_row(texture, level, y);
+    dip_texture_finish_row(texture, level, y);
 }
 
 // Makes a band: packs its rows of level 0, and filters its rows of level 1 from them.
@@ -266,6 +266,13 @@ static bool border_shows_through(const DipTextureDef *def) {
            def->border_rgba8[3] != 255;
 }
 
+static bool allocate(DipTexture *texture, bool with_alpha) {
+    if (with_alpha) {
+        texture->alpha = dip_texture_allocate_alpha(texture);
+    }
+    return dip_texture_allocate(texture) && (texture->alpha || !with_alpha);
+}
+
 // Creates a texture with the layout of its levels. Its texels are not yet filled in.
 static DipTexture *begin_texture(const DipTextureDef *def, bool keep_alpha,
                                  const CodeTables *tables, DipError *err) {
@@ -282,8 +289,7 @@ static DipTexture *begin_texture(const DipTextureDef *def, bool keep_alpha,
     dip_texture_set_wrap(texture, def);
     add_levels(texture);
     const bool with_alpha = keep_alpha && (border_shows_through(def) || dip_texture_has_alpha(def));
-    return dip_texture_allocate(texture, with_alpha) ? texture
-                                                     : out_of_memory(texture, def->name, err);
+    return allocate(texture, with_alpha) ? texture : out_of_memory(texture, def->name, err);
 }
 
 // Allocates the rows of floats from which a chain is filtered, and divides it into bands.
@@ -446,7 +452,7 @@ DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int leve
         dip_texture_add_level(texture, levels[i].width, levels[i].height);
         with_alpha = with_alpha || dip_texture_has_alpha(&levels[i]);
     }
-    if (!dip_texture_allocate(texture, with_alpha)) {
+    if (!allocate(texture, with_alpha)) {
         return out_of_memory(texture, levels[0].name, err);
     }
     for (int i = 0; i < level_count; i++) {
@@ -462,7 +468,7 @@ bool dip_texture_rebuild(DipTexture *texture, const DipTextureDef *def, DipPool 
     CodeTables *tables = NULL;
     Chain chain = {.level1 = NULL};
     const bool needs_alpha = texture->keeps_alpha && !texture->alpha && dip_texture_has_alpha(def);
-    uint8_t *alpha = needs_alpha ? dip_texture_allocate_alpha(texture) : NULL;
+    DipAlphaPair *alpha = needs_alpha ? dip_texture_allocate_alpha(texture) : NULL;
     const bool made = (alpha || !needs_alpha) && begin_jobs(&jobs, &tables, def, NULL, 1, pool) &&
                       begin_chain(&chain, def, texture, tables);
     if (made) {
@@ -503,5 +509,7 @@ uint64_t dip_texture_colour_bytes(const DipTexture *texture) {
 }
 
 uint64_t dip_texture_alpha_bytes(const DipTexture *texture) {
-    return texture && texture->alpha && !texture->shares_alpha ? texture->texel_count : 0;
+    return texture && texture->alpha && !texture->shares_alpha
+               ? texture->texel_count * sizeof *texture->alpha
+               : 0;
 }

@@ -31,8 +31,8 @@ static void read_level(const DipTexture *texture, int level, const DipRootCodes 
         const size_t row =
             (size_t)texture->level_offset[level] + (size_t)y * dip_texture_stride(texture, level);
         for (int x = 0; x < texture->level_width[level]; x++, rgba8 += 4) {
-            dip_root_codes_read(codes, texture->texels[row + (size_t)x], rgba8);
-            rgba8[3] = texture->alpha ? texture->alpha[row + (size_t)x] : 255;
+            dip_root_codes_read(codes, texture->texels[row + (size_t)x].here, rgba8);
+            rgba8[3] = texture->alpha ? texture->alpha[row + (size_t)x].here : 255;
         }
     }
 }

@@ -159,7 +159,7 @@ static void the_encoder_keeps_colours_that_a_block_can_hold(void **state) {
 static void expect_level(const DipTexture *compressed, const DipRefTexture *reference, int level) {
     const int columns = compressed->level_width[level];
     const int rows = compressed->level_height[level];
-    const uint32_t *texels = compressed->texels + compressed->level_offset[level];
+    const DipTexelPair *texels = compressed->texels + compressed->level_offset[level];
     const int after_last = compressed->wrap_u == DIP_WRAP_CLAMP ? columns - 1 : 0;
     for (int y = 0; y <= rows; y++) {
         for (int x = 0; x <= columns; x++) {
@@ -169,8 +169,15 @@ static void expect_level(const DipTexture *compressed, const DipRefTexture *refe
             for (int c = 0; c < 3; c++) {
                 srgb[c] = dip_reference_encode_srgb(expected[c]);
             }
-            light_of_texel(texels[y * (columns + 1) + x], found);
-            expect_srgb(found, srgb, texel_tolerance_srgb);
+            const DipTexelPair *texel = texels + y * (columns + 1) + x;
+            if (y < rows) {
+                light_of_texel(texel->here, found);
+                expect_srgb(found, srgb, texel_tolerance_srgb);
+            }
+            if (y > 0) {
+                light_of_texel((texel - (columns + 1))->below, found);
+                expect_srgb(found, srgb, texel_tolerance_srgb);
+            }
         }
     }
 }
