@@ -345,8 +345,8 @@ VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
 
 // --- the list of reads ---------------------------------------------------------------------------
 
-// The most bilinear reads of a vector: 16 probes in each of two levels.
-enum { MOST_READS = 2 * 16 };
+// The most probes of a vector in a level (DipSampler), and the most reads in its two levels.
+enum { MOST_PROBES = 16, MOST_READS = 2 * MOST_PROBES };
 
 // The bilinear reads of a batch: for each vector those in the finer level, then those in the
 // coarser one.
@@ -364,6 +364,8 @@ VEC_INLINE int list_level(ReadList *list, int first, const DipTexture *texture, 
                           Vi level, const Footprints *footprints, const Line *line, int n) {
     const Vi zeroes = vi_splat((int32_t)texture->texel_count);
     Walk walk = begin_walk(texture, mode, level, footprints, line, n);
+    // A sampler with a greater max_anisotropy than is allowed must not overrun the list.
+    walk.count = walk.count < MOST_PROBES ? walk.count : MOST_PROBES;
     while (walk.probe < walk.count) {
         const Taps taps = find_taps(texture, mode, &walk);
         const int i = first + walk.probe;
