@@ -267,13 +267,33 @@ static void settle(DipEffect *effect, uint64_t work) {
     }
 }
 
-void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, DipEffects *effects) {
+void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters,
+                     const DipCounters *copied, DipEffects *effects) {
+    static const DipCounters none;
+    const DipCounters *more = copied ? copied : &none;
     if (input->force_all) {
         return;
     }
     settle(&effects->alpha_clip, counters->fragments_clip_tested);
     settle(&effects->adaptive_aa, counters->clip_sample_groups);
-    settle(&effects->lights, counters->fragments_lit);
-    settle(&effects->normal_map, counters->fragments_normal_mapped);
-    settle(&effects->sky, counters->fragments_sky);
+    settle(&effects->lights, counters->fragments_lit + more->fragments_lit);
+    settle(&effects->normal_map, counters->fragments_normal_mapped + more->fragments_normal_mapped);
+    settle(&effects->sky, counters->fragments_sky + more->fragments_sky);
+}
+
+bool dip_plan_shades_alike(const DipQuality *a, const DipQuality *b) {
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        switch ((DipSetting)s) {
+        case DIP_SETTING_AA:
+        case DIP_SETTING_TAA:
+        case DIP_SETTING_AAA: // surfaces with sample groups have own_shading
+        case DIP_SETTING_ASD:
+            break;
+        default:
+            if (a->step[s] != b->step[s]) {
+                return false;
+            }
+        }
+    }
+    return !a->step[DIP_SETTING_MIPDEBUG];
 }
