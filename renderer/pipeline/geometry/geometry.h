@@ -94,6 +94,9 @@ typedef struct DipGeometry {
     uint32_t slack;
     // For each draw: the number of its mesh's patch 0 among the patches of all draws.
     uint32_t *first_patch;
+    bool near_to_far;     // the draws go through the pipeline in `draw_order` (order.h)
+    uint32_t *draw_order; // one per draw
+    uint16_t *draw_keys;  // one per draw, used while sorting
     DipVisibleChunk *visible;
     DipTriangle *triangles;
     float *planes;

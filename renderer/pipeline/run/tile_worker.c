@@ -156,6 +156,11 @@ static void begin_tile(DipTileWorker *worker, int index) {
     set_margins(&geometry->region, needed ? &needed[index] : NULL, tile);
     tile->pattern = pass->pattern;
     tile->touched = 0;
+    tile->near_to_far = geometry->near_to_far ? geometry->triangles : NULL;
+    if (geometry->near_to_far) {
+        memset(tile->bound, 0, sizeof tile->bound);
+        memset(tile->drawn, 0, sizeof tile->drawn);
+    }
     tile->grouped = 0;
     tile->sub_blocks_tested = 0;
     tile->sub_blocks_accepted = 0;
