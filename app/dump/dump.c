@@ -52,6 +52,7 @@ static bool write_pane(const DipSession *session, const DipDumpOptions *options,
 static bool dump_frame(DipSession *session, const DipDumpOptions *options, int index,
                        const Outputs *outputs, DipError *err) {
     DipDrawnFrame drawn = {.index = index, .time_ns = dip_dump_time_ns(options, index)};
+    session->shares_shading = options->share_shading;
     if (!dip_session_draw(session, drawn.time_ns, (uint64_t)index, &drawn.pose, &drawn.frame,
                           err)) {
         return false;

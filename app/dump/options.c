@@ -86,6 +86,11 @@ static const DipOptionRow rows[] = {
     {"--hash", NULL, DIP_OPTION_FLAG, FIELD(hash),
      .text = "Print a line per frame and pane, such as `0000 current HASH`. Equal hashes mean "
              "equal pictures."},
+    {"--share-shading", NULL, DIP_OPTION_FLAG, FIELD(share_shading),
+     .text = "Let the panes copy each other's pixels where both would be the same, as the preview "
+             "does while the camera moves. The pictures stay the same. The time of both panes "
+             "together falls; the time of a pane is its own only in the frames in which its "
+             "counter fragments_copied is 0."},
 };
 
 static const DipOptionTable table = DIP_OPTION_TABLE("Frames and output", rows);

@@ -25,6 +25,7 @@ typedef struct DipDumpOptions {
     const char *y4m;          // File for the frames as YUV4MPEG2; "-" is standard output.
     const char *raw;          // File for the frames' pixels; "-" is standard output.
     bool hash;                // True to print a hash per picture.
+    bool share_shading;       // True to let the panes copy each other's pixels.
     bool has_picture;         // True if --pane is given.
     DipStreamPicture picture; // What the streams show.
     DipFrameRange frames;

@@ -59,6 +59,12 @@ void dip_painter_set_frame_index(DipPainter *painter, uint64_t frame_index) {
     }
 }
 
+void dip_painter_copy_shading(DipPainter *painter, bool on) {
+    if (painter->renderer) {
+        dip_renderer_copy_shading(painter->renderer, on);
+    }
+}
+
 bool dip_painter_record_tiles(DipPainter *painter, bool on, DipError *err) {
     if (painter->pane) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "tiles",

@@ -300,6 +300,17 @@ static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_n
     return drawn;
 }
 
+// Chooses the pane that copies from the other one in the next frame. The panes take turns, so that
+// the time of each is its own in every other frame. A turn has two frames, since temporal
+// antialiasing alternates between two sample patterns.
+static void choose_copying_pane(DipSession *session) {
+    const int turn = (int)(session->shared_frames / 2 % DIP_PANE_COUNT);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        dip_painter_copy_shading(session->renderers[p], session->shares_shading && p == turn);
+    }
+    session->shared_frames += session->shares_shading;
+}
+
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
     const DipQuality current = dip_painter_quality(session->renderers[DIP_PANE_CURRENT]);
@@ -309,6 +320,7 @@ bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t pla
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         dip_painter_set_frame_index(session->renderers[p], frame_index);
     }
+    choose_copying_pane(session);
     DipFrame *const panes[DIP_PANE_COUNT] = {&frame->panes[0], &frame->panes[1]};
     const int64_t begin_ns = dip_clock_ns();
     const bool drawn = frame->copied

@@ -102,6 +102,10 @@ typedef struct DipSession {
     DipSessionCamera *cameras;
     int camera_count;
     DipPainter *renderers[DIP_PANE_COUNT]; // NULL unless the def asks for renderers.
+    // The panes of the next frames may copy each other's pixels (dip_renderer_copy_shading). Set it
+    // for frames that are drawn to be seen, and clear it where each pane's time or work is wanted.
+    bool shares_shading;
+    unsigned shared_frames; // Number of frames drawn so; the panes take turns at copying.
     // The session shows a scene of the gallery. If it was opened with one, `scene` is NULL, because
     // no models are loaded.
     bool shows_gallery;

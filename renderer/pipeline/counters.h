@@ -26,6 +26,8 @@ extern "C" {
     X(fragments_clip_tested, "fragments of alpha-clipped surfaces whose clip map was read")        \
     X(clip_sample_groups, "sample groups drawn, summed over alpha-clipped triangles")              \
     X(fragments_shaded, "fragments shaded: one per pixel and visible patch")                       \
+    X(fragments_copied,                                                                            \
+      "fragments copied from another pass that shaded them; not among those shaded")               \
     X(fragments_of_blocks, "shaded fragments of 4x4-pixel blocks that one draw fills alone")       \
     X(shader_batches, "calls of fragment shaders: up to 64 fragments of one draw in one tile")     \
     X(fragments_ordered, "fragments of ordered draws (state.h): one per pixel and triangle")       \

@@ -174,6 +174,7 @@ static void add_tile_counters(const DipTileWork *work, DipPipelineCounters *coun
     counters->fragments_clip_tested += work->clip_tested;
     counters->clip_sample_groups += work->clip_sample_groups;
     counters->fragments_shaded += work->fragments;
+    counters->fragments_copied += work->copied_fragments;
     counters->fragments_of_blocks += work->block_fragments;
     counters->shader_batches += work->batches;
     counters->fragments_ordered += work->ordered_fragments;
@@ -275,17 +276,59 @@ typedef struct Batch {
     int64_t geometry_ns[DIP_MAX_PASSES_AT_ONCE];
 } Batch;
 
-// Draws one tile of each pass. Which pass goes first alternates from tile to tile, so that no pass
-// always gets the warm cache.
+// Whether other passes may copy a pass's pixels, or this pass those of others. The colours of a
+// merged pass and of a readback do not go to pixels, and records tell the work of a pass alone.
+static bool may_share(const DipPassWork *work) {
+    const DipTilePass *tile_pass = &work->pipeline->tile_pass;
+    return !tile_pass->merged && !work->pass->readback && !work->pipeline->recording.tiles;
+}
+
+static bool has_own_shading(const DipPass *pass) {
+    for (int d = 0; d < pass->draw_count; d++) {
+        if (pass->draws[d].own_shading) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Tells each worker of a pass which worker's pixels it copies. Worker w draws the same tile of each
+// pass, so it copies from worker w of the other pass.
+static void share_shading(const DipPassWork *work) {
+    const DipPassWork *from = work->copies_from;
+    if (!from || !may_share(work) || !may_share(from)) {
+        return;
+    }
+    const bool some_own = has_own_shading(work->pass);
+    const bool some_own_there = has_own_shading(from->pass);
+    for (int w = 0; w < work->pipeline->worker_count; w++) {
+        DipTileShading *offering = &from->pipeline->workers[w]->shading;
+        offering->share.offers = true;
+        offering->share.some_own = some_own_there;
+        DipShadingShare *copying = &work->pipeline->workers[w]->shading.share;
+        copying->from = offering;
+        copying->some_own = some_own;
+    }
+}
+
+static void draw_tile(DipPipeline *pipeline, int tile, int worker_index) {
+    const DipGeometry *geometry = pipeline->tile_pass.geometry;
+    if (tile < geometry->tile_count) {
+        const int index = geometry->tiles[tile];
+        dip_tile_worker_draw(pipeline->workers[worker_index], index, &pipeline->tile_work[index]);
+    }
+}
+
+// Draws one tile of each pass, those that copy pixels after those that they copy from. Which of the
+// others goes first alternates from tile to tile, so that no pass always gets the warm cache.
 static void run_tiles(void *context, int tile, int worker_index) {
     const Batch *batch = context;
-    for (int i = 0; i < batch->count; i++) {
-        DipPipeline *pipeline = batch->works[(tile + i) % batch->count].pipeline;
-        const DipGeometry *geometry = pipeline->tile_pass.geometry;
-        if (tile < geometry->tile_count) {
-            const int index = geometry->tiles[tile];
-            dip_tile_worker_draw(pipeline->workers[worker_index], index,
-                                 &pipeline->tile_work[index]);
+    for (int copying = 0; copying <= 1; copying++) {
+        for (int i = 0; i < batch->count; i++) {
+            const DipPassWork *work = &batch->works[(tile + i) % batch->count];
+            if ((work->copies_from != NULL) == copying) {
+                draw_tile(work->pipeline, tile, worker_index);
+            }
         }
     }
 }
@@ -407,6 +450,20 @@ static bool check_work(const DipPassWork *works, int index, DipError *err) {
     return true;
 }
 
+// Checks from which work works[index] copies its pixels.
+static bool check_copying(const DipPassWork *works, int count, int index, bool same_geometry,
+                          DipError *err) {
+    const DipPassWork *from = works[index].copies_from;
+    bool good = !from;
+    for (int i = 0; i < count && same_geometry; i++) {
+        good = good || (from == &works[i] && i != index && !from->copies_from);
+    }
+    return good || dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "copies_from",
+                                 "pass %d cannot copy from it, accepted another pass of the same "
+                                 "geometry, drawn at once, that copies from none",
+                                 index);
+}
+
 // Draws passes that have been checked, with pipelines that no other thread uses.
 static bool draw_batch(Batch *batch, DipError *err) {
     const DipPassWork *works = batch->works;
@@ -414,6 +471,9 @@ static bool draw_batch(Batch *batch, DipError *err) {
         if (!begin_pass(works[i].pipeline, works[i].pass, err)) {
             return false;
         }
+    }
+    for (int i = 0; i < batch->count; i++) {
+        share_shading(&works[i]);
     }
     if (!run_geometries(batch, err)) {
         return false;
@@ -455,7 +515,7 @@ bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geo
                              count, DIP_MAX_PASSES_AT_ONCE);
     }
     for (int i = 0; i < count; i++) {
-        if (!check_work(works, i, err)) {
+        if (!check_work(works, i, err) || !check_copying(works, count, i, same_geometry, err)) {
             return false;
         }
     }
@@ -472,7 +532,7 @@ bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geo
 
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipPipelineCounters *counters,
                        DipStageTimes *times, DipError *err) {
-    const DipPassWork work = {pipeline, pass, counters, times};
+    const DipPassWork work = {pipeline, pass, counters, times, NULL};
     return dip_pipeline_draw_passes(&work, 1, false, err);
 }
 

@@ -74,6 +74,10 @@ typedef struct DipDraw {
     const DipExactTransform *exact_to_clip;
     DipCull cull;
     const DipDrawState *state; // blending, depth, stencil, fill; NULL: the draw is plain (state.h)
+    // The draw's fragments may have other colours than in the passes that are drawn at once, for
+    // example because its shader reads a target of this pass alone. They are never copied
+    // (DipPassWork.copies_from).
+    bool own_shading;
 } DipDraw;
 
 // What an attachment of a pass (its colours, depths or stencil values) holds at the start.
@@ -198,6 +202,14 @@ typedef struct DipPassWork {
     const DipPass *pass;
     DipPipelineCounters *counters;
     DipStageTimes *times;
+    // Another work of the same call, which copies from no work itself, or NULL. If a pixel shows
+    // one patch alone in both passes, at the same triangle, this pass copies the other one's pixel
+    // and does not shade it. The picture stays the same, because the caller promises that the
+    // fragments of each draw have the same colours in both passes: the draws differ in nothing that
+    // their fragment shaders read, unless a pass says own_shading. Copied fragments have a counter
+    // of their own; no other counter of shading, and no time, has their part. A pass that needs
+    // merging (state.h), has a readback or records its tiles neither copies nor is copied from.
+    const struct DipPassWork *copies_from;
 } DipPassWork;
 
 enum { DIP_MAX_PASSES_AT_ONCE = 8 };
@@ -213,7 +225,8 @@ enum { DIP_MAX_PASSES_AT_ONCE = 8 };
 // Fails as dip_pipeline_draw does. Also fails with RANGE if count is out of range, and with
 // CONFLICT if two passes have the same pipeline, the same attachments.samples, or the same
 // attachments.depth while one of them does not revert its depths and stencil values
-// (DIP_STORE_REVERT), or if their pipelines use different pools.
+// (DIP_STORE_REVERT), if their pipelines use different pools, or if copies_from of a work breaks the
+// rules in its comment or is set without same_geometry.
 DIP_API bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geometry,
                                       DipError *err);
 

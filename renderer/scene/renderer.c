@@ -200,6 +200,10 @@ DipQuality dip_renderer_quality(const DipRenderer *renderer) {
     return renderer->quality;
 }
 
+void dip_renderer_copy_shading(DipRenderer *renderer, bool on) {
+    renderer->copies_shading = on;
+}
+
 void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index) {
     renderer->frame_index = frame_index;
 }

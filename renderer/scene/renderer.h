@@ -82,6 +82,18 @@ DIP_API bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
 DIP_API bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                                int64_t time_ns, DipFrame *frame, DipError *err);
 
+// Lets the renderer copy shaded pixels when its frame is drawn at once with others, or stops it.
+// Off at first. A frame then copies from the first frame of the call whose renderer does not copy,
+// if both have the same geometry (see dip_renderer_draw_frames) and the same settings but for aa,
+// taa, aaa and asd, without mip colours. Copied are the pixels that show one surface alone, at the
+// same triangle in both frames; water that shows a reflection is always shaded. The picture has the
+// same bits. The frame's counter fragments_copied counts the copied pixels, and no other counter of
+// shading has them. The frame's times are then less than what its settings cost: a frame's times
+// are its own only if fragments_copied is 0. An effect whose fragments are all copied counts as
+// run. Nothing is copied with force_all_effects, nor from or to a frame whose renderer records
+// tiles.
+DIP_API void dip_renderer_copy_shading(DipRenderer *renderer, bool on);
+
 enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
 
 // Draws one frame with each of several renderers, all from one pose. frames[i] has the same bits as

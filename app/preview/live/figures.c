@@ -91,8 +91,19 @@ void dip_figures_forget(DipFigures *figures, int pane) {
     figures->outdated = true;
 }
 
+bool dip_figures_have_times(const DipFigures *figures) {
+    bool have = true;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        have = have && figures->total[p].count > 0;
+    }
+    return have;
+}
+
 void dip_figures_add(DipFigures *figures, const DipSessionFrame *frame, int64_t now_ns) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        if (frame->panes[p].counters.fragments_copied) {
+            continue;
+        }
         figures->shown[p].effects = frame->panes[p].effects;
         figures->shown[p].counters = frame->panes[p].counters;
         figures->shown[p].copied = p == DIP_PANE_REQUESTED && frame->copied;

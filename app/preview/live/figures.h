@@ -108,8 +108,12 @@ typedef struct DipFigures {
 // Forgets a pane's times. Call it when the pane's settings change.
 void dip_figures_forget(DipFigures *figures, int pane);
 
+// Whether each pane has at least one time since its settings changed.
+bool dip_figures_have_times(const DipFigures *figures);
+
 // Adds a frame. The frame's effects and counters show at once; its times show after
-// dip_figures_update.
+// dip_figures_update. A pane that copied pixels from the other one in this frame is left out: its
+// time and its counters are not those of its settings.
 void dip_figures_add(DipFigures *figures, const DipSessionFrame *frame, int64_t now_ns);
 
 // Counts a presented picture, and the refreshes of the display that passed without a new picture

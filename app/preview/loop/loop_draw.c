@@ -82,9 +82,15 @@ static void number_picture(DipPreview *preview) {
     }
 }
 
+// The panes share shading while frames follow each other and the time of each pane's settings is
+// known. A single frame, and the first frame with new settings, thus give the times of both panes.
 static bool draw_with_settings(DipPreview *preview, DipError *err) {
-    return follow_settings(preview, err) &&
-           dip_session_draw_pose(preview->def.session, &preview->pose, preview->state.play_ns,
+    if (!follow_settings(preview, err)) {
+        return false;
+    }
+    preview->def.session->shares_shading = !dip_preview_rests(&preview->state, preview->flying) &&
+                                           dip_figures_have_times(&preview->figures);
+    return dip_session_draw_pose(preview->def.session, &preview->pose, preview->state.play_ns,
                                  preview->frame_index, &preview->frame, err);
 }
 

@@ -4,13 +4,14 @@
 
 #include "renderer/pipeline/geometry/geometry.h"
 
-// Fills `visible`, in submission order, with the chunks that may be in view, and returns their
-// number. A chunk is left out if its box lies wholly outside one plane of the view volume, or
-// outside one user clip plane. `visible` must have room for all chunks of the pass. Adds the draws
-// of which some chunk is in view, and those of which none is, to *in_view and *culled; a draw whose
-// mesh is empty is neither.
-uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible, uint64_t *in_view,
-                         uint64_t *culled);
+// Fills `visible` with the chunks that may be in view, draw by draw in the order of `order`, which
+// has the numbers of all draws, or in submission order if it is NULL. Returns the number of chunks.
+// A chunk is left out if its box lies wholly outside one plane of the view volume, or outside one
+// user clip plane. `visible` must have room for all chunks of the pass. Adds the draws of which
+// some chunk is in view, and those of which none is, to *in_view and *culled; a draw whose mesh is
+// empty is neither.
+uint32_t dip_cull_chunks(const DipPass *pass, const uint32_t *order, DipVisibleChunk *visible,
+                         uint64_t *in_view, uint64_t *culled);
 
 // Returns the rectangle of pixels that clip space maps to: the pass's viewport, or the whole
 // target.

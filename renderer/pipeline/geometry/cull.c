@@ -242,11 +242,12 @@ static uint32_t cull_draw(const DipCullPlanes *planes, const DipMesh *mesh, uint
     return count;
 }
 
-uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible, uint64_t *in_view,
-                         uint64_t *culled) {
+uint32_t dip_cull_chunks(const DipPass *pass, const uint32_t *order, DipVisibleChunk *visible,
+                         uint64_t *in_view, uint64_t *culled) {
     const NdcRegion region = ndc_region(pass);
     uint32_t count = 0;
-    for (uint32_t d = 0; d < (uint32_t)pass->draw_count; d++) {
+    for (uint32_t i = 0; i < (uint32_t)pass->draw_count; i++) {
+        const uint32_t d = order ? order[i] : i;
         const DipDraw *draw = &pass->draws[d];
         DipCullPlanes planes = no_planes();
         if (!draw->mesh->chunk_count) {

@@ -6,6 +6,7 @@
 #include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
+#include "renderer/pipeline/geometry/order.h"
 #include "renderer/pipeline/geometry/repeat.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/merge/ordered.h"
@@ -126,7 +127,9 @@ static bool make_room(DipGeometry *geometry, const Needs *needs) {
     const size_t plane_room = (size_t)needs->triangles * (size_t)needs->plane_stride;
     if (needs->draws > geometry->draw_room) {
         geometry->draw_room = 0;
-        if (!replace(&geometry->first_patch, needs->draws, sizeof *geometry->first_patch)) {
+        if (!replace(&geometry->first_patch, needs->draws, sizeof *geometry->first_patch) ||
+            !replace(&geometry->draw_order, needs->draws, sizeof *geometry->draw_order) ||
+            !replace(&geometry->draw_keys, needs->draws, sizeof *geometry->draw_keys)) {
             return false;
         }
         geometry->draw_room = needs->draws;
@@ -275,8 +278,13 @@ bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int
     }
     number_patches(geometry);
     geometry->draws_in_view = geometry->draws_culled = 0;
+    geometry->near_to_far = dip_draws_near_to_far(pass);
+    if (geometry->near_to_far) {
+        dip_order_draws(pass, geometry->draw_order, geometry->draw_keys);
+    }
     geometry->visible_count =
-        dip_cull_chunks(pass, geometry->visible, &geometry->draws_in_view, &geometry->draws_culled);
+        dip_cull_chunks(pass, geometry->near_to_far ? geometry->draw_order : NULL,
+                        geometry->visible, &geometry->draws_in_view, &geometry->draws_culled);
     cut_jobs(geometry);
     atomic_store_explicit(&geometry->triangles_taken, 0, memory_order_relaxed);
     atomic_store_explicit(&geometry->blocks_taken, 0, memory_order_relaxed);
@@ -297,6 +305,8 @@ bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
 
 void dip_geometry_free(DipGeometry *geometry) {
     dip_lines_free(geometry->first_patch);
+    dip_lines_free(geometry->draw_order);
+    dip_lines_free(geometry->draw_keys);
     dip_lines_free(geometry->visible);
     dip_lines_free(geometry->triangles);
     dip_lines_free(geometry->planes);

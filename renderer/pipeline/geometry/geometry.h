@@ -4,8 +4,8 @@
 // The chunks of a pass that may be in view are divided into jobs. The number of jobs does not
 // depend on the number of threads. A job takes space for its triangles from shared arrays without
 // locks, in runs of many triangles at a time. Within a job, the indices of triangles increase in
-// submission order. Each tile reads the jobs in order, so it gets all triangles in submission
-// order.
+// drawing order, which is submission order or near to far (order.h). Each tile reads the jobs in
+// order, so it gets all triangles in drawing order.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_GEOMETRY_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_GEOMETRY_H
 
@@ -94,6 +94,9 @@ typedef struct DipGeometry {
     uint32_t slack;
     // For each draw: the number of its mesh's patch 0 among the patches of all draws.
     uint32_t *first_patch;
+    bool near_to_far;     // the draws go through the pipeline in `draw_order` (order.h)
+    uint32_t *draw_order; // one per draw
+    uint16_t *draw_keys;  // one per draw, used while sorting
     DipVisibleChunk *visible;
     DipTriangle *triangles;
     float *planes;

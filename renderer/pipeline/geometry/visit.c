@@ -94,7 +94,7 @@ static bool in_tile(const Visit *visit, const DipTriangle *triangle) {
 }
 
 // Visits one job's triangles in the tile. The function merges the tile's bin and the wide triangles
-// by index. The triangles are therefore visited in submission order.
+// by index. The triangles are therefore visited in drawing order.
 static void visit_job(const Visit *visit, JobWalks *job) {
     const DipGeometry *geometry = visit->geometry;
     uint32_t next = next_of(geometry, &job->bin);

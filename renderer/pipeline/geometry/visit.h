@@ -1,4 +1,4 @@
-// Visits a tile's triangles in submission order, from the bins of all jobs.
+// Visits a tile's triangles in drawing order (geometry.h), from the bins of all jobs.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_VISIT_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_VISIT_H
 

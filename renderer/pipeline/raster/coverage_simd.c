@@ -2,10 +2,38 @@
 // instruction set.
 #include "renderer/pipeline/raster/in_tile_simd.h"
 
-// Draws an opaque triangle in sub-block n: stores the covered samples that are nearer than the
-// stored depths. inside: the triangle covers all samples of the sub-block.
+// Returns the lanes among `equal` that show a later draw than `draw`.
+static unsigned lanes_of_later_draws(const DipTile *tile, const uint32_t *ids, unsigned equal,
+                                     uint32_t draw) {
+    unsigned later = 0;
+    for (; equal; equal &= equal - 1) {
+        const int lane = __builtin_ctz(equal);
+        if (ids[lane] && tile->near_to_far[ids[lane] - 1].draw > draw) {
+            later |= 1u << lane;
+        }
+    }
+    return later;
+}
+
+// Returns the lanes in which a triangle of `draw` with these depths hides what the tile holds: it
+// is nearer or, near to far, equally near and of an earlier draw. at: index of the vector in the
+// tile's arrays. old: the depths there. No depth is negative, so equal depths have equal bits.
+VEC_INLINE Mask hiding_lanes(const DipTile *tile, int at, Vf old, Vf depth, uint32_t draw,
+                             bool near_to_far) {
+    const Mask nearer = vf_lt(old, depth);
+    if (near_to_far) {
+        const unsigned equal = mask_bits(vi_eq((Vi)old, (Vi)depth));
+        if (equal) {
+            return nearer | mask_from_bits(lanes_of_later_draws(tile, tile->id + at, equal, draw));
+        }
+    }
+    return nearer;
+}
+
+// Draws an opaque triangle in sub-block n: stores the covered samples in which it hides the stored
+// depths. inside: the triangle covers all samples of the sub-block.
 VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bool inside,
-                               int sample_count, DipTile *tile, uint32_t id) {
+                               int sample_count, bool near_to_far, DipTile *tile, uint32_t id) {
     const int first = touch_sub_block(tile, region, n, sample_count);
     float *const depths = tile->depth + first;
     int32_t *const ids = (int32_t *)tile->id + first;
@@ -15,12 +43,12 @@ VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bo
             const int at = s * DIP_BLOCK_PIXELS + v * DIP_LANES;
             const Vf old = vf_load(depths + at);
             const Vf depth = depth_lanes(in, region->depth[n], v, s);
-            Mask nearer = vf_lt(old, depth);
+            Mask hiding = hiding_lanes(tile, first + at, old, depth, in->draw, near_to_far);
             if (!inside) {
-                nearer = nearer & covered_lanes(in, &edges, s, sample_count);
+                hiding = hiding & covered_lanes(in, &edges, s, sample_count);
             }
-            vf_store_lanes(depths + at, nearer, depth, old);
-            vi_store_lanes(ids + at, nearer, vi_splat((int32_t)id));
+            vf_store_lanes(depths + at, hiding, depth, old);
+            vi_store_lanes(ids + at, hiding, vi_splat((int32_t)id));
         }
     }
 }
@@ -28,15 +56,17 @@ VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bo
 // Draws an opaque triangle in a region. The edge tests are left out only if the triangle covers
 // every sub-block that it reaches in the region. If some are partly covered, a branch per sub-block
 // costs more than the edge tests.
-VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_count, DipTile *tile,
-                            uint32_t id) {
+VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_count,
+                            bool near_to_far, DipTile *tile, uint32_t id) {
     if (region->inside == region->reached) {
         for (unsigned left = region->reached; left; left &= left - 1) {
-            draw_sub_block(in, region, __builtin_ctz(left), true, sample_count, tile, id);
+            draw_sub_block(in, region, __builtin_ctz(left), true, sample_count, near_to_far, tile,
+                           id);
         }
     } else {
         for (unsigned left = region->reached; left; left &= left - 1) {
-            draw_sub_block(in, region, __builtin_ctz(left), false, sample_count, tile, id);
+            draw_sub_block(in, region, __builtin_ctz(left), false, sample_count, near_to_far, tile,
+                           id);
         }
     }
 }
@@ -65,7 +95,7 @@ typedef struct ClipQueue {
 VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
                                int sample_count, Waiting *waiting, Vi positions[VECTORS]) {
     const DipSamplePattern *pattern = tile->pattern;
-    const float *const depths = tile->depth + waiting->first;
+    const bool near_to_far = tile->near_to_far != NULL;
     const float corner = waiting->depth;
     unsigned pixels = 0;
     for (int s = 0; s < sample_count; s++) {
@@ -76,10 +106,11 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
         unsigned whole = VEC_ALL_LANES;
         positions[v] = sub_position(128, 128);
         for (int s = sample_count - 1; s >= 0; s--) {
-            const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
+            const int at = waiting->first + s * DIP_BLOCK_PIXELS + v * DIP_LANES;
             const Mask covered = covered_lanes(in, &edges, s, sample_count);
-            const Mask nearer = vf_lt(old, depth_lanes(in, corner, v, s));
-            const unsigned visible = mask_bits(covered & nearer) << (v * DIP_LANES);
+            const Mask hiding = hiding_lanes(tile, at, vf_load(tile->depth + at),
+                                             depth_lanes(in, corner, v, s), in->draw, near_to_far);
+            const unsigned visible = mask_bits(covered & hiding) << (v * DIP_LANES);
             waiting->visible[s] |= (uint16_t)visible;
             pixels |= visible;
             whole &= mask_bits(covered);
@@ -98,7 +129,7 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
 VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const DipTile *tile,
                            const DipSampleGroups *groups, int group, Waiting *waiting,
                            Vi positions[VECTORS]) {
-    const float *const depths = tile->depth + waiting->first;
+    const bool near_to_far = tile->near_to_far != NULL;
     const unsigned samples = groups->samples[group];
     unsigned pixels = 0;
     for (unsigned left = samples; left; left &= left - 1) {
@@ -109,10 +140,12 @@ VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const 
         Vi held = vi_splat(0);
         for (unsigned left = samples; left; left &= left - 1) {
             const int s = __builtin_ctz(left);
-            const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
+            const int at = waiting->first + s * DIP_BLOCK_PIXELS + v * DIP_LANES;
             const Mask covered = covered_lanes(in, &edges, s, DIP_MAX_SAMPLES);
-            const Mask nearer = vf_lt(old, depth_lanes(in, waiting->depth, v, s));
-            const unsigned visible = mask_bits(covered & nearer) << (v * DIP_LANES);
+            const Mask hiding =
+                hiding_lanes(tile, at, vf_load(tile->depth + at),
+                             depth_lanes(in, waiting->depth, v, s), in->draw, near_to_far);
+            const unsigned visible = mask_bits(covered & hiding) << (v * DIP_LANES);
             waiting->visible[s] |= (uint16_t)visible;
             pixels |= visible;
             held |= vi_select(covered, vi_splat(1 << s), vi_splat(0));
@@ -244,6 +277,7 @@ enum { SMALL_BOX = 10 };
 
 // A small triangle in a tile with one sample per pixel. The edge values are those of InTile.
 typedef struct SmallTriangle {
+    uint32_t draw;
     Vi edge[3][VECTORS]; // at the pixels of the current sub-block
     Vi right[3];         // what a step of one sub-block to the right adds
     Vi down[3];          // what a step down and back to the box's first column adds
@@ -300,7 +334,7 @@ VEC_INLINE void step_small(SmallTriangle *small, const Vi by[3]) {
 // at the sub-block's corner. Returns whether the triangle covers all pixels. The loop has no branch
 // for sub-blocks without covered pixels, since nothing predicts which they are.
 VEC_INLINE bool draw_small_sub_block(const SmallTriangle *small, unsigned x, unsigned y,
-                                     float corner, DipTile *tile, uint32_t id) {
+                                     float corner, bool near_to_far, DipTile *tile, uint32_t id) {
     const unsigned block = y / 2 * DIP_TILE_BLOCKS + x / 2;
     const unsigned quarter = y % 2 * 2 + x % 2;
     if (!(tile->touched >> block & 1)) {
@@ -315,10 +349,11 @@ VEC_INLINE bool draw_small_sub_block(const SmallTriangle *small, unsigned x, uns
         const Vf old = vf_load(depths);
         const Vf unbounded = (vf_splat(corner) + small->depth_lane[v]) + small->depth_sample;
         const Vf depth = vf_min(vf_max(unbounded, small->depth_min), small->depth_max);
-        const Mask nearer = vf_lt(old, depth) & covered;
+        const int at = (int)first + v * DIP_LANES;
+        const Mask hiding = hiding_lanes(tile, at, old, depth, small->draw, near_to_far) & covered;
         all &= mask_bits(covered);
-        vf_store_lanes(depths, nearer, depth, old);
-        vi_store_lanes((int32_t *)tile->id + first + v * DIP_LANES, nearer, vi_splat((int32_t)id));
+        vf_store_lanes(depths, hiding, depth, old);
+        vi_store_lanes((int32_t *)tile->id + at, hiding, vi_splat((int32_t)id));
     }
     return all == VEC_ALL_LANES;
 }
@@ -326,8 +361,9 @@ VEC_INLINE bool draw_small_sub_block(const SmallTriangle *small, unsigned x, uns
 // Draws an opaque triangle whose box has at most SMALL_BOX sub-blocks, in a tile with one sample
 // per pixel.
 VEC_INLINE void draw_small(DipTile *tile, const DipTriangle *triangle, const Box *box,
-                           uint32_t id) {
+                           bool near_to_far, uint32_t id) {
     SmallTriangle small;
+    small.draw = triangle->draw;
     set_small_edges(&small, triangle, box, tile->pattern, tile->x0 + box->x0 * DIP_SUB_BLOCK,
                     tile->y0 + box->y0 * DIP_SUB_BLOCK);
     set_small_depths(&small, triangle, tile->pattern);
@@ -338,7 +374,8 @@ VEC_INLINE void draw_small(DipTile *tile, const DipTriangle *triangle, const Box
             // As in set_corner_depths.
             const double at = triangle->z_dx * (double)(tile->x0 + x * DIP_SUB_BLOCK);
             const float corner = (float)((triangle->z_origin + at) + from_row);
-            accepted += draw_small_sub_block(&small, (unsigned)x, (unsigned)y, corner, tile, id);
+            accepted += draw_small_sub_block(&small, (unsigned)x, (unsigned)y, corner, near_to_far,
+                                             tile, id);
             step_small(&small, small.right);
         }
         step_small(&small, small.down);
@@ -346,16 +383,78 @@ VEC_INLINE void draw_small(DipTile *tile, const DipTriangle *triangle, const Box
     tile->sub_blocks_accepted += accepted;
 }
 
+// --- the bounds of blocks ----------------------------------------------------------------------
+
+// A bound is found anew only after this many opaque triangles have been drawn in its block. The
+// fragments of clipped triangles cost more, so one triangle is enough for them.
+enum { OPAQUE_WAIT = 6, CLIPPED_WAIT = 1 };
+
+// Finds the smallest depth of a block's samples.
+static void find_bound(DipTile *tile, int block, int sample_count) {
+    const int count = sample_count * DIP_BLOCK_PIXELS;
+    const float *depths = tile->depth + block * count;
+    Vf least = vf_load(depths);
+    for (int i = DIP_LANES; i < count; i += DIP_LANES) {
+        least = vf_min(least, vf_load(depths + i));
+    }
+    float lanes[DIP_LANES];
+    vf_store(lanes, least);
+    float bound = lanes[0];
+    for (int i = 1; i < DIP_LANES; i++) {
+        bound = lanes[i] < bound ? lanes[i] : bound;
+    }
+    tile->bound[block] = bound;
+    tile->drawn[block] = 0;
+}
+
+// Whether all samples of the blocks in a box are nearer than the depth z. Finds bounds anew if at
+// least `wait` triangles have been drawn in their blocks.
+VEC_INLINE bool hidden(DipTile *tile, const Box *box, float z, int wait, int sample_count) {
+    for (int y = box->y0 / 2; y <= box->y1 / 2; y++) {
+        for (int x = box->x0 / 2; x <= box->x1 / 2; x++) {
+            const int block = y * DIP_TILE_BLOCKS + x;
+            if (z < tile->bound[block]) {
+                continue;
+            }
+            if (tile->drawn[block] < wait || !(tile->touched >> block & 1)) {
+                return false;
+            }
+            find_bound(tile, block, sample_count);
+            if (z >= tile->bound[block]) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// Notes that a triangle is drawn in the blocks of a box.
+VEC_INLINE void count_drawn(DipTile *tile, const Box *box) {
+    for (int y = box->y0 / 2; y <= box->y1 / 2; y++) {
+        for (int x = box->x0 / 2; x <= box->x1 / 2; x++) {
+            uint8_t *drawn = &tile->drawn[y * DIP_TILE_BLOCKS + x];
+            *drawn = (uint8_t)(*drawn + (*drawn < UINT8_MAX));
+        }
+    }
+}
+
 // --- a triangle --------------------------------------------------------------------------------
 
-// Draws a triangle, region by region of its pixel box. Callers pass a constant sample_count where
-// this makes the code faster.
+// Draws a triangle, region by region of its pixel box. Callers pass a constant sample_count and
+// near_to_far where this makes the code faster.
 VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_t id,
-                             const DipClipTest *clip, int sample_count) {
+                             const DipClipTest *clip, int sample_count, bool near_to_far) {
     const Box box = box_of(triangle, tile);
+    if (near_to_far) {
+        if ((clip || sample_count > 1) &&
+            hidden(tile, &box, triangle->z_max, clip ? CLIPPED_WAIT : OPAQUE_WAIT, sample_count)) {
+            return;
+        }
+        count_drawn(tile, &box);
+    }
     tile->sub_blocks_tested += sub_blocks_in(&box);
     if (sample_count == 1 && !clip && sub_blocks_in(&box) <= SMALL_BOX) {
-        draw_small(tile, triangle, &box, id);
+        draw_small(tile, triangle, &box, near_to_far, id);
         return;
     }
     InTile in;
@@ -373,7 +472,7 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
             if (clip) {
                 clip_region(&queue, &in, &region, triangle, sample_count, tile, id);
             } else {
-                draw_region(&in, &region, sample_count, tile, id);
+                draw_region(&in, &region, sample_count, near_to_far, tile, id);
             }
         }
     }
@@ -386,16 +485,20 @@ static void draw_clipped(DipTile *tile, const DipTriangle *triangle, uint32_t id
                          const DipClipTest *clip) {
     clip->list->count = 0;
     if (tile->pattern->count == 1) {
-        draw_in_tile(tile, triangle, id, clip, 1);
+        draw_in_tile(tile, triangle, id, clip, 1, tile->near_to_far != NULL);
     } else {
-        draw_in_tile(tile, triangle, id, clip, tile->pattern->count);
+        draw_in_tile(tile, triangle, id, clip, tile->pattern->count, tile->near_to_far != NULL);
     }
 }
 
-// One version for each sample count, so that the compiler unrolls loops over samples.
+// Two versions for each sample count, so that the compiler unrolls loops over samples, and passes
+// in submission order pay nothing for the other order.
 #define DRAW_SAMPLES(n)                                                                            \
     static void draw_##n(DipTile *tile, const DipTriangle *triangle, uint32_t id) {                \
-        draw_in_tile(tile, triangle, id, NULL, n);                                                 \
+        draw_in_tile(tile, triangle, id, NULL, n, false);                                          \
+    }                                                                                              \
+    static void draw_near_##n(DipTile *tile, const DipTriangle *triangle, uint32_t id) {           \
+        draw_in_tile(tile, triangle, id, NULL, n, true);                                           \
     }
 DRAW_SAMPLES(1)
 DRAW_SAMPLES(2)
@@ -406,11 +509,16 @@ DRAW_SAMPLES(8)
 void DIP_KERNEL(dip_kernel_draw_triangle)(DipTile *tile, const DipTriangle *triangle, uint32_t id,
                                           const DipClipTest *clip) {
     typedef void Draw(DipTile *, const DipTriangle *, uint32_t);
-    static Draw *const draw[DIP_MAX_SAMPLES + 1] = {
-        [1] = draw_1, [2] = draw_2, [4] = draw_4, [6] = draw_6, [8] = draw_8};
+    static Draw *const draw[2][DIP_MAX_SAMPLES + 1] = {
+        {[1] = draw_1, [2] = draw_2, [4] = draw_4, [6] = draw_6, [8] = draw_8},
+        {[1] = draw_near_1,
+         [2] = draw_near_2,
+         [4] = draw_near_4,
+         [6] = draw_near_6,
+         [8] = draw_near_8}};
     if (clip) {
         draw_clipped(tile, triangle, id, clip);
     } else {
-        draw[tile->pattern->count](tile, triangle, id);
+        draw[tile->near_to_far != NULL][tile->pattern->count](tile, triangle, id);
     }
 }

@@ -45,6 +45,7 @@ typedef struct Edge {
 
 // One triangle within the tile.
 typedef struct InTile {
+    uint32_t draw; // the triangle's draw
     Edge edge[3];
     Vf depth_lane[VECTORS]; // depth at the pixels of a sub-block, relative to its corner
     Vf depth_min;
@@ -267,6 +268,7 @@ VEC_INLINE Vi sub_position(int sub_x, int sub_y) {
 
 // Prepares a triangle for a tile.
 VEC_INLINE void set_up_in_tile(InTile *in, const DipTriangle *triangle, const DipTile *tile) {
+    in->draw = triangle->draw;
     for (int i = 0; i < 3; i++) {
         set_edge(in, i, triangle, tile);
     }

@@ -57,6 +57,12 @@ typedef struct DipTile {
     uint32_t *id; // [block][sample][64]; triangle index + 1, or 0 for none
     uint64_t sub_blocks_tested;
     uint64_t sub_blocks_accepted;
+    // The pass's triangles if its draws come near to far (geometry/order.h), otherwise NULL. Of
+    // triangles that are equally near, the one of the earlier draw is shown in either order.
+    const DipTriangle *near_to_far;
+    // Only near to far: no sample of the block is farther than its bound, which is 0 at first.
+    float bound[DIP_BLOCKS];
+    uint8_t drawn[DIP_BLOCKS]; // number of triangles drawn in the block since its bound was found
 } DipTile;
 
 // Returns the index in `depth` and `id` of the first value of a block's sample.

@@ -178,6 +178,11 @@ static void begin_tile(DipTileWorker *worker, int index) {
     set_margins(&geometry->region, needed ? &needed[index] : NULL, tile);
     tile->pattern = pass->pattern;
     tile->touched = 0;
+    tile->near_to_far = geometry->near_to_far ? geometry->triangles : NULL;
+    if (geometry->near_to_far) {
+        memset(tile->bound, 0, sizeof tile->bound);
+        memset(tile->drawn, 0, sizeof tile->drawn);
+    }
     tile->grouped = 0;
     tile->sub_blocks_tested = 0;
     tile->sub_blocks_accepted = 0;
@@ -201,6 +206,7 @@ static void begin_tile(DipTileWorker *worker, int index) {
     memcpy(shading->clear_linear16, pass->clear_linear16, sizeof shading->clear_linear16);
     shading->multi_fragment_count = 0;
     shading->fragments = 0;
+    shading->copied = 0;
     shading->samples = 0;
     worker->batch.work = (DipShaderWork){0};
     worker->clip_batch.work = (DipShaderWork){0};
@@ -263,6 +269,8 @@ static void add_shader_work(const DipShaderWork *from, DipShaderWork *to) {
 
 void dip_tile_worker_begin_pass(DipTileWorker *worker) {
     const DipTilePass *pass = worker->pass;
+    worker->shading.share.offers = false;
+    worker->shading.share.from = NULL;
     dip_shader_guard_begin(&worker->guard, pass->kernels, pass->pass, pass->srgb_light);
     dip_shader_guard_begin(&worker->clip_guard, pass->kernels, pass->pass, pass->srgb_light);
 }
@@ -281,6 +289,7 @@ void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {
     work->sub_blocks_tested = worker->tile.sub_blocks_tested;
     work->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
     work->fragments = worker->shading.fragments;
+    work->copied_fragments = worker->shading.copied;
     work->samples = worker->shading.samples;
     work->multi_fragment_pixels += (uint64_t)worker->shading.multi_fragment_count;
     add_shader_work(&worker->batch.work, &work->sampling);

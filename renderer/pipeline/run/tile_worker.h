@@ -29,6 +29,7 @@ typedef struct DipTileWork {
     uint64_t clip_probes;
     uint64_t clip_sample_groups;
     uint64_t fragments;
+    uint64_t copied_fragments;
     uint64_t block_fragments;
     uint64_t batches;
     uint64_t ordered_fragments;
@@ -112,7 +113,7 @@ void dip_tile_worker_shade_tile(DipTileWorker *worker);
 void dip_merged_tile_begin(DipTileWorker *worker);
 void dip_merged_tile_draw(DipTileWorker *worker, int index);
 
-// Prepares a worker for the tiles of its next pass.
+// Prepares a worker for the tiles of its next pass, which shares no shading yet.
 void dip_tile_worker_begin_pass(DipTileWorker *worker);
 
 // Draws the tile with this index (y * tiles_x + x) and fills in *work.

@@ -21,7 +21,9 @@ typedef struct SubBlock {
     // Triangle ids at sample 0. The ids at sample s are DIP_BLOCK_PIXELS * s elements later.
     const uint32_t *ids;
     int sample_count;
-    int x0, y0; // column and row, in the tile, of the sub-block's first pixel
+    int block;   // the block that it lies in
+    int quarter; // its number in the block
+    int x0, y0;  // column and row, in the tile, of the sub-block's first pixel
     // The patches that the samples show, [sample][pixel]; 0 for none. This array is filled only if
     // samples of a pixel hold several triangles, or if there may be sample groups.
     uint32_t patches[DIP_MAX_SAMPLES * DIP_SUB_BLOCK_PIXELS];
@@ -288,6 +290,76 @@ static unsigned pixels_in_groups(const SubBlock *sub, const uint32_t *draws, uns
     return found;
 }
 
+// --- sharing with passes that are drawn at once --------------------------------------------------
+
+// Returns the pixels among `left`, which show one draw each, whose draw has own_shading.
+static unsigned pixels_of_own_shading(const SubBlock *sub, unsigned left) {
+    unsigned found = 0;
+    for (; left; left &= left - 1) {
+        const int pixel = __builtin_ctz(left);
+        const uint32_t draw = draw_of(sub->shading, sub->ids[pixel] - 1);
+        found |= (unsigned)sub->shading->draws[draw].own_shading << pixel;
+    }
+    return found;
+}
+
+// Returns the pixels that the other pass offers and whose first samples show the same triangles in
+// both passes.
+VEC_INLINE unsigned pixels_to_copy(const SubBlock *sub) {
+    const DipTileShading *from = sub->shading->share.from;
+    const unsigned offered = from->share.offered[sub->block][sub->quarter];
+    if (!offered) {
+        return 0; // the other pass may not have touched the block
+    }
+    const uint32_t *ids = from->tile->id + dip_tile_index(from->tile, sub->block, 0) +
+                          sub->quarter * DIP_SUB_BLOCK_PIXELS;
+    unsigned same = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        same |= mask_bits(vi_eq(vi_load((const int32_t *)ids + v * DIP_LANES),
+                                vi_load((const int32_t *)sub->ids + v * DIP_LANES)))
+                << (v * DIP_LANES);
+    }
+    return same & offered;
+}
+
+static void copy_pixels(const SubBlock *sub, unsigned pixels) {
+    DipTileShading *shading = sub->shading;
+    const DipTileShading *other = shading->share.from;
+    const uint32_t *from = other->pixels + (size_t)sub->y0 * other->stride + (size_t)sub->x0;
+    uint32_t *to = shading->pixels + (size_t)sub->y0 * shading->stride + (size_t)sub->x0;
+    for (int y = 0; y < DIP_SUB_BLOCK; y++, from += other->stride, to += shading->stride) {
+        for (int x = 0; x < DIP_SUB_BLOCK; x++) {
+            to[x] = pixels >> (y * DIP_SUB_BLOCK + x) & 1 ? from[x] : to[x];
+        }
+    }
+    shading->copied += (unsigned)__builtin_popcount(pixels);
+}
+
+// Whether the pass offers pixels to other passes or copies theirs.
+static inline bool shares(const DipTileShading *shading) {
+    return shading->share.offers || shading->share.from;
+}
+
+// Offers pixels to other passes, or copies those that another pass offers. uniform: pixels that
+// show one patch alone, of a draw without sample groups. Returns the pixels that are left to shade.
+static unsigned share_pixels(const SubBlock *sub, unsigned uniform) {
+    DipShadingShare *share = &sub->shading->share;
+    unsigned pixels = share->offers ? uniform : pixels_to_copy(sub) & uniform;
+    if (share->some_own) {
+        pixels &= ~pixels_of_own_shading(sub, pixels);
+    }
+    if (share->offers) {
+        share->offered[sub->block][sub->quarter] = (uint16_t)pixels;
+        return uniform;
+    }
+    if (pixels) {
+        copy_pixels(sub, pixels);
+    }
+    return uniform & ~pixels;
+}
+
+// --- a sub-block -------------------------------------------------------------------------------
+
 static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]) {
     for (int v = 0; v < VECTORS; v++) {
         const Vi ids = vi_load((const int32_t *)sub->ids + v * DIP_LANES);
@@ -317,6 +389,9 @@ static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned i
         uniform &= ~in_groups;
     }
     sub->shading->samples += (unsigned)__builtin_popcount(uniform) * (unsigned)sub->sample_count;
+    if (shares(sub->shading)) {
+        uniform = share_pixels(sub, uniform);
+    }
     if (uniform == ALL_PIXELS && pixels_with(draws, draws[0]) == ALL_PIXELS) {
         push_whole(sub, draws[0]);
         return;
@@ -328,6 +403,20 @@ static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned i
     }
 }
 
+// Collects the pixels `left` of a sub-block that shows one triangle alone.
+static void push_one_draw(const SubBlock *sub, unsigned left) {
+    const uint32_t draw = left ? draw_of(sub->shading, sub->ids[0] - 1) : 0;
+    if (left == ALL_PIXELS) {
+        push_whole(sub, draw);
+    } else if (left) {
+        uint32_t draws[DIP_SUB_BLOCK_PIXELS];
+        for (int i = 0; i < DIP_SUB_BLOCK_PIXELS; i++) {
+            draws[i] = draw;
+        }
+        push_uniform(sub, draws, left);
+    }
+}
+
 // grouped: the sub-block may hold triangles that were drawn in sample groups.
 static void collect_sub_block(SubBlock *sub, bool grouped) {
     const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
@@ -336,7 +425,9 @@ static void collect_sub_block(SubBlock *sub, bool grouped) {
     if (within && !several && !grouped && sub->ids[0] &&
         pixels_with(sub->ids, sub->ids[0]) == ALL_PIXELS) {
         sub->shading->samples += DIP_SUB_BLOCK_PIXELS * (unsigned)sub->sample_count;
-        push_whole(sub, draw_of(sub->shading, sub->ids[0] - 1));
+        const unsigned left =
+            shares(sub->shading) ? share_pixels(sub, ALL_PIXELS) : (unsigned)ALL_PIXELS;
+        push_one_draw(sub, left);
     } else {
         collect_shared(sub, several, grouped, within ? ALL_PIXELS : pixels_in_target(sub));
     }
@@ -365,6 +456,9 @@ VEC_INLINE bool is_drawn(const DipTile *tile, int block) {
 void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
     const DipTile *tile = shading->tile;
     const bool all_grouped = shading->groups && shading->groups_shade_all;
+    if (shading->share.offers) {
+        memset(shading->share.offered, 0, sizeof shading->share.offered);
+    }
     for (int block = 0; block < DIP_BLOCKS; block++) {
         if (!is_drawn(tile, block)) {
             continue;
@@ -379,6 +473,8 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
             sub.shading = shading;
             sub.ids = ids + quarter * DIP_SUB_BLOCK_PIXELS;
             sub.sample_count = tile->pattern->count;
+            sub.block = block;
+            sub.quarter = quarter;
             sub.x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * DIP_SUB_BLOCK;
             sub.y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * DIP_SUB_BLOCK;
             collect_sub_block(&sub, all_grouped || tile->grouped >> block & 1);

@@ -77,6 +77,19 @@ enum { DIP_LIGHT16_CHANNELS = 4 }; // numbers per pixel of DipPass.light16
 
 typedef struct DipTileShading DipTileShading;
 
+// How passes that are drawn at once share their shading (DipPassWork.copies_from). A worker draws
+// the same tile of the passes one after the other, so it finds the tile of the pass that it copies
+// from as that pass left it: its visibility buffer and its pixels.
+typedef struct DipShadingShare {
+    bool offers; // other passes copy pixels of this pass
+    // The draws of this pass may have own_shading. If false, own_shading need not be looked up.
+    bool some_own;
+    const DipTileShading *from; // the pass to copy pixels from; NULL if this pass shades them all
+    // If this pass offers pixels: those of the tile's sub-blocks that others may copy, one bit
+    // each, [block][sub-block]. They show one patch alone, and their draw has no own_shading.
+    uint16_t offered[DIP_BLOCKS][DIP_BLOCK_PIXELS / DIP_SUB_BLOCK_PIXELS];
+} DipShadingShare;
+
 // Shades the first fragments of a draw's list, at most one batch, and moves the remaining fragments
 // to the start of the list.
 typedef void DipFlushList(DipTileShading *shading, uint32_t draw);
@@ -106,8 +119,10 @@ struct DipTileShading {
     int32_t (*sum)[4];        // each pixel's sums of 16-bit linear light
     uint16_t *multi_fragment; // pixels that several fragments share
     int multi_fragment_count;
-    uint64_t fragments;
-    uint64_t samples; // number of samples that show a surface
+    DipShadingShare share;
+    uint64_t fragments; // number of fragments that were shaded
+    uint64_t copied;    // number of fragments that were copied from another pass
+    uint64_t samples;   // number of samples that show a surface
 };
 
 // Stores a pixel's colour in DipPass.light16. pixel: y * DIP_TILE + x.

@@ -196,6 +196,7 @@ static void set_reflecting(const DipDrawInput *input, const DipDrawView *pass, D
     };
     set->draws[last].uniforms = water;
     set->draws[last].fragment_shader = input->kernels->dip_kernel_water_fragment;
+    set->draws[last].own_shading = true; // the mirrored picture has this frame's samples
 }
 
 static DipCull cull_of(const DipSceneMaterial *material, const DipSceneObject *object,
@@ -273,6 +274,9 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
                              ? NULL
                              : &set->matrices[set->count - 1].exact_to_clip,
         .cull = cull_of(material, object, pass->mirrored),
+        // Sample groups shift the level of detail.
+        .own_shading = material->surface == DIP_SURFACE_CLIPPED &&
+                       dip_quality_groups_bias_lod8(input->quality) != 0,
     };
     uniforms->rays = &set->rays;
     uniforms->lighting = &set->lighting;

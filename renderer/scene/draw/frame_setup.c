@@ -96,6 +96,9 @@ typedef struct FrameSetup {
     DipPipelineCounters counters; // sums over both passes
     uint64_t fragments_mirrored;
     const DipSampleReadback *readback; // NULL unless samples are read
+    // The frame, drawn at once, whose pixels this frame may copy; NULL if it shades them all.
+    const struct FrameSetup *copies_from;
+    DipPassWork *mirrored_work; // used while the mirrored passes are drawn
 } FrameSetup;
 
 // Makes the pass that draws the mirrored scene above the water. The pass also draws a margin below
@@ -217,7 +220,7 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
 }
 
 static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, FrameSetup *setup) {
-    return (DipPassWork){pipeline, pass, &setup->counters, &setup->frame->stages};
+    return (DipPassWork){pipeline, pass, &setup->counters, &setup->frame->stages, NULL};
 }
 
 // Points the frame to the renderer's records, and notes the work that was done before the main
@@ -243,8 +246,14 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
     int work_count = 0;
     for (int i = 0; i < count; i++) {
         if (setups[i].plan.effects.reflection.run) {
+            setups[i].mirrored_work = &works[work_count];
             works[work_count++] =
                 work_of(setups[i].renderer->mirror.pipeline, &setups[i].mirrored_pass, &setups[i]);
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        if (setups[i].mirrored_work && setups[i].copies_from) {
+            setups[i].mirrored_work->copies_from = setups[i].copies_from->mirrored_work;
         }
     }
     if (work_count && !dip_pipeline_draw_passes(works, work_count, same_geometry, err)) {
@@ -254,6 +263,9 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
         setups[i].fragments_mirrored = setups[i].counters.fragments_shaded;
         begin_tiles(&setups[i]);
         works[i] = work_of(dip_renderer_pipeline(setups[i].renderer), &setups[i].pass, &setups[i]);
+        if (setups[i].copies_from) {
+            works[i].copies_from = &works[setups[i].copies_from - setups];
+        }
     }
     return dip_pipeline_draw_passes(works, count, same_geometry, err);
 }
@@ -317,7 +329,6 @@ static void end_frame(const FrameSetup *setup) {
     frame->counters.draws_culled += reflects ? (uint64_t)renderer->mirror.set.culled : 0;
     count_bytes(setup->scene, &frame->counters);
     dip_count_geometry(setup->scene, renderer->unshared, &frame->counters);
-    dip_plan_settle(&setup->input, &frame->counters, &frame->effects);
     if (reflects && renderer->reflection.show) {
         const DipTarget target = {.rgba8 = renderer->rgba8,
                                   .stride_bytes = renderer->stride_bytes,
@@ -330,6 +341,13 @@ static void end_frame(const FrameSetup *setup) {
     }
 }
 
+// Corrects a frame's effects after all frames that are drawn at once have ended.
+static void settle_effects(const FrameSetup *setup) {
+    const bool copied = setup->frame->counters.fragments_copied > 0;
+    dip_plan_settle(&setup->input, &setup->frame->counters,
+                    copied ? &setup->copies_from->frame->counters : NULL, &setup->frame->effects);
+}
+
 // Whether two renderers' frames differ only in samples and shading.
 static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
     const DipReflectionDef *r = &a->reflection;
@@ -340,6 +358,23 @@ static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
            a->plain_surfaces == b->plain_surfaces && a->force_all_effects == b->force_all_effects &&
            a->quality.step[DIP_SETTING_GI] == b->quality.step[DIP_SETTING_GI] &&
            r->width == s->width && r->height == s->height && r->level_m == s->level_m;
+}
+
+// Chooses the frame whose pixels frame `index` copies: the first one that copies none itself and
+// whose settings shade alike. All frames have the same geometry.
+static void choose_copying(FrameSetup *setups, int count, int index) {
+    const DipRenderer *renderer = setups[index].renderer;
+    if (!renderer->copies_shading || renderer->force_all_effects || renderer->recording.tiles) {
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const DipRenderer *other = setups[i].renderer;
+        if (!other->copies_shading && !other->recording.tiles &&
+            dip_plan_shades_alike(&other->quality, &renderer->quality)) {
+            setups[index].copies_from = &setups[i];
+            return;
+        }
+    }
 }
 
 bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const DipScene *scene,
@@ -358,11 +393,17 @@ bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const Di
         }
         same = same && same_geometry(renderers[0], renderers[i]);
     }
+    for (int i = 0; i < count && same; i++) {
+        choose_copying(setups, count, i);
+    }
     if (!draw_frames(setups, count, same, err)) {
         return false;
     }
     for (int i = 0; i < count; i++) {
         end_frame(&setups[i]);
+    }
+    for (int i = 0; i < count; i++) {
+        settle_effects(&setups[i]);
     }
     return true;
 }
@@ -416,5 +457,6 @@ bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene, con
         return false;
     }
     end_frame(&setup);
+    settle_effects(&setup);
     return true;
 }

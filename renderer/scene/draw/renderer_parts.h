@@ -45,6 +45,7 @@ struct DipRenderer {
     DipReflectionDef reflection;
     bool plain_surfaces;
     bool force_all_effects;
+    bool copies_shading;        // see dip_renderer_copy_shading
     DipTileRecording recording; // owned; its arrays are NULL unless tiles are recorded
     DipFinish *finish;          // the filters of the settings
     DipSkyUniforms sky;         // the sky at the frame's time; set only if the frame shows clouds

@@ -372,7 +372,10 @@ static void settle(DipEffect *effect, uint64_t work) {
     }
 }
 
-void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, DipEffects *effects) {
+void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters,
+                     const DipCounters *copied, DipEffects *effects) {
+    static const DipCounters none;
+    const DipCounters *more = copied ? copied : &none;
     if (input->force_all) {
         return;
     }
@@ -380,12 +383,35 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, Dip
     if (!dip_quality_groups_shade_all(input->quality)) {
         settle(&effects->adaptive_aa, counters->clip_sample_groups);
     }
-    settle(&effects->lights, counters->fragments_lit);
-    settle(&effects->normal_map, counters->fragments_normal_mapped);
-    settle(&effects->pbr, counters->fragments_pbr);
-    settle(&effects->occlusion, counters->fragments_occluded);
-    settle(&effects->emission, counters->fragments_emitting);
-    settle(&effects->coat, counters->fragments_coated);
+    settle(&effects->lights, counters->fragments_lit + more->fragments_lit);
+    settle(&effects->normal_map, counters->fragments_normal_mapped + more->fragments_normal_mapped);
+    settle(&effects->pbr, counters->fragments_pbr + more->fragments_pbr);
+    settle(&effects->occlusion, counters->fragments_occluded + more->fragments_occluded);
+    settle(&effects->emission, counters->fragments_emitting + more->fragments_emitting);
+    settle(&effects->coat, counters->fragments_coated + more->fragments_coated);
+    settle(&effects->sky, counters->fragments_sky + more->fragments_sky);
     settle(&effects->blend, counters->fragments_blended);
-    settle(&effects->sky, counters->fragments_sky);
+}
+
+bool dip_plan_shades_alike(const DipQuality *a, const DipQuality *b) {
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        switch ((DipSetting)s) {
+        case DIP_SETTING_AA:
+        case DIP_SETTING_TAA:
+        case DIP_SETTING_AAA: // surfaces with sample groups have own_shading
+        case DIP_SETTING_ASD:
+            break;
+        default:
+            if (a->step[s] != b->step[s]) {
+                return false;
+            }
+        }
+    }
+    // Alpha to coverage and supersampling shade at other positions, and a larger picture also needs
+    // the light that is not in the pixels.
+    const bool plain = a->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
+                       b->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
+                       a->step[DIP_SETTING_AAA] != DIP_AAA_ALL &&
+                       b->step[DIP_SETTING_AAA] != DIP_AAA_ALL && !a->step[DIP_SETTING_SCALE];
+    return plain && !a->step[DIP_SETTING_MIPDEBUG];
 }

@@ -47,7 +47,14 @@ typedef struct DipFramePlan {
 DipFramePlan dip_plan_frame(const DipPlanInput *input);
 
 // Corrects the effects after the frame is drawn. An effect that was planned to run counts as
-// skipped if no fragment of it was visible.
-void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, DipEffects *effects);
+// skipped if no fragment of it was visible. copied: counters of the frame whose pixels this frame
+// has copied, or NULL. Fragments of that frame count as visible, since copied ones are among them.
+void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters,
+                     const DipCounters *copied, DipEffects *effects);
+
+// Whether two frames shade a pixel that shows one surface alone with the same colour. This is so if
+// the settings differ only in samples: all other settings may change what fragment shaders read.
+// Mip colours are each renderer's own.
+bool dip_plan_shades_alike(const DipQuality *a, const DipQuality *b);
 
 #endif

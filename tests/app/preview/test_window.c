@@ -293,6 +293,28 @@ static void a_time_stays_while_nothing_is_drawn(void **unused) {
     assert_true(shown.shown[0].ms == 44.0 && shown.shown[0].frames == 1);
 }
 
+// A frame in which a pane copied the other one's pixels says nothing about the pane's settings.
+static void frames_that_copied_pixels_do_not_count(void **unused) {
+    (void)unused;
+    static DipFigures shown;
+    const int64_t second_ns = 1000000000;
+    DipSessionFrame frame = {.copied = false};
+    assert_false(dip_figures_have_times(&shown));
+    for (int i = 0; i < 40; ++i) {
+        const bool copies = i / 2 % 2 == 1;
+        frame.panes[0].stages.total_ms = copies ? 2.0 : 6.0;
+        frame.panes[0].counters.fragments_copied = copies ? 1 : 0;
+        frame.panes[0].counters.fragments_shaded = copies ? 10 : 70;
+        frame.panes[1].stages.total_ms = 3.0;
+        dip_figures_add(&shown, &frame, second_ns + (i + 1) * second_ns / 50);
+    }
+    assert_true(dip_figures_have_times(&shown));
+    dip_figures_update(&shown, true, 2 * second_ns);
+    assert_true(shown.shown[0].ms == 6.0 && shown.shown[0].frames == 20);
+    assert_true(shown.shown[1].ms == 3.0 && shown.shown[1].frames == 40);
+    assert_int_equal(shown.shown[0].counters.fragments_shaded, 70);
+}
+
 // Presets are chosen by what settings cost and gain, so they wait until that is known.
 static void presets_wait_for_prices(void **unused) {
     (void)unused;
@@ -425,6 +447,7 @@ int main(void) {
         WINDOW_TEST(text_grows_with_the_window),
         WINDOW_TEST(a_pane_has_one_time),
         WINDOW_TEST(a_time_stays_while_nothing_is_drawn),
+        WINDOW_TEST(frames_that_copied_pixels_do_not_count),
         WINDOW_TEST(presets_wait_for_prices),
         WINDOW_TEST(a_target_holds_everywhere),
         WINDOW_TEST(a_click_closes_a_sheet),

@@ -162,6 +162,41 @@ static void session_draws_both_panes(void **state) {
     }
 }
 
+// Panes that share shading draw the same pictures, and take turns at copying.
+static void panes_that_share_shading_take_turns(void **state) {
+    (void)state;
+    enum { FRAMES = 8 };
+    DipSessionOptions options = small_options();
+    options.has_current = options.has_requested = true;
+    options.current = options.requested = dip_quality_default();
+    options.requested.step[DIP_SETTING_AA] = 2;
+    const DipSessionDef def = {.options = &options, .scene = true, .renderers = true};
+    DipErrorList faults = {0};
+    DipSession session;
+    assert_true(dip_session_open(&session, &def, &faults));
+    dip_error_list_free(&faults);
+    char alone[DIP_PANE_COUNT][33];
+    int copying[DIP_PANE_COUNT] = {0};
+    for (int i = 0; i <= FRAMES; i++) {
+        DipSessionFrame frame;
+        DipPose pose;
+        session.shares_shading = i > 0;
+        assert_true(dip_session_draw(&session, 0, 0, &pose, &frame, NULL));
+        for (int p = 0; p < DIP_PANE_COUNT; p++) {
+            char hash[33];
+            dip_frame_hash(&frame.panes[p], hash);
+            if (i == 0) {
+                memcpy(alone[p], hash, sizeof hash);
+            }
+            assert_string_equal(hash, alone[p]);
+            copying[p] += frame.panes[p].counters.fragments_copied > 0;
+        }
+        assert_int_equal(copying[0] + copying[1], i);
+    }
+    assert_int_equal(copying[0], FRAMES / 2);
+    dip_session_close(&session);
+}
+
 static void missing_ini_is_a_fault(void **state) {
     (void)state;
     DipSessionOptions options = small_options();
@@ -305,6 +340,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(lights_and_shading_reach_the_scene),
         cmocka_unit_test(model_can_be_loaded_later),
         cmocka_unit_test(session_draws_both_panes),
+        cmocka_unit_test(panes_that_share_shading_take_turns),
         cmocka_unit_test(missing_ini_is_a_fault),
         cmocka_unit_test(faults_of_scene_and_path_are_both_told),
         cmocka_unit_test(good_scene_is_freed_when_the_path_is_bad),

@@ -413,7 +413,7 @@ static void check_object(Random *random, DipPass *pass, const DipView *view, con
     const bool object = !dip_cull_outside(&planes, &bounds);
     uint64_t in_view = 0;
     uint64_t culled = 0;
-    const uint32_t count = dip_cull_chunks(pass, visible, &in_view, &culled);
+    const uint32_t count = dip_cull_chunks(pass, NULL, visible, &in_view, &culled);
     assert_int_equal(in_view, count > 0);
     assert_int_equal(culled, count == 0);
     uint32_t next = 0;

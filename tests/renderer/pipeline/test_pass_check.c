@@ -255,7 +255,8 @@ static void passes_drawn_at_once_equal_passes_drawn_alone(void **state) {
             memset(found, 0, sizeof found);
             memset(pictures[1], 77, sizeof pictures[1]);
             for (int i = 0; i < count; i++) {
-                works[i] = (DipPassWork){stage->pipelines[i], &together[i], &found[i], &times[i]};
+                works[i] =
+                    (DipPassWork){stage->pipelines[i], &together[i], &found[i], &times[i], NULL};
             }
             assert_true(dip_pipeline_draw_passes(works, count, same, NULL));
             for (int i = 0; i < count; i++) {
@@ -273,8 +274,8 @@ static void passes_that_cannot_be_drawn_at_once_are_refused(void **state) {
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipError err = {0};
-    const DipPassWork works[2] = {{stage->pipelines[0], &pass, &counters, &times},
-                                  {stage->pipelines[0], &pass, &counters, &times}};
+    const DipPassWork works[2] = {{stage->pipelines[0], &pass, &counters, &times, NULL},
+                                  {stage->pipelines[0], &pass, &counters, &times, NULL}};
     assert_false(dip_pipeline_draw_passes(works, 2, false, &err));
     assert_int_equal(err.code, DIP_ERROR_CONFLICT);
     assert_string_equal(err.key, "pipeline");
@@ -320,6 +321,96 @@ static void passes_at_once_share_no_depths_that_change(void **state) {
     }
     dip_depth_destroy(&depths[0]);
     dip_depth_destroy(&depths[1]);
+}
+
+// Draws all passes at once. The even ones copy from the pass `from`, unless it is NONE.
+enum { NONE = -1 };
+static void draw_copying(const Stage *stage, const DipPass passes[PASSES], int from,
+                         DipPipelineCounters counters[PASSES]) {
+    DipPassWork works[PASSES];
+    memset(counters, 0, PASSES * sizeof *counters);
+    for (int i = 0; i < PASSES; i++) {
+        const bool copies = from != NONE && i != from && i % 2 == 0;
+        works[i] = (DipPassWork){stage->pipelines[i], &passes[i], &counters[i], NULL,
+                                 copies ? &works[from] : NULL};
+    }
+    assert_true(dip_pipeline_draw_passes(works, PASSES, true, NULL));
+}
+
+static void passes_that_copy_pixels_equal_passes_that_shade_them(void **state) {
+    const Stage *stage = *state;
+    DipPass shading[PASSES];
+    DipPass copying[PASSES];
+    DipPipelineCounters expected[PASSES];
+    DipPipelineCounters found[PASSES];
+    make_passes(stage, 0, shading);
+    make_passes(stage, 1, copying);
+    draw_copying(stage, shading, NONE, expected);
+    for (int from = 1; from < PASSES; from += 2) {
+        memset(pictures[1], 77, sizeof pictures[1]);
+        draw_copying(stage, copying, from, found);
+        for (int i = 0; i < PASSES; i++) {
+            assert_memory_equal(pictures[0][i], pictures[1][i], sizeof pictures[0][i]);
+            assert_int_equal(found[i].fragments_copied > 0, i % 2 == 0);
+            assert_int_equal(found[i].fragments_shaded + found[i].fragments_copied,
+                             expected[i].fragments_shaded);
+            assert_int_equal(found[i].shader_counts[1], found[i].fragments_shaded);
+        }
+    }
+}
+
+// The fragment shader of a draw whose colours differ from pass to pass.
+static void show_uniform(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = *(const float *)batch->uniforms;
+    }
+}
+
+static void draws_with_own_shading_are_never_copied(void **state) {
+    const Stage *stage = *state;
+    static const float light[2] = {0.25f, 0.5f};
+    for (int who = 0; who < 2; who++) { // either of the two passes may say it
+        DipDraw draws[2] = {stage->draw, stage->draw};
+        DipPass passes[2];
+        DipPassWork works[2];
+        DipPipelineCounters counters[2];
+        memset(counters, 0, sizeof counters);
+        for (int i = 0; i < 2; i++) {
+            draws[i].fragment_shader = show_uniform;
+            draws[i].uniforms = &light[i];
+            draws[i].own_shading = i == who;
+            passes[i] = good_pass(stage, i);
+            passes[i].draws = &draws[i];
+            works[i] = (DipPassWork){stage->pipelines[i], &passes[i], &counters[i], NULL,
+                                     i ? &works[0] : NULL};
+        }
+        assert_true(dip_pipeline_draw_passes(works, 2, true, NULL));
+        assert_int_equal(counters[1].fragments_copied, 0);
+        assert_int_equal(counters[1].fragments_shaded, counters[0].fragments_shaded);
+        const size_t centre = 4 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+        assert_true(pictures[0][0][centre] < pictures[0][1][centre]);
+    }
+}
+
+static void works_that_cannot_be_copied_from_are_refused(void **state) {
+    const Stage *stage = *state;
+    const DipPass passes[2] = {good_pass(stage, 0), good_pass(stage, 1)};
+    DipPassWork elsewhere = {.pipeline = stage->pipelines[0], .pass = &passes[0]};
+    DipPassWork works[2] = {{.pipeline = stage->pipelines[0], .pass = &passes[0]},
+                            {.pipeline = stage->pipelines[1], .pass = &passes[1]}};
+    DipError err = {0};
+    works[1].copies_from = &elsewhere;
+    assert_false(dip_pipeline_draw_passes(works, 2, true, &err));
+    assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+    assert_string_equal(err.key, "copies_from");
+    works[1].copies_from = &works[1];
+    assert_false(dip_pipeline_draw_passes(works, 2, true, NULL));
+    works[1].copies_from = &works[0];
+    assert_false(dip_pipeline_draw_passes(works, 2, false, NULL));
+    works[0].copies_from = &works[1];
+    assert_false(dip_pipeline_draw_passes(works, 2, true, NULL));
+    works[0].copies_from = NULL;
+    assert_true(dip_pipeline_draw_passes(works, 2, true, NULL));
 }
 
 static void the_fault_of_one_draw_of_many_names_its_index(void **state) {
@@ -642,6 +733,9 @@ int main(void) {
         cmocka_unit_test(bad_passes_are_refused_with_the_field_at_fault),
         cmocka_unit_test(a_good_pass_is_drawn),
         cmocka_unit_test(passes_drawn_at_once_equal_passes_drawn_alone),
+        cmocka_unit_test(passes_that_copy_pixels_equal_passes_that_shade_them),
+        cmocka_unit_test(draws_with_own_shading_are_never_copied),
+        cmocka_unit_test(works_that_cannot_be_copied_from_are_refused),
         cmocka_unit_test(passes_that_cannot_be_drawn_at_once_are_refused),
         cmocka_unit_test(passes_at_once_share_no_depths_that_change),
     };

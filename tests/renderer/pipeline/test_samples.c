@@ -738,7 +738,7 @@ static void passes_at_once_share_no_samples(void **state) {
     for (int i = 0; i < 2; i++) {
         begin_drawn(&drawn[i], MODEL_WIDTH, MODEL_HEIGHT, 4, DIP_FORMAT_SRGB8);
         passes[i] = pass_of(&four_samples, &drawn[i]);
-        works[i] = (DipPassWork){pipelines[i], &passes[i], NULL, NULL};
+        works[i] = (DipPassWork){pipelines[i], &passes[i], NULL, NULL, NULL};
     }
     DipError err = {0};
     assert_true(dip_pipeline_draw_passes(works, 2, false, &err));

@@ -30,6 +30,8 @@ static int64_t draw_everything(DipRenderer *const panes[2], const DipScene *scen
         quality.step[DIP_SETTING_MIPDEBUG] = (uint8_t)(i / 30);
         pose.position_world[0] += 0.05;
         dip_renderer_set_frame_index(panes[0], (uint64_t)i);
+        dip_renderer_copy_shading(panes[0], i % 3 == 1);
+        dip_renderer_copy_shading(panes[1], i % 3 == 2);
         DipFrame frames[2];
         assert_true(dip_renderer_set_quality(panes[0], &quality, NULL));
         assert_true(dip_renderer_draw(panes[0], scene, &pose, i, &frames[0], NULL));
