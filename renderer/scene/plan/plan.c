@@ -409,9 +409,9 @@ bool dip_plan_shades_alike(const DipQuality *a, const DipQuality *b) {
     }
     // Alpha to coverage and supersampling shade at other positions, and a larger picture also needs
     // the light that is not in the pixels.
-    const bool plain = a->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
-                       b->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
-                       a->step[DIP_SETTING_AAA] != DIP_AAA_ALL &&
-                       b->step[DIP_SETTING_AAA] != DIP_AAA_ALL && !a->step[DIP_SETTING_SCALE];
-    return plain && !a->step[DIP_SETTING_MIPDEBUG];
+    const bool same_light = a->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
+                            b->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
+                            a->step[DIP_SETTING_AAA] != DIP_AAA_ALL &&
+                            b->step[DIP_SETTING_AAA] != DIP_AAA_ALL && !a->step[DIP_SETTING_SCALE];
+    return same_light && !a->step[DIP_SETTING_MIPDEBUG];
 }
