@@ -71,7 +71,8 @@ typedef struct DipMaterialPlan {
     unsigned coordinates; // bit i is set if the mesh has texture coordinates i
     DipTag tag;
     bool light_mapped; // true: the occlusion picture is a light map
-    bool plain; // true: stands beside light-mapped surfaces, which reflect nothing, and so does it
+    bool plain;        // true: the file tags it for Diptych, so it has Diptych's own light and no
+                       // reflection
     const DipMaterialRule *light_rule; // the rule that says so, or NULL
     bool has_uv0;   // true: the mesh needs coordinates for colour, opacity or normal map
     bool has_uv1;   // true: the mesh needs coordinates for the light map

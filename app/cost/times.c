@@ -22,7 +22,7 @@ enum {
     BLOCK_ROWS = 4,  // Rows that are timed beside one drawing of the baseline. If all rows of a
                      // round shared one drawing, ratios would deviate twice as much.
     LEAST_SIDE = 64, // Pixels. Smaller pictures are not timed at half their size.
-    REQUEST_SIZE = 256,
+    REQUEST_SIZE = 512,
     SEED_SALT = 0x517 // Mixed into the seed of dip_cost_time_elsewhere, for another order of
                       // frames than that of the report's rows.
 };
@@ -130,7 +130,7 @@ _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIMED_PARTS, "each stage is 
 // "draw PATH FRAME SETTINGS". Writes the frame's counters and its times.
 static bool draw_in_child(const Timing *t, const Subject *s, int frame, DipCounters *counters,
                           DipTimed *timed, DipError *err) {
-    char settings[REQUEST_SIZE / 2], request[REQUEST_SIZE];
+    char settings[REQUEST_SIZE - 64], request[REQUEST_SIZE];
     DipBenchSample sample;
     dip_quality_format(s->quality, settings, sizeof settings);
     snprintf(request, sizeof request, "draw %d %d %s", s->path, frame, settings);

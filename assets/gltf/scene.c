@@ -164,10 +164,11 @@ static void read_tags(DipGltfScene *scene, const cJSON *node, const char *name,
     const cJSON *light_mapped = cJSON_GetObjectItemCaseSensitive(extras, "lightmapped");
     const cJSON *surface = cJSON_GetObjectItemCaseSensitive(extras, "surface");
     if (light_mapped) {
-        state->plain = true;
+
         state->light_mapped = cJSON_IsTrue(light_mapped) ||
                               (cJSON_IsNumber(light_mapped) && light_mapped->valuedouble != 0.0);
     }
+    state->plain = state->plain || light_mapped || surface;
     if (cJSON_IsString(surface)) {
         dip_model_read_tag(scene->model, scene->reader.gltf.path, name, surface->valuestring,
                            &state->tag);

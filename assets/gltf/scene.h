@@ -11,7 +11,7 @@ typedef struct DipGltfNodeState {
     double world[12]; // rows of a 3x4 matrix
     DipTag tag;
     bool light_mapped;
-    bool plain; // the node or one above has the key `lightmapped`, whatever its value
+    bool plain; // the node or one above has one of Diptych's own keys
 } DipGltfNodeState;
 
 typedef struct DipGltfScene {

@@ -47,11 +47,13 @@ static void forget_no_interval(cJSON *object) {
 }
 
 // Adds the counters that reports lacked before surfaces could be blended or reflect their
-// surroundings. Such surfaces did no work then.
+// surroundings, panes could copy each other's pixels, and pictures were filtered. They count work
+// that was not done then.
 static void add_counters(cJSON *counters) {
-    static const char *const later[] = {"fragments_pbr", "fragments_occluded", "fragments_emitting",
-                                        "fragments_coated", "fragments_blended"};
-    for (int i = 0; i < 5 && cJSON_IsObject(counters); i++) {
+    static const char *const later[] = {
+        "fragments_pbr",     "fragments_occluded", "fragments_emitting", "fragments_coated",
+        "fragments_blended", "fragments_copied",   "pixels_filtered",    "edges_found"};
+    for (int i = 0; i < 8 && cJSON_IsObject(counters); i++) {
         add_missing(counters, later[i], add_zero);
     }
 }

@@ -141,7 +141,7 @@ if [ "$part" = small ]; then
     refuse 'lines.obj: the model has no triangles' "$diptych" dump --hash --model lines.obj
     refuse 'blank.obj: the model file is empty' "$diptych" dump --hash --model blank.obj
     refuse 'node.gltf: the model has no triangles' "$diptych" dump --hash --model node.gltf
-    refuse 'none.gltf: the model cannot be read' "$diptych" dump --hash --model none.gltf
+    refuse 'none.gltf: the model has no triangles' "$diptych" dump --hash --model none.gltf
     refuse 'empty.stl: the model has no triangles' "$diptych" dump --hash --model empty.stl
     refuse 'none.ini: \[XFILE\] is missing' "$diptych" dump --hash --config none.ini
 

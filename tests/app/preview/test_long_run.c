@@ -159,8 +159,12 @@ static void hold(DipKeycode key, bool down) {
     dip_fake_display_push(run.fake, &event);
 }
 
-// The keys of the settings, in the order of DipSetting.
-static const char setting_keys[] = "xtvbfgolim";
+// The keys of the settings, but for those that are changed with Ctrl.
+static const char setting_keys[DIP_SETTING_COUNT] = {
+    [DIP_SETTING_AA] = 'x',      [DIP_SETTING_TAA] = 't',    [DIP_SETTING_AAA] = 'v',
+    [DIP_SETTING_ASD] = 'b',     [DIP_SETTING_AF] = 'f',     [DIP_SETTING_AAF] = 'g',
+    [DIP_SETTING_OPT] = 'o',     [DIP_SETTING_MIPLOD] = 'l', [DIP_SETTING_GI] = 'i',
+    [DIP_SETTING_MIPDEBUG] = 'm'};
 
 // Presses keys until a pane has its default settings. A setting may have to wait for another one
 // that conflicts with it.
@@ -208,7 +212,10 @@ static void follow_script(int number) {
         random_u64(&random);
     }
     if (number % 7 == 3) {
-        push((DipKeycode)setting_keys[random_int(&random, 0, DIP_SETTING_COUNT - 1)]);
+        const int s = random_int(&random, 0, DIP_SETTING_COUNT - 1);
+        if (setting_keys[s]) {
+            push((DipKeycode)setting_keys[s]);
+        }
     }
     if (number % 31 == 5) {
         push('`');

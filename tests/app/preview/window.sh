@@ -103,14 +103,14 @@ click() {
     xdotool mousemove --window "$window" "$1" "$2" click 1
 }
 xdotool key grave grave
-click 281 545 # Antialiasing 8x.
+click 935 558 # Antialiasing 8x.
 await "a click on 8x changes the requested pane" panes_differ 200
-click 68 545 # Antialiasing none.
+click 676 558 # Antialiasing none.
 await "a click on none takes it back" panes_equal
-xdotool mousemove --window "$window" 68 545 mousedown 1 mousemove --window "$window" 281 545 \
+xdotool mousemove --window "$window" 676 558 mousedown 1 mousemove --window "$window" 935 558 \
     mouseup 1
 await "a drag to 8x changes the requested pane" panes_differ 200
-click 995 648
+click 1034 652
 await "after a click on Apply both panes are equal" panes_equal
 xdotool key ctrl+z
 await "Undo takes Apply back" panes_differ 200
