@@ -6,17 +6,23 @@
 #include "renderer/base/hash.h"
 #include "tests/fuzz/fuzz.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const char plan[] = "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa";
 static const char key[] = "0123456789abcdef0123456789abcdef";
 
-static DipCostJournal *open_journal(void) {
-    char folder[1024];
-    snprintf(folder, sizeof folder, "%s", fuzz_path("cost.state"));
-    *strrchr(folder, '/') = '\0';
+static void make_folder(const char *name) {
+    FUZZ_CHECK(mkdir(fuzz_path(name), 0700) == 0 || errno == EEXIST);
+}
+
+// Opens the journal in a folder with this name. A folder's journal is open only once at a time, so
+// journals that are compared stand in folders of their own.
+static DipCostJournal *open_journal(const char *name) {
+    const char *folder = fuzz_path(name);
     DipError err = {0};
     DipCostJournal *journal = dip_cost_journal_open(folder, plan, &err);
     FUZZ_CHECK(journal != NULL);
@@ -77,17 +83,21 @@ static void add_all(const DipCostJournal *from, DipCostJournal *to) {
 }
 
 static void check_journal(const void *bytes, size_t size_bytes) {
-    fuzz_write("cost.state", bytes, size_bytes);
-    DipCostJournal *journal = open_journal();
-    DipCostJournal *again = open_journal();
+    make_folder("journal");
+    make_folder("again");
+    fuzz_write("journal/cost.state", bytes, size_bytes);
+    fuzz_write("again/cost.state", bytes, size_bytes);
+    DipCostJournal *journal = open_journal("journal"), *again = open_journal("again");
+    dip_cost_journal_close(&again, false); // Opening it has cut an incomplete line off.
+    again = open_journal("again");
     check_same(journal, again);
     dip_cost_journal_close(&again, true); // Removes the file.
-    DipCostJournal *made = open_journal();
+    DipCostJournal *made = open_journal("again");
     add_all(journal, made);
     dip_cost_journal_close(&made, false);
-    DipCostJournal *read = open_journal();
+    DipCostJournal *read = open_journal("again");
     dip_cost_journal_close(&read, true);
-    dip_cost_journal_close(&journal, false);
+    dip_cost_journal_close(&journal, true);
 }
 
 // Adds the checksum to every line.

@@ -513,6 +513,8 @@ static void make_true_work(const DipQuality *quality, double *counters) {
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] = 16.0 * (c % 3 ? sampling : 1.0) * (c % 2 ? filtering : 1.0);
     }
+    // The filters draw their pixels in passes of their own, which add up.
+    counters[DIP_COST_COUNTER_pixels_filtered] = 0.0;
     counters[0] = step[DIP_SETTING_AF] ? 8.0 * step[DIP_SETTING_AF] : 0.0;
 }
 

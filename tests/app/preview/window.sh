@@ -103,6 +103,7 @@ click() {
     xdotool mousemove --window "$window" "$1" "$2" click 1
 }
 xdotool key grave grave
+click 152 560 # The list's entry Antialiasing, which the editor then shows.
 click 935 558 # Antialiasing 8x.
 await "a click on 8x changes the requested pane" panes_differ 200
 click 676 558 # Antialiasing none.

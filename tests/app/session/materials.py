@@ -22,7 +22,7 @@ write_png("clouds.png", 16, lambda x, y: (128 + 5 * x, 128 - 5 * y, 160 + 6 * ((
 
 # Each part: name, colour texture, tags, corners and the normal. Corners go counterclockwise.
 parts = [
-    ("Plain wall", "brick.png", {}, [(-6, 0, -4), (-2, 0, -4), (-2, 3, -4), (-6, 3, -4)], (0, 0, 1)),
+    ("Plain wall", "brick.png", {"surface": "solid"}, [(-6, 0, -4), (-2, 0, -4), (-2, 3, -4), (-6, 3, -4)], (0, 0, 1)),
     ("Lit wall", "brick.png", {"lightmapped": 1}, [(-2, 0, -4), (2, 0, -4), (2, 3, -4), (-2, 3, -4)], (0, 0, 1)),
     ("Fence", "fence.png", {"surface": "mask"}, [(2, 0, -4), (6, 0, -4), (6, 3, -4), (2, 3, -4)], (0, 0, 1)),
     ("Glass_1", "brick.png", {"surface": "glass"}, [(-1, 0, -2), (0, 0, -2), (0, 1, -2), (-1, 1, -2)], (0, 0, 1)),
