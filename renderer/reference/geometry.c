@@ -340,6 +340,26 @@ static void describe_pbr(const DipReference *reference, const DipMeshDef *mesh,
     }
 }
 
+static bool repeats(DipWrap wrap) {
+    return wrap == DIP_WRAP_REPEAT || wrap == DIP_WRAP_MIRROR;
+}
+
+// Finds the axes of uv0 along which all textures repeat that a mesh reads at uv0.
+static void find_repeats(DipRefTriangle *like) {
+    const bool occluded = like->occlusion && !like->pbr->occlusion_at_uv1;
+    const bool emits = like->emission && !like->pbr->emission_at_uv1;
+    const DipRefTexture *textures[] = {like->colour, like->normal_map, like->metal_rough,
+                                       occluded ? like->occlusion : NULL,
+                                       emits ? like->emission : NULL};
+    like->repeats[0] = like->repeats[1] = true;
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+        if (textures[i]) {
+            like->repeats[0] = like->repeats[0] && repeats(textures[i]->def->wrap_u);
+            like->repeats[1] = like->repeats[1] && repeats(textures[i]->def->wrap_v);
+        }
+    }
+}
+
 // Returns the values that all triangles of a mesh share.
 static DipRefTriangle describe_mesh(const DipReference *reference, const DipMeshDef *mesh) {
     const DipMaterialDef *material = &reference->def->materials[mesh->material];
@@ -368,6 +388,7 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
     like.clipped = material->surface == DIP_SURFACE_CLIPPED && like.colour;
     like.blended = material->surface == DIP_SURFACE_BLENDED;
     describe_pbr(reference, mesh, &like);
+    find_repeats(&like);
     return like;
 }
 
