@@ -1,5 +1,5 @@
-// Tells the memory sanitizer what libwebp and meshoptimizer write, in the wrappers that the linker
-// puts before them. These libraries are not built with the sanitizer, which would take their
+// Tells the memory sanitizer what libwebp, meshoptimizer and Draco write, in the wrappers that the
+// linker puts before them. These libraries are not built with the sanitizer, which would take their
 // results as unwritten, or as what lay on the stack before.
 #include <sanitizer/msan_interface.h>
 #include <stddef.h>
@@ -61,4 +61,29 @@ DECODER(meshopt_decodeVertexBuffer)
 FILTER(meshopt_decodeFilterOct)
 FILTER(meshopt_decodeFilterQuat)
 FILTER(meshopt_decodeFilterExp)
+#endif
+
+#ifdef DIP_HAS_DRACO
+#include "assets/gltf/draco.h"
+
+// The file that calls Draco is built without the sanitizer, as Draco itself.
+void __real_dip_draco_indices(const DipDracoMesh *mesh, uint32_t *to);
+void __wrap_dip_draco_indices(const DipDracoMesh *mesh, uint32_t *to);
+void __wrap_dip_draco_indices(const DipDracoMesh *mesh, uint32_t *to) {
+    __real_dip_draco_indices(mesh, to);
+    __msan_unpoison(to, dip_draco_index_count(mesh) * sizeof *to);
+}
+
+bool __real_dip_draco_floats(const DipDracoMesh *mesh, uint32_t id, int width, bool normalized,
+                             float *to);
+bool __wrap_dip_draco_floats(const DipDracoMesh *mesh, uint32_t id, int width, bool normalized,
+                             float *to);
+bool __wrap_dip_draco_floats(const DipDracoMesh *mesh, uint32_t id, int width, bool normalized,
+                             float *to) {
+    const bool written = __real_dip_draco_floats(mesh, id, width, normalized, to);
+    if (written) {
+        __msan_unpoison(to, dip_draco_vertex_count(mesh) * (size_t)width * sizeof *to);
+    }
+    return written;
+}
 #endif
