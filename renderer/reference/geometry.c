@@ -276,14 +276,34 @@ static bool add_piece(const Camera *camera, const DipRefClipVertex *a, const Dip
     return append(triangles, &piece);
 }
 
+// Finds what the coordinates that repeat count from: the multiples of 64 that are nearest to the
+// coordinates of the corner nearest to the eye.
+static void find_multiples(const DipRefClipVertex *const *corners, int count,
+                           DipRefTriangle *triangle) {
+    int nearest = 0;
+    for (int i = 1; i < count; i++) {
+        nearest = corners[i]->w.high < corners[nearest]->w.high ? i : nearest;
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        const double at = count > 0 ? corners[nearest]->varyings[DIP_REF_U0 + axis].high : 0.0;
+        triangle->repeat[axis] = triangle->repeats[axis] ? 64.0 * rint(at / 64.0) : 0.0;
+    }
+}
+
 // Adds the pieces of a triangle that clipping leaves.
 static bool add_clipped(const Camera *camera, const DipRefClipVertex *const corners[3],
-                        const DipRefTriangle *like, DipRefTriangles *triangles) {
+                        DipRefTriangle *like, DipRefTriangles *triangles) {
     if (!dip_reference_needs_clip(&camera->planes, corners)) {
+        find_multiples(corners, 3, like);
         return add_piece(camera, corners[0], corners[1], corners[2], like, triangles);
     }
     DipRefClipVertex polygon[DIP_REF_MAX_CORNERS];
+    const DipRefClipVertex *all[DIP_REF_MAX_CORNERS];
     const int count = dip_reference_clip(&camera->planes, corners, polygon);
+    for (int k = 0; k < count; k++) {
+        all[k] = &polygon[k];
+    }
+    find_multiples(all, count, like);
     bool added = true;
     for (int k = 2; added && k < count; k++) {
         added = add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], like, triangles);

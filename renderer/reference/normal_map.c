@@ -39,10 +39,11 @@ bool dip_reference_is_bumpy(const DipMaterialDef *material) {
 // Returns the size of the derivatives of u0 or v0, which the derivatives' rounding errors are
 // relative to.
 static double size_of(const DipRefVaryings *varyings, int coordinate) {
-    const double magnitude = fabs(varyings->value[coordinate]);
-    const bool repeats = varyings->repeats[coordinate - DIP_REF_U0];
+    const int axis = coordinate - DIP_REF_U0;
+    const DipRefTriangle *triangle = varyings->triangle;
+    const double magnitude = fabs(varyings->value[coordinate] - triangle->repeat[axis]);
     return fabs(varyings->ddx[coordinate]) + fabs(varyings->ddy[coordinate]) +
-           (repeats ? fmin(1.0, magnitude) : magnitude) * varyings->depth_change;
+           (triangle->repeats[axis] ? fmin(1.0, magnitude) : magnitude) * varyings->depth_change;
 }
 
 // Finds the tangents. along_u points where u grows while v stays constant, made perpendicular to
