@@ -17,8 +17,9 @@ enum {
 // Columns of blocks on a wide screen, from left to right; settings that belong together share one.
 static const int block_columns[MAX_BLOCK_COLUMNS][6] = {
     {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST, -1},
-    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SCALE, DIP_SETTING_SHARPEN, -1},
-    {DIP_SETTING_MIPLOD, DIP_SETTING_GI, DIP_SETTING_MIPDEBUG, -1, -1, -1},
+    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SHARPEN, -1, -1},
+    {DIP_SETTING_MIPLOD, DIP_SETTING_SCALE, DIP_SETTING_UPSCALE, DIP_SETTING_GI,
+     DIP_SETTING_MIPDEBUG, -1},
 };
 
 static bool is_switch(DipSetting setting) {
