@@ -51,8 +51,7 @@ static double within_nearest(const Source *source, const double *values, const P
     return clamp(value, least, most);
 }
 
-// --- separable filters
-// -----------------------------------------------------------------------------
+// --- separable filters ---------------------------------------------------------------------------
 
 static double tent_weight(double distance) {
     return fmax(0.0, 1.0 - distance);
@@ -79,8 +78,7 @@ static void sum_light(const Source *source, const Place *place, bool bicubic, do
     }
 }
 
-// --- EASU
-// ------------------------------------------------------------------------------------------
+// --- EASU ----------------------------------------------------------------------------------------
 
 // The edge at a place: the direction across it, and how much of an edge it is, 0..1.
 typedef struct Edge {
@@ -154,8 +152,7 @@ static void follow_edges(const Source *source, const Place *place, double rgb_li
     }
 }
 
-// --- the picture
-// -----------------------------------------------------------------------------------
+// --- the picture ---------------------------------------------------------------------------------
 
 bool dip_reference_enlarge(int upscale, const double *drawn_lin, int from_width, int from_height,
                            double *rgb_lin, int width, int height, DipError *err) {
