@@ -38,6 +38,8 @@ static const Pair pairs[] = {
     {{"aa=4,aaa=coverage", "aa=8,aaa=coverage"}, false},
     {{"aa=4,aaa=all", "aa=8,aaa=all"}, false},
     {{"aa=4,scale=1.5", "aa=8,scale=1.5"}, false},
+    {{"aa=4,scale=1/1.5,upscale=easu", "aa=8,scale=1/1.5,upscale=easu"}, true},
+    {{"aa=4,scale=1/1.5", "aa=8,scale=1/1.3"}, false},
     {{"aa=4,post=smaa,sharpen=low", "aa=8,post=smaa,sharpen=low"}, true},
     {{"aa=4,post=smaa", "aa=8,post=fxaa"}, false},
 };
