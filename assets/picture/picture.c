@@ -32,8 +32,8 @@ static void *stb_resize(void *memory, size_t old_bytes, size_t size_bytes) {
     return resized;
 }
 
-// A PNG file may begin its data with an empty chunk. stb_image then copies 0 bytes to NULL, for which
-// memcpy is not defined.
+// A PNG file may begin its data with an empty chunk. stb_image then copies 0 bytes to NULL, for
+// which memcpy is not defined.
 static void *stb_copy(void *to, const void *from, size_t size_bytes) {
     return size_bytes > 0 ? memcpy(to, from, size_bytes) : to;
 }
