@@ -61,6 +61,9 @@ extern "C" {
     X(sharpen, SHARPEN, "Sharpening", "Sharpen", 0, ("off", "low", "medium", "high"),              \
       ("off", "low", "medium", "high"), ("off", "low", "medium", "high"),                          \
       "raises the contrast of neighbouring pixels in the finished picture; raises the error, too") \
+    X(shadows, SHADOWS, "Shadows", "Shadows", 0, ("off", "512", "1024", "2048"),                   \
+      ("off", "512", "1024", "2048"), ("off", "512", "1024", "2048"),                              \
+      "the scene's strongest directional light casts shadows; texels along a side of their map")   \
     X(gi, GI, "Geometry instancing", "Instancing", 1, ("off", "on"), ("off", "on"), ("off", "on"), \
       "on: repeated objects share one mesh; off: each has a copy; the picture is the same")        \
     X(mipdebug, MIPDEBUG, "Mip colours", "Mip col.", 0, ("off", "on"), ("off", "on"),              \
@@ -157,6 +160,9 @@ DIP_API int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (triline
 // Returns the width or height at which a picture of the given width or height is drawn: size times
 // the step of scale, rounded to the nearest whole number, halves up. size: 1 or more.
 DIP_API int dip_quality_drawn_size(const DipQuality *quality, int size);
+
+// Returns the width and height of the shadow map, in texels; 0 without shadows.
+DIP_API int dip_quality_shadow_size(const DipQuality *quality);
 
 // Returns the bias of miplod, in 1/256 level. Greater values mean smaller mip levels. Where mip
 // colours show the levels, the steps that are sharper than high-quality have no bias.
