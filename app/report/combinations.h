@@ -26,7 +26,8 @@ enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4 };
 // Groups of settings change the work nearly independently of each other: the settings of samples
 // (antialiasing, temporal AA, adaptive AA and its groups), anisotropic filtering with advanced AF,
 // texture optimisation, mip detail, and instancing. A composed counter is the base combination's
-// counter, times the factors by which each group alone changes it.
+// counter, times the factors by which each group alone changes it. Shadows add the work that they
+// add alone.
 
 // Returns the mask of the settings of samples (bit s for setting s). They decide which samples and
 // fragments are drawn.
@@ -36,8 +37,9 @@ unsigned dip_cost_sampling_settings(void);
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
-// Composes the counters of a combination. All groups but the settings of samples are taken together
-// if the base with only their settings was counted; otherwise each group is taken alone. Returns
+// Composes the counters of a combination. All groups but the settings of samples and shadows are
+// taken together if the base with only their settings was counted; otherwise each group is taken
+// alone. Returns
 // false if a combination that is needed was not counted, or if the combination differs from the
 // base in a setting that belongs to no group.
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,

@@ -31,6 +31,8 @@ typedef struct Work {
     double fxaa;        // 1 with post=fxaa.
     double smaa;        // 1 with post=smaa.
     double sharpness;   // Strength of the sharpening, 0..1.
+    double shadows;     // 1 with shadows.
+    double shadow_step; // 1 / the size of the shadow map, as a share of the smallest map's.
     double filters;     // Number of filters of the finished picture, but at least 1.
 } Work;
 
@@ -70,6 +72,7 @@ typedef struct Work {
     X("fragment of metal and gloss", C(fragments_pbr))                                             \
     X("fragment with a clear coat", C(fragments_coated))                                           \
     X("fragment blended", C(fragments_blended))                                                    \
+    X("fragment that reads the shadow map", C(fragments_shadowed))                                 \
     X("fragment of the sky", C(fragments_sky))                                                     \
     X("fragment of water", C(fragments_reflecting))                                                \
     X("sample shown", C(samples_shown))                                                            \
@@ -92,6 +95,7 @@ typedef struct Work {
     X("frame", 1.0)                                                                                \
     X("pass", C(passes))                                                                           \
     X("tile", C(tiles_drawn))                                                                      \
+    X("texel of the shadow map", C(shadow_texels))                                                 \
     X("pixel filtered by FXAA", C(pixels_filtered) / w->filters * w->fxaa)                         \
     X("pixel filtered by SMAA", C(pixels_filtered) / w->filters * w->smaa)                         \
     X("pixel sharpened", C(pixels_filtered) / w->filters * (w->sharpness > 0.0))                   \
@@ -132,6 +136,8 @@ typedef struct Work {
     X("post=smaa, several samples", w->smaa * w->several)                                          \
     X("sharpening", w->sharpness)                                                                  \
     X("square of the sharpening", w->sharpness * w->sharpness)                                     \
+    X("shadows", w->shadows)                                                                       \
+    X("shadows, per texel", w->shadow_step)                                                        \
     X("mip colours", w->coloured)                                                                  \
     X("one sample, per probe", (1.0 - w->several) / w->probes)                                     \
     X("several samples, per group and probe", w->several / (w->groups * w->probes))                \
@@ -183,6 +189,7 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
     const int level = quality->step[DIP_SETTING_MIPLOD];
     const int post = quality->step[DIP_SETTING_POST];
     const int sharpen = quality->step[DIP_SETTING_SHARPEN];
+    const int shadow_size = dip_quality_shadow_size(quality);
     const double samples = dip_quality_sample_count(quality);
     const double probes = dip_quality_max_anisotropy(quality);
     const Work work = {
@@ -210,6 +217,8 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .fxaa = post == DIP_POST_STEP_FXAA,
         .smaa = post == DIP_POST_STEP_SMAA,
         .sharpness = sharpness[sharpen],
+        .shadows = shadow_size > 0,
+        .shadow_step = shadow_size ? 512.0 / shadow_size : 0.0,
         .filters = post && sharpen ? 2.0 : 1.0,
     };
     const Work *const w = &work;

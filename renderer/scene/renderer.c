@@ -414,7 +414,7 @@ static bool follow_shadows(DipRenderer *renderer, const DipScene *scene, DipErro
     DipShadows *shadows = &renderer->shadows;
     DipMirror *mirror = &renderer->mirror;
     const bool possible = scene->lighting && scene->lighting->shadow_light >= 0 && scene->has_lit &&
-                          !renderer->plain_surfaces;
+                          scene->has_caster && !renderer->plain_surfaces;
     const int size = possible ? dip_quality_shadow_size(&renderer->quality) : 0;
     if (size == (shadows->depth ? dip_depth_width(shadows->depth) : 0)) {
         return true;

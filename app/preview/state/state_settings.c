@@ -21,6 +21,7 @@ int dip_preview_category_of(DipSetting setting) {
         [DIP_SETTING_SCALE] = -1, // Any path shows it.
         [DIP_SETTING_POST] = DIP_CATEGORY_AA,
         [DIP_SETTING_SHARPEN] = -1, // Any path shows it.
+        [DIP_SETTING_SHADOWS] = -1, // Any path shows it.
         [DIP_SETTING_GI] = DIP_CATEGORY_GI,
         [DIP_SETTING_MIPDEBUG] = -1, // Any path shows it.
     };
@@ -315,6 +316,7 @@ static const char *const brief_forms[DIP_SETTING_COUNT] = {
     [DIP_SETTING_SCALE] = "scale %s",
     [DIP_SETTING_POST] = "post %s",
     [DIP_SETTING_SHARPEN] = "sharpening %s",
+    [DIP_SETTING_SHADOWS] = "shadows %s",
     [DIP_SETTING_GI] = "instancing",
     [DIP_SETTING_MIPDEBUG] = "mip colours",
 };

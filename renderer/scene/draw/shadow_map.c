@@ -63,10 +63,6 @@ static LightCamera light_camera(const DipShadowFit *fit) {
     return camera;
 }
 
-static bool casts(DipSurface surface) {
-    return surface == DIP_SURFACE_OPAQUE || surface == DIP_SURFACE_CLIPPED;
-}
-
 static void round_matrix(const double matrix[16], float rounded[16]) {
     for (int i = 0; i < 16; i++) {
         rounded[i] = (float)matrix[i];
@@ -129,7 +125,7 @@ void dip_shadows_fill(DipShadows *shadows, const DipScene *scene, const DipMater
     set->culled = 0;
     for (int i = 0; i < scene->object_count; i++) {
         const DipSceneMesh *mesh = &scene->meshes[scene->objects[i].mesh];
-        if (!casts(scene->materials[mesh->material].surface)) {
+        if (!scene->materials[mesh->material].casts) {
             continue;
         }
         if (dip_cull_outside(&seen, &scene->objects[i].bounds)) {

@@ -267,6 +267,9 @@ static DipEffect plan_shadows(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->has_lit) {
         return skip("the scene's lights light no surface");
     }
+    if (!input->scene->has_caster) {
+        return skip("no surface of the scene casts a shadow");
+    }
     if (input->plain_surfaces) {
         return skip(plain);
     }

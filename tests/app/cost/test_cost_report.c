@@ -495,7 +495,7 @@ static void broken_json_is_refused(void **state) {
         "\"baseline\"",
         "\"combinations\":[\n{\"settings\":\"aa=none,taa=off,aaa=off,"
         "asd=1,af=none,aaf=off,opt=off,miplod=high-quality,scale=1,post=off,"
-        "sharpen=off,gi=on,mipdebug=off\",\"ms\":0.5"};
+        "sharpen=off,shadows=off,gi=on,mipdebug=off\",\"ms\":0.5"};
     DipCostReport report;
     DipCostReport read;
     DipError err = {0};

@@ -111,7 +111,8 @@ STEPS = {
     "opt": ["off", "standard", "advanced"],
     "miplod": ["high-performance", "performance", "quality", "high-quality", "sharp",
                "sharper"], "scale": ["1", "1.25", "1.5", "2"],
-    "post": ["off", "fxaa", "smaa"], "sharpen": ["off", "low", "medium", "high"], "gi": ["off", "on"],
+    "post": ["off", "fxaa", "smaa"], "sharpen": ["off", "low", "medium", "high"],
+    "shadows": ["off", "512", "1024", "2048"], "gi": ["off", "on"],
 }
 
 
