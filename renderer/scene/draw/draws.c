@@ -127,13 +127,16 @@ static DipViewRays view_rays(const double m[16], int width, int height) {
     return rays;
 }
 
-// Adds varyings to a surface that is lit at its vertices: the light of the light with shadows, and
-// the depth, from which its place in the shadow map follows.
+// Adds varyings to a surface that is lit at its vertices: the depth, from which its place in the
+// shadow map follows, and the light of the light with shadows. The depth needs derivatives, so it
+// comes before the varyings that need none.
 static void add_direct_light(DipSurfaceUniforms *uniforms, DipDraw *draw) {
-    uniforms->direct_varying = draw->varying_count;
-    uniforms->depth_varying = draw->varying_count + 3;
+    uniforms->depth_varying = uniforms->light_varying;
+    uniforms->light_varying++;
+    uniforms->highlight_varying++;
+    uniforms->direct_varying = draw->varying_count + 1;
     draw->varying_count += 4;
-    draw->value_only_varying_count += 4;
+    draw->value_only_varying_count = draw->varying_count - uniforms->light_varying;
 }
 
 // If the scene's lights light the mesh of a draw, finds those that reach it and sets the shaders.

@@ -144,11 +144,8 @@ VEC_INLINE LightShares meet_light(const Lobe *lobe, Vf3 to_eye, Vf3 to_light) {
 // Returns the lanes whose surface is seen from the side away from its normal.
 VEC_INLINE Mask seen_from_behind(const DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    const int w = uniforms->depth_varying;
-    const Vf depth = vf_load(batch->varying[w] + i);
-    const Vf3 plane =
-        cross(position_step(uniforms->rays->per_x, depth, ray, vf_load(batch->varying_dx[w] + i)),
-              position_step(uniforms->rays->per_y, depth, ray, vf_load(batch->varying_dy[w] + i)));
+    const Vf depth = vf_load(batch->varying[uniforms->depth_varying] + i);
+    const Vf3 plane = triangle_normal(batch, i, ray, depth);
     const Vf zero = vf_splat(0.0f);
     const Vf side = vf3_dot(plane, normal);
     const Mask away = vf_lt(zero, vf3_dot(plane, ray));

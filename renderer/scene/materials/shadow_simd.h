@@ -3,7 +3,7 @@
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SHADOW_SIMD_H
 #define DIP_RENDERER_SCENE_MATERIALS_SHADOW_SIMD_H
 
-#include "renderer/scene/materials/surface_simd.h"
+#include "renderer/scene/materials/facing_simd.h"
 
 // Least cosine between normal and light that the bias of a receiver follows.
 #define LEAST_COSINE 0.125f
@@ -31,21 +31,23 @@ VEC_INLINE Vf rise_of(const DipShadowUniforms *shadow, Vf3 normal) {
 
 // Writes the share of the light with shadows that arrives at each fragment. A surface is moved
 // towards the light by as much as it rises around a point, so that it does not shade itself.
-// normal_varying: index of the first of three, or DIP_ABSENT.
+// normal_varying: index of the first of three. If it is DIP_ABSENT, the normal is the triangle's.
 VEC_INLINE void read_shadow(DipFragmentBatch *batch, int normal_varying, float *lit) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipShadowUniforms *shadow = uniforms->shadow;
     float at[3][DIP_FRAGMENT_BATCH];
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         const Vf depth = vf_load(batch->varying[uniforms->depth_varying] + i);
-        const Vf3 place = vf3_scale(view_ray(uniforms->rays, batch, i), depth);
+        const Vf3 ray = view_ray(uniforms->rays, batch, i);
+        const Vf3 place = vf3_scale(ray, depth);
+        const Vf3 normal = normal_varying == DIP_ABSENT
+                               ? triangle_normal(batch, i, ray, depth)
+                               : vf3_load(batch->varying + normal_varying, i);
+        const Vf rise = rise_of(shadow, vf3_scale(normal, inverse_length(vf3_dot(normal, normal))));
         for (int axis = 0; axis < 3; axis++) {
             vf_store(at[axis] + i, dot_row(shadow->to_map[axis], place) + shadow->to_map[axis][3]);
         }
-        if (normal_varying != DIP_ABSENT) {
-            const Vf3 normal = vf3_load(batch->varying + normal_varying, i);
-            vf_store(at[2] + i, vf_load(at[2] + i) + rise_of(shadow, normal));
-        }
+        vf_store(at[2] + i, vf_load(at[2] + i) + rise);
     }
     batch->sample_shadow(batch, &shadow->map, at[0], at[1], at[2], lit);
     batch->work.counts[DIP_SHADER_COUNT_SHADOWED] += (uint64_t)batch->count;
