@@ -343,6 +343,24 @@ static Seen look(double x, double y) {
     return seen;
 }
 
+// Lists the triangles that the light sees within a distance of a place, without the place's own.
+static int triangles_near(const Seen *seen, const Vec at, const double reach[2],
+                          const Triangle *near[MOST_TRIANGLES]) {
+    int count = 0;
+    for (int t = 0; t < world.count; t++) {
+        const Vec *p = world.triangles[t].light;
+        bool reaches = &world.triangles[t] != seen->triangle;
+        for (int i = 0; i < 2; i++) {
+            reaches = reaches && fmin(p[0][i], fmin(p[1][i], p[2][i])) <= at[i] + reach[i] &&
+                      fmax(p[0][i], fmax(p[1][i], p[2][i])) >= at[i] - reach[i];
+        }
+        if (reaches) {
+            near[count++] = &world.triangles[t];
+        }
+    }
+    return count;
+}
+
 typedef enum Verdict { LIT, SHADED, EDGE } Verdict;
 
 // Decides whether all that a read of the map can meet is lit, or all of it in shadow. size: of the
@@ -361,26 +379,26 @@ static Verdict judge(const Seen *seen, int size) {
     }
     const double moved = (fabs(normal[0]) * texel[0] + fabs(normal[1]) * texel[1]) * 1.5;
     const double rise = moved / fmax(fabs(normal[2]), 0.125);
-    bool all_lit = fabs(normal[2]) > 0.13 && fabs(seen->triangle->slope[0]) < 7.0;
+    bool all_lit = fabs(normal[2]) > 0.13 && fabs(slope[0]) < 7.0;
     bool all_shaded = true;
-    for (int i = -REACH; i <= REACH; i++) {
-        for (int j = -REACH; j <= REACH; j++) {
-            const double dx = 0.5 * i * texel[0], dy = 0.5 * j * texel[1];
-            const double plane = at[2] + slope[0] * dx + slope[1] * dy;
-            bool shaded = false;
-            for (int t = 0; t < world.count && (all_lit || !shaded); t++) {
-                const Triangle *caster = &world.triangles[t];
-                double near;
-                if (caster == seen->triangle || !covers(caster, at[0] + dx, at[1] + dy, &near)) {
-                    continue;
-                }
-                const double bias = 3.0 * fmax(fabs(caster->slope[0]) * texel[0],
-                                               fabs(caster->slope[1]) * texel[1]);
+    const Triangle *casters[MOST_TRIANGLES];
+    const double reach[2] = {0.5 * REACH * texel[0], 0.5 * REACH * texel[1]};
+    const int count = triangles_near(seen, at, reach, casters);
+    for (int i = 0; i < (2 * REACH + 1) * (2 * REACH + 1) && (all_lit || all_shaded); i++) {
+        const double dx = 0.5 * (i % (2 * REACH + 1) - REACH) * texel[0];
+        const double dy = 0.5 * (i / (2 * REACH + 1) - REACH) * texel[1];
+        const double plane = at[2] + slope[0] * dx + slope[1] * dy;
+        bool shaded = false;
+        for (int t = 0; t < count; t++) {
+            double near;
+            if (covers(casters[t], at[0] + dx, at[1] + dy, &near)) {
+                const double bias = 3.0 * fmax(fabs(casters[t]->slope[0]) * texel[0],
+                                               fabs(casters[t]->slope[1]) * texel[1]);
                 all_lit = all_lit && near <= plane + 1e-6;
                 shaded = shaded || near - bias - 1e-4 > fmax(plane, at[2]) + rise;
             }
-            all_shaded = all_shaded && shaded;
         }
+        all_shaded = all_shaded && shaded;
     }
     return all_lit ? LIT : all_shaded ? SHADED : EDGE;
 }
