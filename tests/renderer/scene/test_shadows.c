@@ -348,14 +348,15 @@ static int triangles_near(const Seen *seen, const Vec at, const double reach[2],
                           const Triangle *near[MOST_TRIANGLES]) {
     int count = 0;
     for (int t = 0; t < world.count; t++) {
-        const Vec *p = world.triangles[t].light;
-        bool reaches = &world.triangles[t] != seen->triangle;
+        const Triangle *triangle = &world.triangles[t];
+        const Vec *p = triangle->light;
+        bool reaches = triangle != seen->triangle;
         for (int i = 0; i < 2; i++) {
             reaches = reaches && fmin(p[0][i], fmin(p[1][i], p[2][i])) <= at[i] + reach[i] &&
                       fmax(p[0][i], fmax(p[1][i], p[2][i])) >= at[i] - reach[i];
         }
         if (reaches) {
-            near[count++] = &world.triangles[t];
+            near[count++] = triangle;
         }
     }
     return count;
