@@ -58,7 +58,8 @@ typedef struct Work {
     X("texture probe of a clip map", C(clip_probes))                                               \
     X("texture probe of a clip map, advanced AF", C(clip_probes) * w->exact)                       \
     X("texture probe of a clip map, aaa=coverage", C(clip_probes) * w->covers)                     \
-    X("sample shown", C(samples_shown))
+    X("sample shown", C(samples_shown))                                                            \
+    X("texel of the shadow map", C(shadow_texels))
 
 #define SHADING_TERMS(X)                                                                           \
     X("frame", 1.0)                                                                                \
@@ -89,13 +90,13 @@ typedef struct Work {
     X("pixel resolved", C(pixels_resolved))                                                        \
     X("pixel resolved, per sample", C(pixels_resolved) * w->samples)                               \
     X("pixel resolved, aaa=all", C(pixels_resolved) * w->all)                                      \
-    X("byte of a picture that is averaged", C(target_bytes) * w->scaled)
+    X("byte of a picture that is averaged", C(target_bytes) * w->scaled)                           \
+    X("texel of the shadow map", C(shadow_texels))
 
 #define REST_TERMS(X)                                                                              \
     X("frame", 1.0)                                                                                \
     X("pass", C(passes))                                                                           \
     X("tile", C(tiles_drawn))                                                                      \
-    X("texel of the shadow map", C(shadow_texels))                                                 \
     X("pixel filtered by FXAA", C(pixels_filtered) / w->filters * w->fxaa)                         \
     X("pixel filtered by SMAA", C(pixels_filtered) / w->filters * w->smaa)                         \
     X("pixel sharpened", C(pixels_filtered) / w->filters * (w->sharpness > 0.0))                   \

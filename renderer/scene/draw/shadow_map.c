@@ -119,7 +119,9 @@ void dip_shadows_fill(DipShadows *shadows, const DipScene *scene, const DipMater
     DipDrawSet *set = &shadows->set;
     *pass = (DipPass){.sample_count = 1,
                       .target = {.width = fit->size, .height = fit->size},
-                      .attachments = {.depth = shadows->depth}};
+                      .attachments = {.depth = shadows->depth,
+                                      .stencil_load = DIP_LOAD_DISCARD,
+                                      .stencil_store = DIP_STORE_DISCARD}};
     const DipCullPlanes seen = dip_cull_pass_planes(pass, camera.to_clip);
     set->count = 0;
     set->culled = 0;
