@@ -18,7 +18,8 @@ int dip_preview_category_of(DipSetting setting) {
         [DIP_SETTING_AAF] = DIP_CATEGORY_AAF,
         [DIP_SETTING_OPT] = DIP_CATEGORY_CAI,
         [DIP_SETTING_MIPLOD] = DIP_CATEGORY_MIPLOD,
-        [DIP_SETTING_SCALE] = -1, // Any path shows it.
+        [DIP_SETTING_SCALE] = -1,   // Any path shows it.
+        [DIP_SETTING_UPSCALE] = -1, // Any path shows it.
         [DIP_SETTING_POST] = DIP_CATEGORY_AA,
         [DIP_SETTING_SHARPEN] = -1, // Any path shows it.
         [DIP_SETTING_SHADOWS] = -1, // Any path shows it.
@@ -314,6 +315,7 @@ static const char *const brief_forms[DIP_SETTING_COUNT] = {
     [DIP_SETTING_OPT] = "%s textures",
     [DIP_SETTING_MIPLOD] = "mip detail %s",
     [DIP_SETTING_SCALE] = "scale %s",
+    [DIP_SETTING_UPSCALE] = "upscaling %s",
     [DIP_SETTING_POST] = "post %s",
     [DIP_SETTING_SHARPEN] = "sharpening %s",
     [DIP_SETTING_SHADOWS] = "shadows %s",
