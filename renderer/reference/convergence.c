@@ -124,7 +124,7 @@ DipConvergence *dip_convergence_create(const DipReference *reference, const DipP
     if (!dip_reference_check_size(width, height, err)) {
         return NULL;
     }
-    DipRefShot shot = {pose, width, height, (double)width / height, .rounded = false};
+    DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};
     DipConvergence *c = create(reference, &shot, err);
     if (c && dip_reference_reflects(reference, pose)) {
         shot.mirrored = true;

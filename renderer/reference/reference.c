@@ -153,6 +153,7 @@ static DipReference *create(const DipSceneDef *def, const atomic_bool *stop, boo
         loaded = load_material(reference, &def->materials[m], err) &&
                  (for_truth || compress_texture(reference, &def->materials[m], err));
     }
+    loaded = loaded && dip_reference_shadows_create(reference, &reference->shadows, err);
     if (!loaded) {
         dip_reference_destroy(&reference);
     }
@@ -187,6 +188,7 @@ void dip_reference_destroy(DipReference **reference) {
     free((*reference)->patches);
     free((*reference)->textures);
     free((*reference)->pbr_tables);
+    dip_reference_shadows_destroy(&(*reference)->shadows);
     free(*reference);
     *reference = NULL;
 }
