@@ -38,9 +38,9 @@ def board(draw):
     draw.rectangle(BOARD, fill="#0d1b33")
     draw.rectangle((0, 0, 511, 83), fill="#e0a526")
     draw.text((20, 14), "Departures", font=ImageFont.truetype(BOLD, 46), fill="#10151f")
-    draw.text((380, 14), "12:04", font=ImageFont.truetype(BOLD, 46), fill="#10151f")
+    draw.text((352, 14), "12:04", font=ImageFont.truetype(BOLD, 46), fill="#10151f")
     rows = [("3", "Old Harbour", "12:06"), ("7", "Steelworks", "12:09"),
-            ("3", "University", "12:13"), ("11", "Botanic Garden", "12:17"),
+            ("3", "University", "12:13"), ("11", "Museum Park", "12:17"),
             ("7", "Northern Lock", "12:21"), ("15", "Lighthouse", "12:30")]
     font, bold = ImageFont.truetype(SANS, 38), ImageFont.truetype(BOLD, 38)
     for i, (line, place, time) in enumerate(rows):
@@ -48,7 +48,7 @@ def board(draw):
         draw.rectangle((16, y + 2, 80, y + 54), fill="#2f6fb5")
         centred(draw, (16, 0, 80, 0), y + 5, line, bold, "#ffffff")
         draw.text((98, y + 5), place, font=font, fill="#f2f4f8")
-        draw.text((388, y + 5), time, font=font, fill="#f5c64a")
+        draw.text((394, y + 5), time, font=font, fill="#f5c64a")
         draw.line((16, y + 61, 496, y + 61), fill="#24385c", width=2)
 
 

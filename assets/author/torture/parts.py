@@ -119,11 +119,10 @@ def tree(seed, crowns, trunk_m):
     """A trunk and balls of leaf cards around dark cores. crowns: (centre, radius, cards)."""
     mesh = Mesh(f"tree_{seed}")
     rng = random.Random(seed)
-    mesh.bar("bark", [(0, -0.1, 0), (0.05, 0.6 * trunk_m, 0.02), (0.0, trunk_m, 0.0)], 0.13, 8,
-             (0.7, 0.7, 0.7))
+    mesh.bar("bark", [(0, -0.1, 0), (0.05, 0.6 * trunk_m, 0.02), (0.0, trunk_m, 0.0)], 0.13, 8)
     golden = math.pi * (3 - math.sqrt(5))
     for (cx, cy, cz), radius, count in crowns:
-        mesh.bar("bark", [(0, 0.72 * trunk_m, 0), (cx, cy, cz)], 0.05, 5, (0.55, 0.55, 0.55))
+        mesh.bar("bark", [(0, 0.72 * trunk_m, 0), (cx, cy, cz)], 0.05, 5, (0.8, 0.8, 0.8))
         core = 0.56 * radius
         body = [(core * math.sin(a), -core * math.cos(a), math.sin(a), 0.4 - math.cos(a))
                 for a in (math.pi * i / 4 for i in range(5))]

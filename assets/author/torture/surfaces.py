@@ -29,7 +29,7 @@ MATERIALS = {
     "brick": Material(picture=COURT + "brick.jpg", tile_m=(2.0, 2.0)),
     "roof": Material(picture=COURT + "roof.jpg", tile_m=(1.0, 1.6)),
     "plaster": Material(picture=COURT + "plaster.jpg", tile_m=(4.0, 4.0)),
-    "bark": Material(picture=COURT + "wood.jpg", colour_lin=(0.55, 0.5, 0.46)),
+    "bark": Material(picture=COURT + "wood.jpg", colour_lin=(0.95, 0.9, 0.85)),
     "leaf": Material("mask", picture=COURT + "leaf.png", double_sided=True),
     "core": Material(colour_lin=(0.018, 0.046, 0.009)),
     "hills": Material(),
