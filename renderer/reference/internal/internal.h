@@ -75,6 +75,8 @@ typedef struct DipRefTriangle {
     const DipRefTexture *colour;
     const DipRefTexture *light_map;
     const DipRefTexture *normal_map;
+    bool repeats[2];  // u0 and v0: all textures that are read at them repeat along this axis
+    double repeat[2]; // u0 and v0 where they repeat: the multiple of 64 nearest to the eye's corner
     DipRefLit lit;
     const DipPbrDef *pbr; // NULL unless the surface is drawn by its metallic-roughness description
     DipRefPbrTables *pbr_tables;
@@ -176,6 +178,7 @@ typedef struct DipRefVaryings {
     double ddx[DIP_REF_DERIVED];
     double ddy[DIP_REF_DERIVED];
     double depth_change; // |dw/dx| + |dw/dy|, divided by w; w is the distance along the view axis
+    const DipRefTriangle *triangle;
 } DipRefVaryings;
 
 // Finds the unit normal at a position: the interpolated normal, or the normal map's if texel is not
@@ -240,6 +243,11 @@ DipRefPeel dip_reference_peel_begin(const double rgb[3], double depth);
 void dip_reference_peel_offer(DipRefPeel *peel, double depth, int32_t triangle);
 // Draws the farthest of the offered surfaces. `place` lies on its triangle.
 void dip_reference_peel_blend(DipRefPeel *peel, const DipRefPosition *place);
+
+// enlarge.c: enlarges the picture of a scale below 1. Its colours, in linear light, are rounded to
+// codes first. upscale: the step of the setting. Fails with MEMORY.
+bool dip_reference_enlarge(int upscale, const double *drawn_lin, int from_width, int from_height,
+                           double *rgb_lin, int width, int height, DipError *err);
 
 // Computes the position of sample `index` of the converged picture in a pixel. The sample is
 // jittered within its cell of a side x side grid. pixel is y * width + x. The position is relative
