@@ -4,6 +4,7 @@
 
 #include "renderer/reference/reference.h"
 #include "renderer/reference/internal/texture.h"
+#include "renderer/scene/motion.h"
 
 #include <stddef.h>
 
@@ -11,7 +12,9 @@
 typedef struct DipRefPbrTables DipRefPbrTables;
 
 struct DipReference {
-    const DipSceneDef *def; // borrowed
+    const DipSceneDef *def;     // borrowed; that of `posed` if the scene moves
+    DipPosedDef *posed;         // owned: the scene at the reference's time; NULL if nothing moves
+    const DipMotionDef *motion; // of the scene; NULL if nothing moves
     uint64_t frame_index;
     int64_t time_ns;
     DipReflectionDef reflection;
