@@ -225,8 +225,8 @@ enum { DIP_MAX_PASSES_AT_ONCE = 8 };
 // Fails as dip_pipeline_draw does. Also fails with RANGE if count is out of range, and with
 // CONFLICT if two passes have the same pipeline, the same attachments.samples, or the same
 // attachments.depth while one of them does not revert its depths and stencil values
-// (DIP_STORE_REVERT), if their pipelines use different pools, or if copies_from of a work breaks the
-// rules in its comment or is set without same_geometry.
+// (DIP_STORE_REVERT), if their pipelines use different pools, or if copies_from of a work breaks
+// the rules in its comment or is set without same_geometry.
 DIP_API bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geometry,
                                       DipError *err);
 

@@ -24,7 +24,10 @@ typedef struct Uniforms {
 #define FACE(test, result)                                                                         \
     { test, DIP_STENCIL_KEEP, DIP_STENCIL_KEEP, result }
 #define STENCIL(value, test, result)                                                               \
-    { true, value, 0xff, 0xff, FACE(test, result), FACE(test, result) }
+    {                                                                                              \
+        .enabled = true, .reference = value, .read_mask = 0xff, .write_mask = 0xff,                \
+        .front = FACE(test, result), .back = FACE(test, result)                                    \
+    }
 #define EQUAL(value) STENCIL(value, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)
 
 enum { NO_COLOUR = DIP_CHANNEL_RED | DIP_CHANNEL_GREEN | DIP_CHANNEL_BLUE | DIP_CHANNEL_ALPHA };

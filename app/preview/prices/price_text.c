@@ -134,7 +134,8 @@ static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
 }
 
 static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
-    char flip[DIP_STEP_NAME_BYTES] = "", beside[64] = "", where[80] = "";
+    char digits[DIP_STEP_NAME_BYTES], flip[DIP_STEP_NAME_BYTES] = "", beside[64] = "",
+                                      where[80] = "";
     text[0] = '\0';
     if (price->beside[0]) {
         snprintf(beside, sizeof beside, " beside %s", price->beside);
@@ -147,7 +148,8 @@ static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
     }
     switch (price->state) {
     case DIP_PRICE_BASE:
-        snprintf(text, size_bytes, "\nThe base of all prices%s: %.2f ms%s%s.", where, price->ms,
+        dip_ms_text(price->ms, dip_price_trust(price), digits);
+        snprintf(text, size_bytes, "\nThe base of all prices%s: %s ms%s%s.", where, digits,
                  flip[0] ? ", FLIP " : "", flip);
         break;
     case DIP_PRICE_MEASURED:

@@ -2,37 +2,9 @@
 # Tests the preview inside the window of the sample host: settings pushed by the host's buttons,
 # keys and clicks in the preview, sizes, and either program killed first. Runs inside xvfb-run.
 # Usage: host.sh DIPTYCH HOST
-set -u
 diptych=$1
 host=$2
-folder=$(mktemp -d) || exit 1
-cd "$folder" || exit 1
-pid=
-guest=
-finish() {
-    [ -n "$pid" ] && kill "$pid" 2>/dev/null
-    [ -n "$guest" ] && kill "$guest" 2>/dev/null
-    cd / && rm -rf "$folder"
-}
-trap finish EXIT
-
-fail() {
-    echo "host.sh: $1" >&2
-    tail -n 5 lines.txt errors.txt >&2
-    exit 1
-}
-
-# await DESCRIPTION COMMAND...: repeats the command until it succeeds, for at most two minutes.
-await() {
-    what=$1
-    shift
-    tries=0
-    until "$@"; do
-        tries=$((tries + 1))
-        [ $tries -ge 600 ] && fail "never happened: $what"
-        sleep 0.2
-    done
-}
+. "$(dirname "$0")/on_screen.sh"
 
 last_settings() { grep '"event":"settings"' lines.txt | tail -n 1; }
 requested_has() { last_settings | sed 's/.*"requested"//' | grep -q "$1"; }
@@ -43,9 +15,6 @@ is_gone() { # also true for a process that has ended but that nobody has waited 
 }
 press_button() { # number from 0
     xdotool mousemove $((8 + 88 * $1 + 40)) 20 click 1
-}
-deviation() { # prints the spread of grey values; 0 for a picture of one colour
-    convert "$1" -colorspace Gray -format '%[fx:int(1000*standard_deviation)]' info:
 }
 area_shows() { # the guest draws in the lower right corner of the host's window of this size
     import -window root screen.png
@@ -60,6 +29,7 @@ start() {
     await "the preview greets its host" grep -q '"protocol":1' lines.txt
     await "the host hears of the settings" grep -q '"event":"settings"' lines.txt
     guest=$(sed -n 's/^guest started with process id //p' lines.txt)
+    beside=$guest
     window=$(xdotool search --name '^Settings panel$' | head -n 1)
 }
 
@@ -122,7 +92,7 @@ pid=
 await "the guest ends after its host" is_gone "$guest"
 grep -q 'has closed it' errors.txt || fail "the guest does not say why it ended"
 [ "$(wc -l <errors.txt)" = 1 ] || fail "the guest printed more than one line"
-guest=
+beside=
 
 # Windows that do not exist.
 "$diptych" --window-id 0x1fffff 2>errors.txt

@@ -504,6 +504,9 @@ static void doubtful_times_are_written_with_one_digit(void **state) {
     dip_step_tip(DIP_SETTING_AA, 1, &wild, "", tip);
     assert_null(strstr(tip, "3864303"));
     assert_non_null(strstr(tip, "Its time cannot be told"));
+    const DipPrice busy = {.state = DIP_PRICE_BASE, .ms = 50.16, .doubtful = true};
+    dip_step_tip(DIP_SETTING_AA, 0, &busy, "", tip);
+    assert_non_null(strstr(tip, "The base of all prices: 50? ms."));
     dip_flip_text(-0.00001, true, tip);
     assert_string_equal(tip, ".0000"); // Not "-.0000".
     const DipPriceSum sum = {.state = DIP_PRICE_ROUGH, .ms = 12.0, .ms_high = 3864303.5};

@@ -1,34 +1,8 @@
 #!/bin/sh
 # Tests the window as a user sees it: presses keys and compares screenshots. Runs inside xvfb-run
 # with a screen of 1282x720. Usage: window.sh DIPTYCH
-set -u
 diptych=$1
-folder=$(mktemp -d) || exit 1
-cd "$folder" || exit 1
-pid=
-finish() {
-    [ -n "$pid" ] && kill "$pid" 2>/dev/null
-    cd / && rm -rf "$folder"
-}
-trap finish EXIT
-
-fail() {
-    echo "window.sh: $1" >&2
-    exit 1
-}
-
-# await DESCRIPTION COMMAND...: repeats the command until it succeeds, for at most two minutes.
-await() {
-    what=$1
-    shift
-    tries=0
-    until "$@"; do
-        tries=$((tries + 1))
-        [ $tries -ge 600 ] && fail "never happened: $what"
-        kill -0 "$pid" 2>/dev/null || fail "the program ended while waiting: $what"
-        sleep 0.2
-    done
-}
+. "$(dirname "$0")/on_screen.sh"
 
 # Takes a screenshot and writes both panes, without the labels and notices, to left.bmp and
 # right.bmp, and the contents of the dock to dock.bmp.
@@ -69,8 +43,7 @@ window_is() {
 
 "$diptych" --size 640x480 --current aa=none,af=none --requested aa=none,af=none 2>errors.txt &
 pid=$!
-found() { window=$(xdotool search --onlyvisible --name '^Diptych' 2>/dev/null | head -n 1); [ -n "$window" ]; }
-await "the window opens" found
+await "the window opens" found Diptych
 xdotool windowfocus "$window" 2>/dev/null
 await "both panes show the scene" both_show_something
 

@@ -2,50 +2,20 @@
 # Tests that the window opens with the smallest and the largest panes, that it can be made as small
 # as one pixel, and that it then still takes keys. Runs inside xvfb-run with a screen of 1282x480.
 # Usage: window_sizes.sh DIPTYCH
-set -u
 diptych=$1
-folder=$(mktemp -d) || exit 1
-cd "$folder" || exit 1
-pid=
-finish() {
-    [ -n "$pid" ] && kill "$pid" 2>/dev/null
-    cd / && rm -rf "$folder"
-}
-trap finish EXIT
+. "$(dirname "$0")/on_screen.sh"
 
-fail() {
-    echo "window_sizes.sh: $1" >&2
-    exit 1
-}
-
-# await DESCRIPTION COMMAND...: repeats the command until it succeeds, for at most two minutes.
-await() {
-    what=$1
-    shift
-    tries=0
-    until "$@"; do
-        tries=$((tries + 1))
-        [ $tries -ge 600 ] && fail "never happened: $what"
-        kill -0 "$pid" 2>/dev/null || fail "the program ended while waiting: $what"
-        sleep 0.2
-    done
-}
-
-found() {
-    window=$(xdotool search --onlyvisible --name '^Diptych' 2>/dev/null | head -n 1)
-    [ -n "$window" ]
-}
 window_is() { xdotool getwindowgeometry "$window" | grep -q "Geometry: $1"; }
 shows_something() {
     import -window "$window" shot.png 2>/dev/null &&
-        [ "$(convert shot.png -colorspace Gray -format '%[fx:int(1000*standard_deviation)]' info:)" -gt 20 ]
+        [ "$(deviation shot.png)" -gt 20 ]
 }
 
 # open SIZE GEOMETRY: opens the program with panes of this size; the window must have this geometry.
 open() {
     "$diptych" --model one.obj --size "$1" 2>errors.txt &
     pid=$!
-    await "the window opens with $1" found
+    await "the window opens with $1" found Diptych
     xdotool windowfocus "$window" 2>/dev/null
     await "the window has $2 pixels" window_is "$2"
     await "the window shows something with $1" shows_something

@@ -14,8 +14,9 @@ static void settings_have_their_documented_defaults(void **state) {
     char text[256];
     const DipQuality quality = dip_quality_default();
     dip_quality_format(&quality, text, sizeof text);
-    assert_string_equal(text, "aa=none,taa=off,aaa=off,asd=1,af=none,aaf=off,opt=off,"
-                              "miplod=high-quality,scale=1,post=off,sharpen=off,gi=on,mipdebug=off");
+    assert_string_equal(text,
+                        "aa=none,taa=off,aaa=off,asd=1,af=none,aaf=off,opt=off,"
+                        "miplod=high-quality,scale=1,post=off,sharpen=off,gi=on,mipdebug=off");
 }
 
 static void formatting_gives_the_parsed_text_back(void **state) {
