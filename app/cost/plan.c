@@ -104,6 +104,9 @@ static void plan_setting(DipCostReport *report, const DipSession *session, DipSe
     if (setting == DIP_SETTING_AAF && base.step[DIP_SETTING_AF] == 0) {
         base.step[DIP_SETTING_AF] = DIP_COST_COMPANY_AF;
     }
+    if (setting == DIP_SETTING_UPSCALE && !dip_quality_upscales(&base)) {
+        base.step[DIP_SETTING_SCALE] = DIP_COST_COMPANY_SCALE;
+    }
     DipQuality steps[DIP_MAX_STEPS];
     int count = 0;
     for (int step = 0; step < info->step_count; step++) {

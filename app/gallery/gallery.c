@@ -346,6 +346,7 @@ static void fill_frame(const DipGalleryPane *pane, const DipPipelineCounters *co
     frame->effects.post = pane->quality.step[DIP_SETTING_POST]
                               ? (DipEffect){true, "the finished picture is searched for edges"}
                               : (DipEffect){false, "post is off"};
+    frame->effects.upscale = (DipEffect){false, "gallery scenes are drawn at their own size"};
     frame->effects.sharpen = pane->quality.step[DIP_SETTING_SHARPEN]
                                  ? (DipEffect){true, "the finished picture is sharpened"}
                                  : (DipEffect){false, "sharpen is off"};
@@ -360,9 +361,11 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
     const double time_s = 1e-9 * (double)(wrap_time(gallery->def.scene, time_ns) % scene_ns);
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
+    DipQuality quality = pane->quality;
+    quality.step[DIP_SETTING_SCALE] = DIP_SCALE_1; // A gallery scene is drawn at its own size.
+    const DipFinishSize size = dip_finish_size(&quality, pane->target.width, pane->target.height);
     if (!check_pose(pose, err) || !open_scene(gallery, index, err) ||
-        !dip_finish_follow(pane->finish, &pane->quality, pane->target.width, pane->target.height,
-                           err)) {
+        !dip_finish_follow(pane->finish, &quality, &size, err)) {
         return false;
     }
     const DipGalleryView view = {
@@ -374,11 +377,11 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
         .turns = (float)(time_s / DIP_GALLERY_SECONDS),
         .turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS,
         .look = (gallery->look % looks + looks) % looks,
-        .quality = &pane->quality,
-        .pattern = dip_pattern_kind(pane->quality.step[DIP_SETTING_TAA] != 0, pane->frame_index),
+        .quality = &quality,
+        .pattern = dip_pattern_kind(quality.step[DIP_SETTING_TAA] != 0, pane->frame_index),
         .target = pane->target,
         .pipeline = pane->pipeline,
-        .filter = filter_of(&pane->quality),
+        .filter = filter_of(&quality),
         .mip_colours = gallery->mip_colours,
         .counters = &counters,
         .times = &times,

@@ -62,7 +62,7 @@ static const unsigned groups[] = {
     1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
     1u << DIP_SETTING_OPT,
     1u << DIP_SETTING_MIPLOD,
-    1u << DIP_SETTING_SCALE,
+    1u << DIP_SETTING_SCALE | 1u << DIP_SETTING_UPSCALE,
     1u << DIP_SETTING_POST,
     1u << DIP_SETTING_SHARPEN,
     1u << DIP_SETTING_GI,
@@ -82,6 +82,15 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
         rest = without;
     }
     return dip_quality_equal(&rest, base) ? count : -1;
+}
+
+double dip_cost_pixels_filtered(const DipQuality *quality) {
+    const double scale = dip_quality_scale(quality);
+    // Antialiasing filters the picture that is drawn, before it is enlarged.
+    const double drawn = fmin(1.0, scale * scale);
+    return (quality->step[DIP_SETTING_POST] ? drawn : 0.0) +
+           (dip_quality_upscales(quality) ? 1.0 : 0.0) +
+           (quality->step[DIP_SETTING_SHARPEN] ? 1.0 : 0.0);
 }
 
 // Multiplies each counter by the ratio of a combination's counter (`of`) to the base's counter.
@@ -116,9 +125,15 @@ bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *
         return apply(of_filtering, of_base, counters);
     }
     bool known = true;
+    double filtered = dip_cost_pixels_filtered(base);
     for (int g = 1; known && g < GROUPS; g++) {
         const DipQuality alone = dip_cost_take_settings(base, quality, groups[g]);
+        filtered += dip_cost_pixels_filtered(&alone) - dip_cost_pixels_filtered(base);
         known = apply(find(context, &alone), of_base, counters);
+    }
+    // Post-process AA, counted at the base's scale, has fewer pixels to filter at a scale below 1.
+    if (filtered > 0.0) {
+        counters[DIP_COST_COUNTER_pixels_filtered] *= dip_cost_pixels_filtered(quality) / filtered;
     }
     return known;
 }

@@ -16,17 +16,22 @@ int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, Di
 // Returns `from` with the settings of `mask` (bit s for setting s) taken from `with`.
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask);
 
-// Temporal AA does nothing without AA, and advanced AF does nothing without AF. If AA or AF is off,
-// reports and prices measure temporal AA together with this step of AA, and advanced AF together
-// with this step of AF.
-enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4 };
+// Temporal AA does nothing without AA, advanced AF does nothing without AF, and an upscaling filter
+// does nothing without a scale below 1. If AA or AF is off, or the scale is not below 1, reports
+// and prices measure temporal AA together with this step of AA, advanced AF together with this step
+// of AF, and upscaling filters together with this step of scale.
+enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE = DIP_SCALE_1_1_5 };
 
 // --- composed work -------------------------------------------------------------------------------
 
 // Groups of settings change the work nearly independently of each other: the settings of samples
 // (antialiasing, temporal AA, adaptive AA and its groups), anisotropic filtering with advanced AF,
-// texture optimisation, mip detail, and instancing. A composed counter is the base combination's
-// counter, times the factors by which each group alone changes it.
+// texture optimisation, mip detail, render scale with its upscaling filter, filters of the finished
+// picture, and instancing. A composed counter is the base combination's counter, times the factors
+// by which each group alone changes it; pixels that filters write are added instead.
+
+// Returns how many pixels all filters of the finished picture write, per pixel of the frame.
+double dip_cost_pixels_filtered(const DipQuality *quality);
 
 // Returns the mask of the settings of samples (bit s for setting s). They decide which samples and
 // fragments are drawn.

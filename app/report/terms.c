@@ -1,6 +1,7 @@
 // Lists the terms of each stage of a frame and of FLIP, by their names and formulas.
 #include "app/report/fit.h"
 
+#include "app/report/combinations.h"
 #include "renderer/base/assert.h"
 
 #include <math.h>
@@ -25,13 +26,17 @@ typedef struct Work {
                         // performance (the second) and as high-performance (the third).
     double sharp[2];    // 1 if miplod is at least as sharp as sharp (the first value), as sharper.
     double scaled;      // 1 if a larger picture is drawn and averaged.
-    double scale;       // How many times as wide and high this picture is.
+    double scale;       // How many times as wide and high the picture that is drawn is.
+    double drawn_part;  // Pixels that are drawn per pixel of a frame, if scale is below 1; else 1.
+    double enlarged[3]; // 1 with a scale below 1 and upscale=bilinear (the first value), =bicubic
+                        // (the second) and =easu (the third).
     double temporal;    // 1 with temporal AA.
     double coloured;    // 1 if mip levels are shown as colours.
     double fxaa;        // 1 with post=fxaa.
     double smaa;        // 1 with post=smaa.
     double sharpness;   // Strength of the sharpening, 0..1.
-    double filters;     // Number of filters of the finished picture, but at least 1.
+    double filters; // Pixels that all filters of the finished picture write per pixel of a frame;
+                    // 1 if there is none.
 } Work;
 
 #define C(name) (w->counters[DIP_COST_COUNTER_##name])
@@ -92,8 +97,11 @@ typedef struct Work {
     X("frame", 1.0)                                                                                \
     X("pass", C(passes))                                                                           \
     X("tile", C(tiles_drawn))                                                                      \
-    X("pixel filtered by FXAA", C(pixels_filtered) / w->filters * w->fxaa)                         \
-    X("pixel filtered by SMAA", C(pixels_filtered) / w->filters * w->smaa)                         \
+    X("pixel filtered by FXAA", C(pixels_filtered) / w->filters * w->drawn_part * w->fxaa)         \
+    X("pixel filtered by SMAA", C(pixels_filtered) / w->filters * w->drawn_part * w->smaa)         \
+    X("pixel enlarged, bilinear", C(pixels_filtered) / w->filters * w->enlarged[0])                \
+    X("pixel enlarged, bicubic", C(pixels_filtered) / w->filters * w->enlarged[1])                 \
+    X("pixel enlarged, EASU", C(pixels_filtered) / w->filters * w->enlarged[2])                    \
     X("pixel sharpened", C(pixels_filtered) / w->filters * (w->sharpness > 0.0))                   \
     X("edge found by FXAA", C(edges_found) * w->fxaa)                                              \
     X("edge found by SMAA", C(edges_found) * w->smaa)
@@ -123,8 +131,11 @@ typedef struct Work {
     X("miplod=high-performance", w->biased[2])                                                     \
     X("miplod=sharp", w->sharp[0])                                                                 \
     X("miplod=sharper", w->sharp[1])                                                               \
-    X("scale, per step", 1.0 - 1.0 / w->scale)                                                     \
-    X("scale, per pixel drawn", 1.0 - 1.0 / (w->scale * w->scale))                                 \
+    X("scale above 1, per step", w->scaled *(1.0 - 1.0 / w->scale))                                \
+    X("scale above 1, per pixel drawn", w->scaled *(1.0 - 1.0 / (w->scale * w->scale)))            \
+    X("scale below 1, bilinear", w->enlarged[0] * (1.0 / w->scale - 1.0))                          \
+    X("scale below 1, bicubic", w->enlarged[1] * (1.0 / w->scale - 1.0))                           \
+    X("scale below 1, EASU", w->enlarged[2] * (1.0 / w->scale - 1.0))                              \
     X("temporal AA", w->temporal)                                                                  \
     X("post=fxaa", w->fxaa)                                                                        \
     X("post=smaa", w->smaa)                                                                        \
@@ -185,6 +196,10 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
     const int sharpen = quality->step[DIP_SETTING_SHARPEN];
     const double samples = dip_quality_sample_count(quality);
     const double probes = dip_quality_max_anisotropy(quality);
+    const double scale = dip_quality_scale(quality);
+    const bool enlarges = dip_quality_upscales(quality);
+    const int upscale = quality->step[DIP_SETTING_UPSCALE];
+    const double filters = dip_cost_pixels_filtered(quality);
     const Work work = {
         .counters = counters,
         .samples = samples,
@@ -203,14 +218,18 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .biased = {level <= DIP_MIPLOD_QUALITY, level <= DIP_MIPLOD_PERFORMANCE,
                    level <= DIP_MIPLOD_HIGH_PERFORMANCE},
         .sharp = {level >= DIP_MIPLOD_SHARP, level >= DIP_MIPLOD_SHARPER},
-        .scaled = quality->step[DIP_SETTING_SCALE] != 0,
-        .scale = dip_quality_drawn_size(quality, 4) / 4.0, // every step is a multiple of 1/4
+        .scaled = scale > 1.0,
+        .scale = scale,
+        .drawn_part = fmin(1.0, scale * scale),
+        .enlarged = {enlarges && upscale == DIP_UPSCALE_BILINEAR,
+                     enlarges && upscale == DIP_UPSCALE_BICUBIC,
+                     enlarges && upscale == DIP_UPSCALE_EASU},
         .temporal = quality->step[DIP_SETTING_TAA] != 0,
         .coloured = quality->step[DIP_SETTING_MIPDEBUG] != 0,
         .fxaa = post == DIP_POST_STEP_FXAA,
         .smaa = post == DIP_POST_STEP_SMAA,
         .sharpness = sharpness[sharpen],
-        .filters = post && sharpen ? 2.0 : 1.0,
+        .filters = filters > 0.0 ? filters : 1.0,
     };
     const Work *const w = &work;
     switch (part) {

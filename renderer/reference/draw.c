@@ -449,7 +449,7 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     mirrored.shot.mirrored = true;
     // Only the frame itself may be sharper than its textures' sizes ask for.
     DipRefFilter filter = drawing->filter;
-    filter.bias = fmax(0.0, filter.bias);
+    filter.bias = fmax(0.0, filter.bias - filter.scale_bias);
     set_filters(&mirrored, &filter);
     // The height of two texels of the mirrored picture, at a distance of 1.
     mirrored.shot.margin =
@@ -540,18 +540,23 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
     if (!dip_reference_check_size(drawn_width, drawn_height, err)) {
         return false;
     }
-    double *larger = malloc((size_t)drawn_width * (size_t)drawn_height * 3 * sizeof *larger);
-    if (!larger) {
+    double *picture = malloc((size_t)drawn_width * (size_t)drawn_height * 3 * sizeof *picture);
+    if (!picture) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL,
                              "out of memory for a picture of %dx%d pixels", drawn_width,
                              drawn_height);
     }
-    const bool drawn =
-        draw_picture(reference, quality, pose, aspect, drawn_width, drawn_height, larger, err);
-    for (int i = 0; drawn && i < width * height; i++) {
-        average_box(larger, drawn_width, drawn_height, i % width, i / width, width, height,
-                    rgb_lin + 3 * (size_t)i);
+    bool drawn =
+        draw_picture(reference, quality, pose, aspect, drawn_width, drawn_height, picture, err);
+    if (drawn && dip_quality_upscales(quality)) {
+        drawn = dip_reference_enlarge(quality->step[DIP_SETTING_UPSCALE], picture, drawn_width,
+                                      drawn_height, rgb_lin, width, height, err);
+    } else {
+        for (int i = 0; drawn && i < width * height; i++) {
+            average_box(picture, drawn_width, drawn_height, i % width, i / width, width, height,
+                        rgb_lin + 3 * (size_t)i);
+        }
     }
-    free(larger);
+    free(picture);
     return drawn;
 }

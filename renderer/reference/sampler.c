@@ -239,10 +239,14 @@ DipRefFilter dip_reference_colour_filter(const DipQuality *quality) {
     };
     const int miplod = quality->step[DIP_SETTING_MIPLOD];
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
+    const bool reads_finer = dip_quality_upscales(quality) && !mip_colours;
+    const double scale_bias =
+        reads_finer ? round(256.0 * log2(dip_quality_scale(quality))) / 256.0 : 0.0;
     return (DipRefFilter){
         .max_anisotropy = dip_quality_max_anisotropy(quality),
         .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
-        .bias = mip_colours ? fmax(0.0, bias[miplod]) : bias[miplod],
+        .bias = (mip_colours ? fmax(0.0, bias[miplod]) : bias[miplod]) + scale_bias,
+        .scale_bias = scale_bias,
         .drop_levels = miplod == DIP_MIPLOD_HIGH_PERFORMANCE,
         .mip_colours = mip_colours,
         .compressed = dip_quality_compresses(quality),

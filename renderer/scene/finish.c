@@ -8,23 +8,20 @@
 #include <stdlib.h>
 
 // The filters in the order in which they are applied.
-enum { ANTIALIASING, SHARPENING, FILTERS };
+enum { ANTIALIASING, UPSCALING, SHARPENING, FILTERS };
 
 typedef struct Filter {
-    int step;       // of the setting; 0: off
-    DipPost *post;  // NULL if the filter is off
-    uint8_t *rgba8; // its picture
+    DipPost *post;       // NULL if the filter is off
+    DipPostDef def;      // that of `post`
+    uint8_t *rgba8;      // its picture
+    size_t stride_bytes; // of its picture
 } Filter;
 
 struct DipFinish {
     DipPool *pool;
     DipIsa isa;
-    int width;
-    int height;
     Filter filters[FILTERS];
 };
-
-static const DipSetting settings[FILTERS] = {DIP_SETTING_POST, DIP_SETTING_SHARPEN};
 
 DipFinish *dip_finish_create(DipPool *pool, DipIsa isa, DipError *err) {
     DipFinish *finish = calloc(1, sizeof *finish);
@@ -57,47 +54,80 @@ void dip_finish_destroy(DipFinish **finish) {
     }
 }
 
-static bool make_filter(DipFinish *finish, int index, int step, DipError *err) {
+DipFinishSize dip_finish_size(const DipQuality *quality, int width, int height) {
+    const bool enlarges = dip_quality_upscales(quality);
+    return (DipFinishSize){
+        .drawn_width = enlarges ? dip_quality_drawn_size(quality, width) : width,
+        .drawn_height = enlarges ? dip_quality_drawn_size(quality, height) : height,
+        .width = width,
+        .height = height,
+    };
+}
+
+// Describes a filter of the settings. Returns false if it is off.
+static bool define_filter(const DipFinish *finish, int index, const DipQuality *quality,
+                          const DipFinishSize *size, DipPostDef *def) {
     // RCAS by stops: a quarter, a half and all of its strength.
     static const float sharpness[] = {0.0f, 0.25f, 0.5f, 1.0f};
     static const DipPostFilter antialiasing[] = {
         [DIP_POST_STEP_FXAA] = DIP_POST_FXAA,
         [DIP_POST_STEP_SMAA] = DIP_POST_SMAA,
     };
-    Filter *filter = &finish->filters[index];
-    const DipPostDef def = {
-        .filter = index == ANTIALIASING ? antialiasing[step] : DIP_POST_SHARPEN,
-        .from_width = finish->width,
-        .from_height = finish->height,
-        .to_width = finish->width,
-        .to_height = finish->height,
-        .sharpness = index == SHARPENING ? sharpness[step] : 0.0f,
+    static const DipPostFilter upscaling[] = {
+        [DIP_UPSCALE_BILINEAR] = DIP_POST_BILINEAR,
+        [DIP_UPSCALE_BICUBIC] = DIP_POST_BICUBIC,
+        [DIP_UPSCALE_EASU] = DIP_POST_EASU,
+    };
+    *def = (DipPostDef){
+        .from_width = index == SHARPENING ? size->width : size->drawn_width,
+        .from_height = index == SHARPENING ? size->height : size->drawn_height,
+        .to_width = index == ANTIALIASING ? size->drawn_width : size->width,
+        .to_height = index == ANTIALIASING ? size->drawn_height : size->height,
         .isa = finish->isa,
         .pool = finish->pool,
     };
+    switch (index) {
+    case ANTIALIASING:
+        def->filter = antialiasing[quality->step[DIP_SETTING_POST]];
+        return quality->step[DIP_SETTING_POST] != DIP_POST_STEP_OFF;
+    case UPSCALING:
+        def->filter = upscaling[quality->step[DIP_SETTING_UPSCALE]];
+        return dip_quality_upscales(quality);
+    default:
+        def->filter = DIP_POST_SHARPEN;
+        def->sharpness = sharpness[quality->step[DIP_SETTING_SHARPEN]];
+        return quality->step[DIP_SETTING_SHARPEN] != 0;
+    }
+}
+
+static bool same_filter(const DipPostDef *a, const DipPostDef *b) {
+    return a->filter == b->filter && a->from_width == b->from_width &&
+           a->from_height == b->from_height && a->to_width == b->to_width &&
+           a->to_height == b->to_height && a->sharpness == b->sharpness;
+}
+
+static bool make_filter(Filter *filter, const DipPostDef *def, DipError *err) {
     free_filter(filter);
-    filter->post = dip_post_create(&def, err);
-    filter->rgba8 = dip_lines_alloc((size_t)finish->width * (size_t)finish->height * 4);
-    filter->step = step;
+    filter->def = *def;
+    filter->stride_bytes = (size_t)def->to_width * 4;
+    filter->post = dip_post_create(def, err);
+    filter->rgba8 = dip_lines_alloc(filter->stride_bytes * (size_t)def->to_height);
     if (filter->post && !filter->rgba8) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "size", "no memory for %dx%d pixels",
-                             finish->width, finish->height);
+                             def->to_width, def->to_height);
     }
     return filter->post != NULL;
 }
 
-bool dip_finish_follow(DipFinish *finish, const DipQuality *quality, int width, int height,
+bool dip_finish_follow(DipFinish *finish, const DipQuality *quality, const DipFinishSize *size,
                        DipError *err) {
-    if (width != finish->width || height != finish->height) {
-        free_filters(finish);
-        finish->width = width;
-        finish->height = height;
-    }
     for (int i = 0; i < FILTERS; i++) {
-        const int step = quality->step[settings[i]];
-        if (step == 0) {
-            free_filter(&finish->filters[i]);
-        } else if (step != finish->filters[i].step && !make_filter(finish, i, step, err)) {
+        Filter *filter = &finish->filters[i];
+        DipPostDef def;
+        if (!define_filter(finish, i, quality, size, &def)) {
+            free_filter(filter);
+        } else if ((!filter->post || !same_filter(&filter->def, &def)) &&
+                   !make_filter(filter, &def, err)) {
             free_filters(finish);
             return false;
         }
@@ -111,11 +141,10 @@ void dip_finish_frame(DipFinish *finish, DipFrame *frame) {
     for (int i = 0; i < FILTERS; i++) {
         const Filter *filter = &finish->filters[i];
         if (filter->post) {
-            const size_t stride_bytes = (size_t)finish->width * 4;
             const DipPostWork work = dip_post_run(filter->post, frame->rgba8, frame->stride_bytes,
-                                                  filter->rgba8, stride_bytes);
+                                                  filter->rgba8, filter->stride_bytes);
             frame->rgba8 = filter->rgba8;
-            frame->stride_bytes = stride_bytes;
+            frame->stride_bytes = filter->stride_bytes;
             frame->counters.pixels_filtered += work.pixels_filtered;
             frame->counters.edges_found += work.edges_found;
             filtered = true;

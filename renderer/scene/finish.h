@@ -1,5 +1,6 @@
 // Finishing a frame: what the settings do to a picture after it is drawn. These are antialiasing of
-// the finished picture (post), and sharpening. renderer/post/ has the filters.
+// the finished picture (post), enlarging it (upscale, with a scale below 1), and sharpening.
+// renderer/post/ has the filters.
 #ifndef DIP_RENDERER_SCENE_FINISH_H
 #define DIP_RENDERER_SCENE_FINISH_H
 
@@ -24,15 +25,28 @@ DIP_API DipFinish *dip_finish_create(DipPool *pool, DipIsa isa, DipError *err);
 // *finish may be NULL and becomes NULL.
 DIP_API void dip_finish_destroy(DipFinish **finish);
 
+// The sizes of the picture that is drawn and of the frame that is made of it, in pixels. They
+// differ only with a scale below 1; a larger picture is averaged before.
+typedef struct DipFinishSize {
+    int drawn_width;
+    int drawn_height;
+    int width;
+    int height;
+} DipFinishSize;
+
+// Returns the sizes for frames of width x height pixels.
+DIP_API DipFinishSize dip_finish_size(const DipQuality *quality, int width, int height);
+
 // Makes the filters that these settings need for frames of this size, and frees all others, so that
 // settings without filters take no memory. Does nothing if neither settings nor size have changed.
 // Fails with MEMORY; then no filter is left.
-DIP_API bool dip_finish_follow(DipFinish *finish, const DipQuality *quality, int width, int height,
-                               DipError *err);
+DIP_API bool dip_finish_follow(DipFinish *finish, const DipQuality *quality,
+                               const DipFinishSize *size, DipError *err);
 
-// Applies the filters to a frame of the size that dip_finish_follow was given. Points the frame to
-// the filtered picture, which the DipFinish owns until it is called again; adds to the counters
-// pixels_filtered and edges_found, and adds the time to the frame's total. Allocates nothing.
+// Applies the filters to a frame whose pixels are the picture that was drawn, of the size that
+// dip_finish_follow was given. Points the frame to the filtered picture, which the DipFinish owns
+// until it is called again; adds to the counters pixels_filtered and edges_found, and adds the time
+// to the frame's total. Allocates nothing.
 DIP_API void dip_finish_frame(DipFinish *finish, DipFrame *frame);
 
 #ifdef __cplusplus

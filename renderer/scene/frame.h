@@ -67,6 +67,7 @@ typedef struct DipCounters {
     X(blend, "blending")                                                                           \
     X(sky, "clouds")                                                                               \
     X(post, "post-process AA")                                                                     \
+    X(upscale, "upscaling")                                                                        \
     X(sharpen, "sharpening")
 
 // Tells whether an effect ran in a frame, and why or why not.
@@ -105,8 +106,8 @@ typedef struct DipFrame {
     DipCounters counters;
     DipStageTimes stages;
     DipEffects effects;
-    // All 0 unless the renderer records tiles. Also 0 if scale draws a larger picture, whose tiles
-    // are not those of the frame.
+    // All 0 unless the renderer records tiles. Also 0 if scale draws a picture of another size,
+    // whose tiles are not those of the frame.
     DipFrameTiles tiles;
 } DipFrame;
 

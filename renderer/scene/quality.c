@@ -176,6 +176,7 @@ DipQuality dip_quality_effective(const DipQuality *quality) {
                            : has_groups(&effective);
     step[DIP_SETTING_AAA] = works ? step[DIP_SETTING_AAA] : DIP_AAA_OFF;
     step[DIP_SETTING_ASD] = divides(&effective) ? step[DIP_SETTING_ASD] : 0;
+    step[DIP_SETTING_UPSCALE] = dip_quality_upscales(quality) ? step[DIP_SETTING_UPSCALE] : 0;
     return effective;
 }
 
@@ -192,6 +193,8 @@ const char *dip_quality_needs(const DipQuality *quality, DipSetting setting) {
         return has_samples && divides(quality) ? NULL : "needs adaptive AA";
     case DIP_SETTING_AAF:
         return quality->step[DIP_SETTING_AF] ? NULL : "needs AF";
+    case DIP_SETTING_UPSCALE:
+        return dip_quality_upscales(quality) ? NULL : "needs a scale below 1";
     default:
         return NULL;
     }
@@ -248,12 +251,33 @@ int dip_quality_max_anisotropy(const DipQuality *quality) {
     return 1 << quality->step[DIP_SETTING_AF];
 }
 
+// The steps of scale as exact ratios.
+typedef struct Ratio {
+    int over;
+    int under;
+} Ratio;
+
+static Ratio ratio_of(const DipQuality *quality) {
+    static const Ratio ratios[] = {
+        [DIP_SCALE_1_2] = {1, 2},     [DIP_SCALE_1_1_7] = {10, 17}, [DIP_SCALE_1_1_5] = {2, 3},
+        [DIP_SCALE_1_1_3] = {10, 13}, [DIP_SCALE_1] = {1, 1},       [DIP_SCALE_1_25] = {5, 4},
+        [DIP_SCALE_1_5] = {3, 2},     [DIP_SCALE_2] = {2, 1},
+    };
+    return ratios[quality->step[DIP_SETTING_SCALE]];
+}
+
 int dip_quality_drawn_size(const DipQuality *quality, int size) {
-    // The steps of scale as exact ratios.
-    static const struct { int over, under; } ratios[] = {{1, 1}, {5, 4}, {3, 2}, {2, 1}};
-    const int over = ratios[quality->step[DIP_SETTING_SCALE]].over;
-    const int under = ratios[quality->step[DIP_SETTING_SCALE]].under;
-    return (2 * size * over + under) / (2 * under);
+    const Ratio ratio = ratio_of(quality);
+    return (2 * size * ratio.over + ratio.under) / (2 * ratio.under);
+}
+
+double dip_quality_scale(const DipQuality *quality) {
+    const Ratio ratio = ratio_of(quality);
+    return (double)ratio.over / ratio.under;
+}
+
+bool dip_quality_upscales(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_SCALE] < DIP_SCALE_1;
 }
 
 int32_t dip_quality_bias_lod8(const DipQuality *quality) {
@@ -262,14 +286,25 @@ int32_t dip_quality_bias_lod8(const DipQuality *quality) {
         [DIP_MIPLOD_QUALITY] = 128,          [DIP_MIPLOD_HIGH_QUALITY] = 0,
         [DIP_MIPLOD_SHARP] = -128,           [DIP_MIPLOD_SHARPER] = -256,
     };
+    // log2 of the scale.
+    static const int32_t scale_lod8[] = {
+        [DIP_SCALE_1_2] = -256,  [DIP_SCALE_1_1_7] = -196, [DIP_SCALE_1_1_5] = -150,
+        [DIP_SCALE_1_1_3] = -97, [DIP_SCALE_2] = 0,
+    };
     const int32_t bias = bias_lod8[quality->step[DIP_SETTING_MIPLOD]];
-    return quality->step[DIP_SETTING_MIPDEBUG] && bias < 0 ? 0 : bias;
+    if (quality->step[DIP_SETTING_MIPDEBUG]) {
+        return bias < 0 ? 0 : bias;
+    }
+    return bias + scale_lod8[quality->step[DIP_SETTING_SCALE]];
 }
 
 DipQuality dip_quality_mirrored(const DipQuality *quality) {
     DipQuality mirrored = *quality;
     if (mirrored.step[DIP_SETTING_MIPLOD] > DIP_MIPLOD_HIGH_QUALITY) {
         mirrored.step[DIP_SETTING_MIPLOD] = DIP_MIPLOD_HIGH_QUALITY;
+    }
+    if (dip_quality_upscales(quality)) {
+        mirrored.step[DIP_SETTING_SCALE] = DIP_SCALE_1;
     }
     return mirrored;
 }

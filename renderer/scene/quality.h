@@ -52,9 +52,16 @@ extern "C" {
       ("h.perf", "perf", "qual", "h.qual", "sharp", "sharp+"),                                     \
       "bias towards smaller mip levels; high-performance also drops the largest levels; sharp "    \
       "and sharper: a bias towards larger levels than the texture's size asks for")                \
-    X(scale, SCALE, "Render scale", "Scale", 0, ("1", "1.25", "1.5", "2"),                         \
-      ("1x", "1.25x", "1.5x", "2x"), ("1x", "1.25x", "1.5x", "2x"),                                \
-      "the picture is drawn this many times as wide and high and averaged in linear light")        \
+    X(scale, SCALE, "Render scale", "Scale", 4,                                                    \
+      ("1/2", "1/1.7", "1/1.5", "1/1.3", "1", "1.25", "1.5", "2"),                                 \
+      ("1/2", "1/1.7", "1/1.5", "1/1.3", "1x", "1.25x", "1.5x", "2x"),                             \
+      (".50", ".59", ".67", ".77", "1x", "1.25", "1.5x", "2x"),                                    \
+      "the picture is drawn this many times as wide and high; a larger one is averaged in linear " \
+      "light, a smaller one is enlarged as upscale says")                                          \
+    X(upscale, UPSCALE, "Upscaling filter", "Upscaling", 0, ("bilinear", "bicubic", "easu"),       \
+      ("bilinear", "bicubic", "EASU"), ("bilin.", "bicub.", "EASU"),                               \
+      "how the smaller picture of a scale below 1 is enlarged: from four pixels, from sixteen, "   \
+      "or along edges (FSR 1)")                                                                    \
     X(post, POST, "Post-process AA", "Post AA", 0, ("off", "fxaa", "smaa"),                        \
       ("off", "FXAA", "SMAA"), ("off", "FXAA", "SMAA"),                                            \
       "smooths the edges that it finds in the finished picture, also those of textures")           \
@@ -74,9 +81,9 @@ typedef enum DipSetting {
         DIP_SETTING_COUNT
 } DipSetting;
 
-enum { DIP_MAX_STEPS = 6 };
+enum { DIP_MAX_STEPS = 8 };
 
-// The steps of aaa, opt, miplod and post, by name.
+// The steps of aaa, opt, miplod, scale, upscale and post, by name.
 enum { DIP_AAA_OFF, DIP_AAA_COVERAGE, DIP_AAA_ON, DIP_AAA_ALL };
 enum { DIP_OPT_OFF, DIP_OPT_STANDARD, DIP_OPT_ADVANCED };
 enum {
@@ -87,6 +94,19 @@ enum {
     DIP_MIPLOD_SHARP,
     DIP_MIPLOD_SHARPER
 };
+
+enum {
+    DIP_SCALE_1_2,
+    DIP_SCALE_1_1_7,
+    DIP_SCALE_1_1_5,
+    DIP_SCALE_1_1_3,
+    DIP_SCALE_1, // the frame's own size
+    DIP_SCALE_1_25,
+    DIP_SCALE_1_5,
+    DIP_SCALE_2
+};
+
+enum { DIP_UPSCALE_BILINEAR, DIP_UPSCALE_BICUBIC, DIP_UPSCALE_EASU };
 
 enum { DIP_POST_STEP_OFF, DIP_POST_STEP_FXAA, DIP_POST_STEP_SMAA };
 
@@ -158,13 +178,22 @@ DIP_API int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (triline
 // the step of scale, rounded to the nearest whole number, halves up. size: 1 or more.
 DIP_API int dip_quality_drawn_size(const DipQuality *quality, int size);
 
-// Returns the bias of miplod, in 1/256 level. Greater values mean smaller mip levels. Where mip
-// colours show the levels, the steps that are sharper than high-quality have no bias.
+// Returns the step of scale as a number: 0.5 to 2.
+DIP_API double dip_quality_scale(const DipQuality *quality);
+
+// Returns true if scale is below 1, so that a smaller picture is drawn and enlarged.
+DIP_API bool dip_quality_upscales(const DipQuality *quality);
+
+// Returns the bias of miplod and of a scale below 1, in 1/256 level. Greater values mean smaller
+// mip levels. A scale s below 1 has the bias log2 s, so that textures are read at the levels that
+// fit the frame, not the smaller picture. Where mip colours show the levels, neither the scale nor
+// the steps that are sharper than high-quality have a bias.
 DIP_API int32_t dip_quality_bias_lod8(const DipQuality *quality);
 
-// Returns the settings with which the mirrored scene is drawn that water shows. They are the
-// frame's, except that miplod is at most high-quality: each texel of the mirrored picture may cover
-// several pixels of the frame, so a level that is too sharp would sparkle in whole blocks.
+// Returns the settings with which the textures of the mirrored scene are read that water shows.
+// They are the frame's, except that miplod is at most high-quality, and that scale is 1 instead of
+// less: each texel of the mirrored picture may cover several pixels of the frame, so a level that
+// is too sharp would sparkle in whole blocks.
 DIP_API DipQuality dip_quality_mirrored(const DipQuality *quality);
 
 // Returns true if colour textures are drawn compressed. This is so with opt=standard and

@@ -115,36 +115,43 @@ static void free_mirror(DipMirror *mirror) {
     *mirror = (DipMirror){0};
 }
 
-static void free_larger(DipLarger *larger) {
-    dip_pipeline_destroy(&larger->pipeline);
-    dip_lines_free(larger->target.rgba8);
-    dip_lines_free(larger->light16);
-    free(larger->codes);
-    *larger = (DipLarger){0};
+static void free_scaled(DipScaled *scaled) {
+    dip_pipeline_destroy(&scaled->pipeline);
+    dip_lines_free(scaled->target.rgba8);
+    dip_lines_free(scaled->light16);
+    free(scaled->codes);
+    *scaled = (DipScaled){0};
 }
 
-static bool make_larger(const DipRenderer *renderer, int width, int height, DipLarger *larger,
+// Makes the memory from which a larger picture is averaged.
+static bool make_light(DipScaled *scaled, DipError *err) {
+    const size_t pixels = (size_t)scaled->target.width * (size_t)scaled->target.height;
+    scaled->light16 = dip_lines_alloc(pixels * 4 * sizeof(uint16_t));
+    scaled->codes = malloc(sizeof *scaled->codes);
+    if (!scaled->light16 || !scaled->codes) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scale", "no memory for %dx%d pixels",
+                             scaled->target.width, scaled->target.height);
+    }
+    dip_srgb_encode_table(scaled->codes);
+    return true;
+}
+
+static bool make_scaled(const DipRenderer *renderer, int width, int height, DipScaled *scaled,
                         DipError *err) {
-    DipTarget *target = &larger->target;
+    DipTarget *target = &scaled->target;
     if (width > DIP_MAX_FRAME_SIZE || height > DIP_MAX_FRAME_SIZE) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "scale",
                              "would draw %dx%d pixels, accepted up to %dx%d", width, height,
                              DIP_MAX_FRAME_SIZE, DIP_MAX_FRAME_SIZE);
     }
-    *larger = (DipLarger){.target = {.width = width, .height = height}};
-    if (!make_target(renderer->pool, renderer->isa, width, height, &larger->pipeline,
-                     &target->rgba8, &target->stride_bytes, err)) {
-        return false;
+    *scaled = (DipScaled){.target = {.width = width, .height = height}};
+    const bool made = make_target(renderer->pool, renderer->isa, width, height, &scaled->pipeline,
+                                  &target->rgba8, &target->stride_bytes, err) &&
+                      (dip_quality_upscales(&renderer->quality) || make_light(scaled, err));
+    if (!made) {
+        free_scaled(scaled);
     }
-    larger->light16 = dip_lines_alloc((size_t)width * (size_t)height * 4 * sizeof(uint16_t));
-    larger->codes = malloc(sizeof *larger->codes);
-    if (!larger->light16 || !larger->codes) {
-        free_larger(larger);
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scale", "no memory for %dx%d pixels",
-                             width, height);
-    }
-    dip_srgb_encode_table(larger->codes);
-    return true;
+    return made;
 }
 
 // Frees the resources that were made for a scene.
@@ -167,7 +174,7 @@ void dip_renderer_destroy(DipRenderer **renderer_pointer) {
     dip_texture_destroy(&renderer->mip_colours);
     dip_finish_destroy(&renderer->finish);
     dip_lines_free(renderer->rgba8);
-    free_larger(&renderer->larger);
+    free_scaled(&renderer->scaled);
     free_recording(&renderer->recording);
     forget_scene(renderer);
     free(renderer);
@@ -229,7 +236,7 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
     dip_pipeline_record_tiles(pipeline, &recording);
     free_recording(&renderer->recording);
     renderer->recording = recording;
-    free_larger(&renderer->larger); // the next frame creates one of the new size
+    free_scaled(&renderer->scaled); // the next frame creates one of the new size
     dip_pipeline_destroy(&renderer->pipeline);
     dip_lines_free(renderer->rgba8);
     renderer->pipeline = pipeline;
@@ -246,11 +253,11 @@ DipTarget dip_renderer_target(const DipRenderer *renderer) {
                            .stride_bytes = renderer->stride_bytes,
                            .width = renderer->width,
                            .height = renderer->height};
-    return renderer->larger.pipeline ? renderer->larger.target : own;
+    return renderer->scaled.pipeline ? renderer->scaled.target : own;
 }
 
 DipPipeline *dip_renderer_pipeline(const DipRenderer *renderer) {
-    return renderer->larger.pipeline ? renderer->larger.pipeline : renderer->pipeline;
+    return renderer->scaled.pipeline ? renderer->scaled.pipeline : renderer->pipeline;
 }
 
 bool dip_renderer_record_tiles(DipRenderer *renderer, bool on, DipError *err) {
@@ -273,13 +280,13 @@ bool dip_renderer_follow_scale(DipRenderer *renderer, DipError *err) {
     const int height = dip_quality_drawn_size(quality, renderer->height);
     const DipTarget drawn = dip_renderer_target(renderer);
     if (width != drawn.width || height != drawn.height) {
-        DipLarger larger = {0};
+        DipScaled scaled = {0};
         const bool own_size = width == renderer->width && height == renderer->height;
-        if (!own_size && !make_larger(renderer, width, height, &larger, err)) {
+        if (!own_size && !make_scaled(renderer, width, height, &scaled, err)) {
             return false;
         }
-        free_larger(&renderer->larger);
-        renderer->larger = larger;
+        free_scaled(&renderer->scaled);
+        renderer->scaled = scaled;
         renderer->reserved = false;
     }
     const DipMirror *mirror = &renderer->mirror;
@@ -409,12 +416,13 @@ static bool follow_mirrored(DipRenderer *renderer, const DipScene *scene, DipErr
 
 bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     const DipQuality *quality = &renderer->quality;
+    const DipFinishSize size = dip_finish_size(quality, renderer->width, renderer->height);
     if (dip_quality_compresses(quality) &&
         !dip_scene_compress_textures(scene, renderer->pool, err)) {
         return false;
     }
     if (!follow_mirrored(renderer, scene, err) ||
-        !dip_finish_follow(renderer->finish, quality, renderer->width, renderer->height, err)) {
+        !dip_finish_follow(renderer->finish, quality, &size, err)) {
         return false;
     }
     if (quality->step[DIP_SETTING_GI]) {

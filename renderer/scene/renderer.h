@@ -115,8 +115,8 @@ DIP_API bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count,
 // (pattern.h). The picture of the reflection that DipReflectionDef.show puts into the frame is not
 // part of the samples, nor are blended surfaces. Takes about as long as the geometry stage of a
 // frame. Fails as dip_renderer_draw does, with RANGE if the region is empty or does not lie in the
-// frame, and with UNSUPPORTED if scale draws a larger picture, whose pixels are not those of the
-// frame.
+// frame, and with UNSUPPORTED if scale draws a picture of another size, whose pixels are not those
+// of the frame.
 DIP_API bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene,
                                        const DipPose *pose, int64_t time_ns,
                                        const DipSampleReadback *readback, DipError *err);

@@ -9,16 +9,20 @@ enum {
     SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
     ROW_COLUMNS = 60,    // Least width of a setting that takes one row.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
+    BRIEF_COLUMNS = 11,  // The same, if a setting has so many steps that its name must be short.
+    STEP_COLUMNS = 6,    // Least width of a step in its row.
     FIGURE_COLUMNS = 15, // Width of a step's time and error at the end of the row.
     MAX_BLOCK_COLUMNS = 3,
+    MAX_LINE_STEPS = 6, // Most steps of a block on one line.
     MARGIN = 1
 };
 
 // Columns of blocks on a wide screen, from left to right; settings that belong together share one.
 static const int block_columns[MAX_BLOCK_COLUMNS][6] = {
     {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST, -1},
-    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SCALE, DIP_SETTING_SHARPEN, -1},
-    {DIP_SETTING_MIPLOD, DIP_SETTING_GI, DIP_SETTING_MIPDEBUG, -1, -1, -1},
+    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_SHARPEN, -1, -1},
+    {DIP_SETTING_MIPLOD, DIP_SETTING_SCALE, DIP_SETTING_UPSCALE, DIP_SETTING_GI,
+     DIP_SETTING_MIPDEBUG, -1},
 };
 
 static bool is_switch(DipSetting setting) {
@@ -53,20 +57,23 @@ static void draw_step(DipTextView *view, DipSetting setting, int step, DipTextAr
     }
 }
 
-// Draws all steps side by side, each `width` cells wide.
-static void draw_steps(DipTextView *view, DipSetting setting, int row, int column, int width) {
-    const int count = dip_setting_info(setting)->step_count;
-    for (int i = 0; i < count; ++i) {
+// Draws the steps at the positions from `first` to `end` - 1 side by side, each `width` cells wide.
+static void draw_steps(DipTextView *view, DipSetting setting, int first, int end, int row,
+                       int column, int width) {
+    for (int i = first; i < end; ++i) {
         draw_step(view, setting, dip_setting_step_at(setting, i),
-                  (DipTextArea){column + i * width, row, width, 1});
+                  (DipTextArea){column + (i - first) * width, row, width, 1});
     }
 }
 
-// Writes a setting's title, which stands out if the arrow keys act on the setting.
+// Writes a setting's title, which stands out if the arrow keys act on the setting. Writes the short
+// title if there is no room for the whole one.
 static void draw_title(DipTextView *view, DipSetting setting, int row, int column, int end) {
     const bool focused = view->focused && view->focus == setting;
+    const DipSettingInfo *info = dip_setting_info(setting);
+    const bool fits = dip_text_length(info->title) <= end - column;
     dip_text_put(&view->screen, row, column, end, focused ? dip_text_focused : dip_text_white,
-                 dip_setting_info(setting)->title);
+                 fits ? info->title : info->short_title);
 }
 
 // --- figures of a cost report ------------------------------------------------------------------
@@ -109,8 +116,14 @@ static void draw_figures(DipTextView *view, const DipCostsRow *costs, DipSetting
 
 // --- blocks on a wide screen -------------------------------------------------------------------
 
+// Returns the number of lines on which a block shows the steps of a setting.
+static int step_lines(DipSetting setting) {
+    return (dip_setting_info(setting)->step_count + MAX_LINE_STEPS - 1) / MAX_LINE_STEPS;
+}
+
+// The title, and below it each line of steps with its figures. The last row of a block is blank.
 static int block_rows(DipSetting setting, bool has_costs) {
-    return is_switch(setting) ? 1 : has_costs ? 5 : 3;
+    return is_switch(setting) ? 1 : 2 + step_lines(setting) * (has_costs ? 3 : 1);
 }
 
 // Draws a setting's title, and at its right the values of both panes if they differ.
@@ -127,6 +140,25 @@ static void draw_head(DipTextView *view, DipSetting setting, int row, int column
     draw_title(view, setting, row, column, left - 1);
 }
 
+// Draws the steps at the positions from `first` to `last` - 1, and below them what a cost report
+// says about them.
+static void draw_line(DipTextView *view, DipSetting setting, const DipCostsRow *costs, int first,
+                      int last, DipTextArea area) {
+    const int left = area.column + 6, width = dip_min(8, (area.columns - 6) / (last - first));
+    draw_steps(view, setting, first, last, area.row, left, width);
+    if (!view->state->costs) {
+        return;
+    }
+    dip_text_put(&view->screen, area.row + 1, area.column + 1, left, dip_text_dim, "time");
+    dip_text_put(&view->screen, area.row + 2, area.column + 1, left, dip_text_dim, "FLIP");
+    for (int i = first; i < last; ++i) {
+        const int column = left + (i - first) * width;
+        draw_figures(view, costs, setting, dip_setting_step_at(setting, i),
+                     (DipTextArea){column, area.row + 1, width - 1, 1},
+                     (DipTextArea){column, area.row + 2, width - 1, 1});
+    }
+}
+
 static void draw_block(DipTextView *view, DipSetting setting, int row, int column) {
     const int end = column + BLOCK_COLUMNS - 2, count = dip_setting_info(setting)->step_count;
     const DipCostsRow costs = costs_row(view->state->costs, setting);
@@ -134,22 +166,15 @@ static void draw_block(DipTextView *view, DipSetting setting, int row, int colum
         draw_title(view, setting, row, column, end - 22);
         draw_figures(view, &costs, setting, 1, (DipTextArea){end - 22, row, 5, 1},
                      (DipTextArea){end - 17, row, 7, 1});
-        draw_steps(view, setting, row, end - 10, 5);
+        draw_steps(view, setting, 0, count, row, end - 10, 5);
         return;
     }
-    const int width = dip_min(8, (end - column - 6) / count);
     draw_head(view, setting, row, column, end);
-    draw_steps(view, setting, row + 1, column + 6, width);
-    if (!view->state->costs) {
-        return;
-    }
-    dip_text_put(&view->screen, row + 2, column + 1, column + 6, dip_text_dim, "time");
-    dip_text_put(&view->screen, row + 3, column + 1, column + 6, dip_text_dim, "FLIP");
-    for (int i = 0; i < count; ++i) {
-        const int first = column + 6 + i * width;
-        draw_figures(view, &costs, setting, dip_setting_step_at(setting, i),
-                     (DipTextArea){first, row + 2, width - 1, 1},
-                     (DipTextArea){first, row + 3, width - 1, 1});
+    const int per_line = (count + step_lines(setting) - 1) / step_lines(setting);
+    for (int first = 0, at = row + 1; first < count; first += per_line) {
+        draw_line(view, setting, &costs, first, dip_min(count, first + per_line),
+                  (DipTextArea){column, at, end - column, 1});
+        at += view->state->costs ? 3 : 1;
     }
 }
 
@@ -190,9 +215,12 @@ static void draw_sum(DipTextView *view, DipTextArea body) {
 
 static void draw_row(DipTextView *view, DipSetting setting, int row, int column, int columns) {
     const int end = column + columns - 1;
-    const int width = (ROW_COLUMNS - NAME_COLUMNS) / dip_setting_info(setting)->step_count;
-    draw_title(view, setting, row, column, column + NAME_COLUMNS - 1);
-    draw_steps(view, setting, row, column + NAME_COLUMNS, dip_max(dip_min(8, width), 6));
+    const int count = dip_setting_info(setting)->step_count;
+    const bool brief = count * STEP_COLUMNS > ROW_COLUMNS - NAME_COLUMNS;
+    const int name = brief ? BRIEF_COLUMNS : NAME_COLUMNS;
+    const int width = dip_min(8, (ROW_COLUMNS - name) / count);
+    draw_title(view, setting, row, column, column + name - 1);
+    draw_steps(view, setting, 0, count, row, column + name, width);
     if (columns >= ROW_COLUMNS + FIGURE_COLUMNS) {
         const DipCostsRow costs = costs_row(view->state->costs, setting);
         draw_figures(view, &costs, setting, view->state->quality[DIP_PANE_REQUESTED].step[setting],

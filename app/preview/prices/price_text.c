@@ -46,12 +46,27 @@ const char *dip_step_explanation(DipSetting setting, int step) {
                                 "Half a mip level sharper than the texture's size asks for.",
                                 "A mip level sharper than the texture's size asks for: fine "
                                 "patterns may shimmer when the camera moves."},
-        [DIP_SETTING_SCALE] = {"The picture is drawn in its own size.",
-                               "A picture 1.25 times as wide and high is drawn and averaged.",
-                               "A picture 1.5 times as wide and high is drawn and averaged.",
-                               "A picture twice as wide and high is drawn, and four of its pixels "
-                               "make one: edges and textures gain, and a frame takes about three "
-                               "times as long."},
+        [DIP_SETTING_SCALE] =
+            {"A picture half as wide and high is drawn and enlarged; games call it "
+             "performance.",
+             "A picture 1.7 times smaller each way is drawn and enlarged; games "
+             "call it balanced.",
+             "A picture 1.5 times smaller each way is drawn and enlarged; games "
+             "call it quality.",
+             "A picture 1.3 times smaller each way is drawn and enlarged; games "
+             "call it ultra quality.",
+             "The picture is drawn in its own size.",
+             "A picture 1.25 times as wide and high is drawn and averaged.",
+             "A picture 1.5 times as wide and high is drawn and averaged.",
+             "A picture twice as wide and high is drawn, and four of its pixels "
+             "make one: edges and textures gain, and a frame takes about three "
+             "times as long."},
+        [DIP_SETTING_UPSCALE] =
+            {"Each pixel is blended from the four nearest of the smaller picture: "
+             "soft, and the fastest.",
+             "Each pixel is a sum of sixteen of the smaller picture: crisper.",
+             "Pixels are blended along edges (FSR 1): smooth edges, but it "
+             "takes the longest."},
         [DIP_SETTING_POST] = {"The picture stays as it is drawn.",
                               "FXAA finds edges in the finished picture and blurs along them; "
                               "textures and text get softer, too.",

@@ -33,6 +33,7 @@ const DipKeyRow dip_key_rows[] = {
     SETTING('o', DIP_KEYCODE_F8, OPT, "O  F8"),
     SETTING('l', DIP_KEYCODE_F9, MIPLOD, "L  F9"),
     CTRL('g', SETTING, DIP_SETTING_SCALE, false, "Ctrl+G", NULL),
+    CTRL('u', SETTING, DIP_SETTING_UPSCALE, false, "Ctrl+U", NULL),
     CTRL('b', SETTING, DIP_SETTING_POST, false, "Ctrl+B", NULL),
     CTRL('k', SETTING, DIP_SETTING_SHARPEN, false, "Ctrl+K", NULL),
     SETTING('i', DIP_KEYCODE_F10, GI, "I  F10"),

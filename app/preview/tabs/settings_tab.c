@@ -38,6 +38,7 @@ static const struct {
                                 {"", DIP_SETTING_OPT},
                                 {"", DIP_SETTING_MIPLOD}},
                                {{"Size", DIP_SETTING_SCALE},
+                                {"", DIP_SETTING_UPSCALE},
                                 {"After the frame", DIP_SETTING_POST},
                                 {"", DIP_SETTING_SHARPEN},
                                 {"Motion", DIP_SETTING_TAA},

@@ -209,7 +209,7 @@ const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gall
         return "Measured while the camera rests.";
     }
     if (map != DIP_MAP_FLIP && map != DIP_MAP_MIPS &&
-        maps->key.quality[pane].step[DIP_SETTING_SCALE]) {
+        maps->key.quality[pane].step[DIP_SETTING_SCALE] != DIP_SCALE_1) {
         return "A render scale draws another picture: choose scale 1x.";
     }
     return map == DIP_MAP_FLIP ? flip_status(maps, pane, text, size_bytes)

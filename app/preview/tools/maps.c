@@ -206,8 +206,8 @@ static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
     if (maps->wanted == DIP_MAP_MIPS) {
         return work->mips ? 0 : 1;
     }
-    if (maps->key.quality[pane].step[DIP_SETTING_SCALE]) {
-        return 0; // The tiles of a larger picture are not those of the frame.
+    if (maps->key.quality[pane].step[DIP_SETTING_SCALE] != DIP_SCALE_1) {
+        return 0; // The tiles that are drawn are not those of the frame.
     }
     return wanted_draws - work->draws;
 }

@@ -38,6 +38,16 @@ static void keep_company(DipPriceQuestion *question, DipSetting company, uint8_t
     question->with.step[company] = question->without.step[company] = step;
 }
 
+// Gives both combinations the pane's scale if it is below 1. Otherwise gives them one that is.
+static void keep_scale(DipPriceQuestion *question, const DipQuality *quality) {
+    uint8_t step = quality->step[DIP_SETTING_SCALE];
+    if (!dip_quality_upscales(quality)) {
+        step = DIP_COST_COMPANY_SCALE;
+        need(question, "a scale below 1");
+    }
+    question->with.step[DIP_SETTING_SCALE] = question->without.step[DIP_SETTING_SCALE] = step;
+}
+
 // Sets the question to the difference between a step and another step of the same setting.
 static void ask_alone(DipPriceQuestion *question, DipSetting setting, int step, uint8_t other) {
     question->with.step[setting] = (uint8_t)step;
@@ -106,6 +116,10 @@ DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, 
         break;
     case DIP_SETTING_AAF:
         keep_company(&question, DIP_SETTING_AF, DIP_COST_COMPANY_AF, quality, "AF");
+        ask_alone(&question, setting, step, 0);
+        break;
+    case DIP_SETTING_UPSCALE:
+        keep_scale(&question, quality);
         ask_alone(&question, setting, step, 0);
         break;
     default:

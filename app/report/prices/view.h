@@ -76,8 +76,8 @@ DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 //
 // A setting that does nothing alone is priced beside its company: other settings, which both
 // combinations have. Temporal AA and adaptive AA are priced beside the AA of the pane, advanced AF
-// beside the AF of the pane. The group sizes of adaptive AA are priced together with adaptive AA,
-// against the same AA without it.
+// beside the AF of the pane, upscaling filters beside its scale. The group sizes of adaptive AA are
+// priced together with adaptive AA, against the same AA without it.
 //
 // AF and advanced AF also have the antialiasing of the pane as company. They cost more where
 // antialiasing shades more fragments, so their prices without it would not add up to the time of

@@ -322,14 +322,22 @@ VEC_INLINE unsigned pixels_to_copy(const SubBlock *sub) {
     return same & offered;
 }
 
+// Pixels that are not copied are not written, not even with what they hold: a sub-block at the
+// target's edge reaches past the target's memory, or into a row that another thread draws.
 static void copy_pixels(const SubBlock *sub, unsigned pixels) {
     DipTileShading *shading = sub->shading;
     const DipTileShading *other = shading->share.from;
     const uint32_t *from = other->pixels + (size_t)sub->y0 * other->stride + (size_t)sub->x0;
     uint32_t *to = shading->pixels + (size_t)sub->y0 * shading->stride + (size_t)sub->x0;
     for (int y = 0; y < DIP_SUB_BLOCK; y++, from += other->stride, to += shading->stride) {
-        for (int x = 0; x < DIP_SUB_BLOCK; x++) {
-            to[x] = pixels >> (y * DIP_SUB_BLOCK + x) & 1 ? from[x] : to[x];
+        const unsigned row = pixels >> (y * DIP_SUB_BLOCK) & ((1u << DIP_SUB_BLOCK) - 1);
+        if (row == (1u << DIP_SUB_BLOCK) - 1) {
+            memcpy(to, from, DIP_SUB_BLOCK * sizeof *to);
+            continue;
+        }
+        for (unsigned left = row; left; left &= left - 1) {
+            const int x = __builtin_ctz(left);
+            to[x] = from[x];
         }
     }
     shading->copied += (unsigned)__builtin_popcount(pixels);

@@ -244,6 +244,11 @@ void dip_reference_peel_offer(DipRefPeel *peel, double depth, int32_t triangle);
 // Draws the farthest of the offered surfaces. `place` lies on its triangle.
 void dip_reference_peel_blend(DipRefPeel *peel, const DipRefPosition *place);
 
+// enlarge.c: enlarges the picture of a scale below 1. Its colours, in linear light, are rounded to
+// codes first. upscale: the step of the setting. Fails with MEMORY.
+bool dip_reference_enlarge(int upscale, const double *drawn_lin, int from_width, int from_height,
+                           double *rgb_lin, int width, int height, DipError *err);
+
 // Computes the position of sample `index` of the converged picture in a pixel. The sample is
 // jittered within its cell of a side x side grid. pixel is y * width + x. The position is relative
 // to the frame, in 1/256 pixel.

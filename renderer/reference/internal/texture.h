@@ -28,11 +28,12 @@ typedef struct DipRefTexture {
 typedef struct DipRefFilter {
     int max_anisotropy; // 1: trilinear
     bool exact_footprint;
-    double bias;
-    bool drop_levels; // leave out the largest levels, by the texture's size
-    bool mip_colours; // show each level in one colour instead of the texels' colours
-    bool compressed;  // show the colours of the texture's BC1 blocks
-    bool cheap;       // use a narrow blend of levels and half the probes
+    double bias;       // of miplod and of a scale below 1
+    double scale_bias; // the part of it that comes from the scale
+    bool drop_levels;  // leave out the largest levels, by the texture's size
+    bool mip_colours;  // show each level in one colour instead of the texels' colours
+    bool compressed;   // show the colours of the texture's BC1 blocks
+    bool cheap;        // use a narrow blend of levels and half the probes
 } DipRefFilter;
 
 // Decodes sRGB: converts an encoded value, 0..1, to linear light, 0..1.

@@ -138,7 +138,7 @@ static void make_scene_pass(FrameSetup *setup) {
     setup->pass = begin_pass(renderer, setup->scene, &setup->plan);
     setup->pass.target = dip_renderer_target(renderer);
     // A pass with blended surfaces is merged, and a merged pass stores no light.
-    setup->pass.light16 = setup->scene->blended_count ? NULL : renderer->larger.light16;
+    setup->pass.light16 = setup->scene->blended_count ? NULL : renderer->scaled.light16;
     if (setup->readback) {
         setup->pass.readback = setup->readback;
         setup->pass.region = setup->readback->region;
@@ -224,8 +224,6 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
         renderer->sky = dip_sky_at(&scene->sky, time_ns);
     }
     *frame = (DipFrame){
-        .rgba8 = renderer->rgba8,
-        .stride_bytes = renderer->stride_bytes,
         .width = renderer->width,
         .height = renderer->height,
         .effects = setup->plan.effects,
@@ -245,7 +243,7 @@ static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, FrameSetu
 // pass.
 static void begin_tiles(const FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
-    if (renderer->recording.tiles && !renderer->larger.pipeline) {
+    if (renderer->recording.tiles && !renderer->scaled.pipeline) {
         setup->frame->tiles = (DipFrameTiles){
             .records = renderer->recording.tiles,
             .mixed = renderer->recording.mixed,
@@ -310,21 +308,21 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
 // Averages the larger picture of a render scale to the frame. has_codes_only: its pass stored no
 // light, so the light is that of its codes.
 static void shrink(const DipRenderer *renderer, bool has_codes_only, DipFrame *frame) {
-    const DipLarger *larger = &renderer->larger;
+    const DipScaled *scaled = &renderer->scaled;
     const DipBoxFilter box = {
-        .light16 = larger->light16,
-        .stride = (size_t)larger->target.width * 4,
-        .from_width = larger->target.width,
-        .from_height = larger->target.height,
+        .light16 = scaled->light16,
+        .stride = (size_t)scaled->target.width * 4,
+        .from_width = scaled->target.width,
+        .from_height = scaled->target.height,
         .rgba8 = renderer->rgba8,
         .stride_bytes = renderer->stride_bytes,
         .width = renderer->width,
         .height = renderer->height,
-        .srgb_code = larger->codes->code,
+        .srgb_code = scaled->codes->code,
     };
     const int64_t begin_ns = dip_clock_ns();
     if (has_codes_only) {
-        dip_box_decode(&larger->target, larger->light16, renderer->pool);
+        dip_box_decode(&scaled->target, scaled->light16, renderer->pool);
     }
     dip_box_filter(&box, renderer->pool);
     const double ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
@@ -341,9 +339,16 @@ static void end_frame(const FrameSetup *setup) {
     frame->stages.geometry_ms += setup->posing_ms;
     frame->stages.total_ms += setup->posing_ms;
     const bool reflects = setup->plan.effects.reflection.run;
-    if (renderer->larger.pipeline) {
+    DipTarget picture = dip_renderer_target(renderer);
+    if (renderer->scaled.light16) {
         shrink(renderer, setup->scene->blended_count > 0, frame);
+        picture = (DipTarget){.rgba8 = renderer->rgba8,
+                              .stride_bytes = renderer->stride_bytes,
+                              .width = renderer->width,
+                              .height = renderer->height};
     }
+    frame->rgba8 = picture.rgba8;
+    frame->stride_bytes = picture.stride_bytes;
     count_mirror(&renderer->mirror, reflects, &frame->counters);
     // The pipeline counts only the draws that it was given.
     frame->counters.draws_culled += (uint64_t)renderer->set.culled;
@@ -351,11 +356,7 @@ static void end_frame(const FrameSetup *setup) {
     count_bytes(setup->scene, &frame->counters);
     dip_count_geometry(setup->scene, renderer->unshared, &frame->counters);
     if (reflects && renderer->reflection.show) {
-        const DipTarget target = {.rgba8 = renderer->rgba8,
-                                  .stride_bytes = renderer->stride_bytes,
-                                  .width = renderer->width,
-                                  .height = renderer->height};
-        dip_inset_draw(&target, &renderer->mirror.target);
+        dip_inset_draw(&picture, &renderer->mirror.target);
     }
     if (!setup->readback) {
         dip_finish_frame(renderer->finish, frame);
@@ -470,8 +471,9 @@ bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene, con
     DipFrame frame;
     if (dip_quality_drawn_size(&renderer->quality, renderer->width) != renderer->width ||
         dip_quality_drawn_size(&renderer->quality, renderer->height) != renderer->height) {
-        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "scale",
-                             "a pixel is the mean of several drawn pixels, accepted scale=1");
+        return dip_error_set(
+            err, DIP_ERROR_UNSUPPORTED, NULL, 0, "scale",
+            "the pixels that are drawn are not those of the frame, accepted scale=1");
     }
     if (!check_region(renderer, &readback->region, err) ||
         !begin_frame(&setup, renderer, scene, pose, time_ns, NULL, readback, &frame, err) ||

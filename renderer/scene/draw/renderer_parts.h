@@ -22,14 +22,15 @@ typedef struct DipMirror {
     DipMaterialSamplers *samplers;
 } DipMirror;
 
-// The larger picture that a render scale draws. All members are 0 while a frame is drawn at its own
-// size.
-typedef struct DipLarger {
+// The larger or smaller picture that a render scale draws. All members are 0 while a frame is drawn
+// at its own size. A smaller picture is enlarged by the filters of the finished picture.
+typedef struct DipScaled {
     DipPipeline *pipeline;
     DipTarget target;
+    // Memory from which a larger picture is averaged; NULL for a smaller one.
     uint16_t *light16;         // DipPass.light16 of the pass that draws it
     DipSrgbEncodeTable *codes; // encodes the averaged light
-} DipLarger;
+} DipScaled;
 
 struct DipRenderer {
     DipPool *pool;
@@ -41,7 +42,7 @@ struct DipRenderer {
     DipPipeline *pipeline;
     uint8_t *rgba8;
     size_t stride_bytes;
-    DipLarger larger;
+    DipScaled scaled;
     DipTexture *mip_colours; // the levels that mip debugging shows, see dip_mip_debug_create
     DipReflectionDef reflection;
     bool plain_surfaces;
@@ -62,12 +63,12 @@ struct DipRenderer {
 };
 
 // Returns the picture that the renderer's main pass draws, and the pipeline that draws it: those of
-// the larger picture of a render scale, or the frame itself.
+// the picture of a render scale, or the frame itself.
 DipTarget dip_renderer_target(const DipRenderer *renderer);
 DipPipeline *dip_renderer_pipeline(const DipRenderer *renderer);
 
-// Creates or frees the larger picture of a render scale. Forgets the scene if its reflection needs
-// another size.
+// Creates or frees the picture of a render scale. Forgets the scene if its reflection needs another
+// size.
 bool dip_renderer_follow_scale(DipRenderer *renderer, DipError *err);
 
 // Creates the resources for a scene. Does nothing if the scene is the one that was drawn last.

@@ -351,6 +351,13 @@ static DipEffect plan_post(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("post is off");
 }
 
+static DipEffect plan_upscale(const DipPlanInput *input, DipFramePlan *plan) {
+    (void)plan;
+    return dip_quality_upscales(input->quality)
+               ? run(input, "a smaller picture is drawn and enlarged")
+               : skip("scale is not below 1");
+}
+
 static DipEffect plan_sharpen(const DipPlanInput *input, DipFramePlan *plan) {
     (void)plan;
     return input->quality->step[DIP_SETTING_SHARPEN]
@@ -409,9 +416,9 @@ bool dip_plan_shades_alike(const DipQuality *a, const DipQuality *b) {
     }
     // Alpha to coverage and supersampling shade at other positions, and a larger picture also needs
     // the light that is not in the pixels.
-    const bool same_light = a->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
-                            b->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
-                            a->step[DIP_SETTING_AAA] != DIP_AAA_ALL &&
-                            b->step[DIP_SETTING_AAA] != DIP_AAA_ALL && !a->step[DIP_SETTING_SCALE];
+    const bool same_light =
+        a->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
+        b->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE && a->step[DIP_SETTING_AAA] != DIP_AAA_ALL &&
+        b->step[DIP_SETTING_AAA] != DIP_AAA_ALL && a->step[DIP_SETTING_SCALE] <= DIP_SCALE_1;
     return same_light && !a->step[DIP_SETTING_MIPDEBUG];
 }

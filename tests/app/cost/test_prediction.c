@@ -509,7 +509,8 @@ static void make_true_work(const DipQuality *quality, double *counters) {
     const double filtering = (1.0 + step[DIP_SETTING_AF] + 0.5 * step[DIP_SETTING_AAF]) *
                              (1.0 + 0.25 * step[DIP_SETTING_OPT]) *
                              (6.0 - step[DIP_SETTING_MIPLOD]) * (1.5 - 0.5 * step[DIP_SETTING_GI]) *
-                             (1.0 + 0.25 * step[DIP_SETTING_SCALE]);
+                             (1.0 + 0.25 * step[DIP_SETTING_SCALE]) *
+                             (1.0 + 0.125 * step[DIP_SETTING_UPSCALE]);
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] = 16.0 * (c % 3 ? sampling : 1.0) * (c % 2 ? filtering : 1.0);
     }
@@ -541,14 +542,15 @@ static const double *find_counted(const void *context, const DipQuality *quality
 // work for every combination: the true one.
 static void composed_work_is_one(void **state) {
     (void)state;
-    static DipQuality list[1 << 16];
+    static DipQuality list[1 << 17];
     // Filters of the finished picture add work of their own, which no other setting changes.
     const unsigned all =
-        ((1u << DIP_SETTING_MIPDEBUG) - 1) & ~(1u << DIP_SETTING_POST | 1u << DIP_SETTING_SHARPEN);
+        ((1u << DIP_SETTING_MIPDEBUG) - 1) &
+        ~(1u << DIP_SETTING_UPSCALE | 1u << DIP_SETTING_POST | 1u << DIP_SETTING_SHARPEN);
     Counted groups = {.base = dip_quality_default(), .most_groups = 1};
     Counted parts = {.base = groups.base, .most_groups = 1, .has_filtering = true};
-    const int count = dip_cost_list_combinations(&groups.base, all, list, 1 << 16);
-    assert_int_equal(count, 55728);
+    const int count = dip_cost_list_combinations(&groups.base, all, list, 1 << 17);
+    assert_int_equal(count, 111456);
     for (int i = 0; i < count; i++) {
         double truth[DIP_COST_COUNTER_COUNT], first[DIP_COST_COUNTER_COUNT],
             second[DIP_COST_COUNTER_COUNT];
@@ -568,9 +570,56 @@ static void composed_work_is_one(void **state) {
     assert_false(dip_work_compose(find_counted, &groups, &groups.base, &list[count - 1], counters));
 }
 
+// Counts the pixels that filters write, per pixel of the frame.
+static void count_filtered(double *counters, const DipQuality *quality) {
+    static const double drawn[] = {1.0 / 4.0, 100.0 / 289.0, 4.0 / 9.0, 100.0 / 169.0};
+    const bool below = quality->step[DIP_SETTING_SCALE] < DIP_SCALE_1;
+    counters[DIP_COST_COUNTER_pixels_filtered] =
+        (quality->step[DIP_SETTING_POST] ? below ? drawn[quality->step[DIP_SETTING_SCALE]] : 1.0
+                                         : 0.0) +
+        below + (quality->step[DIP_SETTING_SHARPEN] != 0);
+}
+
+// Combinations that differ from a base in one group of settings.
+typedef struct Alone {
+    DipQuality base;
+    double counters[16][DIP_COST_COUNTER_COUNT];
+    int next;
+} Alone;
+
+static const double *find_alone(const void *context, const DipQuality *quality) {
+    Alone *alone = (Alone *)context;
+    double *counters = alone->counters[alone->next++ % 16];
+    count_filtered(counters, quality);
+    return dip_work_count_groups(&alone->base, quality) <= 1 ? counters : NULL;
+}
+
+// Post-process AA filters the picture that is drawn, the other filters the frame.
+static void composed_filters_write_the_pixels_of_their_pictures(void **state) {
+    (void)state;
+    static DipQuality list[512];
+    const unsigned all = 1u << DIP_SETTING_SCALE | 1u << DIP_SETTING_UPSCALE |
+                         1u << DIP_SETTING_POST | 1u << DIP_SETTING_SHARPEN;
+    const DipQuality base = dip_quality_default();
+    const int count = dip_cost_list_combinations(&base, all, list, 512);
+    assert_int_equal(count, (4 + 4 * 3) * 3 * 4);
+    for (int i = 0; i < count; i++) {
+        for (int b = 0; b < count; b += 7) {
+            double truth[DIP_COST_COUNTER_COUNT] = {0.0}, found[DIP_COST_COUNTER_COUNT];
+            Alone alone = {.base = list[b]};
+            count_filtered(truth, &list[i]);
+            assert_true(dip_work_compose(find_alone, &alone, &list[b], &list[i], found));
+            const double wanted = truth[DIP_COST_COUNTER_pixels_filtered];
+            assert_true(fabs(found[DIP_COST_COUNTER_pixels_filtered] - wanted) < 1e-9);
+            assert_true(fabs(dip_cost_pixels_filtered(&list[i]) - wanted) < 1e-12);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(composed_work_is_one),
+        cmocka_unit_test(composed_filters_write_the_pixels_of_their_pictures),
         cmocka_unit_test(times_follow_from_work),
         cmocka_unit_test(flip_follows_from_settings),
         cmocka_unit_test(leaving_one_out_does_not_promise_too_much),

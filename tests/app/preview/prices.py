@@ -110,7 +110,8 @@ STEPS = {
     "asd": ["1", "2", "3", "4"], "af": ["none", "2", "4", "8", "16"], "aaf": ["off", "on"],
     "opt": ["off", "standard", "advanced"],
     "miplod": ["high-performance", "performance", "quality", "high-quality", "sharp",
-               "sharper"], "scale": ["1", "1.25", "1.5", "2"],
+               "sharper"], "scale": ["1/2", "1/1.7", "1/1.5", "1/1.3", "1", "1.25", "1.5", "2"],
+    "upscale": ["bilinear", "bicubic", "easu"],
     "post": ["off", "fxaa", "smaa"], "sharpen": ["off", "low", "medium", "high"], "gi": ["off", "on"],
 }
 

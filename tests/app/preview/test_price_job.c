@@ -78,7 +78,9 @@ static double work_of(const DipQuality *quality, DipFrame *frame) {
         (4e-6 * fragments + 5e-7 * (double)c->texels_fetched) *
         (1.0 + unknown_share * sin(7.0 * samples + 3.0 * probes + 2.0 * groups + 0.7 * detail +
                                    step_of_aaa + 0.9 * quality->step[DIP_SETTING_POST] +
-                                   0.6 * quality->step[DIP_SETTING_SHARPEN]));
+                                   0.6 * quality->step[DIP_SETTING_SHARPEN] +
+                                   1.1 * (quality->step[DIP_SETTING_SCALE] - DIP_SCALE_1) +
+                                   0.8 * quality->step[DIP_SETTING_UPSCALE]));
     frame->stages.resolve_ms = 1e-6 * (double)c->pixels_resolved * samples;
     return frame->stages.geometry_ms + frame->stages.raster_ms + frame->stages.shading_ms +
            frame->stages.resolve_ms + 0.1;

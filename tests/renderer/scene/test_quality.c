@@ -16,13 +16,14 @@ static void settings_have_their_documented_defaults(void **state) {
     dip_quality_format(&quality, text, sizeof text);
     assert_string_equal(text,
                         "aa=none,taa=off,aaa=off,asd=1,af=none,aaf=off,opt=off,"
-                        "miplod=high-quality,scale=1,post=off,sharpen=off,gi=on,mipdebug=off");
+                        "miplod=high-quality,scale=1,upscale=bilinear,post=off,sharpen=off,gi=on,"
+                        "mipdebug=off");
 }
 
 static void formatting_gives_the_parsed_text_back(void **state) {
     (void)state;
     static const char text[] = "aa=6,taa=on,aaa=on,asd=3,af=16,aaf=on,opt=off,"
-                               "miplod=performance,scale=1.25,post=smaa,sharpen=low,"
+                               "miplod=performance,scale=1/1.7,upscale=easu,post=smaa,sharpen=low,"
                                "gi=on,mipdebug=on";
     DipQuality quality;
     char back[256];
@@ -52,10 +53,16 @@ static void texts_of_earlier_versions_stay_valid(void **state) {
     char back[256];
     assert_true(dip_quality_parse(text, &quality, NULL));
     assert_int_equal(quality.step[DIP_SETTING_AAA], DIP_AAA_ON);
-    assert_int_equal(quality.step[DIP_SETTING_SCALE], 0);
+    assert_int_equal(quality.step[DIP_SETTING_SCALE], DIP_SCALE_1);
     dip_quality_format_changes(&quality, back, sizeof back);
     assert_string_equal(back, "aa=8,taa=on,aaa=on,asd=2,af=16,aaf=on,opt=advanced,"
                               "miplod=high-performance,gi=off");
+    static const char *const scales[] = {"scale=1.25", "scale=1.5", "scale=2"};
+    for (int i = 0; i < 3; i++) { // Their steps had other numbers.
+        assert_true(dip_quality_parse(scales[i], &quality, NULL));
+        dip_quality_format_changes(&quality, back, sizeof back);
+        assert_string_equal(back, scales[i]);
+    }
 }
 
 static void bad_settings_are_refused(void **state) {
@@ -75,6 +82,8 @@ static void bad_settings_are_refused(void **state) {
         {"aa=4,,af=2", DIP_ERROR_UNKNOWN, "", "miplod"},
         {"AA=4", DIP_ERROR_UNKNOWN, "AA", "aa taa"},
         {"aa=4 ", DIP_ERROR_UNKNOWN, "aa", "none|2|4|6|8"},
+        {"scale=1/3", DIP_ERROR_UNKNOWN, "scale", "1/2|1/1.7|1/1.5|1/1.3|1|1.25|1.5|2"},
+        {"upscale=off", DIP_ERROR_UNKNOWN, "upscale", "bilinear|bicubic|easu"},
         {"opt=on", DIP_ERROR_UNKNOWN, "opt", "off|standard|advanced"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -173,6 +182,9 @@ static void settings_without_effect_are_turned_off(void **state) {
         {"aa=8,asd=4", "aa=8"},
         {"aa=8,asd=4,aaa=on,taa=on", "aa=8,taa=on,aaa=on,asd=4"},
         {"af=2,aaf=on", "af=2,aaf=on"},
+        {"upscale=easu", "defaults"},
+        {"scale=1.5,upscale=bicubic", "scale=1.5"},
+        {"scale=1/1.3,upscale=bicubic", "scale=1/1.3,upscale=bicubic"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         DipQuality quality;
@@ -207,6 +219,10 @@ static void needs_are_named_where_a_setting_has_no_effect(void **state) {
         {"aa=4", DIP_SETTING_AAF, "needs AF"},
         {"af=2", DIP_SETTING_AAF, NULL},
         {"", DIP_SETTING_AF, NULL},
+        {"upscale=easu", DIP_SETTING_UPSCALE, "needs a scale below 1"},
+        {"scale=2", DIP_SETTING_UPSCALE, "needs a scale below 1"},
+        {"scale=1/2", DIP_SETTING_UPSCALE, NULL},
+        {"", DIP_SETTING_SCALE, NULL},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         DipQuality quality;
@@ -234,6 +250,15 @@ static void biases_of_miplod_are_those_of_the_document(void **state) {
         {"aa=4,miplod=sharper", -256, "aa=4"},
         {"miplod=sharper,mipdebug=on", 0, "mipdebug=on"},
         {"miplod=quality,mipdebug=on", 128, "miplod=quality,mipdebug=on"},
+        // A scale below 1 has its logarithm as a bias.
+        {"scale=1/2", -256, "defaults"},
+        {"scale=1/1.7", -196, "defaults"},
+        {"scale=1/1.5", -150, "defaults"},
+        {"scale=1/1.3", -97, "defaults"},
+        {"scale=2", 0, "scale=2"},
+        {"scale=1/2,miplod=sharp", -384, "defaults"},
+        {"scale=1/2,miplod=performance", 0, "miplod=performance"},
+        {"scale=1/2,miplod=quality,mipdebug=on", 128, "miplod=quality,mipdebug=on"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         DipQuality quality;

@@ -291,15 +291,24 @@ static void stored_light_is_the_mean_of_the_samples(void **state) {
 
 static void sizes_are_rounded_to_the_nearest_whole_number(void **state) {
     (void)state;
-    static const char *const steps[] = {"1", "1.25", "1.5", "2"};
-    for (int s = 0; s < 4; s++) {
+    // A step is over / under; halves are rounded up.
+    static const struct {
+        const char *step;
+        int over, under;
+    } steps[] = {{"1", 1, 1},       {"1.25", 5, 4},    {"1.5", 3, 2},     {"2", 2, 1},
+                 {"1/1.3", 10, 13}, {"1/1.5", 10, 15}, {"1/1.7", 10, 17}, {"1/2", 10, 20}};
+    for (int s = 0; s < 8; s++) {
         char text[32];
         DipQuality quality;
-        snprintf(text, sizeof text, "scale=%s", steps[s]);
+        snprintf(text, sizeof text, "scale=%s", steps[s].step);
         assert_true(dip_quality_parse(text, &quality, NULL));
+        assert_true(dip_quality_scale(&quality) == (double)steps[s].over / steps[s].under);
+        assert_int_equal(dip_quality_upscales(&quality), steps[s].over < steps[s].under);
         for (int size = 1; size <= DIP_MAX_FRAME_SIZE; size++) {
-            assert_int_equal(dip_quality_drawn_size(&quality, size),
-                             floor(strtod(steps[s], NULL) * size + 0.5));
+            const int drawn = dip_quality_drawn_size(&quality, size);
+            // The size is nearest to the exact one, and never 0.
+            const int miss = 2 * (drawn * steps[s].under - size * steps[s].over);
+            assert_true(drawn >= 1 && miss <= steps[s].under && miss > -steps[s].under);
         }
     }
 }

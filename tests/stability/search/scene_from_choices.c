@@ -29,8 +29,13 @@ static void choose_settings(SearchMaker *maker) {
     DipQuality *quality = &maker->made->quality;
     *quality = dip_quality_default();
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        // Filters of the finished picture are not part of what the judges compare.
-        if (s == DIP_SETTING_POST || s == DIP_SETTING_SHARPEN) {
+        // Filters of the finished picture, which also enlarge that of a scale below 1, are not part
+        // of what the judges compare.
+        if (s == DIP_SETTING_UPSCALE || s == DIP_SETTING_POST || s == DIP_SETTING_SHARPEN) {
+            continue;
+        }
+        if (s == DIP_SETTING_SCALE) {
+            quality->step[s] = (uint8_t)(DIP_SCALE_1 + choices_draw(maker->choices, 4));
             continue;
         }
         if (s != DIP_SETTING_MIPDEBUG || choices_rarely(maker->choices, 3)) {
