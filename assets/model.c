@@ -303,10 +303,10 @@ static void finish(DipModel *model) {
     model->def.meshes = model->meshes;
     model->def.objects = model->objects;
     memcpy(model->def.background_lin, background_lin, sizeof background_lin);
+    dip_model_finish_motion(model);
     const DipModelBounds bounds = dip_model_bounds(model);
     model->def.near_m = dip_model_near_distance(&bounds);
     dip_model_scale_lights(model, &bounds);
-    dip_model_finish_motion(model);
     model->def.sky = dip_sky_default();
     model->warnings = NULL;
 }

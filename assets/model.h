@@ -5,8 +5,8 @@
 // - Polygons are triangulated. Points and lines are left out with a warning.
 // - A mesh without normals gets normals: in glTF those of its triangles; in other formats they are
 //   smooth where faces meet at less than 60 degrees.
-// - glTF and MD2 files may play an animation (DipModelOptions.animation). Without one, skins and
-//   morph targets have their shape at rest.
+// - Files of glTF 2 may play an animation (DipModelOptions.animation). Without one, skins and morph
+//   targets have their shape at rest. Animations of other formats are not played.
 // - A mesh that several nodes use stays one mesh with several objects. A node that mirrors uses the
 //   same mesh; the renderer turns the winding back (docs/picture.md, Coverage).
 // - Base colours and vertex colours are linear in glTF. In all other formats they are taken as

@@ -370,7 +370,7 @@ static bool read_rig(Reader *reader, uint64_t index, struct DipPackedMotion *mot
     if (record.node_count > header->nodes.count - taken->nodes ||
         record.skin_count > header->skins.count - taken->skins ||
         record.track_count > header->tracks.count - taken->tracks ||
-        record.weight_count > PACK_MAX_RECORDS || record.frame_count > PACK_MAX_RECORDS) {
+        record.weight_count > PACK_MAX_RECORDS) {
         return refuse(reader, "counts of a rig", index);
     }
     DipMotionRig *rig = &motion->rigs[index];
@@ -383,8 +383,7 @@ static bool read_rig(Reader *reader, uint64_t index, struct DipPackedMotion *mot
                           .skins = motion->skins + taken->skins,
                           .skin_count = (int)record.skin_count,
                           .tracks = motion->tracks + taken->tracks,
-                          .track_count = (int)record.track_count,
-                          .frame_count = (int)record.frame_count};
+                          .track_count = (int)record.track_count};
     memcpy(rig->root, record.root, sizeof rig->root);
     taken->nodes += record.node_count;
     taken->skins += record.skin_count;

@@ -157,7 +157,7 @@ typedef struct PackRig {
     uint32_t skin_count;
     uint32_t track_count;
     uint32_t weight_count;
-    uint32_t frame_count;
+    uint32_t unused;
 } PackRig;
 
 typedef struct PackNode {

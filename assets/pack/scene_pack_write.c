@@ -303,8 +303,7 @@ static bool add_rigs(Writer *writer, const DipMotionDef *motion) {
                                .node_count = (uint32_t)rig->rig.node_count,
                                .skin_count = (uint32_t)rig->skin_count,
                                .track_count = (uint32_t)rig->track_count,
-                               .weight_count = (uint32_t)rig->rig.weight_count,
-                               .frame_count = (uint32_t)rig->frame_count};
+                               .weight_count = (uint32_t)rig->rig.weight_count};
         memcpy(records[i].root, rig->root, sizeof rig->root);
         ok = add_text(writer, rig->clip, &records[i].clip) &&
              add_array(writer, rig->rig.rest_weights,

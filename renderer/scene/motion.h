@@ -34,9 +34,6 @@ typedef struct DipMotionRig {
     int skin_count;
     const DipTrack *tracks;
     int track_count;
-    // Number of key frames at equal distances, of which the clip blends the two that are nearest to
-    // the time; after the last one follows the first one. 0: the clip has tracks.
-    int frame_count;
 } DipMotionRig;
 
 // An object of the scene that a node carries: its transform is root * (the node's world transform)
@@ -51,8 +48,7 @@ typedef struct DipMovingObject {
 // A mesh of the scene that changes its shape. Its vertices are a weighted sum over several shapes,
 // and then move with their joints, if it has any.
 //
-// Without key frames, the weight of shape 0 is 1, and that of shape s is the weight of morph target
-// s - 1 of the node. With key frames, there is a shape for each, and their weights sum up to 1.
+// The weight of shape 0 is 1, and that of shape s is the weight of morph target s - 1 of the node.
 typedef struct DipMovingMesh {
     int mesh;
     int rig;
@@ -76,6 +72,9 @@ typedef struct DipMotionDef {
     int object_count;
     int mesh_count;
 } DipMotionDef;
+
+// Number of moments, at equal distances over every clip, at which bounds of a motion are taken.
+enum { DIP_MOTION_MOMENTS = 16 };
 
 // Checks the motion of a scene whose other parts are valid. Fails with RANGE.
 DIP_API bool dip_motion_check(const struct DipSceneDef *scene, DipError *err);

@@ -237,6 +237,25 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
     return true;
 }
 
+// Extends the scene's bounds over its clips.
+static bool bound_motion(DipScene *scene, DipPool *pool, DipError *err) {
+    DipPosedScene *posed = scene->motion ? dip_posed_scene_create(scene, err) : NULL;
+    for (int k = 0; posed && k < DIP_MOTION_MOMENTS; k++) {
+        const double share = (double)k / DIP_MOTION_MOMENTS;
+        const DipScene *moved = dip_posed_scene_at_share(posed, share, pool);
+        for (int i = 0; i < moved->object_count; i++) {
+            const DipSceneObject *object = &moved->objects[i];
+            if (is_not_sky(surface_of(moved, object)) &&
+                dip_mesh_triangle_count(moved->meshes[object->mesh].mesh)) {
+                add_bounds(scene, object);
+            }
+        }
+    }
+    const bool bounded = !scene->motion || posed;
+    dip_posed_scene_destroy(&posed);
+    return bounded;
+}
+
 // Marks the colour textures as compressible. Other textures are never compressed: BC1 would dent
 // normals, displace clouds and put steps into a light map.
 static void mark_compressible(const DipSceneDef *def, DipScene *scene) {
@@ -322,7 +341,7 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
     for (int i = 0; made && i < def->mesh_count; i++) {
         made = create_mesh(def, i, scene, err);
     }
-    if (!made || !place_objects(def, scene, err)) {
+    if (!made || !place_objects(def, scene, err) || !bound_motion(scene, pool, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }

@@ -185,8 +185,9 @@ DIP_API DipSceneTimes dip_scene_times(const DipScene *scene);
 DIP_API bool dip_scene_moves(const DipScene *scene);
 
 // Axis-aligned bounds in world space of all objects that are not sky, so that a camera placed by
-// these bounds does not look at a sky dome from outside. If the scene has nothing but sky, these
-// are the sky's bounds; if it has no triangles, all coordinates are 0.
+// these bounds does not look at a sky dome from outside. They hold for all moments of the scene's
+// motion. If the scene has nothing but sky, these are the sky's bounds; if it has no triangles, all
+// coordinates are 0.
 DIP_API void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);
 
 // Height (world y) of the scene's lowest water. Returns false if the scene has no water.

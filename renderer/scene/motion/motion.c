@@ -10,8 +10,6 @@
 
 enum { BATCH = 96 }; // Vertices that are computed at once; a multiple of 3.
 
-static const float max_blend = 0x1.fffffep-1f; // The greatest float below 1.
-
 struct DipMotionPose {
     const DipMotionDef *motion;
     int rig_count; // Those of the motion, which may be gone when the pose is destroyed.
@@ -24,25 +22,9 @@ struct DipMotionPose {
 
 // --- poses ---------------------------------------------------------------------------------------
 
-// Sets the weights of the two key frames around the time of the clip.
-static void blend_frames(const DipMotionRig *rig, double time_s, int shape_count, float *weights) {
-    const double frames = rig->duration_s > 0.0 ? time_s / rig->duration_s * rig->frame_count : 0.0;
-    const int whole = (int)frames < rig->frame_count ? (int)frames : rig->frame_count - 1;
-    const float blend =
-        rig->frame_count > 1 ? fminf((float)(frames - (double)whole), max_blend) : 0.0f;
-    memset(weights, 0, (size_t)shape_count * sizeof *weights);
-    weights[(whole + 1) % rig->frame_count] = blend;
-    weights[whole] = 1.0f - blend;
-}
-
 static void weigh_shapes(const DipMotionPose *pose, int index) {
     const DipMovingMesh *mesh = &pose->motion->meshes[index];
-    const DipMotionRig *rig = &pose->motion->rigs[mesh->rig];
     float *weights = pose->weights[index];
-    if (rig->frame_count > 0) {
-        blend_frames(rig, pose->times_s[mesh->rig], mesh->shape_count, weights);
-        return;
-    }
     weights[0] = 1.0f;
     const double *of_node = dip_rig_pose_weights(pose->rigs[mesh->rig], mesh->node);
     for (int s = 1; s < mesh->shape_count; s++) {

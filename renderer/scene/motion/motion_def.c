@@ -72,7 +72,7 @@ static bool is_track_fine(const DipRig *rig, const DipTrack *track) {
 
 static bool check_rig(const DipMotionRig *rig, int index, DipError *err) {
     bool fine = rig->duration_s >= 0.0 && isfinite(rig->duration_s) && isfinite(rig->held_s) &&
-                are_finite_doubles(rig->root, 12) && rig->frame_count >= 0 &&
+                are_finite_doubles(rig->root, 12) &&
                 are_finite(rig->rig.rest_weights, (size_t)rig->rig.weight_count);
     for (int n = 0; fine && n < rig->rig.node_count; n++) {
         fine = is_node_fine(&rig->rig, n);
@@ -131,8 +131,7 @@ static bool check_mesh(const DipSceneDef *scene, int index, DipError *err) {
     const size_t floats = 3 * (size_t)mesh->vertex_count * (size_t)mesh->shape_count;
     const int weights =
         is_index(mesh->node, rig->rig.node_count) ? rig->rig.nodes[mesh->node].weight_count : -1;
-    const int shapes = rig->frame_count > 0 ? rig->frame_count : 1 + weights;
-    const bool fine = weights >= 0 && mesh->shape_count == shapes &&
+    const bool fine = weights >= 0 && mesh->shape_count == 1 + weights &&
                       mesh->vertex_count == def->vertex_count &&
                       are_finite(mesh->positions, floats) &&
                       (mesh->normals ? are_finite(mesh->normals, floats)

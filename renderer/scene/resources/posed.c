@@ -177,12 +177,24 @@ static void place_objects(DipPosedScene *posed) {
     }
 }
 
+// Moves the scene to the time of its pose.
+static void follow_pose(DipPosedScene *posed, DipPool *pool) {
+    dip_pool_run(pool, posed->part_count, pose_part, posed);
+    dip_pool_run(pool, posed->moving_count, update_mesh, posed);
+    place_objects(posed);
+}
+
+const DipScene *dip_posed_scene_at_share(DipPosedScene *posed, double share, DipPool *pool) {
+    dip_motion_pose_set_share(posed->pose, share);
+    follow_pose(posed, pool);
+    posed->is_posed = false;
+    return &posed->scene;
+}
+
 const DipScene *dip_posed_scene_at(DipPosedScene *posed, int64_t time_ns, DipPool *pool) {
     if (!posed->is_posed || posed->time_ns != time_ns) {
         dip_motion_pose_set(posed->pose, time_ns);
-        dip_pool_run(pool, posed->part_count, pose_part, posed);
-        dip_pool_run(pool, posed->moving_count, update_mesh, posed);
-        place_objects(posed);
+        follow_pose(posed, pool);
         posed->is_posed = true;
         posed->time_ns = time_ns;
     }

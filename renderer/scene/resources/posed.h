@@ -24,4 +24,7 @@ void dip_posed_scene_destroy(DipPosedScene **posed);
 // vertices are computed on the pool, unless the scene is at this time already. Allocates nothing.
 const DipScene *dip_posed_scene_at(DipPosedScene *posed, int64_t time_ns, DipPool *pool);
 
+// The same at a share of every clip's duration, 0 up to 1.
+const DipScene *dip_posed_scene_at_share(DipPosedScene *posed, double share, DipPool *pool);
+
 #endif
