@@ -54,7 +54,7 @@ static void move(DipMotionPose *pose) {
 void dip_motion_pose_set(DipMotionPose *pose, int64_t time_ns) {
     DIP_FP_MODE_SCOPE();
     for (int r = 0; r < pose->motion->rig_count; r++) {
-        pose->times_s[r] = 1e-9 * (double)time_ns;
+        pose->times_s[r] = (double)time_ns / 1e9;
     }
     move(pose);
 }
