@@ -33,6 +33,7 @@ typedef enum DipGltfLoss {
     DIP_GLTF_LOSS_COORDINATES,
     DIP_GLTF_LOSS_LIGHT_MAPPED,
     DIP_GLTF_LOSS_VERTEX_ALPHA,
+    DIP_GLTF_LOSS_MOVED_LIGHT,
 } DipGltfLoss;
 
 // True if the file has not been warned of this loss; it counts as warned from now on.
