@@ -418,7 +418,7 @@ static bool unpack(Primitive *p, const cJSON *extension) {
         !dip_gltf_view(gltf, view, &bytes, &size_bytes, &stride)) {
         return false;
     }
-    bool out_of_memory;
+    bool out_of_memory = false;
     p->draco_ids = cJSON_GetObjectItemCaseSensitive(extension, "attributes");
     p->draco = dip_draco_decode(bytes, size_bytes, &out_of_memory);
     if (out_of_memory) {

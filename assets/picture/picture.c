@@ -32,6 +32,12 @@ static void *stb_resize(void *memory, size_t old_bytes, size_t size_bytes) {
     return resized;
 }
 
+// A PNG file may begin its data with an empty chunk. stb_image then copies 0 bytes to NULL, for
+// which memcpy is not defined.
+static void *stb_copy(void *to, const void *from, size_t size_bytes) {
+    return size_bytes > 0 ? memcpy(to, from, size_bytes) : to;
+}
+
 #define STBI_MALLOC(size)                                stb_allocate(size)
 #define STBI_REALLOC_SIZED(pointer, old_bytes, new_size) stb_resize(pointer, old_bytes, new_size)
 #define STBI_FREE(pointer)                               free(pointer)
@@ -45,7 +51,9 @@ static void *stb_resize(void *memory, size_t old_bytes, size_t size_bytes) {
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
+#define memcpy stb_copy
 #include <stb/stb_image.h>
+#undef memcpy
 
 static const size_t max_file_bytes = (size_t)512 << 20;
 

@@ -276,14 +276,34 @@ static bool add_piece(const Camera *camera, const DipRefClipVertex *a, const Dip
     return append(triangles, &piece);
 }
 
+// Finds what the coordinates that repeat count from: the multiples of 64 that are nearest to the
+// coordinates of the corner nearest to the eye.
+static void find_multiples(const DipRefClipVertex *const *corners, int count,
+                           DipRefTriangle *triangle) {
+    int nearest = 0;
+    for (int i = 1; i < count; i++) {
+        nearest = corners[i]->w.high < corners[nearest]->w.high ? i : nearest;
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        const double at = count > 0 ? corners[nearest]->varyings[DIP_REF_U0 + axis].high : 0.0;
+        triangle->repeat[axis] = triangle->repeats[axis] ? 64.0 * rint(at / 64.0) : 0.0;
+    }
+}
+
 // Adds the pieces of a triangle that clipping leaves.
 static bool add_clipped(const Camera *camera, const DipRefClipVertex *const corners[3],
-                        const DipRefTriangle *like, DipRefTriangles *triangles) {
+                        DipRefTriangle *like, DipRefTriangles *triangles) {
     if (!dip_reference_needs_clip(&camera->planes, corners)) {
+        find_multiples(corners, 3, like);
         return add_piece(camera, corners[0], corners[1], corners[2], like, triangles);
     }
     DipRefClipVertex polygon[DIP_REF_MAX_CORNERS];
+    const DipRefClipVertex *all[DIP_REF_MAX_CORNERS];
     const int count = dip_reference_clip(&camera->planes, corners, polygon);
+    for (int k = 0; k < count; k++) {
+        all[k] = &polygon[k];
+    }
+    find_multiples(all, count, like);
     bool added = true;
     for (int k = 2; added && k < count; k++) {
         added = add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], like, triangles);
@@ -340,6 +360,26 @@ static void describe_pbr(const DipReference *reference, const DipMeshDef *mesh,
     }
 }
 
+static bool repeats(DipWrap wrap) {
+    return wrap == DIP_WRAP_REPEAT || wrap == DIP_WRAP_MIRROR;
+}
+
+// Finds the axes of uv0 along which all textures repeat that a mesh reads at uv0.
+static void find_repeats(DipRefTriangle *like) {
+    const bool occluded = like->occlusion && !like->pbr->occlusion_at_uv1;
+    const bool emits = like->emission && !like->pbr->emission_at_uv1;
+    const DipRefTexture *textures[] = {like->colour, like->normal_map, like->metal_rough,
+                                       occluded ? like->occlusion : NULL,
+                                       emits ? like->emission : NULL};
+    like->repeats[0] = like->repeats[1] = true;
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+        if (textures[i]) {
+            like->repeats[0] = like->repeats[0] && repeats(textures[i]->def->wrap_u);
+            like->repeats[1] = like->repeats[1] && repeats(textures[i]->def->wrap_v);
+        }
+    }
+}
+
 // Returns the values that all triangles of a mesh share.
 static DipRefTriangle describe_mesh(const DipReference *reference, const DipMeshDef *mesh) {
     const DipMaterialDef *material = &reference->def->materials[mesh->material];
@@ -368,6 +408,7 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
     like.clipped = material->surface == DIP_SURFACE_CLIPPED && like.colour;
     like.blended = material->surface == DIP_SURFACE_BLENDED;
     describe_pbr(reference, mesh, &like);
+    find_repeats(&like);
     return like;
 }
 

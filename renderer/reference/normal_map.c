@@ -36,11 +36,14 @@ bool dip_reference_is_bumpy(const DipMaterialDef *material) {
     return dip_reference_is_solid(material) && has_light && material->normal_map != DIP_NO_TEXTURE;
 }
 
-// Returns the size of a texture coordinate's derivatives, which the derivatives' rounding errors
-// are relative to.
+// Returns the size of the derivatives of u0 or v0, which the derivatives' rounding errors are
+// relative to.
 static double size_of(const DipRefVaryings *varyings, int coordinate) {
+    const int axis = coordinate - DIP_REF_U0;
+    const DipRefTriangle *triangle = varyings->triangle;
+    const double magnitude = fabs(varyings->value[coordinate] - triangle->repeat[axis]);
     return fabs(varyings->ddx[coordinate]) + fabs(varyings->ddy[coordinate]) +
-           fmin(1.0, fabs(varyings->value[coordinate])) * varyings->depth_change;
+           (triangle->repeats[axis] ? fmin(1.0, magnitude) : magnitude) * varyings->depth_change;
 }
 
 // Finds the tangents. along_u points where u grows while v stays constant, made perpendicular to

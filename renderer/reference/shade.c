@@ -33,6 +33,7 @@ void dip_reference_interpolate(const DipRefPosition *place, int first, int count
         q_dy += weights_dy[i];
     }
     out->depth_change = (fabs(q_dx) + fabs(q_dy)) / fabs(q);
+    out->triangle = place->triangle;
     for (int k = first; k < first + count; k++) {
         const double a = v[0].varyings[k], b = v[1].varyings[k], c = v[2].varyings[k];
         const double value = (weights[0] * a + weights[1] * b + weights[2] * c) / q;

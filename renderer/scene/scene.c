@@ -67,6 +67,9 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
         add_pbr_surface(def, index, scene);
     }
     out->repeating_varyings = dip_scene_repeating_varyings(def, mesh, out);
+    if (out->normal_mapped) {
+        dip_scene_bound_coordinates(def, mesh, out);
+    }
     scene->has_normal_map |= out->normal_mapped;
     scene->has_sky |= out->sky;
     scene->has_lit |= out->lit_by_lights;

@@ -24,6 +24,13 @@ const char *__msan_default_options(void);
 const char *__msan_default_options(void) {
     return "poison_in_malloc=0:poison_in_free=0";
 }
+
+// The sanitizer calls this for each new block, before the wrappers below poison it. A library that
+// gets the block must not inherit what is known of an earlier block at the same place.
+void __sanitizer_malloc_hook(const volatile void *memory, size_t size);
+void __sanitizer_malloc_hook(const volatile void *memory, size_t size) {
+    __msan_unpoison(memory, size);
+}
 #endif
 #endif
 
@@ -50,25 +57,13 @@ static void *fill_block(void *memory, size_t from) {
     const size_t size = memory ? malloc_usable_size(memory) : 0;
     if (from < size) {
 #ifdef POISONS
-        __msan_allocated_memory((uint8_t *)memory + from, size - from);
+        __msan_poison((uint8_t *)memory + from, size - from);
 #else
         memset((uint8_t *)memory + from, atomic_load(&fill), size - from);
 #endif
     }
     return memory;
 }
-
-#ifdef POISONS
-// A library may get the block next.
-void __real_free(void *memory);
-void __wrap_free(void *memory);
-void __wrap_free(void *memory) {
-    if (memory) {
-        __msan_unpoison(memory, malloc_usable_size(memory));
-    }
-    __real_free(memory);
-}
-#endif
 
 void *__wrap_malloc(size_t size) {
     return fill_block(__real_malloc(size), 0);

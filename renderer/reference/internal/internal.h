@@ -78,6 +78,8 @@ typedef struct DipRefTriangle {
     const DipRefTexture *colour;
     const DipRefTexture *light_map;
     const DipRefTexture *normal_map;
+    bool repeats[2];  // u0 and v0: all textures that are read at them repeat along this axis
+    double repeat[2]; // u0 and v0 where they repeat: the multiple of 64 nearest to the eye's corner
     DipRefLit lit;
     const DipPbrDef *pbr; // NULL unless the surface is drawn by its metallic-roughness description
     DipRefPbrTables *pbr_tables;
@@ -179,6 +181,7 @@ typedef struct DipRefVaryings {
     double ddx[DIP_REF_DERIVED];
     double ddy[DIP_REF_DERIVED];
     double depth_change; // |dw/dx| + |dw/dy|, divided by w; w is the distance along the view axis
+    const DipRefTriangle *triangle;
 } DipRefVaryings;
 
 // Finds the unit normal at a position: the interpolated normal, or the normal map's if texel is not

@@ -34,8 +34,9 @@ VEC_INLINE Vf3 cross(Vf3 a, Vf3 b) {
 
 // Where the texture coordinates have (nearly) no area, only rounding decides the direction of their
 // derivatives. AREA_LIMIT bounds the area relative to the derivatives' sizes (Coordinate). Rounding
-// stays below 2^-22 of a size for coordinates within +-1, and below 2^-17 for coordinates within
-// +-32. The mapped surfaces of the courtyard have at least 2^-5.
+// stays below 2^-22 of a size for coordinates within +-1 and for those of axes along which a
+// texture is clamped, and below 2^-17 for repeating coordinates within +-32. The mapped surfaces of
+// the courtyard have at least 2^-5.
 #define AREA_LIMIT 0x1p-14f
 // Least squared tangent of the angle between the normal and the direction of growing u.
 #define LEAST_TANGENT2 0x1p-20f
@@ -53,15 +54,19 @@ typedef struct Coordinate {
     Vf dx, dy, size;
 } Coordinate;
 
-// Loads the derivatives of varying s. A derivative is the difference of two terms, of which one is
-// proportional to the coordinate and to the derivative of the depth. The size includes that term,
-// so that the derivative's rounding is small relative to the size. A large coordinate counts as 1
-// there, because whole numbers may be added to coordinates without changing the picture.
-VEC_INLINE Coordinate load_coordinate(const DipFragmentBatch *batch, int s, int i, Vf depth,
+// Loads the derivatives of one of the normal map's two coordinates. A derivative is the difference
+// of two terms, of which one is proportional to the coordinate and to the derivative of the depth.
+// The size includes that term, so that the derivative's rounding is small relative to the size. A
+// large coordinate of a repeating axis counts as 1 there, because whole numbers may be added to it
+// without changing the picture. Set-up has reduced it, so its rounding is small, too.
+VEC_INLINE Coordinate load_coordinate(const DipFragmentBatch *batch, int axis, int i, Vf depth,
                                       Vf depth_change) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const int s = uniforms->normal_map_varying + axis;
     Coordinate c = {.dx = vf_load(batch->varying_dx[s] + i),
                     .dy = vf_load(batch->varying_dy[s] + i)};
-    const Vf bounded = vf_min(vf_abs(vf_load(batch->varying[s] + i)), vf_splat(1.0f));
+    const Vf bounded =
+        vf_min(vf_abs(vf_load(batch->varying[s] + i)), vf_splat(uniforms->coordinate_bounds[axis]));
     c.size = (vf_abs(c.dx) + vf_abs(c.dy)) * depth + bounded * depth_change;
     return c;
 }
@@ -78,9 +83,8 @@ VEC_INLINE Tangents find_tangents(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 n
     const Vf depth_change = vf_abs(depth_dx) + vf_abs(depth_dy);
     const Vf3 dx = position_step(uniforms->rays->per_x, depth, ray, depth_dx);
     const Vf3 dy = position_step(uniforms->rays->per_y, depth, ray, depth_dy);
-    const int s = uniforms->normal_map_varying;
-    const Coordinate u = load_coordinate(batch, s, i, depth, depth_change);
-    Coordinate v = load_coordinate(batch, s + 1, i, depth, depth_change);
+    const Coordinate u = load_coordinate(batch, 0, i, depth, depth_change);
+    Coordinate v = load_coordinate(batch, 1, i, depth, depth_change);
     const Vf scale = inverse_exponent(v.size);
     v = (Coordinate){v.dx * scale, v.dy * scale, v.size * scale};
     const Vf area = u.dx * v.dy - u.dy * v.dx;

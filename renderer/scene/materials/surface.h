@@ -118,8 +118,11 @@ typedef struct DipSurfaceUniforms {
     // The next four are set for surfaces whose fragments are lit: by the scene's lights, or with a
     // normal map. Without a normal map, normal_map_varying is DIP_ABSENT.
     int normal_map_varying; // index of the first of two: coordinates of the normal map
-    int normal_varying;     // index of the first of three: unit normal of the vertex in world space
-    int depth_varying;      // index of one varying: clip w
+    // Bounds of the two coordinates in the sizes of their derivatives (docs/picture.md, Normal
+    // maps): 1 along an axis along which all textures repeat, and FLT_MAX along others.
+    float coordinate_bounds[2];
+    int normal_varying; // index of the first of three: unit normal of the vertex in world space
+    int depth_varying;  // index of one varying: clip w
     float roughness;
     const DipViewRays *rays;
     const DipSkyUniforms *sky; // only for sky

@@ -12,9 +12,9 @@
 #define LIGHT_SKY     0.15f
 #define LIGHT_SUN     0.65f
 // The direction to the sun: (-0.42, 0.67, 0.61) normalised.
-#define SUN_X -0.42046720f
-#define SUN_Y 0.67074529f
-#define SUN_Z 0.61067856f
+#define SUN_X -0.42054707f
+#define SUN_Y 0.67087270f
+#define SUN_Z 0.61079455f
 
 typedef struct Vf3 {
     Vf x, y, z;

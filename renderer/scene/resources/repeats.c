@@ -1,6 +1,8 @@
 // Finds large texture coordinates along which all textures of a surface repeat, mirrored or not.
 #include "renderer/scene/resources/repeats.h"
 
+#include <float.h>
+
 // Coordinates within +- this number are not reduced: set-up subtracts multiples of 64, and the
 // multiple nearest to these coordinates is 0.
 #define LARGE 32.0f
@@ -77,4 +79,13 @@ uint32_t dip_scene_repeating_varyings(const DipSceneDef *def, const DipMeshDef *
         }
     }
     return varyings;
+}
+
+void dip_scene_bound_coordinates(const DipSceneDef *def, const DipMeshDef *mesh,
+                                 DipSceneMesh *laid_out) {
+    const Readers readers = find_readers(&def->materials[mesh->material], laid_out, 0);
+    for (int axis = 0; axis < 2; axis++) {
+        laid_out->full_layout.coordinate_bounds[axis] =
+            all_repeat(def, &readers, axis) ? 1.0f : FLT_MAX;
+    }
 }

@@ -9,4 +9,8 @@
 uint32_t dip_scene_repeating_varyings(const DipSceneDef *def, const DipMeshDef *mesh,
                                       const DipSceneMesh *laid_out);
 
+// Sets full_layout.coordinate_bounds of a normal-mapped mesh that has been laid out.
+void dip_scene_bound_coordinates(const DipSceneDef *def, const DipMeshDef *mesh,
+                                 DipSceneMesh *laid_out);
+
 #endif

@@ -22,7 +22,7 @@
 
 // The rows FIRST_ROW..LAST_ROW are covered neither by a label nor by the status line, at every size
 // used here.
-enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 230 };
+enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 100, LAST_ROW = 230 };
 
 static DipTestScene scene;
 static DipSession session;
