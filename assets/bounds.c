@@ -41,10 +41,12 @@ static void extend_by_scene(DipModelBounds *bounds, const DipSceneDef *def) {
     }
 }
 
-DipModelBounds dip_model_bounds(const DipModel *model) {
+bool dip_model_bounds(const DipModel *model, DipModelBounds *to, DipError *err) {
     DipModelBounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
-    // Without memory for the moved scene, the bounds are those at rest.
-    DipPosedDef *posed = model->def.motion ? dip_posed_def_create(&model->def, NULL) : NULL;
+    DipPosedDef *posed = model->def.motion ? dip_posed_def_create(&model->def, err) : NULL;
+    if (model->def.motion && !posed) {
+        return false;
+    }
     for (int k = 0; posed && k < DIP_MOTION_MOMENTS; ++k) {
         dip_posed_def_set_share(posed, (double)k / DIP_MOTION_MOMENTS);
         extend_by_scene(&bounds, dip_posed_def(posed));
@@ -59,7 +61,8 @@ DipModelBounds dip_model_bounds(const DipModel *model) {
         square += size * size;
     }
     bounds.diagonal = sqrt(square);
-    return bounds;
+    *to = bounds;
+    return true;
 }
 
 float dip_model_near_distance(const DipModelBounds *bounds) {

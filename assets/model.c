@@ -293,7 +293,7 @@ static void release_scenes(DipModel *model) {
     }
 }
 
-static void finish(DipModel *model) {
+static bool finish(DipModel *model, DipError *err) {
     release_scenes(model);
     model->rules = NULL;
     model->animation_name = NULL;
@@ -304,11 +304,15 @@ static void finish(DipModel *model) {
     model->def.objects = model->objects;
     memcpy(model->def.background_lin, background_lin, sizeof background_lin);
     dip_model_finish_motion(model);
-    const DipModelBounds bounds = dip_model_bounds(model);
-    model->def.near_m = dip_model_near_distance(&bounds);
-    dip_model_scale_lights(model, &bounds);
     model->def.sky = dip_sky_default();
     model->warnings = NULL;
+    DipModelBounds bounds;
+    if (!dip_model_bounds(model, &bounds, err)) {
+        return false;
+    }
+    model->def.near_m = dip_model_near_distance(&bounds);
+    dip_model_scale_lights(model, &bounds);
+    return true;
 }
 
 static bool note(const DipModelLoad *load, DipImportStage stage, int file) {
@@ -374,11 +378,9 @@ DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
     model->files = calloc((size_t)load->file_count, sizeof *model->files);
     const bool ok =
         load->picture_only ? load_picture(model, load, err) : load_parts(model, load, err);
-    if (!ok) {
+    if (!ok || !finish(model, err)) {
         dip_model_destroy(&model);
-        return NULL;
     }
-    finish(model);
     return model;
 }
 

@@ -233,8 +233,9 @@ typedef struct DipModelBounds {
     double diagonal; // length
 } DipModelBounds;
 
-// bounds.c: computes the bounds, and the distance of the near plane that suits them.
-DipModelBounds dip_model_bounds(const DipModel *model);
+// bounds.c: computes the bounds over all moments of the model's motion, and the distance of the near
+// plane that suits them. The bounds fail when memory runs out.
+bool dip_model_bounds(const DipModel *model, DipModelBounds *to, DipError *err);
 float dip_model_near_distance(const DipModelBounds *bounds);
 
 // lights.c: adds the lights of an imported file to the model. world: see dip_model_up_transform.
