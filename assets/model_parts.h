@@ -233,8 +233,8 @@ typedef struct DipModelBounds {
     double diagonal; // length
 } DipModelBounds;
 
-// bounds.c: computes the bounds over all moments of the model's motion, and the distance of the near
-// plane that suits them. The bounds fail when memory runs out.
+// bounds.c: computes the bounds over all moments of the model's motion, and the distance of the
+// near plane that suits them. The bounds fail when memory runs out.
 bool dip_model_bounds(const DipModel *model, DipModelBounds *to, DipError *err);
 float dip_model_near_distance(const DipModelBounds *bounds);
 

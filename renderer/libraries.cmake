@@ -38,8 +38,6 @@ function(dip_add_library name)
         target_link_options(dip_${name}_shared PRIVATE -Wl,-z,defs)
     endif()
     add_dependencies(installed dip_${name} dip_${name}_shared)
-    set_property(TARGET installed APPEND PROPERTY DIP_FILES
-        $<TARGET_FILE:dip_${name}> $<TARGET_FILE:dip_${name}_shared>)
 
     if(NOT L_HEADERS)
         file(GLOB L_HEADERS CONFIGURE_DEPENDS *.h)
@@ -130,9 +128,8 @@ function(dip_install_flat_header)
             -P ${script}
         DEPENDS ${files} ${script}
         VERBATIM)
-    add_custom_target(flat_header DEPENDS ${flat})
+    add_custom_target(flat_header ALL DEPENDS ${flat})
     add_dependencies(installed flat_header)
-    set_property(TARGET installed APPEND PROPERTY DIP_FILES ${flat})
     install(FILES ${flat} DESTINATION ${DIP_INCLUDE_DIR} COMPONENT development)
 endfunction()
 

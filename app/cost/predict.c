@@ -58,13 +58,15 @@ static const double *find(const void *context, const DipQuality *quality) {
 static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
     const DipQuality *baseline = &report->options.baseline;
     const unsigned settings = dip_cost_sampling_settings();
+    double composed[DIP_COST_COUNTER_COUNT]; // only whether it can be composed matters here
     const DipQuality sampling = dip_cost_take_settings(&combination->quality, baseline, ~settings);
     const DipQuality filtering = dip_cost_take_settings(&combination->quality, baseline, settings);
     return report->predicted.count > DIP_COST_MOST_COUNTED &&
            !dip_quality_equal(&sampling, &combination->quality) &&
            !dip_quality_equal(&filtering, &combination->quality) &&
            find(&report->predicted, baseline) && find(&report->predicted, &sampling) &&
-           find(&report->predicted, &filtering);
+           find(&report->predicted, &filtering) &&
+           dip_work_compose(find, &report->predicted, baseline, &combination->quality, composed);
 }
 
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {

@@ -65,6 +65,7 @@ static const unsigned groups[] = {
     1u << DIP_SETTING_SCALE | 1u << DIP_SETTING_UPSCALE,
     1u << DIP_SETTING_POST,
     1u << DIP_SETTING_SHARPEN,
+    1u << DIP_SETTING_SHADOWS,
     1u << DIP_SETTING_GI,
 };
 enum { GROUPS = sizeof groups / sizeof *groups };
@@ -108,12 +109,21 @@ static bool apply(const double *of, const double *base, double *counters) {
     return of != NULL;
 }
 
-bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
-                      const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]) {
-    const double *of_base = find(context, base);
-    if (!of_base || dip_work_count_groups(base, quality) < 0) {
-        return false;
+// Adds the work of shadows. The shadow map is drawn by itself, so its work does not depend on the
+// other settings. The fragments that read it are a share of all fragments.
+static void add_shadows(const double *of, const double *base, double *counters) {
+    const int all = DIP_COST_COUNTER_fragments_shaded;
+    const int reading = DIP_COST_COUNTER_fragments_shadowed;
+    const double growth = base[all] > 0.0 ? counters[all] / base[all] : 1.0;
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        counters[c] = c == reading ? of[c] * growth : counters[c] + (of[c] - base[c]);
     }
+}
+
+// Composes the counters of a combination that has the base's shadows.
+static bool compose_without_shadows(DipWorkFind *find, const void *context, const DipQuality *base,
+                                    const DipQuality *quality, const double *of_base,
+                                    double counters[DIP_COST_COUNTER_COUNT]) {
     memcpy(counters, of_base, DIP_COST_COUNTER_COUNT * sizeof *counters);
     const DipQuality sampling = dip_cost_take_settings(base, quality, groups[0]);
     const DipQuality filtering = dip_cost_take_settings(base, quality, ~groups[0]);
@@ -136,4 +146,24 @@ bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *
         counters[DIP_COST_COUNTER_pixels_filtered] *= dip_cost_pixels_filtered(quality) / filtered;
     }
     return known;
+}
+
+bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
+                      const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]) {
+    const unsigned shadows = 1u << DIP_SETTING_SHADOWS;
+    const DipQuality rest = dip_cost_take_settings(quality, base, shadows);
+    const DipQuality alone = dip_cost_take_settings(base, quality, shadows);
+    const double *of_base = find(context, base);
+    if (!of_base || dip_work_count_groups(base, quality) < 0 ||
+        !compose_without_shadows(find, context, base, &rest, of_base, counters)) {
+        return false;
+    }
+    if (dip_quality_equal(&rest, quality)) {
+        return true;
+    }
+    const double *of_alone = find(context, &alone);
+    if (of_alone) {
+        add_shadows(of_alone, of_base, counters);
+    }
+    return of_alone != NULL;
 }

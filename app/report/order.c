@@ -46,6 +46,10 @@ static const Theory theories[] = {
      TEXTURES},
     {DIP_SETTING_SCALE, FALLS, false, RISES, DIP_COST_COUNTER_target_bytes, FEW_VIEWPOINTS,
      "edges and textures"},
+    {DIP_SETTING_SHADOWS, FALLS, false, RISES, DIP_COST_COUNTER_shadow_texels,
+     "Where the texels of the shadow map are smaller than pixels, more of them make edges jagged "
+     "instead of truer",
+     "surfaces that a directional light of the scene lights"},
     {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS, NULL},
 };
 

@@ -35,8 +35,10 @@ typedef struct Work {
     double fxaa;        // 1 with post=fxaa.
     double smaa;        // 1 with post=smaa.
     double sharpness;   // Strength of the sharpening, 0..1.
-    double filters; // Pixels that all filters of the finished picture write per pixel of a frame;
-                    // 1 if there is none.
+    double shadows;     // 1 with shadows.
+    double shadow_step; // 1 / the size of the shadow map, as a share of the smallest map's.
+    double filters;     // Pixels that all filters of the finished picture write per pixel of a
+                        // frame; 1 if there is none.
 } Work;
 
 #define C(name) (w->counters[DIP_COST_COUNTER_##name])
@@ -61,7 +63,8 @@ typedef struct Work {
     X("texture probe of a clip map", C(clip_probes))                                               \
     X("texture probe of a clip map, advanced AF", C(clip_probes) * w->exact)                       \
     X("texture probe of a clip map, aaa=coverage", C(clip_probes) * w->covers)                     \
-    X("sample shown", C(samples_shown))
+    X("sample shown", C(samples_shown))                                                            \
+    X("texel of the shadow map", C(shadow_texels))
 
 #define SHADING_TERMS(X)                                                                           \
     X("frame", 1.0)                                                                                \
@@ -75,6 +78,7 @@ typedef struct Work {
     X("fragment of metal and gloss", C(fragments_pbr))                                             \
     X("fragment with a clear coat", C(fragments_coated))                                           \
     X("fragment blended", C(fragments_blended))                                                    \
+    X("fragment that reads the shadow map", C(fragments_shadowed))                                 \
     X("fragment of the sky", C(fragments_sky))                                                     \
     X("fragment of water", C(fragments_reflecting))                                                \
     X("sample shown", C(samples_shown))                                                            \
@@ -91,7 +95,8 @@ typedef struct Work {
     X("pixel resolved", C(pixels_resolved))                                                        \
     X("pixel resolved, per sample", C(pixels_resolved) * w->samples)                               \
     X("pixel resolved, aaa=all", C(pixels_resolved) * w->all)                                      \
-    X("byte of a picture that is averaged", C(target_bytes) * w->scaled)
+    X("byte of a picture that is averaged", C(target_bytes) * w->scaled)                           \
+    X("texel of the shadow map", C(shadow_texels))
 
 #define REST_TERMS(X)                                                                              \
     X("frame", 1.0)                                                                                \
@@ -143,6 +148,8 @@ typedef struct Work {
     X("post=smaa, several samples", w->smaa * w->several)                                          \
     X("sharpening", w->sharpness)                                                                  \
     X("square of the sharpening", w->sharpness * w->sharpness)                                     \
+    X("shadows", w->shadows)                                                                       \
+    X("shadows, per texel", w->shadow_step)                                                        \
     X("mip colours", w->coloured)                                                                  \
     X("one sample, per probe", (1.0 - w->several) / w->probes)                                     \
     X("several samples, per group and probe", w->several / (w->groups * w->probes))                \
@@ -194,6 +201,7 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
     const int level = quality->step[DIP_SETTING_MIPLOD];
     const int post = quality->step[DIP_SETTING_POST];
     const int sharpen = quality->step[DIP_SETTING_SHARPEN];
+    const int shadow_size = dip_quality_shadow_size(quality);
     const double samples = dip_quality_sample_count(quality);
     const double probes = dip_quality_max_anisotropy(quality);
     const double scale = dip_quality_scale(quality);
@@ -229,6 +237,8 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .fxaa = post == DIP_POST_STEP_FXAA,
         .smaa = post == DIP_POST_STEP_SMAA,
         .sharpness = sharpness[sharpen],
+        .shadows = shadow_size > 0,
+        .shadow_step = shadow_size ? 512.0 / shadow_size : 0.0,
         .filters = filters > 0.0 ? filters : 1.0,
     };
     const Work *const w = &work;

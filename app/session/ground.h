@@ -39,7 +39,8 @@ typedef struct DipGround {
     float uv[4][2];
 } DipGround;
 
-// Adds a ground to a scene. Its shade is that of the clips' start. Returns NULL and fills *err with DIP_ERROR_MEMORY when memory runs out.
+// Adds a ground to a scene. Its shade is that of the clips' start. Returns NULL and fills *err with
+// DIP_ERROR_MEMORY when memory runs out.
 // The scene must outlive the ground.
 DipGround *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err);
 // *ground may be NULL and becomes NULL.

@@ -86,10 +86,13 @@ static bool check_isa(const DipSession *session, DipErrorList *faults) {
 static bool load_config(DipSession *session, const char *log, DipErrorList *faults) {
     char shipped[PATH_MAX];
     const char *given = session->options->config;
-    if (!given && !dip_session_find_shipped("config/courtyard.ini", shipped, sizeof shipped)) {
+    const char *named = dip_session_shipped_ini(session->options);
+    const char *ini = named ? named : "config/courtyard.ini";
+    if (!given && !dip_session_find_shipped(ini, shipped, sizeof shipped)) {
         return dip_session_refuse(faults, DIP_ERROR_MISSING, NULL, 0, "--config",
-                                  "config/courtyard.ini is not where Diptych was installed; give "
-                                  "an ini with --config FILE");
+                                  "%s is not where Diptych was installed; give an ini with "
+                                  "--config FILE",
+                                  ini);
     }
     return dip_config_load(given ? given : shipped, &session->config, faults) &&
            use_log(session, log, faults) && check_isa(session, faults);

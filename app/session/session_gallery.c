@@ -28,13 +28,18 @@ bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults) {
     const DipSessionOptions *options = session->options;
     const char *name = options->scene ? options->scene : session->config.scene.text;
     DipError err;
-    const bool models = options->model_count || !name[0] || strcmp(name, "models") == 0;
+    const bool models = options->model_count || !name[0] || strcmp(name, "models") == 0 ||
+                        dip_session_shipped_ini(options);
     session->shows_gallery = !models;
     if (!models && !dip_gallery_find(name, &session->gallery_scene, &err)) {
-        return options->scene ? dip_session_add_fault(faults, &err)
-                              : dip_session_refuse(faults, err.code, session->config.file,
-                                                   session->config.line[DIP_KEY_SCENE], "SCENE",
-                                                   "%s", err.message);
+#define OR_NAME(name) "|" #name
+        return options->scene
+                   ? dip_session_refuse(faults, err.code, NULL, 0, err.key,
+                                        "%s|models" DIP_SHIPPED_SCENE_LIST(OR_NAME), err.message)
+                   : dip_session_refuse(faults, err.code, session->config.file,
+                                        session->config.line[DIP_KEY_SCENE], "SCENE", "%s",
+                                        err.message);
+#undef OR_NAME
     }
     return find_assets(session, faults);
 }

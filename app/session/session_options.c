@@ -106,9 +106,11 @@ static const DipOptionRow scene_rows[] = {
              "Repeat the option to draw several files in one scene. The camera orbits the model "
              "unless --path is given."},
     {"--scene", "NAME", DIP_OPTION_TEXT, FIELD(scene),
-     .text = "Show this scene of the gallery instead of models: model, shadow, prism, blend, "
-             "stencil, toon, dice, phone, quads, cubes, tunnel or water. `tour` shows all of them, "
-             "15 seconds each. `models` shows the ini's models even if the ini names a scene."},
+     .text = "Show this scene that comes with Diptych: courtyard, torture (what is hard for "
+             "antialiasing and filtering), or a scene of the gallery: model, shadow, prism, blend, "
+             "stencil, toon, dice, phone, quads, cubes, tunnel or water. `tour` shows all of the "
+             "gallery, 15 seconds each. `models` shows the ini's models even if the ini names a "
+             "scene."},
     {"--look", "N", DIP_OPTION_CUSTOM, .read = read_look,
      .text = "Show the N-th variant of the gallery's scene, such as another resolution of the "
              "shadow map. The first one is 1, which is also the default; docs/gallery.md lists "
@@ -208,6 +210,18 @@ const DipOptionTable dip_pane_option_table = DIP_OPTION_TABLE(drawing_title, pan
 const DipOptionTable dip_size_option_table = DIP_OPTION_TABLE(drawing_title, size_rows);
 const DipOptionTable dip_threads_option_table = DIP_OPTION_TABLE(drawing_title, threads_rows);
 
+const char *dip_session_shipped_ini(const DipSessionOptions *options) {
+#define NAME_AND_INI(name) {#name, "config/" #name ".ini"},
+    static const char *const shipped[][2] = {DIP_SHIPPED_SCENE_LIST(NAME_AND_INI)};
+#undef NAME_AND_INI
+    for (size_t i = 0; options->scene && i < sizeof shipped / sizeof *shipped; i++) {
+        if (strcmp(options->scene, shipped[i][0]) == 0) {
+            return shipped[i][1];
+        }
+    }
+    return NULL;
+}
+
 // Returns the option, other than --pose, that says where the camera is, or NULL.
 static const char *other_camera(const DipSessionOptions *options) {
     return options->path ? "--path" : options->category ? "--category" : NULL;
@@ -226,12 +240,25 @@ bool dip_session_options_check(const DipSessionOptions *options, DipError *err) 
                              "the two options",
                              options->scene);
     }
+    const bool shipped = dip_session_shipped_ini(options) != NULL;
+    if (shipped && options->config) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--scene",
+                             "the scene '%.40s' has an ini of its own, and --config names another; "
+                             "leave out one of the two options",
+                             options->scene);
+    }
+    if (shipped && options->look) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--look",
+                             "chooses a variant of a scene of the gallery, but '%.40s' has camera "
+                             "paths instead; give --path or --category",
+                             options->scene);
+    }
     if (options->look && options->model_count) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--look",
                              "chooses a variant of a scene of the gallery, but --model replaces "
                              "the scene; leave out one of the two options");
     }
-    if (options->scene && options->category && strcmp(options->scene, "models") != 0) {
+    if (options->scene && options->category && !shipped && strcmp(options->scene, "models") != 0) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--category",
                              "'%.40s' names one of the ini's paths, but the scene '%.40s' has a "
                              "path of its own; leave out one of the two options",

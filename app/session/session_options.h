@@ -13,6 +13,10 @@
 
 enum { DIP_MAX_MODELS = 64 };
 
+// The scenes of models that come with Diptych, as X(name). --scene takes such a name, too, and then
+// reads config/NAME.ini.
+#define DIP_SHIPPED_SCENE_LIST(X) X(courtyard) X(torture)
+
 // The values of the options. Texts are borrowed from argv. If an option is not given, its text is
 // NULL or its has_... is false, and the ini decides.
 typedef struct DipSessionOptions {
@@ -24,7 +28,8 @@ typedef struct DipSessionOptions {
     bool has_shading;
     DipModelShading shading; // Where the light of lit surfaces is computed.
     int look;                // Variant of the gallery's scene, counted from 0.
-    const char *scene; // Scene of the gallery to show, "tour", or "models" for the ini's models.
+    // Scene of the gallery to show, "tour", a shipped scene, or "models" for the ini's models.
+    const char *scene;
     const char *animation; // Animation of the models that plays, or "none"; NULL: the first one.
     bool has_animation_time;
     double animation_time_s; // Where the animation stands still.
@@ -57,6 +62,10 @@ extern const DipOptionTable dip_camera_option_table;   // --pose --fov --path-en
 extern const DipOptionTable dip_pane_option_table;     // --current --requested --timing
 extern const DipOptionTable dip_size_option_table;     // --size --isa
 extern const DipOptionTable dip_threads_option_table;  // --threads
+
+// Returns the ini of the shipped scene that --scene names, such as "config/torture.ini", or NULL if
+// --scene is not given or names something else.
+const char *dip_session_shipped_ini(const DipSessionOptions *options);
 
 // Refuses options that exclude each other.
 bool dip_session_options_check(const DipSessionOptions *options, DipError *err);

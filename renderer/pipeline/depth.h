@@ -38,6 +38,7 @@ DIP_API uint8_t *dip_stencil_row(DipDepth *depth, int sample, int y);
 typedef enum DipShadowFilter {
     DIP_SHADOW_LINEAR,  // the bilinear mean of four comparisons
     DIP_SHADOW_NEAREST, // one comparison
+    DIP_SHADOW_WIDE,    // the mean of nine comparisons over a square of 2x2 texels
 } DipShadowFilter;
 
 // Depths that a shader compares with, usually a light's (DipSampleShadow in shader.h). Only sample

@@ -90,7 +90,9 @@ typedef void DipSampleTarget(DipFragmentBatch *batch, const DipTarget *target, c
 // are fractions of the map's size, measured from its top left corner. out[i] is the share of light,
 // 0..1: of the stored depths around the point, those that are not nearer than z[i] count as lit
 // (z[i] >= stored). With DIP_SHADOW_LINEAR, each of the four texels around the point is compared
-// first, and the four results are averaged with the weights of bilinear filtering, in 1/256. Points
+// first, and the four results are averaged with the weights of bilinear filtering, in 1/256. With
+// DIP_SHADOW_WIDE, each of the nine texels around the point is compared, and the weight of a result
+// is the area that its texel has in common with a square of 2x2 texels around the point. Points
 // outside the map are lit; texels beyond its border repeat the border.
 typedef void DipSampleShadow(DipFragmentBatch *batch, const DipShadowMap *map, const float *u,
                              const float *v, const float *z, float *out);

@@ -223,10 +223,10 @@ bool dip_reference_converge(const DipReference *reference, const DipPose *pose, 
     if (!dip_reference_check_samples(sample_count, &side, err)) {
         return false;
     }
-    if (!dip_reference_check_size(width, height, err)) {
+    if (!dip_reference_check_frame(reference, width, height, err)) {
         return false;
     }
-    DipRefShot shot = {pose, width, height, (double)width / height, .rounded = false};
+    DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};
     Converging mirrored = {.reference = reference, .pose = pose, .width = width, .height = height};
     Converging c = mirrored;
     bool converged = start(&c, &shot, err);

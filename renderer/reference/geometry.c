@@ -20,6 +20,7 @@ typedef struct Camera {
     bool mirrored;
     double level_m;
     double margin;
+    bool shadows;
 } Camera;
 
 void dip_reference_orientation(const DipPose *pose, double q[4]) {
@@ -55,6 +56,7 @@ static Camera make_camera(const DipReference *reference, const DipRefShot *shot)
         .mirrored = shot->mirrored,
         .level_m = reference->reflection.level_m,
         .margin = shot->margin,
+        .shadows = shot->shadows,
     };
     return camera;
 }
@@ -150,15 +152,17 @@ static void light_vertex(VertexLight kind, const DipRefLit *lit, const double no
     double place[3];
     double diffuse[3];
     double highlight[3] = {0.0};
+    double direct[3] = {0.0};
     for (int i = 0; i < 3; i++) {
         place[i] = vertex->varyings[DIP_REF_X + i].high;
         diffuse[i] = kind == LIGHT_FIXED ? dip_reference_light(normal, 1.0) : 1.0;
     }
     if (kind == LIGHT_OF_SCENE) {
-        dip_reference_lights(lit, place, normal, diffuse, highlight);
+        dip_reference_lights(lit, place, normal, 1.0, diffuse, highlight, direct);
     }
     for (int i = 0; i < 3; i++) {
         DipWide *colour = &vertex->varyings[DIP_REF_RED + i];
+        vertex->varyings[DIP_REF_DIRECT_RED + i] = dip_wide(direct[i] * colour->high);
         *colour = dip_wide(diffuse[i] * colour->high);
         vertex->varyings[DIP_REF_HIGHLIGHT_RED + i] = dip_wide(highlight[i]);
     }
@@ -442,6 +446,9 @@ static bool add_object(const DipReference *reference, const Camera *camera,
     }
     if (camera->mirrored) {
         like.lit.eye[1] = 2.0 * camera->level_m - camera->position[1];
+    }
+    if (like.lit.lighting && camera->shadows) {
+        like.lit.shadows = reference->shadows;
     }
     const VertexLight light = vertex_light(&like, mesh);
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {

@@ -52,9 +52,10 @@ double dip_reference_arrival(const DipLightDef *light, const double eye[3], cons
 }
 
 void dip_reference_lights(const DipRefLit *lit, const double place[3], const double normal[3],
-                          double diffuse[3], double highlight[3]) {
+                          double sunlit, double diffuse[3], double highlight[3], double direct[3]) {
     const DipMaterialDef *material = lit->material;
     const double exponent = floor(material->shininess + 0.5);
+    const int shadowed = dip_reference_shadow_light(lit->shadows);
     double to_eye[3];
     for (int c = 0; c < 3; c++) {
         diffuse[c] = lit->lighting->ambient_lin[c] + normal[1] * lit->lighting->sky_lin[c];
@@ -65,7 +66,9 @@ void dip_reference_lights(const DipRefLit *lit, const double place[3], const dou
     for (int l = 0; l < lit->lighting->light_count; l++) {
         const DipLightDef *light = &lit->lighting->lights[l];
         double to_light[3];
-        const double share = dip_reference_arrival(light, lit->eye, place, to_light);
+        const double share = dip_reference_arrival(light, lit->eye, place, to_light) *
+                             (l == shadowed ? sunlit : 1.0);
+        double *sum = l == shadowed && direct ? direct : diffuse;
         const double facing = dot(normal, to_light);
         if (!(facing > 0.0)) {
             continue;
@@ -77,7 +80,7 @@ void dip_reference_lights(const DipRefLit *lit, const double place[3], const dou
         normalise(half);
         const double peak = pow(fmin(fmax(dot(normal, half), 0.0), 1.0), exponent);
         for (int c = 0; c < 3; c++) {
-            diffuse[c] += share * light->colour_lin[c] * facing;
+            sum[c] += share * light->colour_lin[c] * facing;
             highlight[c] += share * light->colour_lin[c] * material->specular_lin[c] * peak;
         }
     }

@@ -179,6 +179,7 @@ typedef struct Surface {
     double occlusion;
     double f0_greatest; // of what is not metal
     double f90;         // of what is not metal
+    double sunlit;      // the part of the light with shadows that arrives
 } Surface;
 
 static const DipLightingDef *lighting_of(const DipRefTriangle *triangle) {
@@ -217,14 +218,21 @@ static double find_normals(const DipRefTriangle *triangle, const DipRefVaryings 
     return length;
 }
 
+// Finds the direction to a light and the part of its light that arrives.
+static double find_arrival(const Surface *surface, int index, double to_light[3]) {
+    const DipRefLit *lit = &surface->triangle->lit;
+    const double share = dip_reference_arrival(&surface->lighting->lights[index], lit->eye,
+                                               surface->place, to_light);
+    return index == dip_reference_shadow_light(lit->shadows) ? share * surface->sunlit : share;
+}
+
 // Adds one light to a colour.
-static void add_light(const Surface *surface, const Lobe *lobe, const DipLightDef *light,
-                      double rgb[3]) {
+static void add_light(const Surface *surface, const Lobe *lobe, int index, double rgb[3]) {
+    const DipLightDef *light = &surface->lighting->lights[index];
     const double rest = 1.0 - surface->metallic;
     double to_light[3];
     double fresnel;
-    const double share =
-        dip_reference_arrival(light, surface->triangle->lit.eye, surface->place, to_light);
+    const double share = find_arrival(surface, index, to_light);
     const double strength = meet(lobe, to_light, &fresnel);
     const double n_l = clamp01(dot(lobe->normal, to_light));
     const double f90 = rest * surface->f90 + surface->metallic;
@@ -258,7 +266,7 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
                   kept * rest * surface->base[c] * soft);
     }
     for (int l = 0; l < surface->lighting->light_count; l++) {
-        add_light(surface, lobe, &surface->lighting->lights[l], rgb);
+        add_light(surface, lobe, l, rgb);
     }
 }
 
@@ -283,8 +291,7 @@ static void add_coat(const Surface *surface, const double normal[3], const doubl
         const DipLightDef *light = &surface->lighting->lights[l];
         double to_light[3];
         double fresnel;
-        const double share =
-            dip_reference_arrival(light, surface->triangle->lit.eye, surface->place, to_light);
+        const double share = find_arrival(surface, l, to_light);
         const double strength = meet(&lobe, to_light, &fresnel);
         for (int c = 0; c < 3; c++) {
             rgb[c] += share * light->colour_lin[c] * pbr->coat * gain * strength *
@@ -341,6 +348,7 @@ void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter 
         lobe.to_eye[i] = -surface.place[i];
     }
     surface.f90 = fmin(1.0, 50.0 * surface.f0_greatest);
+    surface.sunlit = dip_reference_sunlit(&triangle->lit, surface.place);
     normalise(lobe.to_eye);
     const double spread = 2.0 * fmax(0.0, 1.0 / fmax(length, 0.1) - 1.0);
     const double alpha = lobe.roughness * lobe.roughness;

@@ -177,6 +177,7 @@ static DipReference *create(const DipSceneDef *def, const atomic_bool *stop, boo
         loaded = load_material(reference, &def->materials[m], err) &&
                  (for_truth || compress_texture(reference, &def->materials[m], err));
     }
+    loaded = loaded && dip_reference_shadows_create(reference, &reference->shadows, err);
     if (!loaded) {
         dip_reference_destroy(&reference);
     }
@@ -211,6 +212,7 @@ void dip_reference_destroy(DipReference **reference) {
     free((*reference)->patches);
     free((*reference)->textures);
     free((*reference)->pbr_tables);
+    dip_reference_shadows_destroy(&(*reference)->shadows);
     dip_posed_def_destroy(&(*reference)->posed);
     free(*reference);
     *reference = NULL;
@@ -224,10 +226,17 @@ void dip_reference_set_time(DipReference *reference, int64_t time_ns) {
     reference->time_ns = time_ns;
     if (reference->posed) {
         dip_posed_def_set(reference->posed, time_ns);
+        dip_reference_shadows_destroy(&reference->shadows);
+        reference->lacks_shadows =
+            !dip_reference_shadows_create(reference, &reference->shadows, NULL);
     }
 }
 
-bool dip_reference_check_size(int width, int height, DipError *err) {
+bool dip_reference_check_frame(const DipReference *reference, int width, int height,
+                               DipError *err) {
+    if (reference->lacks_shadows) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for shadows");
+    }
     return (width >= 1 && width <= DIP_MAX_FRAME_SIZE && height >= 1 &&
             height <= DIP_MAX_FRAME_SIZE) ||
            dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size",

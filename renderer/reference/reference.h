@@ -47,16 +47,18 @@ DIP_API void dip_reference_set_time(DipReference *reference, int64_t time_ns);
 DIP_API void dip_reference_set_reflection(DipReference *reference,
                                           const DipReflectionDef *reflection);
 
-// Draws what the fast renderer should draw with these settings. rgb_lin receives width * height * 3
-// doubles, the top row first, in linear light: resolved but not encoded.
+// Draws what the fast renderer should draw with these settings. Shadows are exact with every size
+// of the shadow map. rgb_lin receives width * height * 3 doubles, the top row first, in linear
+// light: resolved but not encoded.
 DIP_API bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,
                                 const DipPose *pose, int width, int height, double *rgb_lin,
                                 DipError *err);
 
 // Draws the converged picture. Each pixel has sample_count samples (a square number), jittered
 // within the cells of a grid. Each sample is shaded at its own position, with its own alpha test.
-// Textures are read bilinearly from level 0, and positions are not rounded. A pixel is the mean of
-// its samples in linear light. seed selects the jitter: two seeds give independent pictures.
+// Textures are read bilinearly from level 0, and positions are not rounded. If the scene has a
+// directional light, the strongest one casts exact shadows. A pixel is the mean of its samples in
+// linear light. seed selects the jitter: two seeds give independent pictures.
 DIP_API bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
                                     int height, int sample_count, uint32_t seed, double *rgb_lin,
                                     DipError *err);

@@ -87,19 +87,21 @@ void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filte
 }
 
 // Lights a surface's own colour by the lights of the scene. texel: its normal map's, or NULL.
+// sunlit: the part of the light with shadows that arrives.
 static void add_lights(const DipRefTriangle *triangle, const DipRefVaryings *varyings,
-                       const double texel[3], double rgb[3]) {
+                       const double texel[3], double sunlit, double rgb[3]) {
     double diffuse[3] = {1.0, 1.0, 1.0}; // At vertices, RED to BLUE have it already.
     double highlight[3];
     double normal[3];
     if (triangle->lit.fragments) {
         dip_reference_normal(varyings, texel, 1.0, normal);
-        dip_reference_lights(&triangle->lit, &varyings->value[DIP_REF_X], normal, diffuse,
-                             highlight);
+        dip_reference_lights(&triangle->lit, &varyings->value[DIP_REF_X], normal, sunlit, diffuse,
+                             highlight, NULL);
     }
     for (int c = 0; c < 3; c++) {
-        const double added =
-            triangle->lit.fragments ? highlight[c] : varyings->value[DIP_REF_HIGHLIGHT_RED + c];
+        const double added = triangle->lit.fragments
+                                 ? highlight[c]
+                                 : sunlit * varyings->value[DIP_REF_HIGHLIGHT_RED + c];
         rgb[c] = rgb[c] * diffuse[c] + added;
     }
 }
@@ -127,9 +129,14 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
         read_texture(triangle->light_map, filter ? &trilinear : NULL, &varyings, DIP_REF_U1, light);
         scale = material->light_map_scale;
     }
+    const double sunlit = triangle->lit.lighting && !triangle->pbr
+                              ? dip_reference_sunlit(&triangle->lit, &varyings.value[DIP_REF_X])
+                              : 1.0;
     for (int c = 0; c < 3; c++) {
         const double base = mip_colours ? 1.0 : material->base_colour_lin[c];
-        rgb[c] = base * varyings.value[DIP_REF_RED + c] * colour[c];
+        const double lit =
+            varyings.value[DIP_REF_RED + c] + sunlit * varyings.value[DIP_REF_DIRECT_RED + c];
+        rgb[c] = base * lit * colour[c];
         light[c] *= scale;
     }
     double texel[4];
@@ -140,7 +147,7 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
         dip_reference_shade_pbr(triangle, filter, &varyings, triangle->normal_map ? texel : NULL,
                                 rgb);
     } else if (triangle->lit.lighting) {
-        add_lights(triangle, &varyings, triangle->normal_map ? texel : NULL, rgb);
+        add_lights(triangle, &varyings, triangle->normal_map ? texel : NULL, sunlit, rgb);
     } else if (triangle->normal_map) {
         dip_reference_light_bumps(material, &varyings, texel, triangle->light_map ? light : NULL,
                                   rgb);

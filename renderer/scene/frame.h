@@ -26,9 +26,12 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(fragments_emitting, "fragments of such surfaces that send out light")                        \
     X(fragments_coated, "fragments of such surfaces with a clear coat")                            \
     X(fragments_blended, "fragments of blended surfaces")                                          \
+    X(fragments_shadowed, "fragments that read the shadow map")                                    \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
     X(fragments_reflecting, "fragments of water that show the reflection")                         \
     X(fragments_mirrored, "fragments shaded to draw the mirrored scene")                           \
+    X(shadow_texels, "texels of the shadow map that was drawn")                                    \
+    X(shadow_bytes, "bytes of the shadow map")                                                     \
     X(reflection_bytes, "bytes of the mirrored scene's picture")                                   \
     X(normal_map_bytes, "bytes of all normal maps")                                                \
     X(clip_map_bytes, "bytes of the alpha of clip maps and blended textures")                      \
@@ -59,6 +62,7 @@ typedef struct DipCounters {
     X(adaptive_aa, "adaptive AA")                                                                  \
     X(light_map, "light map")                                                                      \
     X(lights, "lights")                                                                            \
+    X(shadows, "shadows")                                                                          \
     X(normal_map, "normal maps")                                                                   \
     X(pbr, "metal and gloss")                                                                      \
     X(occlusion, "occlusion maps")                                                                 \
@@ -90,8 +94,8 @@ typedef struct DipFrameTiles {
     const uint8_t *mixed; // DipTileRecording.mixed, width * height bytes; all 0 if the frame blends
     int across;
     int down;
-    // The work and the times of drawing the mirrored scene, with its geometry. It is a picture of
-    // its own, so its tiles are not those of the frame.
+    // The work and the times of drawing the mirrored scene and the shadow map, with their geometry.
+    // These are pictures of their own, so their tiles are not those of the frame.
     DipPipelineCounters mirrored;
     DipStageTimes mirrored_times;
 } DipFrameTiles;

@@ -1,7 +1,8 @@
 // The lights of a scene. A scene without lights of its own has one fixed light of sky and sun.
 //
 // The lights shine on `lit` opaque, clipped and blended surfaces with normals and without a light
-// map. Nothing casts a shadow. docs/picture.md, Lights, defines the formulas.
+// map. With the setting `shadows`, the strongest directional light casts shadows, and no other
+// light does. docs/picture.md, Lights and Shadows, defines the formulas.
 #ifndef DIP_RENDERER_SCENE_LIGHTS_H
 #define DIP_RENDERER_SCENE_LIGHTS_H
 

@@ -280,6 +280,11 @@ bool dip_quality_upscales(const DipQuality *quality) {
     return quality->step[DIP_SETTING_SCALE] < DIP_SCALE_1;
 }
 
+int dip_quality_shadow_size(const DipQuality *quality) {
+    const int step = quality->step[DIP_SETTING_SHADOWS];
+    return step ? 256 << step : 0;
+}
+
 int32_t dip_quality_bias_lod8(const DipQuality *quality) {
     static const int32_t bias_lod8[] = {
         [DIP_MIPLOD_HIGH_PERFORMANCE] = 384, [DIP_MIPLOD_PERFORMANCE] = 256,

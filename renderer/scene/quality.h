@@ -68,6 +68,9 @@ extern "C" {
     X(sharpen, SHARPEN, "Sharpening", "Sharpen", 0, ("off", "low", "medium", "high"),              \
       ("off", "low", "medium", "high"), ("off", "low", "medium", "high"),                          \
       "raises the contrast of neighbouring pixels in the finished picture; raises the error, too") \
+    X(shadows, SHADOWS, "Shadows", "Shadows", 0, ("off", "512", "1024", "2048"),                   \
+      ("off", "512", "1024", "2048"), ("off", "512", "1024", "2048"),                              \
+      "the scene's strongest directional light casts shadows; texels along a side of their map")   \
     X(gi, GI, "Geometry instancing", "Instancing", 1, ("off", "on"), ("off", "on"), ("off", "on"), \
       "on: repeated objects share one mesh; off: each has a copy; the picture is the same")        \
     X(mipdebug, MIPDEBUG, "Mip colours", "Mip col.", 0, ("off", "on"), ("off", "on"),              \
@@ -183,6 +186,9 @@ DIP_API double dip_quality_scale(const DipQuality *quality);
 
 // Returns true if scale is below 1, so that a smaller picture is drawn and enlarged.
 DIP_API bool dip_quality_upscales(const DipQuality *quality);
+
+// Returns the width and height of the shadow map, in texels; 0 without shadows.
+DIP_API int dip_quality_shadow_size(const DipQuality *quality);
 
 // Returns the bias of miplod and of a scale below 1, in 1/256 level. Greater values mean smaller
 // mip levels. A scale s below 1 has the bias log2 s, so that textures are read at the levels that

@@ -159,6 +159,7 @@ static void forget_scene(DipRenderer *renderer) {
     renderer->scene_serial = 0;
     dip_draw_set_free(&renderer->set);
     free_mirror(&renderer->mirror);
+    dip_shadows_free(&renderer->shadows);
     free(renderer->samplers);
     renderer->samplers = NULL;
     dip_unshared_meshes_destroy(&renderer->unshared);
@@ -335,7 +336,13 @@ static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mir
     const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
     const DipView view = dip_view_make(&pose, (double)scene->near_m, 1.0);
     const DipDrawInput input = dip_renderer_draw_input(renderer, scene, mirrored);
-    const DipDrawView all = {.view = &view, .width = 1, .height = 1, .mirrored = mirrored};
+    // Surfaces that receive shadows may have more varyings.
+    static const DipShadowUniforms shadow;
+    const DipDrawView all = {.view = &view,
+                             .width = 1,
+                             .height = 1,
+                             .mirrored = mirrored,
+                             .shadow = renderer->shadows.depth ? &shadow : NULL};
     dip_draw_set_fill(set, &input, &all);
     const DipPass pass = {.draws = set->draws, .draw_count = set->count};
     return dip_pipeline_reserve(pipeline, &pass, err);
@@ -414,6 +421,29 @@ static bool follow_mirrored(DipRenderer *renderer, const DipScene *scene, DipErr
                                              "no memory for %d materials", scene->material_count);
 }
 
+// Creates or frees the shadow map.
+static bool follow_shadows(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    DipShadows *shadows = &renderer->shadows;
+    DipMirror *mirror = &renderer->mirror;
+    const bool possible = scene->lighting && scene->lighting->shadow_light >= 0 && scene->has_lit &&
+                          scene->has_caster && !renderer->plain_surfaces;
+    const int size = possible ? dip_quality_shadow_size(&renderer->quality) : 0;
+    if (size == (shadows->depth ? dip_depth_width(shadows->depth) : 0)) {
+        return true;
+    }
+    dip_shadows_free(shadows);
+    const bool made =
+        !size ||
+        (dip_shadows_make(shadows, scene, renderer->pool, renderer->isa, size, err) &&
+         reserve(renderer, scene, false, dip_renderer_pipeline(renderer), &renderer->set, err) &&
+         (!mirror->pipeline ||
+          reserve(renderer, scene, true, mirror->pipeline, &mirror->set, err)));
+    if (!made) {
+        dip_shadows_free(shadows);
+    }
+    return made;
+}
+
 bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     const DipQuality *quality = &renderer->quality;
     const DipFinishSize size = dip_finish_size(quality, renderer->width, renderer->height);
@@ -421,7 +451,7 @@ bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, 
         !dip_scene_compress_textures(scene, renderer->pool, err)) {
         return false;
     }
-    if (!follow_mirrored(renderer, scene, err) ||
+    if (!follow_mirrored(renderer, scene, err) || !follow_shadows(renderer, scene, err) ||
         !dip_finish_follow(renderer->finish, quality, &size, err)) {
         return false;
     }

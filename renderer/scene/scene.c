@@ -224,6 +224,8 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
         }
         scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
         const DipSceneMaterial *material = &scene->materials[scene->meshes[object->mesh].material];
+        scene->has_caster |=
+            material->casts && dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
         if (material->surface == DIP_SURFACE_BLENDED) {
             scene->blended_count++;
             scene->blended_two_sided += material->double_sided;
@@ -270,6 +272,12 @@ static void mark_compressible(const DipSceneDef *def, DipScene *scene) {
     }
 }
 
+// Surfaces without light of any kind, such as backdrops, cast no shadow.
+static bool casts(const DipMaterialDef *material) {
+    return (material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED) &&
+           (material->lit || material->light_map != DIP_NO_TEXTURE);
+}
+
 static void copy_materials(const DipSceneDef *def, DipScene *scene) {
     for (int i = 0; i < def->material_count; i++) {
         const DipMaterialDef *material = &def->materials[i];
@@ -281,6 +289,7 @@ static void copy_materials(const DipSceneDef *def, DipScene *scene) {
                 dip_material_draws_normal_map(material) ? material->normal_map : DIP_NO_TEXTURE,
             .pbr = dip_pbr_maps(material),
             .double_sided = material->double_sided,
+            .casts = casts(material),
         };
         scene->has_light_map |= material->light_map != DIP_NO_TEXTURE;
         scene->has_clipped |= material->surface == DIP_SURFACE_CLIPPED;

@@ -24,6 +24,8 @@ build_project() {
 # The program must draw. The files that its help and its messages name must be installed.
 "$prefix/bin/diptych" dump --hash --frames 0:1 | grep -q '^0000 current ' ||
     fail "the installed program does not draw"
+"$prefix/bin/diptych" dump --hash --frames 0:1 --scene torture --size 64x48 | grep -q '^0000 current ' ||
+    fail "the installed program does not draw the scene torture"
 for file in share/doc/diptych/README.md share/doc/diptych/docs/config.md \
     share/diptych/config/courtyard.ini; do
     [ -f "$prefix/$file" ] || fail "$file is not installed"

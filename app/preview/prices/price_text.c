@@ -77,6 +77,11 @@ const char *dip_step_explanation(DipSetting setting, int step) {
                                  "Half of the strongest sharpening. The error rises.",
                                  "The strongest sharpening that does not overshoot. The error "
                                  "rises."},
+        [DIP_SETTING_SHADOWS] = {"Nothing casts a shadow.",
+                                 "The strongest directional light casts shadows from a map of "
+                                 "512x512 texels: their edges are wide and soft.",
+                                 "A map of 1024x1024 texels: the edges are half as wide.",
+                                 "A map of 2048x2048 texels: the edges are a quarter as wide."},
         [DIP_SETTING_GI] = {"Each repeated object has a copy of its mesh; the picture is the same.",
                             "Repeated objects share one mesh; the picture is the same."},
         [DIP_SETTING_MIPDEBUG] = {"Textures show their own colours.",

@@ -36,6 +36,7 @@ const DipKeyRow dip_key_rows[] = {
     CTRL('u', SETTING, DIP_SETTING_UPSCALE, false, "Ctrl+U", NULL),
     CTRL('b', SETTING, DIP_SETTING_POST, false, "Ctrl+B", NULL),
     CTRL('k', SETTING, DIP_SETTING_SHARPEN, false, "Ctrl+K", NULL),
+    CTRL('l', SETTING, DIP_SETTING_SHADOWS, false, "Ctrl+L", NULL),
     SETTING('i', DIP_KEYCODE_F10, GI, "I  F10"),
     SETTING('m', 0, MIPDEBUG, "M"),
     KEY('`', DIP_KEYCODE_INSERT, NEXT_PANE, 0, "`  Insert  Click", "Choose the pane"),

@@ -22,6 +22,7 @@ int dip_preview_category_of(DipSetting setting) {
         [DIP_SETTING_UPSCALE] = -1, // Any path shows it.
         [DIP_SETTING_POST] = DIP_CATEGORY_AA,
         [DIP_SETTING_SHARPEN] = -1, // Any path shows it.
+        [DIP_SETTING_SHADOWS] = -1, // Any path shows it.
         [DIP_SETTING_GI] = DIP_CATEGORY_GI,
         [DIP_SETTING_MIPDEBUG] = -1, // Any path shows it.
     };
@@ -305,13 +306,21 @@ void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns)
 // a short form without a step. If it is off, "no" precedes the short form; a step other than on and
 // off follows it.
 static const char *const brief_forms[DIP_SETTING_COUNT] = {
-    [DIP_SETTING_AA] = "AA %sx",       [DIP_SETTING_TAA] = "temporal AA",
-    [DIP_SETTING_AAA] = "adaptive AA", [DIP_SETTING_ASD] = "groups of %s",
-    [DIP_SETTING_AF] = "AF %sx",       [DIP_SETTING_AAF] = "advanced AF",
-    [DIP_SETTING_OPT] = "%s textures", [DIP_SETTING_MIPLOD] = "mip detail %s",
-    [DIP_SETTING_SCALE] = "scale %s",  [DIP_SETTING_UPSCALE] = "upscaling %s",
-    [DIP_SETTING_POST] = "post %s",    [DIP_SETTING_SHARPEN] = "sharpening %s",
-    [DIP_SETTING_GI] = "instancing",   [DIP_SETTING_MIPDEBUG] = "mip colours",
+    [DIP_SETTING_AA] = "AA %sx",
+    [DIP_SETTING_TAA] = "temporal AA",
+    [DIP_SETTING_AAA] = "adaptive AA",
+    [DIP_SETTING_ASD] = "groups of %s",
+    [DIP_SETTING_AF] = "AF %sx",
+    [DIP_SETTING_AAF] = "advanced AF",
+    [DIP_SETTING_OPT] = "%s textures",
+    [DIP_SETTING_MIPLOD] = "mip detail %s",
+    [DIP_SETTING_SCALE] = "scale %s",
+    [DIP_SETTING_UPSCALE] = "upscaling %s",
+    [DIP_SETTING_POST] = "post %s",
+    [DIP_SETTING_SHARPEN] = "sharpening %s",
+    [DIP_SETTING_SHADOWS] = "shadows %s",
+    [DIP_SETTING_GI] = "instancing",
+    [DIP_SETTING_MIPDEBUG] = "mip colours",
 };
 
 // Writes a setting in its short form: "AA 4x", "no instancing".

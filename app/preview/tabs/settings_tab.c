@@ -26,7 +26,7 @@ enum {
 
 // The settings in the order in which a frame uses them, and the words of their groups. A column
 // ends at an entry without a name.
-enum { COLUMNS = 2, ENTRIES = 7 };
+enum { COLUMNS = 2, ENTRIES = 8 };
 static const struct {
     const char *group;
     DipSetting setting;
@@ -37,7 +37,8 @@ static const struct {
                                 {"", DIP_SETTING_AAF},
                                 {"", DIP_SETTING_OPT},
                                 {"", DIP_SETTING_MIPLOD}},
-                               {{"Size", DIP_SETTING_SCALE},
+                               {{"Light", DIP_SETTING_SHADOWS},
+                                {"Size", DIP_SETTING_SCALE},
                                 {"", DIP_SETTING_UPSCALE},
                                 {"After the frame", DIP_SETTING_POST},
                                 {"", DIP_SETTING_SHARPEN},

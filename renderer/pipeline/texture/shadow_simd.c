@@ -32,11 +32,54 @@ VEC_INLINE Vi lit(const float *depths, Vi index, Vf z, Vi weight) {
     return vi_select(vf_lt(z, vf_gather(depths, index)), vi_splat(0), weight);
 }
 
+// One axis of a wide read: the three texels, and their weights in 1/256, which sum up to 512.
+typedef struct WideAxis {
+    Vi texel[3];
+    Vi weight[3];
+    Mask outside;
+} WideAxis;
+
+VEC_INLINE WideAxis wide_axis_at(Vf fraction, int size) {
+    const Axis middle = axis_at(fraction, size, false);
+    const float units = 256.0f * (float)size;
+    const Vf at = vf_min(vf_max(vf_floor(fraction * units), vf_splat(-256.0f)), vf_splat(units));
+    const Vi share = vi_from_float(at) & 255;
+    return (WideAxis){.texel = {vi_max(middle.near - 1, vi_splat(0)), middle.near, middle.far},
+                      .weight = {256 - share, vi_splat(256), share},
+                      .outside = middle.outside};
+}
+
+VEC_INLINE void sample_wide(DipFragmentBatch *batch, const DipDepth *depth, const float *u,
+                            const float *v, const float *z, float *out) {
+    const Vi all = vi_splat(512 * 512);
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const WideAxis x = wide_axis_at(vf_load(u + i), depth->width);
+        const WideAxis y = wide_axis_at(vf_load(v + i), depth->height);
+        const Vf from = vf_load(z + i);
+        Vi sum = vi_splat(0);
+        for (int row = 0; row < 3; row++) {
+            const Vi first = y.texel[row] * depth->width;
+            for (int column = 0; column < 3; column++) {
+                sum += lit(depth->depth, first + x.texel[column], from,
+                           x.weight[column] * y.weight[row]);
+            }
+        }
+        sum = vi_select(x.outside, all, vi_select(y.outside, all, sum));
+        vf_store(out + i, vf_from_int(sum) * (1.0f / (512.0f * 512.0f)));
+    }
+    batch->work.probes += (uint64_t)batch->count;
+    batch->work.texels += 9 * (uint64_t)batch->count;
+}
+
 void DIP_KERNEL(dip_kernel_sample_shadow)(DipFragmentBatch *batch, const DipShadowMap *map,
                                           const float *u, const float *v, const float *z,
                                           float *out) {
     const DipDepth *depth = map->depth;
     const bool linear = map->filter == DIP_SHADOW_LINEAR;
+    if (map->filter == DIP_SHADOW_WIDE) {
+        sample_wide(batch, depth, u, v, z, out);
+        return;
+    }
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         const Axis x = axis_at(vf_load(u + i), depth->width, linear);
         const Axis y = axis_at(vf_load(v + i), depth->height, linear);

@@ -11,6 +11,9 @@
 // Tables of the light that metallic-roughness surfaces reflect.
 typedef struct DipRefPbrTables DipRefPbrTables;
 
+// The surfaces that cast shadows, and the light whose shadows they cast.
+typedef struct DipRefShadows DipRefShadows;
+
 struct DipReference {
     const DipSceneDef *def;     // borrowed; that of `posed` if the scene moves
     DipPosedDef *posed;         // owned: the scene at the reference's time; NULL if nothing moves
@@ -25,6 +28,8 @@ struct DipReference {
     // levels.
     DipRefTexture *textures;
     DipRefPbrTables *pbr_tables; // owned; NULL if no material has a metallic-roughness surface
+    DipRefShadows *shadows;      // owned; NULL if the scene can have no shadows
+    bool lacks_shadows;          // no memory was left for the shadows of this time
 };
 
 // The varyings: values that a vertex carries besides its position. They are interpolated with
@@ -46,6 +51,9 @@ enum {
     DIP_REF_HIGHLIGHT_RED, // highlight of the scene's lights at the vertex
     DIP_REF_HIGHLIGHT_GREEN,
     DIP_REF_HIGHLIGHT_BLUE,
+    DIP_REF_DIRECT_RED, // vertex colour times the light of the light with shadows, which RED lacks
+    DIP_REF_DIRECT_GREEN,
+    DIP_REF_DIRECT_BLUE,
     DIP_REF_VARYINGS
 };
 
@@ -64,6 +72,7 @@ typedef struct DipRefLit {
     const DipMaterialDef *material;
     double eye[3];  // position of the eye in world space; of its mirror image if the shot mirrors
     bool fragments; // true: the light is computed where the surface is shaded, not at the vertices
+    const DipRefShadows *shadows; // NULL: the surface receives no shadows
 } DipRefLit;
 
 // A triangle after clipping. It faces the eye or is double-sided. Its vertices are ordered so that
@@ -115,6 +124,7 @@ typedef struct DipRefShot {
     // times its distance along the view axis.
     bool mirrored;
     double margin;
+    bool shadows; // true: a directional light casts shadows
 } DipRefShot;
 
 // Returns a pose's orientation, scaled by a power of two so that squares of its components neither
@@ -159,9 +169,25 @@ extern const double dip_reference_sun[3]; // direction to the sun, not normalise
 double dip_reference_light(const double normal[3], double sunlit);
 
 // Computes the scene's lights on a surface. place: position relative to the eye. normal: unit
-// normal. diffuse is the factor of the surface's own colour, and highlight is added.
+// normal. diffuse is the factor of the surface's own colour, and highlight is added. The light with
+// shadows is multiplied by `sunlit`, the part of it that arrives. If direct is not NULL, it
+// receives the diffuse part of this light, which `diffuse` then lacks.
 void dip_reference_lights(const DipRefLit *lit, const double place[3], const double normal[3],
-                          double diffuse[3], double highlight[3]);
+                          double sunlit, double diffuse[3], double highlight[3], double direct[3]);
+
+// shadows.c: collects what casts shadows. *shadows is NULL if the scene has no directional light,
+// or if no surface casts shadows.
+bool dip_reference_shadows_create(const DipReference *reference, DipRefShadows **shadows,
+                                  DipError *err);
+// *shadows may be NULL and becomes NULL.
+void dip_reference_shadows_destroy(DipRefShadows **shadows);
+
+// Returns the index of the light that casts the shadows, or -1 if shadows is NULL.
+int dip_reference_shadow_light(const DipRefShadows *shadows);
+
+// Returns 1 if a ray from a place to the light with shadows meets nothing, otherwise 0. place:
+// relative to the eye. If the surface receives no shadows, the result is 1.
+double dip_reference_sunlit(const DipRefLit *lit, const double place[3]);
 
 // Finds the direction to a light and returns the part of its light that arrives at a place. `place`
 // is relative to the eye, and `eye` is the eye's position in the world.
@@ -266,7 +292,7 @@ bool dip_reference_check_samples(int sample_count, int *side, DipError *err);
 enum { DIP_REF_STOP_PERIOD = 4096 };
 bool dip_reference_stopped(const DipReference *reference, DipError *err);
 
-// Checks that a frame may have this size.
-bool dip_reference_check_size(int width, int height, DipError *err);
+// Checks that a frame may have this size, and that the reference has all that it draws.
+bool dip_reference_check_frame(const DipReference *reference, int width, int height, DipError *err);
 
 #endif

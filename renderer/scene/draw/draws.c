@@ -127,9 +127,23 @@ static DipViewRays view_rays(const double m[16], int width, int height) {
     return rays;
 }
 
+// Adds varyings to a surface that is lit at its vertices: the depth, from which its place in the
+// shadow map follows, and the light of the light with shadows. The depth needs derivatives, so it
+// comes before the varyings that need none.
+static void add_direct_light(DipSurfaceUniforms *uniforms, DipDraw *draw) {
+    uniforms->depth_varying = uniforms->light_varying;
+    uniforms->light_varying++;
+    uniforms->highlight_varying++;
+    uniforms->direct_varying = draw->varying_count + 1;
+    draw->varying_count += 4;
+    draw->value_only_varying_count = draw->varying_count - uniforms->light_varying;
+}
+
 // If the scene's lights light the mesh of a draw, finds those that reach it and sets the shaders.
+// shadow: the shadows that the mesh receives, or NULL.
 static void set_lights(const DipDrawInput *input, const DipSceneObject *object,
-                       DipSurfaceUniforms *uniforms, DipDraw *draw) {
+                       const DipShadowUniforms *shadow, DipSurfaceUniforms *uniforms,
+                       DipDraw *draw) {
     const DipMaterialKernels *kernels = input->kernels;
     const DipSceneMesh *mesh = &input->scene->meshes[object->mesh];
     if (!mesh->lit_by_lights) {
@@ -138,6 +152,7 @@ static void set_lights(const DipDrawInput *input, const DipSceneObject *object,
     if (!input->all_lights) {
         uniforms->lights = dip_lights_reaching(input->scene->lighting, &object->bounds);
     }
+    uniforms->shadow = shadow;
     if (mesh->fragments_lit) {
         draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
         draw->fragment_shader = kernels->dip_kernel_phong_fragment;
@@ -145,6 +160,9 @@ static void set_lights(const DipDrawInput *input, const DipSceneObject *object,
     } else {
         draw->vertex_shader = kernels->dip_kernel_gouraud_vertex;
         draw->fragment_shader = kernels->dip_kernel_gouraud_fragment;
+        if (shadow && uniforms->depth_varying == DIP_ABSENT) {
+            add_direct_light(uniforms, draw);
+        }
     }
 }
 
@@ -219,7 +237,7 @@ static void set_matrices(const DipView *view, const DipSceneObject *object, DipD
     DipSurfaceUniforms *uniforms = &set->uniforms[set->count - 1];
     DipDrawMatrices *matrices = &set->matrices[set->count - 1];
     DipExactTransform *exact = &matrices->exact_to_clip;
-    dip_view_object_origin(view, object->transform, object->world_to_object, exact->origin);
+    dip_view_object_origin(view->eye, object->transform, object->world_to_object, exact->origin);
     dip_view_object_to_clip(view, object->transform, exact->origin, exact->to_clip);
     round_matrix(exact->to_clip, uniforms->to_clip);
     memcpy(uniforms->origin, exact->origin, sizeof uniforms->origin);
@@ -282,7 +300,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     uniforms->rays = &set->rays;
     uniforms->lighting = &set->lighting;
     uniforms->lights = UINT64_MAX;
-    set_lights(input, object, uniforms, draw);
+    set_lights(input, object, pass->shadow ? &set->shadow : NULL, uniforms, draw);
     set_effect(input, mesh, uniforms, draw);
     if (pass->shown && material->surface == DIP_SURFACE_WATER) {
         set_reflecting(input, pass, set);
@@ -338,6 +356,9 @@ void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDraw
     set->culled = 0;
     set->rays = view_rays(pass->view->world_to_clip, pass->width, pass->height);
     see_lights(scene, pass->view, set);
+    if (pass->shadow) {
+        set->shadow = *pass->shadow;
+    }
     for (int i = 0; i < scene->object_count; i++) {
         const DipSceneObject *object = &scene->objects[i];
         const DipSurface surface = scene->materials[scene->meshes[object->mesh].material].surface;

@@ -40,6 +40,9 @@ typedef struct DipDrawView {
     bool mirrored; // true: draws the mirrored scene, so windings are reversed and water is left out
     const DipTarget *shown; // the mirrored picture that water shows; NULL: water is plain
     bool schlick;           // see DipReflectionDef
+    // The shadows that surfaces receive, with the eye of this view; NULL: there are none. It is
+    // copied.
+    const DipShadowUniforms *shadow;
 } DipDrawView;
 
 // The matrices of a draw that take the mesh's own coordinates to clip space; see DipDraw.
@@ -62,6 +65,7 @@ typedef struct DipDrawSet {
     DipBlendedObject *blended;    // the blended objects in view; NULL if the scene has none
     DipViewRays rays;
     DipLightingUniforms lighting; // only if the scene has lights or metallic-roughness surfaces
+    DipShadowUniforms shadow;     // only if surfaces receive shadows
 } DipDrawSet;
 
 // Allocates a set for the objects of a scene. reflects: the set may hold reflecting water. If the

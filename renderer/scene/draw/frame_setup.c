@@ -91,9 +91,12 @@ typedef struct FrameSetup {
     DipReflectionDef reflection; // the renderer's, in the size at which it is drawn
     DipPlanInput input;
     DipFramePlan plan;
+    DipShadowFit shadow_fit; // the next two are made only if the plan runs the shadows
+    DipPass shadow_pass;
     DipPass mirrored_pass; // made only if the plan runs the reflection
     DipPass pass;
-    DipPipelineCounters counters; // sums over both passes
+    DipPipelineCounters counters;        // sums over all passes
+    DipPipelineCounters shadow_counters; // of the shadow map alone
     uint64_t fragments_mirrored;
     double posing_ms;                  // how long it took to move the scene to the frame's time
     const DipSampleReadback *readback; // NULL unless samples are read
@@ -101,6 +104,29 @@ typedef struct FrameSetup {
     const struct FrameSetup *copies_from;
     DipPassWork *mirrored_work; // used while the mirrored passes are drawn
 } FrameSetup;
+
+// Makes the pass that draws the shadow map. The map must hold what the frame shows and what its
+// water mirrors, whether or not water is in view, so that it does not depend on the plan.
+static void make_shadow_pass(FrameSetup *setup) {
+    DipRenderer *renderer = setup->renderer;
+    const DipShadowView views[2] = {{&setup->view, &setup->seen},
+                                    {&setup->mirrored, &setup->seen_mirrored}};
+    setup->shadow_fit = dip_shadow_fit(setup->scene, views, setup->plan.water_reflects ? 2 : 1,
+                                       dip_quality_shadow_size(&renderer->quality));
+    dip_shadows_fill(&renderer->shadows, setup->scene, dip_material_kernels(renderer->isa),
+                     &setup->shadow_fit, &setup->shadow_pass);
+}
+
+// Sets what surfaces read of the shadow map as the eye of a view sees them. Returns NULL if they
+// receive no shadows.
+static const DipShadowUniforms *see_shadow(const FrameSetup *setup, const DipView *view,
+                                           DipShadowUniforms *shadow) {
+    if (!setup->plan.effects.shadows.run) {
+        return NULL;
+    }
+    dip_shadow_at(&setup->renderer->shadows, setup->scene, &setup->shadow_fit, view->eye, shadow);
+    return shadow;
+}
 
 // Makes the pass that draws the mirrored scene above the water. The pass also draws a margin below
 // the water, two texels of the mirrored picture high. Without the margin, a gap of background would
@@ -124,14 +150,18 @@ static void make_mirrored_pass(FrameSetup *setup) {
     for (int i = 0; i < 4; i++) {
         pass->clip_planes[0][i] = (float)plane[i];
     }
-    const DipDrawView seen = {.view = mirrored, .mirrored = true};
+    DipShadowUniforms shadow;
+    const DipDrawView seen = {
+        .view = mirrored, .mirrored = true, .shadow = see_shadow(setup, mirrored, &shadow)};
     set_draws(renderer, setup->scene, seen, &mirror->set, pass);
 }
 
 static void make_scene_pass(FrameSetup *setup) {
     DipRenderer *renderer = setup->renderer;
+    DipShadowUniforms shadow;
     const DipDrawView seen = {
         .view = &setup->view,
+        .shadow = see_shadow(setup, &setup->view, &shadow),
         .shown = setup->plan.water_reflects ? &renderer->mirror.target : NULL,
         .schlick = renderer->reflection.schlick,
     };
@@ -151,6 +181,17 @@ static void count_bytes(const DipScene *scene, DipCounters *counters) {
     counters->normal_map_bytes = scene->normal_map_bytes;
     counters->clip_map_bytes = scene->clip_map_bytes;
     counters->cloud_bytes = scene->cloud_bytes;
+}
+
+static void count_shadows(const FrameSetup *setup, DipCounters *counters) {
+    const DipShadows *shadows = &setup->renderer->shadows;
+    const uint64_t width = shadows->depth ? (uint64_t)dip_depth_width(shadows->depth) : 0;
+    const bool drawn = setup->plan.effects.shadows.run;
+    counters->shadow_bytes = width * width * 5; // depth and stencil value
+    counters->shadow_texels = drawn ? width * width : 0;
+    counters->draws_culled += drawn ? (uint64_t)shadows->set.culled : 0;
+    // The ordered draws of the shadow map do not blend.
+    counters->fragments_blended -= setup->shadow_counters.fragments_ordered;
 }
 
 static void count_mirror(const DipMirror *mirror, bool drawn, DipCounters *counters) {
@@ -228,6 +269,9 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
         .height = renderer->height,
         .effects = setup->plan.effects,
     };
+    if (setup->plan.effects.shadows.run) {
+        make_shadow_pass(setup);
+    }
     if (setup->plan.effects.reflection.run) {
         make_mirrored_pass(setup);
     }
@@ -255,11 +299,33 @@ static void begin_tiles(const FrameSetup *setup) {
     }
 }
 
-// Draws the mirrored passes of all frames together, then the main passes of all frames together.
-// same_geometry: the frames differ only in samples and shading.
+// Draws the shadow maps of all frames together.
+static bool draw_shadows(FrameSetup *setups, int count, DipError *err) {
+    DipPassWork works[DIP_MAX_FRAMES_AT_ONCE] = {{.pipeline = NULL}};
+    int work_count = 0;
+    for (int i = 0; i < count; i++) {
+        if (setups[i].plan.effects.shadows.run) {
+            works[work_count++] =
+                work_of(setups[i].renderer->shadows.pipeline, &setups[i].shadow_pass, &setups[i]);
+        }
+    }
+    if (work_count && !dip_pipeline_draw_passes(works, work_count, false, err)) {
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
+        setups[i].shadow_counters = setups[i].counters;
+    }
+    return true;
+}
+
+// Draws the shadow maps of all frames, then their mirrored passes together, then their main passes
+// together. same_geometry: the frames differ only in samples and shading.
 static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipError *err) {
     DipPassWork works[DIP_MAX_FRAMES_AT_ONCE] = {{.pipeline = NULL}};
     int work_count = 0;
+    if (!draw_shadows(setups, count, err)) {
+        return false;
+    }
     for (int i = 0; i < count; i++) {
         if (setups[i].plan.effects.reflection.run) {
             setups[i].mirrored_work = &works[work_count];
@@ -276,7 +342,8 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
         return false;
     }
     for (int i = 0; i < count; i++) {
-        setups[i].fragments_mirrored = setups[i].counters.fragments_shaded;
+        setups[i].fragments_mirrored =
+            setups[i].counters.fragments_shaded - setups[i].shadow_counters.fragments_shaded;
         begin_tiles(&setups[i]);
         works[i] = work_of(dip_renderer_pipeline(setups[i].renderer), &setups[i].pass, &setups[i]);
         if (setups[i].copies_from) {
@@ -295,6 +362,7 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
         .fragments_occluded = passes->shader_counts[DIP_SHADER_COUNT_OCCLUDED],
         .fragments_emitting = passes->shader_counts[DIP_SHADER_COUNT_EMITTING],
         .fragments_coated = passes->shader_counts[DIP_SHADER_COUNT_COATED],
+        .fragments_shadowed = passes->shader_counts[DIP_SHADER_COUNT_SHADOWED],
         .fragments_blended = passes->fragments_ordered, // all ordered draws of a scene blend
         .fragments_sky = passes->shader_counts[DIP_SHADER_COUNT_SKY],
         .fragments_reflecting = passes->shader_counts[DIP_SHADER_COUNT_REFLECTING],
@@ -350,6 +418,7 @@ static void end_frame(const FrameSetup *setup) {
     frame->rgba8 = picture.rgba8;
     frame->stride_bytes = picture.stride_bytes;
     count_mirror(&renderer->mirror, reflects, &frame->counters);
+    count_shadows(setup, &frame->counters);
     // The pipeline counts only the draws that it was given.
     frame->counters.draws_culled += (uint64_t)renderer->set.culled;
     frame->counters.draws_culled += reflects ? (uint64_t)renderer->mirror.set.culled : 0;
@@ -366,8 +435,12 @@ static void end_frame(const FrameSetup *setup) {
 // Corrects a frame's effects after all frames that are drawn at once have ended.
 static void settle_effects(const FrameSetup *setup) {
     const bool copied = setup->frame->counters.fragments_copied > 0;
-    dip_plan_settle(&setup->input, &setup->frame->counters,
-                    copied ? &setup->copies_from->frame->counters : NULL, &setup->frame->effects);
+    // What casts shadows need not be in view.
+    DipCounters seen = setup->frame->counters;
+    seen.fragments_clip_tested -= setup->shadow_counters.fragments_clip_tested;
+    seen.clip_sample_groups -= setup->shadow_counters.clip_sample_groups;
+    dip_plan_settle(&setup->input, &seen, copied ? &setup->copies_from->frame->counters : NULL,
+                    &setup->frame->effects);
 }
 
 // Whether two renderers' frames differ only in samples and shading.
@@ -376,8 +449,12 @@ static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
     const DipReflectionDef *s = &b->reflection;
     const bool same_scale =
         a->quality.step[DIP_SETTING_SCALE] == b->quality.step[DIP_SETTING_SCALE];
-    return same_scale && a->isa == b->isa && a->width == b->width && a->height == b->height &&
-           a->plain_surfaces == b->plain_surfaces && a->force_all_effects == b->force_all_effects &&
+    // Surfaces that are lit at their vertices have more varyings if they receive shadows.
+    const bool same_varyings =
+        !a->quality.step[DIP_SETTING_SHADOWS] == !b->quality.step[DIP_SETTING_SHADOWS];
+    return same_scale && same_varyings && a->isa == b->isa && a->width == b->width &&
+           a->height == b->height && a->plain_surfaces == b->plain_surfaces &&
+           a->force_all_effects == b->force_all_effects &&
            a->quality.step[DIP_SETTING_GI] == b->quality.step[DIP_SETTING_GI] &&
            r->width == s->width && r->height == s->height && r->level_m == s->level_m;
 }

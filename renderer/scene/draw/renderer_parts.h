@@ -6,6 +6,7 @@
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/draws.h"
+#include "renderer/scene/draw/shadow_map.h"
 #include "renderer/scene/finish.h"
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/instancing.h"
@@ -57,6 +58,7 @@ struct DipRenderer {
     bool reserved;         // the pipeline has reserved the memory for the scene
     DipDrawSet set;
     DipMirror mirror;
+    DipShadows shadows;
     DipMaterialSamplers *samplers; // one per material
     DipUnsharedMeshes *unshared;   // one mesh per object with gi=off; NULL with gi=on
     DipPosedScene *posed;          // the scene at the time of a frame; NULL if it has no motion

@@ -93,32 +93,38 @@ static double round_to_cell(double at) {
     return DIP_ORIGIN_CELL * (towards_zero > cells ? towards_zero - 1.0 : towards_zero);
 }
 
-void dip_view_object_origin(const DipView *view, const float transform[12],
+void dip_view_object_origin(const double eye[3], const float transform[12],
                             const double world_to_object[9], float origin[3]) {
     double from_object[3];
     for (int k = 0; k < 3; k++) {
-        from_object[k] = view->eye[k] - transform[4 * k + 3];
+        from_object[k] = eye[k] - transform[4 * k + 3];
     }
     for (int c = 0; c < 3; c++) {
         const double *row = world_to_object + 3 * c;
-        const double eye =
+        const double in_object =
             (row[0] * from_object[0] + row[1] * from_object[1]) + row[2] * from_object[2];
-        origin[c] = (float)round_to_cell(eye);
+        origin[c] = (float)round_to_cell(in_object);
     }
 }
 
 void dip_view_object_to_clip(const DipView *view, const float transform[12], const float origin[3],
                              double product[16]) {
-    const double *m = view->world_to_clip;
+    const double at_eye[4] = {0.0, 0.0, view->near_m, 0.0};
+    dip_object_to_clip(view->world_to_clip, view->eye, at_eye, transform, origin, product);
+}
+
+void dip_object_to_clip(const double world_to_clip[16], const double eye[3], const double at_eye[4],
+                        const float transform[12], const float origin[3], double product[16]) {
+    const double *m = world_to_clip;
     double from_eye[3]; // from the eye to the origin. It is small, and so is its rounding error.
     for (int k = 0; k < 3; k++) {
         const float *t = transform + 4 * k;
         const double moved =
             ((double)t[0] * origin[0] + (double)t[1] * origin[1]) + (double)t[2] * origin[2];
-        from_eye[k] = (moved + t[3]) - view->eye[k];
+        from_eye[k] = (moved + t[3]) - eye[k];
     }
     for (int row = 0; row < 4; row++) {
-        double shift = row == 2 ? view->near_m : 0.0;
+        double shift = at_eye[row];
         for (int c = 0; c < 3; c++) {
             double sum = 0.0;
             for (int k = 0; k < 3; k++) {

@@ -34,7 +34,7 @@ void dip_view_plane(const DipView *view, const double plane[4], double clip[4]);
 // coordinates, however far the eye is from the object's own origin, so their clip positions keep
 // their precision in floats. world_to_object: see DipSceneObject; if it is 0, the point is (0, 0,
 // 0).
-void dip_view_object_origin(const DipView *view, const float transform[12],
+void dip_view_object_origin(const double eye[3], const float transform[12],
                             const double world_to_object[9], float origin[3]);
 
 // Computes product = world_to_clip * transform * translation by `origin`, which takes positions
@@ -42,5 +42,10 @@ void dip_view_object_origin(const DipView *view, const float transform[12],
 // (0, 0, 0, 1).
 void dip_view_object_to_clip(const DipView *view, const float transform[12], const float origin[3],
                              double product[16]);
+
+// The same for any linear camera: the first three elements of each row of `world_to_clip` are used,
+// and at_eye is the clip position of the eye.
+void dip_object_to_clip(const double world_to_clip[16], const double eye[3], const double at_eye[4],
+                        const float transform[12], const float origin[3], double product[16]);
 
 #endif

@@ -32,6 +32,15 @@ VEC_INLINE Vf3 cross(Vf3 a, Vf3 b) {
     return (Vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// Returns a normal of the triangle itself at a fragment, of any length and to either side.
+VEC_INLINE Vf3 triangle_normal(const DipFragmentBatch *batch, int i, Vf3 ray, Vf depth) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const int w = uniforms->depth_varying;
+    return cross(
+        position_step(uniforms->rays->per_x, depth, ray, vf_load(batch->varying_dx[w] + i)),
+        position_step(uniforms->rays->per_y, depth, ray, vf_load(batch->varying_dy[w] + i)));
+}
+
 // Where the texture coordinates have (nearly) no area, only rounding decides the direction of their
 // derivatives. AREA_LIMIT bounds the area relative to the derivatives' sizes (Coordinate). Rounding
 // stays below 2^-22 of a size for coordinates within +-1 and for those of axes along which a

@@ -3,6 +3,7 @@
 #include "renderer/scene/materials/arrival_simd.h"
 #include "renderer/scene/materials/facing_simd.h"
 #include "renderer/scene/materials/material_kernels.h"
+#include "renderer/scene/materials/shadow_simd.h"
 
 // Reflected share of a clear coat at normal incidence.
 #define COAT_F0 0.04f
@@ -15,6 +16,7 @@ typedef struct Maps {
     float (*metal_rough)[DIP_FRAGMENT_BATCH];
     const float *occlusion;
     float (*emission)[DIP_FRAGMENT_BATCH];
+    const float *lit; // share of the light with shadows that arrives; NULL: there is none
 } Maps;
 
 // A point that is shaded, relative to the eye.
@@ -24,6 +26,7 @@ typedef struct PbrPoint {
     Vf3 base;   // own colour
     Vf metallic;
     Vf occlusion; // share of the ambient light that arrives
+    Vf lit;       // share of the light with shadows that arrives
 } PbrPoint;
 
 // A lobe of reflected light: that of the surface or that of its coat.
@@ -141,11 +144,8 @@ VEC_INLINE LightShares meet_light(const Lobe *lobe, Vf3 to_eye, Vf3 to_light) {
 // Returns the lanes whose surface is seen from the side away from its normal.
 VEC_INLINE Mask seen_from_behind(const DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    const int w = uniforms->depth_varying;
-    const Vf depth = vf_load(batch->varying[w] + i);
-    const Vf3 plane =
-        cross(position_step(uniforms->rays->per_x, depth, ray, vf_load(batch->varying_dx[w] + i)),
-              position_step(uniforms->rays->per_y, depth, ray, vf_load(batch->varying_dy[w] + i)));
+    const Vf depth = vf_load(batch->varying[uniforms->depth_varying] + i);
+    const Vf3 plane = triangle_normal(batch, i, ray, depth);
     const Vf zero = vf_splat(0.0f);
     const Vf side = vf3_dot(plane, normal);
     const Mask away = vf_lt(zero, vf3_dot(plane, ray));
@@ -219,10 +219,10 @@ VEC_INLINE Vf surroundings(const DipLightingUniforms *lighting, int c, Vf height
 
 // Adds what a light gives to the surface.
 VEC_INLINE void add_light(const DipPbrUniforms *pbr, const Lobe *lobe, const PbrPoint *point,
-                          const DipLightUniforms *light, const Channel channels[3], Vf f90,
+                          const DipLightUniforms *light, Vf lit, const Channel channels[3], Vf f90,
                           Vf sum[3]) {
     const Arrival arrival = arrive(light, point->place);
-    const Vf3 colour = arriving_colour(light, arrival.share);
+    const Vf3 colour = arriving_colour(light, arrival.share * lit);
     const LightShares shares = meet_light(lobe, point->to_eye, arrival.to_light);
     const Vf kept = (1.0f - pbr->f0_greatest) - shares.fresnel * (pbr->f90 - pbr->f0_greatest);
     const Vf diffuse = kept * shares.facing;
@@ -255,7 +255,8 @@ VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms, const Lobe *lo
     }
     for (int l = 0; l < lighting->count; l++) {
         if (uniforms->lights >> l & 1) {
-            add_light(pbr, lobe, point, &lighting->lights[l], channels, f90, sum);
+            add_light(pbr, lobe, point, &lighting->lights[l], lit_by(uniforms, l, point->lit),
+                      channels, f90, sum);
         }
     }
 }
@@ -279,7 +280,8 @@ VEC_INLINE void add_coat(const DipSurfaceUniforms *uniforms, Vf3 normal, const P
         if (uniforms->lights >> l & 1) {
             const DipLightUniforms *light = &lighting->lights[l];
             const Arrival arrival = arrive(light, point->place);
-            const Vf3 colour = arriving_colour(light, arrival.share);
+            const Vf lit = lit_by(uniforms, l, point->lit);
+            const Vf3 colour = arriving_colour(light, arrival.share * lit);
             const LightShares shares = meet_light(&lobe, point->to_eye, arrival.to_light);
             const Vf highlight =
                 (shares.fresnel * (1.0f - COAT_F0) + COAT_F0) * gain * shares.highlight;
@@ -300,6 +302,7 @@ VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Vf3 ray, co
                  vf_load(batch->colour[2] + i)},
         .metallic = vf_splat(pbr->metallic),
         .occlusion = vf_splat(1.0f),
+        .lit = maps->lit ? vf_load(maps->lit + i) : vf_splat(1.0f),
     };
     if (maps->metal_rough) {
         point.metallic = point.metallic * vf_load(maps->metal_rough[2] + i);
@@ -385,6 +388,11 @@ void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
         scale_colour(batch, batch->varying + uniforms->light_varying, 1.0f);
     }
     read_maps(batch, memory, &maps);
+    float lit[DIP_FRAGMENT_BATCH];
+    if (uniforms->shadow) {
+        read_shadow(batch, uniforms->normal_varying, lit);
+        maps.lit = lit;
+    }
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         shade_fragments(batch, i, &maps);
     }

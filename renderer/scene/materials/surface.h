@@ -22,6 +22,7 @@ enum {
     DIP_SHADER_COUNT_OCCLUDED,
     DIP_SHADER_COUNT_EMITTING,
     DIP_SHADER_COUNT_COATED,
+    DIP_SHADER_COUNT_SHADOWED, // fragments that read the shadow map
 };
 
 enum {
@@ -76,6 +77,17 @@ typedef struct DipLightingUniforms {
     DipLightUniforms lights[DIP_MAX_LIGHTS];
 } DipLightingUniforms;
 
+// The shadows of one directional light as an eye sees them.
+typedef struct DipShadowUniforms {
+    DipShadowMap map;
+    int light; // index of the light in DipLightingUniforms
+    // Takes a place relative to the eye to the map: u, v and depth.
+    float to_map[3][4];
+    // For a normal n, the depth of a surface changes by dot(n, rise[0]) / dot(n, rise[2]) over the
+    // width of a texel, and by dot(n, rise[1]) / dot(n, rise[2]) over its height, but for the sign.
+    float rise[3][3];
+} DipShadowUniforms;
+
 // The sky at the time of a frame; see DipSkyDef.
 typedef struct DipSkyUniforms {
     struct {
@@ -126,9 +138,14 @@ typedef struct DipSurfaceUniforms {
     float roughness;
     const DipViewRays *rays;
     const DipSkyUniforms *sky; // only for sky
-    // The next five are set for surfaces that the scene's lights light.
+    // The next seven are set for surfaces that the scene's lights light.
     const DipLightingUniforms *lighting;
-    uint64_t lights;       // bit i is set if light i may reach the object
+    uint64_t lights;                 // bit i is set if light i may reach the object
+    const DipShadowUniforms *shadow; // NULL: nothing keeps the light of a light away
+    // Index of the first of three: light of the vertex from the light that has shadows, times the
+    // vertex's colour. The light varying then lacks it. DIP_ABSENT unless a surface that is lit at
+    // its vertices receives shadows.
+    int direct_varying;
     int highlight_varying; // index of the first of three: highlight of the vertex, or DIP_ABSENT
     float specular_lin[3];
     unsigned shininess; // 0..DIP_MAX_SHININESS

@@ -256,6 +256,28 @@ static DipEffect plan_lights(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("no surface that the scene's lights light is in view");
 }
 
+static DipEffect plan_shadows(const DipPlanInput *input, DipFramePlan *plan) {
+    const DipSceneLighting *lighting = input->scene->lighting;
+    if (!input->quality->step[DIP_SETTING_SHADOWS]) {
+        return skip("shadows is off");
+    }
+    if (!lighting || lighting->shadow_light < 0) {
+        return skip("the scene has no directional light");
+    }
+    if (!input->scene->has_lit) {
+        return skip("the scene's lights light no surface");
+    }
+    if (!input->scene->has_caster) {
+        return skip("no surface of the scene casts a shadow");
+    }
+    if (input->plain_surfaces) {
+        return skip(plain);
+    }
+    return input->force_all || any_in_view(input, plan, is_lit)
+               ? run(input, "surfaces that the directional light lights are in view")
+               : skip("no surface that the directional light lights is in view");
+}
+
 // A mesh without a normal map always has the plain shader.
 static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->has_normal_map) {
@@ -391,6 +413,7 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters,
         settle(&effects->adaptive_aa, counters->clip_sample_groups);
     }
     settle(&effects->lights, counters->fragments_lit + more->fragments_lit);
+    settle(&effects->shadows, counters->fragments_shadowed + more->fragments_shadowed);
     settle(&effects->normal_map, counters->fragments_normal_mapped + more->fragments_normal_mapped);
     settle(&effects->pbr, counters->fragments_pbr + more->fragments_pbr);
     settle(&effects->occlusion, counters->fragments_occluded + more->fragments_occluded);

@@ -24,6 +24,21 @@ const DipLightingDef *dip_lighting_fixed(void) {
     return &fixed;
 }
 
+// Returns the strongest directional light by its luminance, the first of equal ones, or -1.
+static int find_shadow_light(const DipLightingDef *def) {
+    int found = -1;
+    double greatest = 0.0;
+    for (int i = 0; i < def->light_count; i++) {
+        const float *colour = def->lights[i].colour_lin;
+        const double luminance = (0.2126 * colour[0] + 0.7152 * colour[1]) + 0.0722 * colour[2];
+        if (def->lights[i].kind == DIP_LIGHT_DIRECTIONAL && luminance > greatest) {
+            greatest = luminance;
+            found = i;
+        }
+    }
+    return found;
+}
+
 DipSceneLighting *dip_scene_lighting_create(const DipLightingDef *def) {
     DipSceneLighting *lighting = calloc(1, sizeof *lighting);
     if (!lighting) {
@@ -32,6 +47,7 @@ DipSceneLighting *dip_scene_lighting_create(const DipLightingDef *def) {
     memcpy(lighting->ambient_lin, def->ambient_lin, sizeof lighting->ambient_lin);
     memcpy(lighting->sky_lin, def->sky_lin, sizeof lighting->sky_lin);
     lighting->shading = def->shading;
+    lighting->shadow_light = find_shadow_light(def);
     lighting->count = def->light_count;
     for (int i = 0; i < def->light_count; i++) {
         lighting->lights[i] = def->lights[i];
@@ -40,9 +56,7 @@ DipSceneLighting *dip_scene_lighting_create(const DipLightingDef *def) {
     return lighting;
 }
 
-// Writes the unit vector against a direction. The direction is scaled first, so that no square
-// overflows or vanishes.
-static void reverse(const float direction[3], float reversed[3]) {
+void dip_lighting_reverse(const float direction[3], double reversed[3]) {
     double greatest = 0.0;
     for (int i = 0; i < 3; i++) {
         greatest = fmax(greatest, fabs((double)direction[i]));
@@ -53,7 +67,7 @@ static void reverse(const float direction[3], float reversed[3]) {
     }
     const double length = sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
     for (int i = 0; i < 3; i++) {
-        reversed[i] = (float)(-v[i] / length);
+        reversed[i] = -v[i] / length;
     }
 }
 
@@ -130,7 +144,11 @@ void dip_lighting_at(const DipSceneLighting *lighting, const double eye[3],
             out->inverse_range2 = (float)(1.0 / ((double)light->range_m * light->range_m));
         }
         if (light->kind != DIP_LIGHT_POINT) {
-            reverse(light->direction_world, out->to_light);
+            double to_light[3];
+            dip_lighting_reverse(light->direction_world, to_light);
+            for (int k = 0; k < 3; k++) {
+                out->to_light[k] = (float)to_light[k];
+            }
         }
         if (light->kind == DIP_LIGHT_SPOT) {
             set_cone(light, out);

@@ -13,6 +13,7 @@ typedef struct DipSceneLighting {
     float ambient_lin[3];
     float sky_lin[3];
     DipShading shading;
+    int shadow_light; // index of the light that can cast shadows, or -1
     int count;
     DipLightDef lights[DIP_MAX_LIGHTS]; // without their names
 } DipSceneLighting;
@@ -20,6 +21,10 @@ typedef struct DipSceneLighting {
 // Copies a description that dip_scene_check has accepted. Returns NULL when memory runs out. The
 // caller frees the copy with free().
 DipSceneLighting *dip_scene_lighting_create(const DipLightingDef *def);
+
+// Writes the unit vector against a light's direction. The direction is scaled first, so that no
+// square overflows or vanishes.
+void dip_lighting_reverse(const float direction[3], double reversed[3]);
 
 // Computes the lights as an eye in world space sees them.
 void dip_lighting_at(const DipSceneLighting *lighting, const double eye[3],

@@ -53,6 +53,7 @@ typedef struct DipSceneMaterial {
     int normal_map; // DIP_NO_TEXTURE also if the material's normal map is not drawn
     DipPbrMaps pbr; // the maps of a metallic-roughness surface
     bool double_sided;
+    bool casts; // surfaces of the material cast shadows
 } DipSceneMaterial;
 
 struct DipScene {
@@ -87,6 +88,7 @@ struct DipScene {
     DipSceneLighting *lighting; // NULL: the fixed light of sky and sun
     DipScenePbr *pbr;           // NULL: no mesh has a metallic-roughness surface
     bool has_lit;               // the scene's lights light some mesh
+    bool has_caster;            // some object with triangles casts shadows
     bool has_water;             // some object is water
     double water_level;         // least world y of all water; 0 without water
     uint64_t normal_map_bytes;

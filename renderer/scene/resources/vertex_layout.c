@@ -68,6 +68,7 @@ static DipSurfaceUniforms uniforms_of(const DipMaterialDef *material) {
         .normal_varying = DIP_ABSENT,
         .depth_varying = DIP_ABSENT,
         .highlight_varying = DIP_ABSENT,
+        .direct_varying = DIP_ABSENT,
         .shininess = (unsigned)(material->shininess + 0.5f),
         .roughness = material->roughness,
         .light_map_scale = material->light_map_scale,

@@ -494,8 +494,8 @@ static void broken_json_is_refused(void **state) {
         "\"path\"",
         "\"baseline\"",
         "\"combinations\":[\n{\"settings\":\"aa=none,taa=off,aaa=off,"
-        "asd=1,af=none,aaf=off,opt=off,miplod=high-quality,scale=1,"
-        "upscale=bilinear,post=off,sharpen=off,gi=on,mipdebug=off\",\"ms\":0.5"};
+        "asd=1,af=none,aaf=off,opt=off,miplod=high-quality,scale=1,upscale=bilinear,"
+        "post=off,sharpen=off,shadows=off,gi=on,mipdebug=off\",\"ms\":0.5"};
     DipCostReport report;
     DipCostReport read;
     DipError err = {0};

@@ -519,6 +519,17 @@ static void make_true_work(const DipQuality *quality, double *counters) {
     counters[0] = step[DIP_SETTING_AF] ? 8.0 * step[DIP_SETTING_AF] : 0.0;
 }
 
+// Adds the made-up truth of shadows: the map is work of its own, and a share of all fragments read
+// it.
+static void add_true_shadows(const DipQuality *quality, double *counters) {
+    const double map = quality->step[DIP_SETTING_SHADOWS];
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        counters[c] += c == DIP_COST_COUNTER_fragments_shaded ? 0.0 : 5.0 * map;
+    }
+    counters[DIP_COST_COUNTER_fragments_shadowed] =
+        map > 0.0 ? 0.75 * counters[DIP_COST_COUNTER_fragments_shaded] : 0.0;
+}
+
 typedef struct Counted {
     DipQuality base;
     int most_groups;    // Combinations that differ in more groups were not counted...
@@ -535,6 +546,7 @@ static const double *find_counted(const void *context, const DipQuality *quality
                        (counted->has_filtering && dip_quality_equal(&filtering, quality));
     double *counters = counted->counters[counted->next++ % 16];
     make_true_work(quality, counters);
+    add_true_shadows(quality, counters);
     return known ? counters : NULL;
 }
 
@@ -543,18 +555,22 @@ static const double *find_counted(const void *context, const DipQuality *quality
 static void composed_work_is_one(void **state) {
     (void)state;
     static DipQuality list[1 << 17];
+    const unsigned few = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_SHADOWS;
     // Filters of the finished picture add work of their own, which no other setting changes.
-    const unsigned all =
-        ((1u << DIP_SETTING_MIPDEBUG) - 1) &
-        ~(1u << DIP_SETTING_UPSCALE | 1u << DIP_SETTING_POST | 1u << DIP_SETTING_SHARPEN);
+    const unsigned all = ((1u << DIP_SETTING_MIPDEBUG) - 1) &
+                         ~(1u << DIP_SETTING_UPSCALE | 1u << DIP_SETTING_POST |
+                           1u << DIP_SETTING_SHARPEN | 1u << DIP_SETTING_SHADOWS);
     Counted groups = {.base = dip_quality_default(), .most_groups = 1};
     Counted parts = {.base = groups.base, .most_groups = 1, .has_filtering = true};
-    const int count = dip_cost_list_combinations(&groups.base, all, list, 1 << 17);
+    int count = dip_cost_list_combinations(&groups.base, all, list, 1 << 17);
     assert_int_equal(count, 111456);
+    count += dip_cost_list_combinations(&groups.base, few, list + count, (1 << 17) - count);
+    assert_int_equal(count, 111456 + 5 * 5 * 4);
     for (int i = 0; i < count; i++) {
         double truth[DIP_COST_COUNTER_COUNT], first[DIP_COST_COUNTER_COUNT],
             second[DIP_COST_COUNTER_COUNT];
         make_true_work(&list[i], truth);
+        add_true_shadows(&list[i], truth);
         assert_true(dip_work_compose(find_counted, &groups, &groups.base, &list[i], first));
         assert_true(dip_work_compose(find_counted, &parts, &parts.base, &list[i], second));
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {

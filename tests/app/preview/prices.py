@@ -112,7 +112,8 @@ STEPS = {
     "miplod": ["high-performance", "performance", "quality", "high-quality", "sharp",
                "sharper"], "scale": ["1/2", "1/1.7", "1/1.5", "1/1.3", "1", "1.25", "1.5", "2"],
     "upscale": ["bilinear", "bicubic", "easu"],
-    "post": ["off", "fxaa", "smaa"], "sharpen": ["off", "low", "medium", "high"], "gi": ["off", "on"],
+    "post": ["off", "fxaa", "smaa"], "sharpen": ["off", "low", "medium", "high"],
+    "shadows": ["off", "512", "1024", "2048"], "gi": ["off", "on"],
 }
 
 

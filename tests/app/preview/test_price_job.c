@@ -80,7 +80,8 @@ static double work_of(const DipQuality *quality, DipFrame *frame) {
                                    step_of_aaa + 0.9 * quality->step[DIP_SETTING_POST] +
                                    0.6 * quality->step[DIP_SETTING_SHARPEN] +
                                    1.1 * (quality->step[DIP_SETTING_SCALE] - DIP_SCALE_1) +
-                                   0.8 * quality->step[DIP_SETTING_UPSCALE]));
+                                   0.8 * quality->step[DIP_SETTING_UPSCALE] +
+                                   0.5 * quality->step[DIP_SETTING_SHADOWS]));
     frame->stages.resolve_ms = 1e-6 * (double)c->pixels_resolved * samples;
     return frame->stages.geometry_ms + frame->stages.raster_ms + frame->stages.shading_ms +
            frame->stages.resolve_ms + 0.1;

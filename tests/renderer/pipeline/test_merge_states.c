@@ -426,6 +426,20 @@ static double texel_lit(DipDepth *depth, int x, int y, double z) {
     return z >= (double)dip_depth_row(depth, 0, y)[x];
 }
 
+// Returns the mean over a square of 2x2 texels around a point, in texels. Each texel has the weight
+// of the area that it has in common with the square.
+static double wide_light(DipDepth *depth, double x, double y, double z) {
+    double sum = 0.0;
+    for (int row = (int)floor(y - 1.0); row < y + 1.0; row++) {
+        const double height = fmin(row + 1.0, y + 1.0) - fmax(row, y - 1.0);
+        for (int column = (int)floor(x - 1.0); column < x + 1.0; column++) {
+            const double width = fmin(column + 1.0, x + 1.0) - fmax(column, x - 1.0);
+            sum += width * height * texel_lit(depth, column, row, z);
+        }
+    }
+    return sum / 4.0;
+}
+
 static double expected_light(const ShadowReads *reads, DipDepth *depth, int i) {
     const double u = reads->u[i];
     const double v = reads->v[i];
@@ -435,6 +449,9 @@ static double expected_light(const ShadowReads *reads, DipDepth *depth, int i) {
     }
     if (reads->map.filter == DIP_SHADOW_NEAREST) {
         return texel_lit(depth, (int)(u * MAP_WIDTH), (int)(v * MAP_HEIGHT), z);
+    }
+    if (reads->map.filter == DIP_SHADOW_WIDE) {
+        return wide_light(depth, u * MAP_WIDTH, v * MAP_HEIGHT, z);
     }
     const double x = u * MAP_WIDTH - 0.5;
     const double y = v * MAP_HEIGHT - 0.5;
@@ -465,7 +482,7 @@ static void shadow_maps(void **state) {
     draw.uniforms = &pointer;
     const DipPass pass = pass_of(&draw, 1, 1);
     for (int round = 0; round < 200; round++) {
-        reads.map = (DipShadowMap){depth, round % 2 ? DIP_SHADOW_NEAREST : DIP_SHADOW_LINEAR};
+        reads.map = (DipShadowMap){depth, (DipShadowFilter)(round % 3)};
         for (int i = 0; i < READS; i++) {
             reads.u[i] = (float)random_real(&random, -0.1, 1.1);
             reads.v[i] = (float)random_real(&random, -0.1, 1.1);

@@ -130,9 +130,8 @@ static void begin(DipTestSceneKind kind, const char *settings) {
     assert_true(dip_quality_parse(settings, &fixture.quality, NULL));
 }
 
-static void reference_is_made_whole_or_not_at_all(void **state) {
-    (void)state;
-    begin(DIP_TEST_SCENE_water_effects, "aa=4");
+// Makes references for the scene that was begun, and ends it.
+static void check_both_references(void) {
     expect(draw);
     for (int for_truth = 0; for_truth < 2; for_truth++) {
         fixture.for_truth = for_truth;
@@ -145,6 +144,14 @@ static void reference_is_made_whole_or_not_at_all(void **state) {
     }
     fixture.for_truth = false;
     dip_test_scene_free(&fixture.made);
+}
+
+static void reference_is_made_whole_or_not_at_all(void **state) {
+    (void)state;
+    begin(DIP_TEST_SCENE_water_effects, "aa=4");
+    check_both_references();
+    begin(DIP_TEST_SCENE_lights, "shadows=512");
+    check_both_references();
 }
 
 static void failed_picture_can_be_drawn_again(void **state) {

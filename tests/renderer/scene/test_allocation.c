@@ -28,6 +28,7 @@ static int64_t draw_everything(DipRenderer *const panes[2], const DipScene *scen
         quality.step[DIP_SETTING_GI] = instancing;
         quality.step[DIP_SETTING_MIPLOD] = (uint8_t)(i % 4);
         quality.step[DIP_SETTING_MIPDEBUG] = (uint8_t)(i / 30);
+        quality.step[DIP_SETTING_SHADOWS] = 1; // a map of another size is another allocation
         pose.position_world[0] += 0.05;
         dip_renderer_set_frame_index(panes[0], (uint64_t)i);
         dip_renderer_copy_shading(panes[0], i % 3 == 1);
@@ -54,6 +55,7 @@ static void frames_after_the_first_allocate_nothing(void **state) {
         def.width = 160;
         def.height = 120;
         def.reflection = scene.reflection;
+        def.quality.step[DIP_SETTING_SHADOWS] = 1;
         DipRenderer *panes[2] = {dip_renderer_create(&def, NULL), dip_renderer_create(&def, NULL)};
         DipFrame frame;
         assert_true(panes[0] && panes[1]);

@@ -14,17 +14,16 @@ static void settings_have_their_documented_defaults(void **state) {
     char text[256];
     const DipQuality quality = dip_quality_default();
     dip_quality_format(&quality, text, sizeof text);
-    assert_string_equal(text,
-                        "aa=none,taa=off,aaa=off,asd=1,af=none,aaf=off,opt=off,"
-                        "miplod=high-quality,scale=1,upscale=bilinear,post=off,sharpen=off,gi=on,"
-                        "mipdebug=off");
+    assert_string_equal(text, "aa=none,taa=off,aaa=off,asd=1,af=none,aaf=off,opt=off,"
+                              "miplod=high-quality,scale=1,upscale=bilinear,post=off,sharpen=off,"
+                              "shadows=off,gi=on,mipdebug=off");
 }
 
 static void formatting_gives_the_parsed_text_back(void **state) {
     (void)state;
     static const char text[] = "aa=6,taa=on,aaa=on,asd=3,af=16,aaf=on,opt=off,"
                                "miplod=performance,scale=1/1.7,upscale=easu,post=smaa,sharpen=low,"
-                               "gi=on,mipdebug=on";
+                               "shadows=2048,gi=on,mipdebug=on";
     DipQuality quality;
     char back[256];
     assert_true(dip_quality_parse(text, &quality, NULL));

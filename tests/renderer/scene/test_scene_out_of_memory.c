@@ -324,6 +324,28 @@ static void failed_change_of_a_setting_can_be_taken_back(void **state) {
     end(&fixture);
 }
 
+// Surfaces that are lit at their vertices have more varyings with shadows, so the renderer reserves
+// the memory of its passes anew.
+static void failed_shadow_map_can_be_made_again(void **state) {
+    (void)state;
+    static Fixture fixture;
+    static const DipTestSceneKind kinds[] = {DIP_TEST_SCENE_lights, DIP_TEST_SCENE_gouraud_lights};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        char name[64];
+        begin(&fixture, kinds[i]);
+        assert_true(dip_quality_parse("shadows=512", &fixture.quality, NULL));
+        draw_truth(&fixture, &fixture.quality, fixture.after);
+        snprintf(name, sizeof name, "shadow map of %s", dip_test_scene_name(kinds[i]));
+        dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
+                                                  .context = &fixture,
+                                                  .prepare = make_drawn_panes,
+                                                  .run = change_and_draw,
+                                                  .check = check_change,
+                                                  .finish = free_panes});
+        end(&fixture);
+    }
+}
+
 static DipUnsharedMeshes *unshared;
 
 static bool copy_shared_meshes(void *context, DipError *err) {
@@ -499,6 +521,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(renderer_is_made_whole_or_not_at_all),
         cmocka_unit_test(failed_frame_leaves_the_renderer_usable),
         cmocka_unit_test(failed_change_of_a_setting_can_be_taken_back),
+        cmocka_unit_test(failed_shadow_map_can_be_made_again),
         cmocka_unit_test(meshes_are_copied_for_all_objects_or_for_none),
         cmocka_unit_test(failed_resize_keeps_the_old_size),
         cmocka_unit_test(failed_compression_can_be_repeated),

@@ -42,6 +42,8 @@ static const Pair pairs[] = {
     {{"aa=4,scale=1/1.5", "aa=8,scale=1/1.3"}, false},
     {{"aa=4,post=smaa,sharpen=low", "aa=8,post=smaa,sharpen=low"}, true},
     {{"aa=4,post=smaa", "aa=8,post=fxaa"}, false},
+    {{"aa=4,shadows=512", "aa=8,shadows=512"}, true},
+    {{"aa=4,shadows=512", "aa=8,shadows=1024"}, false},
 };
 enum { PAIRS = sizeof pairs / sizeof *pairs };
 

@@ -1,0 +1,51 @@
+#!/bin/sh
+# Tests the scene torture: --scene finds it, each of its cameras flies, the settings that its places
+# are for change the picture there, and options that do not fit it are refused.
+#
+# Usage: torture.sh DIPTYCH
+set -eu
+diptych=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() {
+    echo "FAILED: $1" >&2
+    exit 1
+}
+refuses() { # refuses TEXT ARGUMENT...: exit code 2 and a message that has TEXT
+    text=$1
+    shift
+    code=0
+    "$diptych" "$@" >out.txt 2>err.txt || code=$?
+    [ "$code" = 2 ] || fail "'$*' ended with $code"
+    grep -qF -- "$text" err.txt || { cat err.txt; fail "'$*' does not say '$text'"; }
+}
+
+# changes CAMERA SET: at this camera, SET and the set aa=4 differ, and the pictures draw.
+changes() {
+    "$diptych" dump --scene torture --path "$1" --size 160x120 --hash --current aa=4 \
+        --requested "$2" >"$1.txt"
+    [ "$(cut -d ' ' -f 3 "$1.txt" | sort -u | wc -l)" = 2 ] || fail "$2 changes nothing at $1"
+}
+changes WIRES aa=8
+changes FOLIAGE aa=4,aaa=coverage
+changes SPECULAR aa=4,aaa=all
+changes TEXT aa=4,post=fxaa
+changes WATER aa=4,scale=2
+changes TOUR aa=none
+cat WIRES.txt FOLIAGE.txt SPECULAR.txt TEXT.txt WATER.txt TOUR.txt | cut -d ' ' -f 3 |
+    sort | uniq -d | grep -q . && fail "two cameras show the same picture"
+
+# A category of settings plays the camera that shows it.
+"$diptych" dump --scene torture --category AAA --size 160x120 --hash --current aa=4 \
+    --requested aa=4,aaa=coverage | cmp - FOLIAGE.txt || fail "the category AAA is not FOLIAGE"
+
+# --scene courtyard is what is drawn without options.
+"$diptych" dump --scene courtyard --size 64x48 --hash >courtyard.txt
+"$diptych" dump --size 64x48 --hash | cmp - courtyard.txt || fail "the courtyard differs"
+
+refuses "|models|courtyard|torture" dump --hash --scene tortur
+refuses "has an ini of its own" dump --hash --scene torture --config x.ini
+refuses "has camera paths instead" dump --hash --scene torture --look 2
+refuses "leave out one of the two options" dump --hash --scene torture --model x.glb
+echo "all passed"
