@@ -339,6 +339,45 @@ static void the_reference_draws_the_same_moment(void **state) {
     dip_model_destroy(&model);
 }
 
+// Draws a moment with a reference in which a directional light casts shadows.
+static void draw_shadows(const DipSceneDef *def, int64_t time_ns, bool after_others,
+                         double *rgb_lin) {
+    DipReference *reference = dip_reference_create(def, NULL);
+    DipQuality quality;
+    assert_non_null(reference);
+    assert_true(dip_quality_parse("aa=none,shadows=1024", &quality, NULL));
+    if (after_others) {
+        dip_reference_set_time(reference, time_ns / 2);
+        assert_true(dip_reference_draw(reference, &quality, &pose, WIDTH, HEIGHT, rgb_lin, NULL));
+    }
+    dip_reference_set_time(reference, time_ns);
+    assert_true(dip_reference_draw(reference, &quality, &pose, WIDTH, HEIGHT, rgb_lin, NULL));
+    dip_reference_destroy(&reference);
+}
+
+static void the_shadows_of_the_reference_follow_the_model(void **state) {
+    (void)state;
+    static double moving[WIDTH * HEIGHT * 3];
+    static double still[WIDTH * HEIGHT * 3];
+    static const DipLightDef sun = {.kind = DIP_LIGHT_DIRECTIONAL,
+                                    .colour_lin = {0.8f, 0.8f, 0.8f},
+                                    .direction_world = {-0.6f, -0.64f, -0.48f}};
+    DipLightingDef lighting = {.lights = &sun, .light_count = 1, .shading = DIP_SHADING_PHONG};
+    DipModel *model = load_motion(&first);
+    DipSceneDef def = *dip_model_scene_def(model);
+    def.lighting = &lighting;
+    DipPosedDef *posed = dip_posed_def_create(&def, NULL);
+    assert_non_null(posed);
+    for (int64_t time_ns = 300000000; time_ns < 2000000000; time_ns += 500000000) {
+        dip_posed_def_set(posed, time_ns);
+        draw_shadows(&def, time_ns, true, moving);
+        draw_shadows(dip_posed_def(posed), 0, false, still);
+        assert_memory_equal(moving, still, sizeof moving);
+    }
+    dip_posed_def_destroy(&posed);
+    dip_model_destroy(&model);
+}
+
 // Every vertex at any time lies in the scene's bounds, up to what a vertex moves between two of the
 // moments at which bounds are taken.
 static void bounds_hold_over_the_clip(void **state) {
@@ -384,6 +423,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_frame_does_not_depend_on_the_frames_before_it),
         cmocka_unit_test(a_moment_is_drawn_as_a_still_scene),
         cmocka_unit_test(the_reference_draws_the_same_moment),
+        cmocka_unit_test(the_shadows_of_the_reference_follow_the_model),
         cmocka_unit_test(bounds_hold_over_the_clip),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
