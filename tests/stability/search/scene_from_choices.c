@@ -31,7 +31,8 @@ static void choose_settings(SearchMaker *maker) {
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         // Filters of the finished picture, which also enlarge that of a scale below 1, are not part
         // of what the judges compare.
-        if (s == DIP_SETTING_UPSCALE || s == DIP_SETTING_POST || s == DIP_SETTING_SHARPEN) {
+        if (s == DIP_SETTING_UPSCALE || s == DIP_SETTING_POST || s == DIP_SETTING_SHARPEN ||
+            s == DIP_SETTING_SHADOWS) {
             continue;
         }
         if (s == DIP_SETTING_SCALE) {
