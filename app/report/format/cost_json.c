@@ -47,14 +47,14 @@ static void forget_no_interval(cJSON *object) {
 }
 
 // Adds the counters that reports lacked before surfaces could be blended or reflect their
-// surroundings, panes could copy each other's pixels, pictures were filtered, and models moved.
-// They count work that was not done then.
+// surroundings, panes could copy each other's pixels, pictures were filtered, models moved and
+// shadows fell. They count work that was not done then.
 static void add_counters(cJSON *counters) {
     static const char *const later[] = {
-        "fragments_pbr",    "fragments_occluded", "fragments_emitting",
-        "fragments_coated", "fragments_blended",  "fragments_copied",
-        "pixels_filtered",  "edges_found",        "vertices_posed"};
-    for (int i = 0; i < 9 && cJSON_IsObject(counters); i++) {
+        "fragments_pbr",     "fragments_occluded", "fragments_emitting", "fragments_coated",
+        "fragments_blended", "fragments_copied",   "pixels_filtered",    "edges_found",
+        "vertices_posed",    "fragments_shadowed", "shadow_texels",      "shadow_bytes"};
+    for (int i = 0; i < 12 && cJSON_IsObject(counters); i++) {
         add_missing(counters, later[i], add_zero);
     }
 }
