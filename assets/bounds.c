@@ -31,21 +31,38 @@ static void extend_bounds(DipModelBounds *bounds, const DipMeshDef *mesh,
     }
 }
 
-DipModelBounds dip_model_bounds(const DipModel *model) {
-    DipModelBounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
-    for (int i = 0; i < model->def.object_count; ++i) {
-        const DipMeshDef *mesh = &model->meshes[model->objects[i].mesh];
-        if (model->materials[mesh->material].surface != DIP_SURFACE_SKY) {
-            extend_bounds(&bounds, mesh, model->objects[i].transform);
+// Extends the bounds by all objects that are not sky.
+static void extend_by_scene(DipModelBounds *bounds, const DipSceneDef *def) {
+    for (int i = 0; i < def->object_count; ++i) {
+        const DipMeshDef *mesh = &def->meshes[def->objects[i].mesh];
+        if (def->materials[mesh->material].surface != DIP_SURFACE_SKY) {
+            extend_bounds(bounds, mesh, def->objects[i].transform);
         }
     }
+}
+
+bool dip_model_bounds(const DipModel *model, DipModelBounds *to, DipError *err) {
+    DipModelBounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+    DipPosedDef *posed = model->def.motion ? dip_posed_def_create(&model->def, err) : NULL;
+    if (model->def.motion && !posed) {
+        return false;
+    }
+    for (int k = 0; posed && k < DIP_MOTION_MOMENTS; ++k) {
+        dip_posed_def_set_share(posed, (double)k / DIP_MOTION_MOMENTS);
+        extend_by_scene(&bounds, dip_posed_def(posed));
+    }
+    if (!posed) {
+        extend_by_scene(&bounds, &model->def);
+    }
+    dip_posed_def_destroy(&posed);
     double square = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         const double size = bounds.high[axis] - bounds.low[axis];
         square += size * size;
     }
     bounds.diagonal = sqrt(square);
-    return bounds;
+    *to = bounds;
+    return true;
 }
 
 float dip_model_near_distance(const DipModelBounds *bounds) {

@@ -60,9 +60,11 @@ static bool flatten_mesh(DipModel *model, DipMeshDef *mesh) {
             flatten_face(mesh->positions + 3 * (size_t)i, normals + 3 * (size_t)i);
         }
     }
+    const bool ok = dip_model_flatten_motion(model, (int)(mesh - model->meshes), mesh->indices,
+                                             mesh->index_count);
     mesh->vertex_count = mesh->index_count;
     mesh->indices = indices;
-    return true;
+    return ok;
 }
 
 bool dip_model_flatten(DipModel *model, DipError *err) {

@@ -143,6 +143,8 @@ static void fill_invocation(const Child *child, Invocation *invocation) {
     const DipModelLoad *load = child->load;
     uint64_t light_scale;
     memcpy(&light_scale, &load->options.light_scale, sizeof light_scale);
+    uint64_t held_s;
+    memcpy(&held_s, &load->options.animation_held_s, sizeof held_s);
     const uint64_t values[IMPORT_ARGUMENT_COUNT] = {
         [IMPORT_ARGUMENT_version] = IMPORT_VERSION,
         [IMPORT_ARGUMENT_program_id] = (uint64_t)getpid(),
@@ -153,6 +155,9 @@ static void fill_invocation(const Child *child, Invocation *invocation) {
         [IMPORT_ARGUMENT_flat] = load->options.shading == DIP_MODEL_SHADING_flat,
         [IMPORT_ARGUMENT_has_light_scale] = load->options.has_light_scale,
         [IMPORT_ARGUMENT_light_scale] = light_scale,
+        [IMPORT_ARGUMENT_animation] = load->options.animation,
+        [IMPORT_ARGUMENT_animation_is_held] = load->options.animation_is_held,
+        [IMPORT_ARGUMENT_animation_held_s] = held_s,
         [IMPORT_ARGUMENT_picture_only] = load->picture_only,
         [IMPORT_ARGUMENT_memory_bytes] = child->importer.memory_bytes,
         [IMPORT_ARGUMENT_cpu_s] = (uint64_t)child->importer.cpu_s,
@@ -167,6 +172,7 @@ static void fill_invocation(const Child *child, Invocation *invocation) {
         snprintf(invocation->numbers[i], IMPORT_NUMBER_BYTES, "%" PRIu64, values[i]);
         invocation->arguments[count++] = invocation->numbers[i];
     }
+    invocation->arguments[count++] = text_or_empty(load->options.animation_name);
     count = add_rules(load, invocation, count);
     memcpy(invocation->arguments + count, load->files,
            (size_t)load->file_count * sizeof *load->files);
@@ -475,6 +481,8 @@ static bool take_pack(const Child *child, DipModel *model, DipError *err) {
     }
     pass_on_warnings(&model->pack.warnings, child->load->warnings);
     model->def = model->pack.scene;
+    model->clip_names = model->pack.clips;
+    model->clip_count = model->pack.clip_count;
     return true;
 }
 

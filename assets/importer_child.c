@@ -33,6 +33,7 @@ typedef struct Task {
     uint64_t number[IMPORT_ARGUMENT_COUNT];
     const char *files[DIP_MAX_MODEL_FILES];
     int file_count;
+    const char *animation_name;
     DipMaterialRule rules[DIP_MAX_MATERIAL_RULES];
     int rule_count;
 } Task;
@@ -93,7 +94,7 @@ static bool parse_task(int count, char *const *arguments, Task *task) {
         count--;
         arguments++;
     }
-    if (count < IMPORT_ARGUMENT_COUNT) {
+    if (count < IMPORT_ARGUMENT_COUNT + 1) {
         return false;
     }
     for (int i = 0; i < IMPORT_ARGUMENT_COUNT; ++i) {
@@ -101,11 +102,13 @@ static bool parse_task(int count, char *const *arguments, Task *task) {
             return false;
         }
     }
+    task->animation_name = arguments[IMPORT_ARGUMENT_COUNT];
     const uint64_t threads = task->number[IMPORT_ARGUMENT_threads];
     return task->number[IMPORT_ARGUMENT_version] == IMPORT_VERSION && threads >= 1 &&
            threads <= DIP_MAX_THREADS && task->number[IMPORT_ARGUMENT_up] < DIP_UP_COUNT &&
-           parse_rules_and_files(count - IMPORT_ARGUMENT_COUNT, arguments + IMPORT_ARGUMENT_COUNT,
-                                 task);
+           task->number[IMPORT_ARGUMENT_animation] <= DIP_MODEL_ANIMATION_NAMED &&
+           parse_rules_and_files(count - IMPORT_ARGUMENT_COUNT - 1,
+                                 arguments + IMPORT_ARGUMENT_COUNT + 1, task);
 }
 
 // --- limits --------------------------------------------------------------------------------------
@@ -185,6 +188,8 @@ static bool hand_over(const DipModel *model, DipScenePack *pack) {
     if (model) {
         pack->scene = model->def;
         pack->times = model->times;
+        pack->clips = model->clip_names;
+        pack->clip_count = model->clip_count;
     }
     errno = 0;
     const bool done = dip_scene_pack_note(IMPORT_PACK_FILE, DIP_IMPORT_PACKS, 0) &&
@@ -193,10 +198,11 @@ static bool hand_over(const DipModel *model, DipScenePack *pack) {
     return write(IMPORT_PIPE, &failure, 1) == 1 && done;
 }
 
-static double light_scale_of(const Task *task) {
-    double scale;
-    memcpy(&scale, &task->number[IMPORT_ARGUMENT_light_scale], sizeof scale);
-    return scale;
+// Returns the double whose bits an argument has.
+static double double_of(const Task *task, ImportArgument argument) {
+    double number;
+    memcpy(&number, &task->number[argument], sizeof number);
+    return number;
 }
 
 static bool load_and_hand_over(const Task *task) {
@@ -212,7 +218,11 @@ static bool load_and_hand_over(const Task *task) {
                     .shading = task->number[IMPORT_ARGUMENT_flat] == 1 ? DIP_MODEL_SHADING_flat
                                                                        : DIP_MODEL_SHADING_auto,
                     .has_light_scale = task->number[IMPORT_ARGUMENT_has_light_scale] == 1,
-                    .light_scale = light_scale_of(task)},
+                    .light_scale = double_of(task, IMPORT_ARGUMENT_light_scale),
+                    .animation = (DipModelAnimation)task->number[IMPORT_ARGUMENT_animation],
+                    .animation_name = task->animation_name,
+                    .animation_is_held = task->number[IMPORT_ARGUMENT_animation_is_held] == 1,
+                    .animation_held_s = double_of(task, IMPORT_ARGUMENT_animation_held_s)},
         .pool = pool,
         .warnings = &pack.warnings,
         .note_file = IMPORT_PACK_FILE,

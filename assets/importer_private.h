@@ -1,10 +1,11 @@
 // What the program and its importer process agree on. Private to importer.c and importer_child.c.
 //
-// The importer's arguments are import_mark, those of IMPORT_ARGUMENT_LIST, those of
-// IMPORT_RULE_ARGUMENT_LIST for each rule, and the model files. It
-// inherits two files: the pack file, which it fills and seals, and the writing end of a pipe. At
-// its end it writes one byte to the pipe: 0 if the pack is complete and sealed, otherwise the errno
-// that says why there is no pack. If the importer ends earlier, the program finds the pipe closed.
+// The importer's arguments are import_mark, those of IMPORT_ARGUMENT_LIST, the name of the
+// animation or an empty text, those of IMPORT_RULE_ARGUMENT_LIST for each rule, and the model
+// files. It inherits two files: the pack file, which it fills and seals, and the writing end of a
+// pipe. At its end it writes one byte to the pipe: 0 if the pack is complete and sealed, otherwise
+// the errno that says why there is no pack. If the importer ends earlier, the program finds the
+// pipe closed.
 #ifndef DIP_ASSETS_IMPORTER_PRIVATE_H
 #define DIP_ASSETS_IMPORTER_PRIVATE_H
 
@@ -14,18 +15,21 @@ enum { IMPORT_PACK_FILE = 3, IMPORT_PIPE = 4 };
 
 // The arguments before the files, as X(name). All are decimal numbers.
 #define IMPORT_ARGUMENT_LIST(X)                                                                    \
-    X(version)         /* IMPORT_VERSION */                                                        \
-    X(program_id)      /* process id of the program */                                             \
-    X(threads)         /* number of threads that decode pictures */                                \
-    X(normal_maps)     /* 1: normal maps are loaded, 0: not */                                     \
-    X(up)              /* a DipUpAxis */                                                           \
-    X(rules)           /* number of rules that mark materials */                                   \
-    X(flat)            /* 1: triangles of lit meshes get the normals of their faces, 0: not */     \
-    X(has_light_scale) /* 1: light_scale is given, 0: it is computed */                            \
-    X(light_scale)     /* bits of a double */                                                      \
-    X(picture_only)    /* 1: the only file is a picture, 0: the files are models */                \
-    X(memory_bytes)    /* limit of memory */                                                       \
-    X(cpu_s)           /* limit of processor time */
+    X(version)           /* IMPORT_VERSION */                                                      \
+    X(program_id)        /* process id of the program */                                           \
+    X(threads)           /* number of threads that decode pictures */                              \
+    X(normal_maps)       /* 1: normal maps are loaded, 0: not */                                   \
+    X(up)                /* a DipUpAxis */                                                         \
+    X(rules)             /* number of rules that mark materials */                                 \
+    X(flat)              /* 1: triangles of lit meshes get the normals of their faces, 0: not */   \
+    X(has_light_scale)   /* 1: light_scale is given, 0: it is computed */                          \
+    X(light_scale)       /* bits of a double */                                                    \
+    X(animation)         /* a DipModelAnimation */                                                 \
+    X(animation_is_held) /* 1: the animation stands still, 0: it plays */                          \
+    X(animation_held_s)  /* bits of a double: where it stands still */                             \
+    X(picture_only)      /* 1: the only file is a picture, 0: the files are models */              \
+    X(memory_bytes)      /* limit of memory */                                                     \
+    X(cpu_s)             /* limit of processor time */
 
 typedef enum ImportArgument {
 #define IMPORT_ARGUMENT_ENUM(name) IMPORT_ARGUMENT_##name,
@@ -57,7 +61,7 @@ _Static_assert((int)IMPORT_RULE_ARGUMENT_COUNT == (int)DIP_IMPORTER_RULE_ARGUMEN
 // remove this argument.
 static const char import_mark[] = "--";
 
-enum { IMPORT_VERSION = 3, IMPORT_NUMBER_BYTES = 24 };
+enum { IMPORT_VERSION = 4, IMPORT_NUMBER_BYTES = 24 };
 
 // 1 in builds with a sanitizer. AddressSanitizer does not start in a process whose address space is
 // limited, and it reports to the standard error output.

@@ -293,20 +293,26 @@ static void release_scenes(DipModel *model) {
     }
 }
 
-static void finish(DipModel *model) {
+static bool finish(DipModel *model, DipError *err) {
     release_scenes(model);
     model->rules = NULL;
+    model->animation_name = NULL;
     model->rule_count = 0;
     model->def.textures = model->textures;
     model->def.materials = model->materials;
     model->def.meshes = model->meshes;
     model->def.objects = model->objects;
     memcpy(model->def.background_lin, background_lin, sizeof background_lin);
-    const DipModelBounds bounds = dip_model_bounds(model);
-    model->def.near_m = dip_model_near_distance(&bounds);
-    dip_model_scale_lights(model, &bounds);
+    dip_model_finish_motion(model);
     model->def.sky = dip_sky_default();
     model->warnings = NULL;
+    DipModelBounds bounds;
+    if (!dip_model_bounds(model, &bounds, err)) {
+        return false;
+    }
+    model->def.near_m = dip_model_near_distance(&bounds);
+    dip_model_scale_lights(model, &bounds);
+    return true;
 }
 
 static bool note(const DipModelLoad *load, DipImportStage stage, int file) {
@@ -320,7 +326,7 @@ static bool load_parts(DipModel *model, const DipModelLoad *load, DipError *err)
         note(load, DIP_IMPORT_READS, i);
         ok = load_file(model, i, load->files[i], err);
     }
-    ok = ok && dip_model_check_rules(model, err);
+    ok = ok && dip_model_check_rules(model, err) && dip_model_check_animation(model, err);
     const int64_t imported_ns = dip_clock_ns();
     note(load, DIP_IMPORT_PICTURES, 0);
     ok = ok && dip_model_decode_pictures(model, load->pool, err) &&
@@ -365,14 +371,16 @@ DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
     model->rule_count = load->options.rule_count;
     model->has_light_scale = load->options.has_light_scale;
     model->light_scale = load->options.light_scale;
+    model->animation = load->options.animation;
+    model->animation_name = load->options.animation_name;
+    model->animation_is_held = load->options.animation_is_held;
+    model->animation_held_s = load->options.animation_held_s;
     model->files = calloc((size_t)load->file_count, sizeof *model->files);
     const bool ok =
         load->picture_only ? load_picture(model, load, err) : load_parts(model, load, err);
-    if (!ok) {
+    if (!ok || !finish(model, err)) {
         dip_model_destroy(&model);
-        return NULL;
     }
-    finish(model);
     return model;
 }
 
@@ -463,9 +471,11 @@ void dip_model_destroy(DipModel **model_pointer) {
     for (int i = 0; i < model->block_count; ++i) {
         free(model->blocks[i]);
     }
-    void *const arrays[] = {model->textures, model->texture_keys, model->materials, model->plans,
-                            model->meshes,   model->mesh_keys,    model->objects,   model->pictures,
-                            model->merged,   model->blocks,       model->files,     model->lights};
+    void *const arrays[] = {
+        model->textures, model->texture_keys, model->materials,      model->plans,
+        model->meshes,   model->mesh_keys,    model->objects,        model->pictures,
+        model->merged,   model->blocks,       model->files,          model->lights,
+        model->clips,    model->rigs,         model->moving_objects, model->moving_meshes};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; ++i) {
         free(arrays[i]);
     }
@@ -474,6 +484,11 @@ void dip_model_destroy(DipModel **model_pointer) {
 
 const DipSceneDef *dip_model_scene_def(const DipModel *model) {
     return &model->def;
+}
+
+const char *const *dip_model_animations(const DipModel *model, int *count) {
+    *count = model->clip_count;
+    return model->clip_names;
 }
 
 DipModelTimes dip_model_times(const DipModel *model) {

@@ -5,7 +5,8 @@
 // - Polygons are triangulated. Points and lines are left out with a warning.
 // - A mesh without normals gets normals: in glTF those of its triangles; in other formats they are
 //   smooth where faces meet at less than 60 degrees.
-// - In glTF, skins and morph targets have their shape at rest.
+// - Files of glTF 2 may play an animation (DipModelOptions.animation). Without one, skins and morph
+//   targets have their shape at rest. Animations of other formats are not played.
 // - A mesh that several nodes use stays one mesh with several objects. A node that mirrors uses the
 //   same mesh; the renderer turns the winding back (docs/picture.md, Coverage).
 // - Base colours and vertex colours are linear in glTF. In all other formats they are taken as
@@ -137,6 +138,16 @@ extern DIP_API const char *const dip_model_shading_names[DIP_MODEL_SHADING_COUNT
 // sRGB code 89, about a tenth of white.
 #define DIP_MODEL_AMBIENT_LIN 0.0998987f
 
+// Which animation of each file plays.
+typedef enum DipModelAnimation {
+    DIP_MODEL_ANIMATION_NONE,
+    DIP_MODEL_ANIMATION_FIRST,
+    DIP_MODEL_ANIMATION_NAMED, // files without one of this name stand still
+} DipModelAnimation;
+
+// The key of the error that a load fails with because no file has the named animation.
+#define DIP_MODEL_ANIMATION_KEY "animation"
+
 // How dip_model_load_with loads a model. A zeroed struct gives what dip_model_load does.
 typedef struct DipModelOptions {
     bool normal_maps; // True: normal maps are loaded, too.
@@ -158,6 +169,10 @@ typedef struct DipModelOptions {
     // (docs/models.md, Lights).
     bool has_light_scale;
     double light_scale;
+    DipModelAnimation animation;
+    const char *animation_name; // NAMED: its name. Used only during the load.
+    bool animation_is_held;     // true: the animation stands still at animation_held_s
+    double animation_held_s;    // finite
     // The program that imports the files in a process of its own. NULL: the files are imported in
     // this process, where a bad file can crash the libraries that read it. Use NULL for trusted
     // files only.
@@ -167,7 +182,8 @@ typedef struct DipModelOptions {
 // Like dip_model_load, but with options. If options->importer is not NULL, the pool only says how
 // many threads the importer uses. Further codes: RUNTIME (the importer crashed or cannot be
 // started), OVERSIZED (the importer needed more memory or time than its limits), UNKNOWN (a rule
-// fits no material; file, line and key are the rule's), and all codes of a light map that a rule
+// fits no material; file, line and key are the rule's; or no file has the named animation: the key
+// is DIP_MODEL_ANIMATION_KEY), and all codes of a light map that a rule
 // names and that cannot be read.
 DIP_API DipModel *dip_model_load_with(const char *const *files, int file_count,
                                       const DipModelOptions *options, DipPool *pool,
@@ -182,6 +198,10 @@ typedef struct DipModelTimes {
     double pictures_ms; // reading and decoding pictures
 } DipModelTimes;
 DIP_API DipModelTimes dip_model_times(const DipModel *model);
+
+// Returns the names of the animations of all files, each once, in the order of the files. They
+// belong to the model.
+DIP_API const char *const *dip_model_animations(const DipModel *model, int *count);
 
 // The description belongs to the model and is valid until the model is destroyed. dip_scene_create
 // copies what it needs.

@@ -11,6 +11,7 @@
 #include "assets/model.h"
 #include "assets/picture.h"
 #include "assets/pack/scene_pack.h"
+#include "renderer/scene/motion.h"
 #include "renderer/scene/scene.h"
 
 #include <stdbool.h>
@@ -148,6 +149,18 @@ struct DipModel {
     bool has_light_scale;  // false: dip_model_scale_lights computes the factor
     double light_scale;
     DipLightingDef lighting;
+    // The animation that shall play, and whether its clips stand still at a time.
+    DipModelAnimation animation;
+    const char *animation_name; // the caller's, used only during the load
+    bool animation_is_held;
+    double animation_held_s;
+    const char **clips;            // an array that grows
+    const char *const *clip_names; // the names of the files' animations, each once
+    int clip_count;
+    DipMotionDef motion;
+    DipMotionRig *rigs;
+    DipMovingObject *moving_objects;
+    DipMovingMesh *moving_meshes;
     // The model of an importer has only a pack, whose scene is `def`, and the pack's bytes.
     DipScenePack pack;
     void *pack_bytes; // mapped memory, or NULL
@@ -220,8 +233,9 @@ typedef struct DipModelBounds {
     double diagonal; // length
 } DipModelBounds;
 
-// bounds.c: computes the bounds, and the distance of the near plane that suits them.
-DipModelBounds dip_model_bounds(const DipModel *model);
+// bounds.c: computes the bounds over all moments of the model's motion, and the distance of the
+// near plane that suits them. The bounds fail when memory runs out.
+bool dip_model_bounds(const DipModel *model, DipModelBounds *to, DipError *err);
 float dip_model_near_distance(const DipModelBounds *bounds);
 
 // lights.c: adds the lights of an imported file to the model. world: see dip_model_up_transform.
@@ -255,6 +269,29 @@ bool dip_model_light(DipModel *model, const DipModelLoad *load, DipError *err);
 // flat.c: gives every triangle of the lit meshes vertices of its own, with the normal of its face.
 // Fails when memory runs out.
 bool dip_model_flatten(DipModel *model, DipError *err);
+
+// motion.c: adds the name of an animation to the model's list. Returns false when memory runs out.
+bool dip_model_note_clip(DipModel *model, const char *name);
+
+// motion.c: returns which of a file's animations plays, or DIP_NOT_FOUND.
+int dip_model_choose_clip(const DipModel *model, const char *const *names, int count);
+
+// motion.c: fails with UNKNOWN if no file has the animation that shall play.
+bool dip_model_check_animation(const DipModel *model, DipError *err);
+
+// motion.c: add a copy of a rig, and what moves with the rig that is added next. Objects and meshes
+// are added in their order in the scene. The arrays of a mesh belong to the model. Return false
+// when memory runs out.
+bool dip_model_add_rig(DipModel *model, const DipMotionRig *rig);
+bool dip_model_add_moving_object(DipModel *model, const DipMovingObject *object);
+bool dip_model_add_moving_mesh(DipModel *model, const DipMovingMesh *mesh);
+
+// motion.c: describes the motion in the model's scene, if anything moves.
+void dip_model_finish_motion(DipModel *model);
+
+// motion.c: gives the `count` corners of a mesh vertices of their own in its motion, if it has any.
+// The mesh then has the normals of its triangles. Returns false when memory runs out.
+bool dip_model_flatten_motion(DipModel *model, int mesh, const uint32_t *indices, uint32_t count);
 
 // mesh.c: true if a processed mesh consists of triangles.
 bool dip_mesh_is_triangles(const struct aiMesh *mesh);

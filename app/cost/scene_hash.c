@@ -2,6 +2,7 @@
 #include "app/cost/plan.h"
 
 #include "renderer/base/hash.h"
+#include "renderer/scene/motion.h"
 
 static void hash_textures(const DipSceneDef *def, DipHash *hash) {
     for (int t = 0; t < def->texture_count; t++) {
@@ -68,6 +69,62 @@ static void hash_objects(const DipSceneDef *def, DipHash *hash) {
     dip_hash_number(hash, (double)def->near_m);
 }
 
+static void hash_rig(const DipMotionRig *rig, DipHash *hash) {
+    const double numbers[] = {rig->duration_s, rig->is_held ? rig->held_s : -1.0};
+    dip_hash_bytes(hash, numbers, sizeof numbers);
+    dip_hash_bytes(hash, rig->root, sizeof rig->root);
+    for (int n = 0; n < rig->rig.node_count; n++) {
+        const DipRigNode *node = &rig->rig.nodes[n];
+        dip_hash_integer(hash, node->parent);
+        dip_hash_integer(hash, node->has_matrix);
+        dip_hash_bytes(hash, node->matrix, sizeof node->matrix);
+        dip_hash_bytes(hash, node->translation, sizeof node->translation);
+        dip_hash_bytes(hash, node->rotation, sizeof node->rotation);
+        dip_hash_bytes(hash, node->scale, sizeof node->scale);
+    }
+    dip_hash_bytes(hash, rig->rig.rest_weights,
+                   (size_t)rig->rig.weight_count * sizeof *rig->rig.rest_weights);
+    for (int s = 0; s < rig->skin_count; s++) {
+        const DipRigSkin *skin = &rig->skins[s];
+        const size_t joints = (size_t)skin->joint_count;
+        dip_hash_bytes(hash, skin->nodes, joints * sizeof *skin->nodes);
+        dip_hash_bytes(hash, skin->inverse_binds, 12 * joints * sizeof *skin->inverse_binds);
+    }
+    for (int t = 0; t < rig->track_count; t++) {
+        const DipTrack *track = &rig->tracks[t];
+        const int values[] = {(int)track->target, (int)track->interpolation, track->node};
+        dip_hash_bytes(hash, values, sizeof values);
+        dip_hash_bytes(hash, track->times, track->key_count * sizeof *track->times);
+        dip_hash_bytes(hash, track->values, dip_track_value_count(track) * sizeof *track->values);
+    }
+}
+
+// A scene without motion has the hash that it had before motions existed.
+static void hash_motion(const DipMotionDef *motion, DipHash *hash) {
+    for (int r = 0; motion && r < motion->rig_count; r++) {
+        hash_rig(&motion->rigs[r], hash);
+    }
+    for (int o = 0; motion && o < motion->object_count; o++) {
+        const DipMovingObject *object = &motion->objects[o];
+        const int values[] = {object->object, object->rig, object->node};
+        dip_hash_bytes(hash, values, sizeof values);
+        dip_hash_bytes(hash, object->offset, sizeof object->offset);
+    }
+    for (int m = 0; motion && m < motion->mesh_count; m++) {
+        const DipMovingMesh *mesh = &motion->meshes[m];
+        const int values[] = {mesh->mesh, mesh->rig, mesh->node, mesh->skin, mesh->shape_count};
+        const size_t vertices = mesh->vertex_count;
+        const size_t floats = 3 * vertices * (size_t)mesh->shape_count;
+        dip_hash_bytes(hash, values, sizeof values);
+        dip_hash_bytes(hash, mesh->positions, floats * sizeof(float));
+        dip_hash_bytes(hash, mesh->normals, mesh->normals ? floats * sizeof(float) : 0);
+        if (mesh->skin != DIP_NO_SKIN) {
+            dip_hash_bytes(hash, mesh->joints, 4 * vertices * sizeof *mesh->joints);
+            dip_hash_bytes(hash, mesh->joint_weights, 4 * vertices * sizeof(float));
+        }
+    }
+}
+
 static void hash_sky(const DipSkyDef *sky, DipHash *hash) {
     for (int i = 0; i < 2; i++) {
         dip_hash_number(hash, (double)sky->layers[i].scale);
@@ -97,6 +154,7 @@ void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflect
     hash_materials(def, &hash);
     hash_meshes(def, &hash);
     hash_objects(def, &hash);
+    hash_motion(def->motion, &hash);
     hash_sky(&def->sky, &hash);
     hash_reflection(reflection, &hash);
     dip_hash_hex(&hash, hex);

@@ -3,6 +3,8 @@
 // ground. Computes with + - * / alone, so that the texture has the same bits on every machine.
 #include "app/session/ground.h"
 
+#include "renderer/scene/motion.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,6 +65,20 @@ static void visit_triangles(const DipSceneDef *def, Visit visit, void *context) 
     }
 }
 
+// Calls the function for each triangle at each of several moments of the scene's clips. Without
+// memory for the moved scene, visits the scene at rest.
+static void visit_moments(const DipSceneDef *def, int moments, Visit visit, void *context) {
+    DipPosedDef *posed = def->motion ? dip_posed_def_create(def, NULL) : NULL;
+    for (int k = 0; posed && k < moments; k++) {
+        dip_posed_def_set_share(posed, (double)k / moments);
+        visit_triangles(dip_posed_def(posed), visit, context);
+    }
+    if (!posed) {
+        visit_triangles(def, visit, context);
+    }
+    dip_posed_def_destroy(&posed);
+}
+
 // --- extent and silhouette -----------------------------------------------------------------------
 
 typedef struct ExtentJob {
@@ -84,7 +100,7 @@ static void extend(void *context, const Point corners[3]) {
 
 DipExtent dip_extent_of(const DipSceneDef *def) {
     ExtentJob job = {.found = false};
-    visit_triangles(def, extend, &job);
+    visit_moments(def, DIP_MOTION_MOMENTS, extend, &job);
     return job.extent;
 }
 
@@ -113,7 +129,7 @@ DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent)
     for (int i = 0; i < DIP_SILHOUETTE_SLICES; i++) {
         job.silhouette.radius[i] = -1.0;
     }
-    visit_triangles(def, widen, &job);
+    visit_moments(def, DIP_MOTION_MOMENTS, widen, &job);
     return job.silhouette;
 }
 
@@ -186,7 +202,7 @@ static void fill_grid(Grid *grid, const DipSceneDef *def) {
     for (int i = 0; i < GRID * GRID; i++) {
         grid->height[i] = INFINITY;
     }
-    visit_triangles(def, draw_triangle, grid);
+    visit_moments(def, 1, draw_triangle, grid);
 }
 
 // --- where a ground is missing -------------------------------------------------------------------

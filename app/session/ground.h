@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-// The extent of a scene's objects that are not sky.
+// The extent of a scene's objects that are not sky, over all clips that play.
 typedef struct DipExtent {
     double low[3]; // All 0 if the scene has no such object with a triangle.
     double high[3];
@@ -18,7 +18,7 @@ DipExtent dip_extent_of(const DipSceneDef *def);
 
 // The silhouette of a scene as an orbit about the middle of its extent sees it: the height is
 // divided into slices, and each slice has the greatest distance of its vertices from the vertical
-// axis through the middle, or -1 if it has no vertex.
+// axis through the middle, or -1 if it has no vertex. Where clips play, it is that of all moments.
 enum { DIP_SILHOUETTE_SLICES = 64 };
 typedef struct DipSilhouette {
     double radius[DIP_SILHOUETTE_SLICES]; // From the lowest slice to the highest.
@@ -39,7 +39,8 @@ typedef struct DipGround {
     float uv[4][2];
 } DipGround;
 
-// Adds a ground to a scene. Returns NULL and fills *err with DIP_ERROR_MEMORY when memory runs out.
+// Adds a ground to a scene. Its shade is that of the clips' start. Returns NULL and fills *err with
+// DIP_ERROR_MEMORY when memory runs out.
 // The scene must outlive the ground.
 DipGround *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err);
 // *ground may be NULL and becomes NULL.

@@ -128,6 +128,15 @@ static const DipOptionRow scene_rows[] = {
              " Without lights, flat, gouraud and phong shade the fixed light of sky and sun. "
              "Without the option, the ini's SHADING decides; with --model, it is auto "
              "(docs/models.md)."},
+    {"--animation", "NAME", DIP_OPTION_TEXT, FIELD(animation),
+     .text =
+         "Play this animation of the models' glTF files, or `none`. Without the option, the first "
+         "animation of each file plays. A file without an animation of this name stands still."},
+    {"--animation-time", "S", DIP_OPTION_NUMBER, FIELD(animation_time_s),
+     .given = FIELD(has_animation_time), .least = 0.0, .most = 1e6,
+     .accepted = "a time from 0 to 1,000,000 seconds",
+     .text = "Let the animation stand still at S seconds, in every frame. It repeats, as it does "
+             "while it plays."},
     {"--import-seconds", "N", DIP_OPTION_INTEGER, FIELD(import_seconds), .least = 1,
      .most = DIP_IMPORT_MAX_WALL_S,
      .text = "Refuse the models if reading them takes more than N seconds. The default is 120."},

@@ -138,6 +138,17 @@ static void set_light(const DipSession *session, float ambient_lin[3], DipModelO
     }
 }
 
+// Sets which animation plays, and whether it stands still.
+static void set_animation(const DipSession *session, DipModelOptions *options) {
+    const char *name = session->options->animation;
+    options->animation = !name                       ? DIP_MODEL_ANIMATION_FIRST
+                         : strcmp(name, "none") == 0 ? DIP_MODEL_ANIMATION_NONE
+                                                     : DIP_MODEL_ANIMATION_NAMED;
+    options->animation_name = name;
+    options->animation_is_held = session->options->has_animation_time;
+    options->animation_held_s = session->options->animation_time_s;
+}
+
 int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX_MODELS]) {
     const DipSessionOptions *options = session->options;
     const DipConfigFiles *named = &session->config.xfile;
@@ -162,6 +173,7 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
                                .importer = session->importer ? &importer : NULL};
     float ambient_lin[3];
     set_light(session, ambient_lin, &options);
+    set_animation(session, &options);
     DipModel *model = dip_model_load_with(files, count, &options, session->pool, faults, err);
     if (model) {
         *def = *dip_model_scene_def(model);

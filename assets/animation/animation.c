@@ -158,6 +158,13 @@ DipAnimatedModel *dip_animated_model_make(const char *path) {
     return model;
 }
 
+DipRig dip_animated_rig(const DipAnimatedModel *model) {
+    return (DipRig){.nodes = model->nodes,
+                    .node_count = model->node_count,
+                    .rest_weights = model->rest_weights,
+                    .weight_count = model->weight_count};
+}
+
 DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImporter *importer,
                                           DipErrorList *warnings, DipError *err) {
     DIP_FP_MODE_SCOPE();

@@ -380,7 +380,7 @@ static bool make_object(Md2 *md2) {
     model->objects[0] = (DipAnimatedObject){.name = "model"};
     model->plans[0] = (DipObjectPlan){.node = 0, .skin = DIP_NO_SKIN};
     model->nodes[0] =
-        (DipAnimatedNode){.parent = DIP_NO_NODE, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+        (DipRigNode){.parent = DIP_NO_NODE, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
     model->def.object_count = 1;
     model->node_count = 1;
     return true;

@@ -6,55 +6,11 @@
 
 #include "assets/animation.h"
 #include "assets/model_parts.h"
+#include "renderer/scene/rig.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-enum { DIP_NO_NODE = -1, DIP_NO_SKIN = -1 };
-
-// Which property of a node a track moves.
-typedef enum DipTrackTarget {
-    DIP_TRACK_TRANSLATION,
-    DIP_TRACK_ROTATION,
-    DIP_TRACK_SCALE,
-    DIP_TRACK_WEIGHTS
-} DipTrackTarget;
-
-typedef enum DipInterpolation {
-    DIP_INTERPOLATION_STEP,
-    DIP_INTERPOLATION_LINEAR,
-    DIP_INTERPOLATION_CUBICSPLINE
-} DipInterpolation;
-
-// The values of one property over time: a channel of a glTF animation with its sampler.
-typedef struct DipTrack {
-    DipTrackTarget target;
-    DipInterpolation interpolation;
-    int node;
-    int width;           // Numbers of a value: 3, 4 (rotation) or the number of morph targets.
-    uint32_t key_count;  // At least 1.
-    const float *times;  // In seconds, ascending.
-    const float *values; // One per key; CUBICSPLINE: in-tangent, value and out-tangent per key.
-} DipTrack;
-
-// A node at rest. A node with a matrix has no tracks except for weights.
-typedef struct DipAnimatedNode {
-    int parent; // Index of a node, or DIP_NO_NODE.
-    bool has_matrix;
-    double matrix[12]; // rows of a 3x4 matrix
-    double translation[3];
-    double rotation[4]; // unit quaternion x, y, z, w
-    double scale[3];
-    int first_weight; // Index of the node's first morph weight among those of all nodes.
-    int weight_count;
-} DipAnimatedNode;
-
-typedef struct DipAnimatedSkin {
-    int joint_count;
-    const int *nodes;            // The node of each joint.
-    const double *inverse_binds; // A 3x4 matrix for each joint.
-} DipAnimatedSkin;
 
 // What an object needs for its pose.
 typedef struct DipObjectPlan {
@@ -87,11 +43,11 @@ struct DipAnimatedModel {
     DipAnimation *animations;
     DipAnimationPlan *animation_plans;
     DipKeyFrame *key_frames;
-    DipAnimatedNode *nodes; // A node comes after its parent.
+    DipRigNode *nodes; // A node comes after its parent.
     int node_count;
     float *rest_weights; // The morph weights of all nodes at rest.
     int weight_count;
-    DipAnimatedSkin *skins;
+    DipRigSkin *skins;
     int skin_count;
 };
 
@@ -99,18 +55,8 @@ struct DipAnimatedModel {
 // memory runs out.
 DipAnimatedModel *dip_animated_model_make(const char *path);
 
-// animation_pose.c: to = a * b, for 3x4 matrices whose fourth row is 0, 0, 0, 1. `to` is neither a
-// nor b.
-void dip_animated_multiply(const double a[12], const double b[12], double to[12]);
-
-// animation_pose.c: computes the transform of a node at rest relative to its parent.
-void dip_animated_local(const DipAnimatedNode *node, double local[12]);
-
-// animation_pose.c: computes the world transform (rows of a 3x4 matrix) of a node at a time of an
-// animation, of which `plan` may hold only the tracks that move the node or the nodes above it.
-// Before the first key of a track and after the last one, the value of this key holds.
-void dip_animated_place_node(const DipAnimatedModel *model, const DipAnimationPlan *plan, int node,
-                             double time_s, double world[12]);
+// animation.c: the rig of the model's nodes.
+DipRig dip_animated_rig(const DipAnimatedModel *model);
 
 // animation.c: allocates zeroed memory that lives as long as the model. Returns NULL if memory runs
 // out or the model becomes too large; dip_animated_no_room then fills *err and returns false.

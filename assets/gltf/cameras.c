@@ -183,11 +183,12 @@ static bool sample_keys(const Source *source, DipModelCamera *camera, bool *ok) 
     if (!keys) {
         return dip_gltf_no_room(reader);
     }
+    const DipRig rig = dip_animated_rig(reader->model);
     for (size_t i = 0; *ok && i <= steps; ++i) {
         double world[12];
         const double time_s = steps > 0 ? duration_s * (double)i / (double)steps : duration_s;
-        dip_animated_place_node(reader->model, &source->chain, source->node,
-                                snap(&source->chain, time_s), world);
+        dip_rig_place_node(&rig, source->chain.tracks, source->chain.track_count, source->node,
+                           snap(&source->chain, time_s), world);
         turn_up(source->up, world);
         *ok = key_of(world, keys[i]);
     }

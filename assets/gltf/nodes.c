@@ -74,7 +74,7 @@ static bool order_nodes(DipGltfReader *reader, int *parents, int *path) {
         }
     }
     for (int i = 0; i < count; ++i) {
-        DipAnimatedNode *node = &reader->model->nodes[reader->node_of[i]];
+        DipRigNode *node = &reader->model->nodes[reader->node_of[i]];
         node->parent = parents[i] == DIP_NO_NODE ? DIP_NO_NODE : reader->node_of[parents[i]];
     }
     return true;
@@ -82,7 +82,7 @@ static bool order_nodes(DipGltfReader *reader, int *parents, int *path) {
 
 // --- nodes at rest -------------------------------------------------------------------------------
 
-static bool read_transform(DipGltfReader *reader, const cJSON *json, DipAnimatedNode *node) {
+static bool read_transform(DipGltfReader *reader, const cJSON *json, DipRigNode *node) {
     const DipGltf *gltf = &reader->gltf;
     double columns[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     node->rotation[3] = 1.0;
@@ -103,7 +103,7 @@ static bool read_transform(DipGltfReader *reader, const cJSON *json, DipAnimated
 }
 
 // Reads the weights of a node's morph targets: its own, those of its mesh, or zeros.
-static bool read_weights(DipGltfReader *reader, const cJSON *json, DipAnimatedNode *node) {
+static bool read_weights(DipGltfReader *reader, const cJSON *json, DipRigNode *node) {
     const DipGltf *gltf = &reader->gltf;
     int mesh;
     if (!dip_gltf_integer(gltf, json, "mesh", -1, &mesh)) {
@@ -133,7 +133,7 @@ static bool place_weights(DipGltfReader *reader) {
     size_t all = 0;
     for (int i = 0; i < model->node_count; ++i) {
         const cJSON *json = dip_gltf_item(&reader->gltf, DIP_GLTF_nodes, i);
-        DipAnimatedNode *node = &model->nodes[reader->node_of[i]];
+        DipRigNode *node = &model->nodes[reader->node_of[i]];
         int mesh;
         if (!dip_gltf_integer(&reader->gltf, json, "mesh", -1, &mesh) ||
             (mesh >= 0 && !dip_gltf_item(&reader->gltf, DIP_GLTF_meshes, mesh))) {
@@ -156,7 +156,7 @@ static bool read_all_nodes(DipGltfReader *reader) {
     const int count = reader->gltf.tables[DIP_GLTF_nodes].count;
     for (int i = 0; i < count; ++i) {
         const cJSON *json = dip_gltf_item(&reader->gltf, DIP_GLTF_nodes, i);
-        DipAnimatedNode *node = &reader->model->nodes[reader->node_of[i]];
+        DipRigNode *node = &reader->model->nodes[reader->node_of[i]];
         if (!json || !read_transform(reader, json, node) || !read_weights(reader, json, node)) {
             return false;
         }
@@ -209,7 +209,7 @@ static bool read_skin(DipGltfReader *reader, int index) {
              dip_gltf_refuse(gltf, DIP_ERROR_RANGE, "joints", "joint %d is not a node", i);
         nodes[i] = ok ? reader->node_of[(int)node] : 0;
     }
-    reader->model->skins[index] = (DipAnimatedSkin){list.count, nodes, matrices};
+    reader->model->skins[index] = (DipRigSkin){list.count, nodes, matrices};
     dip_gltf_free_list(&list);
     return ok;
 }

@@ -1,8 +1,8 @@
 // The state of the reader of glTF files, shared by its parts. Private to assets/.
 //
-// The same reader serves three purposes. Scenes (scene.c) need all attributes of the meshes, but no
-// animations. Animated models (animation/animation_gltf.c) keep what DipAnimatedMesh can hold.
-// Cameras (cameras.c) need nodes and animations only.
+// The same reader serves three purposes. Scenes (scene.c) need all attributes of the meshes, and at
+// most one animation. Animated models (animation/animation_gltf.c) keep what DipAnimatedMesh can
+// hold. Cameras (cameras.c) need nodes and animations only.
 #ifndef DIP_ASSETS_GLTF_READER_H
 #define DIP_ASSETS_GLTF_READER_H
 
@@ -73,6 +73,9 @@ bool dip_gltf_read_transforms(DipGltfReader *reader);
 
 // tracks.c: reads all animations.
 bool dip_gltf_read_animations(DipGltfReader *reader);
+
+// tracks.c: reads one animation. The others keep their place in the model's arrays, empty.
+bool dip_gltf_read_animation(DipGltfReader *reader, int index);
 
 // scene.c: reads a file into a scene while a model is loaded. root: the transform of the whole file
 // (rows of a 3x4 matrix). The file's document stays open in model->files[file].gltf. *is_version_1

@@ -46,9 +46,15 @@ static bool has_skin(const DipGltfScene *scene, int object) {
     return dip_animated_pose_object(scene->pose, object)->joint_transforms != NULL;
 }
 
+// How a mesh of a node is placed.
+typedef struct Placement {
+    double world[12];
+    double offset[12]; // its transform relative to the node
+} Placement;
+
 // Adds one object of the node. A skin places its mesh itself.
 static bool add_object(DipGltfScene *scene, int object, const DipGltfNodeState *state,
-                       const double world[12]) {
+                       const Placement *placement) {
     const DipAnimatedModel *from = scene->reader.model;
     const int part = from->objects[object].mesh;
     const int material = dip_gltf_scene_material(scene, part, state);
@@ -58,19 +64,21 @@ static bool add_object(DipGltfScene *scene, int object, const DipGltfNodeState *
     if (scene->model->plans[material].invisible) {
         return true;
     }
-    const int posed = is_posed(scene, object) ? object : DIP_NOT_FOUND;
-    const int mesh = dip_gltf_scene_mesh(scene, part, posed, material);
-    return mesh >= 0 && dip_model_add_object(scene->model, scene->file, mesh,
-                                             has_skin(scene, object) ? scene->root : world,
-                                             from->objects[object].name, scene->reader.gltf.err);
+    const bool own_shape = is_posed(scene, object) || dip_gltf_scene_deforms(scene, object);
+    const int mesh = dip_gltf_scene_mesh(scene, part, own_shape ? object : DIP_NOT_FOUND, material);
+    const double *world = has_skin(scene, object) ? scene->root : placement->world;
+    return mesh >= 0 &&
+           dip_model_add_object(scene->model, scene->file, mesh, world, from->objects[object].name,
+                                scene->reader.gltf.err) &&
+           dip_gltf_scene_move_object(scene, object, placement->offset);
 }
 
 // Adds an object for each part of the node's mesh.
 static bool add_parts(DipGltfScene *scene, int node, int mesh, const DipGltfNodeState *state,
-                      const double world[12]) {
+                      const Placement *placement) {
     const int first = scene->reader.first_object[node];
     for (int i = first; i < first + scene->reader.meshes[mesh].count; ++i) {
-        if (!add_object(scene, i, state, world)) {
+        if (!add_object(scene, i, state, placement)) {
             return false;
         }
     }
@@ -111,17 +119,16 @@ static bool read_instances(DipGltf *gltf, const cJSON *extension, Instances *ins
 }
 
 static void place_instance(const Instances *instances, uint32_t index, const double above[12],
-                           double world[12]) {
-    DipAnimatedNode node = {.rotation = {0.0, 0.0, 0.0, 1.0}, .scale = {1.0, 1.0, 1.0}};
+                           Placement *placement) {
+    DipRigNode node = {.rotation = {0.0, 0.0, 0.0, 1.0}, .scale = {1.0, 1.0, 1.0}};
     double *const values[3] = {node.translation, node.rotation, node.scale};
-    double local[12];
     for (int i = 0; i < 3; ++i) {
         for (int k = 0; instances->has[i] && k < instances->accessors[i].width; ++k) {
             values[i][k] = dip_gltf_number(&instances->accessors[i], index, k);
         }
     }
-    dip_animated_local(&node, local);
-    dip_animated_multiply(above, local, world);
+    dip_rig_local(&node, placement->offset);
+    dip_rig_multiply(above, placement->offset, placement->world);
 }
 
 static bool is_finite(const double world[12]) {
@@ -144,12 +151,12 @@ static bool add_instances(DipGltfScene *scene, const cJSON *extension, int node,
         return false;
     }
     for (uint32_t i = 0; i < instances.count; ++i) {
-        double world[12];
-        place_instance(&instances, i, state->world, world);
-        if (!is_finite(world)) {
+        Placement placement;
+        place_instance(&instances, i, state->world, &placement);
+        if (!is_finite(placement.world)) {
             return refuse_transform(&scene->reader.gltf, "EXT_mesh_gpu_instancing");
         }
-        if (!add_parts(scene, node, mesh, state, world)) {
+        if (!add_parts(scene, node, mesh, state, &placement)) {
             return false;
         }
     }
@@ -184,14 +191,16 @@ static bool is_hidden(const cJSON *node) {
 static bool add_node(DipGltfScene *scene, const cJSON *json, int node,
                      const DipGltfNodeState *state) {
     const cJSON *instancing = dip_gltf_extension(json, "EXT_mesh_gpu_instancing");
+    Placement placement = {.offset = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
     int mesh;
     if (!dip_gltf_integer(&scene->reader.gltf, json, "mesh", -1, &mesh)) {
         return false;
     }
+    memcpy(placement.world, state->world, sizeof placement.world);
     if (mesh >= 0 && scene->reader.meshes[mesh].count > 0) {
         const bool skinned = has_skin(scene, scene->reader.first_object[node]);
         const bool ok = instancing && !skinned ? add_instances(scene, instancing, node, mesh, state)
-                                               : add_parts(scene, node, mesh, state, state->world);
+                                               : add_parts(scene, node, mesh, state, &placement);
         if (!ok) {
             return false;
         }
@@ -218,7 +227,7 @@ static void push(Walk *walk, const cJSON *list) {
 
 static bool visit(Walk *walk, int node) {
     DipGltfScene *scene = walk->scene;
-    const DipAnimatedNode *placed = &scene->reader.model->nodes[scene->reader.node_of[node]];
+    const DipRigNode *placed = &scene->reader.model->nodes[scene->reader.node_of[node]];
     const cJSON *json = dip_gltf_item(&scene->reader.gltf, DIP_GLTF_nodes, node);
     const cJSON *name = cJSON_GetObjectItemCaseSensitive(json, "name");
     const char *key = cJSON_IsString(name) ? name->valuestring : NULL;
@@ -229,8 +238,8 @@ static bool visit(Walk *walk, int node) {
         return json != NULL;
     }
     memcpy(above, state->world, sizeof above);
-    dip_animated_local(placed, local);
-    dip_animated_multiply(above, local, state->world);
+    dip_rig_local(placed, local);
+    dip_rig_multiply(above, local, state->world);
     if (!is_finite(state->world)) {
         return refuse_transform(&scene->reader.gltf, key);
     }
@@ -318,7 +327,8 @@ static bool read_parts(DipGltfScene *scene) {
     from->def.meshes = from->meshes;
     from->def.objects = from->objects;
     scene->pose = dip_animated_pose_create(from, reader->gltf.err);
-    return scene->pose && walk_nodes(scene);
+    return scene->pose && dip_gltf_scene_choose_clip(scene) && walk_nodes(scene) &&
+           dip_gltf_scene_keep_clip(scene);
 }
 
 // Reads the open file.

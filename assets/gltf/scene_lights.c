@@ -103,5 +103,10 @@ bool dip_gltf_scene_light(DipGltfScene *scene, const cJSON *node, int index,
         return false;
     }
     const char *name = dip_gltf_name(&scene->reader, node, "light", index);
+    if (scene->is_moved[scene->reader.node_of[index]] &&
+        dip_gltf_warns_of(scene, DIP_GLTF_LOSS_MOVED_LIGHT)) {
+        dip_model_warn(scene->model, gltf->path, name,
+                       "lights stand still where the animation moves them");
+    }
     return name ? add(scene, json, name, world) : dip_gltf_no_room(&scene->reader);
 }

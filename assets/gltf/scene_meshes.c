@@ -13,6 +13,7 @@ typedef struct Shape {
     const float *positions;
     const float *normals; // NULL: every triangle gets the normal of its face
     uint32_t count;       // Number of vertices before equal ones are joined.
+    bool moves;           // The vertices move, so that equal ones are not joined.
 } Shape;
 
 // Without normals, each corner of a triangle becomes a vertex.
@@ -74,9 +75,20 @@ static uint32_t *make_indices(DipModel *model, const Shape *shape, const uint32_
     const uint32_t count = shape->mesh->index_count;
     uint32_t *to = dip_model_alloc(model, count, sizeof *to);
     for (uint32_t i = 0; to && i < count; ++i) {
-        to[i] = remap[shape->normals ? shape->mesh->indices[i] : i];
+        const uint32_t vertex = shape->normals ? shape->mesh->indices[i] : i;
+        to[i] = remap ? remap[vertex] : vertex;
     }
     return to;
+}
+
+// Gives a mesh its arrays as they are.
+static void set_arrays(const DipVertexArrays *arrays, uint32_t count, DipMeshDef *def) {
+    def->vertex_count = count;
+    def->positions = arrays->values[0];
+    def->normals = arrays->values[1];
+    def->uv0 = arrays->values[2];
+    def->uv1 = arrays->values[3];
+    def->colours_lin = arrays->values[4];
 }
 
 static bool fill(DipModel *model, const Shape *shape, const DipMaterialPlan *plan,
@@ -93,8 +105,10 @@ static bool fill(DipModel *model, const Shape *shape, const DipMaterialPlan *pla
         return false;
     }
     const DipVertexArrays arrays = {{positions, normals, uv0, uv1, colours}};
-    uint32_t *remap;
-    if (!dip_model_join(model, &arrays, shape->count, def, &remap)) {
+    uint32_t *remap = NULL;
+    if (shape->moves) {
+        set_arrays(&arrays, shape->count, def);
+    } else if (!dip_model_join(model, &arrays, shape->count, def, &remap)) {
         return false;
     }
     def->indices = make_indices(model, shape, remap);
@@ -150,6 +164,11 @@ static int add_posed_mesh(DipGltfScene *scene, Shape *shape, const DipMeshKey *k
         shape->normals = shape->part->has_normals ? normals : NULL;
         index = are_finite(scene, shape) ? add_mesh(scene, shape, key) : DIP_NOT_FOUND;
     }
+    if (index >= 0 && shape->moves &&
+        !dip_gltf_scene_move_mesh(scene, key->object, index, shape->count,
+                                  shape->normals ? NULL : shape->mesh->indices)) {
+        index = DIP_NOT_FOUND;
+    }
     free(positions);
     free(normals);
     return index;
@@ -167,6 +186,7 @@ int dip_gltf_scene_mesh(DipGltfScene *scene, int part, int object, int material)
                    .part = source,
                    .positions = mesh->positions,
                    .normals = source->has_normals ? mesh->normals : NULL};
+    shape.moves = object >= 0 && dip_gltf_scene_deforms(scene, object);
     shape.count = source->has_normals ? mesh->vertex_count : mesh->index_count;
     return object >= 0 ? add_posed_mesh(scene, &shape, &key) : add_mesh(scene, &shape, &key);
 }

@@ -115,7 +115,7 @@ static bool read_target(DipGltfReader *reader, const cJSON *channel, DipTrack *t
     track->node = reader->node_of[node];
     for (int i = 0; cJSON_IsString(path) && i <= DIP_TRACK_WEIGHTS; ++i) {
         if (strcmp(path->valuestring, paths[i]) == 0) {
-            const DipAnimatedNode *moved = &reader->model->nodes[track->node];
+            const DipRigNode *moved = &reader->model->nodes[track->node];
             track->target = (DipTrackTarget)i;
             track->width = i == DIP_TRACK_WEIGHTS ? moved->weight_count : widths[i];
             *used = track->width > 0;
@@ -200,13 +200,23 @@ static bool read_animation(DipGltfReader *reader, int index) {
     return ok;
 }
 
+static bool prepare(DipGltfReader *reader) {
+    DipAnimatedModel *model = reader->model;
+    const size_t count = (size_t)reader->gltf.tables[DIP_GLTF_animations].count;
+    model->animations = dip_gltf_alloc(reader, count, sizeof *model->animations);
+    model->animation_plans = dip_gltf_alloc(reader, count, sizeof *model->animation_plans);
+    return (model->animations && model->animation_plans) || dip_gltf_no_room(reader);
+}
+
+bool dip_gltf_read_animation(DipGltfReader *reader, int index) {
+    return prepare(reader) && read_animation(reader, index);
+}
+
 bool dip_gltf_read_animations(DipGltfReader *reader) {
     DipAnimatedModel *model = reader->model;
     const int count = reader->gltf.tables[DIP_GLTF_animations].count;
-    model->animations = dip_gltf_alloc(reader, (size_t)count, sizeof *model->animations);
-    model->animation_plans = dip_gltf_alloc(reader, (size_t)count, sizeof *model->animation_plans);
-    if (!model->animations || !model->animation_plans) {
-        return dip_gltf_no_room(reader);
+    if (!prepare(reader)) {
+        return false;
     }
     for (int i = 0; i < count; ++i) {
         if (!read_animation(reader, i)) {

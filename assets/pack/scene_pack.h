@@ -32,8 +32,11 @@ typedef enum DipImportStage {
 
 // The content of a pack: either a scene or the reason why there is none.
 typedef struct DipScenePack {
-    DipSceneDef scene; // Its sky is the default sky, which is not part of the pack.
-    DipPbrDef *pbrs;   // What the materials of a pack that was read point to.
+    DipSceneDef scene;              // Its sky is the default sky, which is not part of the pack.
+    DipPbrDef *pbrs;                // What the materials of a pack that was read point to.
+    struct DipPackedMotion *motion; // What the motion of a pack that was read points to.
+    const char *const *clips; // The names of the files' animations; owned by a pack that was read.
+    int clip_count;
     DipModelTimes times;
     DipErrorList warnings;
     DipError failure; // Why the import failed; the code is NONE if there is a scene.

@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 enum {
-    PACK_VERSION = 3, // Increase this number with every change of the layout.
+    PACK_VERSION = 4, // Increase this number with every change of the layout.
     PACK_ALIGNMENT = 64,
     PACK_MAX_RECORDS = 1 << 24 // Most records in a section.
 };
@@ -27,6 +27,13 @@ static const char pack_magic[8] = {'D', 'I', 'P', 'P', 'A', 'C', 'K', '\n'};
     X(meshes, PackMesh)                                                                            \
     X(objects, PackObject)                                                                         \
     X(lights, PackLight)                                                                           \
+    X(rigs, PackRig)                                                                               \
+    X(nodes, PackNode)                                                                             \
+    X(skins, PackSkin)                                                                             \
+    X(tracks, PackTrack)                                                                           \
+    X(moving_objects, PackMovingObject)                                                            \
+    X(moving_meshes, PackMovingMesh)                                                               \
+    X(clips, PackClip)                                                                             \
     X(warnings, PackError)                                                                         \
     X(failures, PackError)                                                                         \
     X(text, char)
@@ -137,6 +144,76 @@ typedef struct PackLight {
     float inner_deg;
     float outer_deg;
 } PackLight;
+
+// A DipMotionRig. Its nodes, skins and tracks follow those of the rig before it.
+typedef struct PackRig {
+    uint64_t clip;
+    double duration_s;
+    double held_s;
+    double root[12];
+    uint64_t rest_weights; // offset of an array: weight_count floats
+    uint32_t is_held;
+    uint32_t node_count;
+    uint32_t skin_count;
+    uint32_t track_count;
+    uint32_t weight_count;
+    uint32_t unused;
+} PackRig;
+
+typedef struct PackNode {
+    double matrix[12];
+    double translation[3];
+    double rotation[4];
+    double scale[3];
+    int32_t parent;
+    uint32_t has_matrix;
+    int32_t first_weight;
+    int32_t weight_count;
+} PackNode;
+
+typedef struct PackSkin {
+    uint64_t nodes;         // offset of an array: joint_count numbers of 32 bits
+    uint64_t inverse_binds; // offset of an array: joint_count rows of 12 doubles
+    uint32_t joint_count;
+    uint32_t unused;
+} PackSkin;
+
+typedef struct PackTrack {
+    uint64_t times;  // offset of an array: key_count floats
+    uint64_t values; // offset of an array of floats
+    uint32_t target;
+    uint32_t interpolation;
+    int32_t node;
+    int32_t width;
+    uint32_t key_count;
+    uint32_t unused;
+} PackTrack;
+
+typedef struct PackMovingObject {
+    double offset[12];
+    int32_t object;
+    int32_t rig;
+    int32_t node;
+    uint32_t unused;
+} PackMovingObject;
+
+typedef struct PackMovingMesh {
+    uint64_t positions; // offsets of arrays: shape_count * vertex_count rows of 3 floats
+    uint64_t normals;
+    uint64_t joints;        // vertex_count rows of 4 numbers of 16 bits
+    uint64_t joint_weights; // vertex_count rows of 4 floats
+    int32_t mesh;
+    int32_t rig;
+    int32_t node;
+    int32_t skin;
+    uint32_t vertex_count;
+    uint32_t shape_count;
+} PackMovingMesh;
+
+// The name of an animation of the files.
+typedef struct PackClip {
+    uint64_t name;
+} PackClip;
 
 typedef struct PackError {
     uint32_t code;

@@ -2,6 +2,7 @@
 // in memory are those of the records, which are small.
 #include "assets/pack/scene_pack.h"
 #include "assets/pack/scene_pack_layout.h"
+#include "renderer/scene/motion.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -219,6 +220,167 @@ static bool add_lights(Writer *writer, const DipLightingDef *lighting) {
     return ok;
 }
 
+static bool add_nodes(Writer *writer, const DipMotionDef *motion, size_t count) {
+    PackNode *records = calloc(count + 1, sizeof *records);
+    size_t to = 0;
+    for (int r = 0; records && r < motion->rig_count; ++r) {
+        const DipRig *rig = &motion->rigs[r].rig;
+        for (int n = 0; n < rig->node_count; ++n) {
+            const DipRigNode *node = &rig->nodes[n];
+            PackNode *record = &records[to++];
+            *record = (PackNode){.parent = node->parent,
+                                 .has_matrix = node->has_matrix,
+                                 .first_weight = node->first_weight,
+                                 .weight_count = node->weight_count};
+            memcpy(record->matrix, node->matrix, sizeof record->matrix);
+            memcpy(record->translation, node->translation, sizeof record->translation);
+            memcpy(record->rotation, node->rotation, sizeof record->rotation);
+            memcpy(record->scale, node->scale, sizeof record->scale);
+        }
+    }
+    const bool ok =
+        records && add_section(writer, records, count, sizeof *records, &writer->header.nodes);
+    free(records);
+    return ok;
+}
+
+static bool add_skins(Writer *writer, const DipMotionDef *motion, size_t count) {
+    PackSkin *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    size_t to = 0;
+    for (int r = 0; r < motion->rig_count; ++r) {
+        for (int s = 0; ok && s < motion->rigs[r].skin_count; ++s) {
+            const DipRigSkin *skin = &motion->rigs[r].skins[s];
+            const size_t joints = (size_t)skin->joint_count;
+            PackSkin *record = &records[to++];
+            record->joint_count = (uint32_t)skin->joint_count;
+            ok = add_array(writer, skin->nodes, joints * sizeof *skin->nodes, &record->nodes) &&
+                 add_array(writer, skin->inverse_binds, joints * 12 * sizeof *skin->inverse_binds,
+                           &record->inverse_binds);
+        }
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.skins);
+    free(records);
+    return ok;
+}
+
+static bool add_tracks(Writer *writer, const DipMotionDef *motion, size_t count) {
+    PackTrack *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    size_t to = 0;
+    for (int r = 0; r < motion->rig_count; ++r) {
+        for (int t = 0; ok && t < motion->rigs[r].track_count; ++t) {
+            const DipTrack *track = &motion->rigs[r].tracks[t];
+            PackTrack *record = &records[to++];
+            *record = (PackTrack){.target = track->target,
+                                  .interpolation = track->interpolation,
+                                  .node = track->node,
+                                  .width = track->width,
+                                  .key_count = track->key_count};
+            ok = add_array(writer, track->times, track->key_count * sizeof *track->times,
+                           &record->times) &&
+                 add_array(writer, track->values,
+                           dip_track_value_count(track) * sizeof *track->values, &record->values);
+        }
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.tracks);
+    free(records);
+    return ok;
+}
+
+static bool add_rigs(Writer *writer, const DipMotionDef *motion) {
+    const size_t count = (size_t)motion->rig_count;
+    PackRig *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    size_t nodes = 0;
+    size_t skins = 0;
+    size_t tracks = 0;
+    for (size_t i = 0; ok && i < count; ++i) {
+        const DipMotionRig *rig = &motion->rigs[i];
+        records[i] = (PackRig){.duration_s = rig->duration_s,
+                               .held_s = rig->held_s,
+                               .is_held = rig->is_held,
+                               .node_count = (uint32_t)rig->rig.node_count,
+                               .skin_count = (uint32_t)rig->skin_count,
+                               .track_count = (uint32_t)rig->track_count,
+                               .weight_count = (uint32_t)rig->rig.weight_count};
+        memcpy(records[i].root, rig->root, sizeof rig->root);
+        ok = add_text(writer, rig->clip, &records[i].clip) &&
+             add_array(writer, rig->rig.rest_weights,
+                       (size_t)rig->rig.weight_count * sizeof *rig->rig.rest_weights,
+                       &records[i].rest_weights);
+        nodes += (size_t)rig->rig.node_count;
+        skins += (size_t)rig->skin_count;
+        tracks += (size_t)rig->track_count;
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.rigs) &&
+         add_nodes(writer, motion, nodes) && add_skins(writer, motion, skins) &&
+         add_tracks(writer, motion, tracks);
+    free(records);
+    return ok;
+}
+
+static bool add_moving_objects(Writer *writer, const DipMotionDef *motion) {
+    const size_t count = (size_t)motion->object_count;
+    PackMovingObject *records = calloc(count + 1, sizeof *records);
+    for (size_t i = 0; records && i < count; ++i) {
+        const DipMovingObject *object = &motion->objects[i];
+        records[i] =
+            (PackMovingObject){.object = object->object, .rig = object->rig, .node = object->node};
+        memcpy(records[i].offset, object->offset, sizeof object->offset);
+    }
+    const bool ok = records && add_section(writer, records, count, sizeof *records,
+                                           &writer->header.moving_objects);
+    free(records);
+    return ok;
+}
+
+static bool add_moving_mesh(Writer *writer, const DipMovingMesh *mesh, PackMovingMesh *record) {
+    const size_t vertices = mesh->vertex_count;
+    const size_t rows = vertices * (size_t)mesh->shape_count;
+    *record = (PackMovingMesh){.mesh = mesh->mesh,
+                               .rig = mesh->rig,
+                               .node = mesh->node,
+                               .skin = mesh->skin,
+                               .vertex_count = mesh->vertex_count,
+                               .shape_count = (uint32_t)mesh->shape_count};
+    return add_array(writer, mesh->positions, 3 * rows * sizeof(float), &record->positions) &&
+           add_array(writer, mesh->normals, 3 * rows * sizeof(float), &record->normals) &&
+           add_array(writer, mesh->joints, 4 * vertices * sizeof(uint16_t), &record->joints) &&
+           add_array(writer, mesh->joint_weights, 4 * vertices * sizeof(float),
+                     &record->joint_weights);
+}
+
+static bool add_moving_meshes(Writer *writer, const DipMotionDef *motion) {
+    const size_t count = (size_t)motion->mesh_count;
+    PackMovingMesh *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    for (size_t i = 0; ok && i < count; ++i) {
+        ok = add_moving_mesh(writer, &motion->meshes[i], &records[i]);
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.moving_meshes);
+    free(records);
+    return ok;
+}
+
+static bool add_motion(Writer *writer, const DipMotionDef *motion) {
+    static const DipMotionDef nothing;
+    motion = motion ? motion : &nothing;
+    return add_rigs(writer, motion) && add_moving_objects(writer, motion) &&
+           add_moving_meshes(writer, motion);
+}
+
+static bool add_clips(Writer *writer, const char *const *clips, size_t count) {
+    PackClip *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    for (size_t i = 0; ok && i < count; ++i) {
+        ok = add_text(writer, clips[i], &records[i].name);
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.clips);
+    free(records);
+    return ok;
+}
+
 static bool add_errors(Writer *writer, const DipError *errors, size_t count, PackSection *section) {
     PackError *records = calloc(count + 1, sizeof *records);
     for (size_t i = 0; records && i < count; ++i) {
@@ -242,7 +404,7 @@ static bool write_scene(Writer *writer, const DipSceneDef *scene) {
     header->near_m = scene->near_m;
     return add_textures(writer, scene) && add_materials(writer, scene) &&
            add_meshes(writer, scene) && add_objects(writer, scene) &&
-           add_lights(writer, scene->lighting);
+           add_lights(writer, scene->lighting) && add_motion(writer, scene->motion);
 }
 
 static bool write_all(Writer *writer, const DipScenePack *pack) {
@@ -253,6 +415,7 @@ static bool write_all(Writer *writer, const DipScenePack *pack) {
     header->import_ms = pack->times.import_ms;
     header->pictures_ms = pack->times.pictures_ms;
     if (!write_scene(writer, failed ? &nothing : &pack->scene) ||
+        !add_clips(writer, pack->clips, (size_t)pack->clip_count) ||
         !add_errors(writer, pack->warnings.items, pack->warnings.count, &header->warnings) ||
         !add_errors(writer, &pack->failure, failed, &header->failures) ||
         !add_text(writer, "", &empty) ||

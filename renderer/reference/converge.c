@@ -223,7 +223,7 @@ bool dip_reference_converge(const DipReference *reference, const DipPose *pose, 
     if (!dip_reference_check_samples(sample_count, &side, err)) {
         return false;
     }
-    if (!dip_reference_check_size(width, height, err)) {
+    if (!dip_reference_check_frame(reference, width, height, err)) {
         return false;
     }
     DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};

@@ -121,7 +121,7 @@ static DipConvergence *create(const DipReference *reference, const DipRefShot *s
 DipConvergence *dip_convergence_create(const DipReference *reference, const DipPose *pose,
                                        int width, int height, DipError *err) {
     DIP_FP_MODE_SCOPE();
-    if (!dip_reference_check_size(width, height, err)) {
+    if (!dip_reference_check_frame(reference, width, height, err)) {
         return NULL;
     }
     DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};

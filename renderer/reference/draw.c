@@ -529,7 +529,8 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
                         const DipPose *pose, int width, int height, double *rgb_lin,
                         DipError *err) {
     DIP_FP_MODE_SCOPE();
-    if (!dip_quality_check(quality, err) || !dip_reference_check_size(width, height, err)) {
+    if (!dip_quality_check(quality, err) ||
+        !dip_reference_check_frame(reference, width, height, err)) {
         return false;
     }
     const double aspect = (double)width / height;
@@ -538,7 +539,7 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
     if (drawn_width == width && drawn_height == height) {
         return draw_picture(reference, quality, pose, aspect, width, height, rgb_lin, err);
     }
-    if (!dip_reference_check_size(drawn_width, drawn_height, err)) {
+    if (!dip_reference_check_frame(reference, drawn_width, drawn_height, err)) {
         return false;
     }
     double *picture = malloc((size_t)drawn_width * (size_t)drawn_height * 3 * sizeof *picture);

@@ -78,6 +78,23 @@ static bool load_texture(DipReference *reference, int index, DipError *err) {
                                       reference->for_truth ? 1 : DIP_REF_MAX_LEVELS, err);
 }
 
+// A mesh that moves has no patches, because its triangles may fold: each is a patch by itself.
+static bool find_patches_of(const DipReference *reference, int m, uint32_t *patches) {
+    const DipMeshDef *mesh = &reference->def->meshes[m];
+    const DipMotionDef *motion = reference->motion;
+    uint32_t count;
+    for (int i = 0; motion && i < motion->mesh_count; i++) {
+        if (motion->meshes[i].mesh == m) {
+            for (uint32_t t = 0; t < mesh->index_count / 3; t++) {
+                patches[t] = t;
+            }
+            return true;
+        }
+    }
+    return dip_patches_find(mesh->positions, 3, mesh->vertex_count, mesh->indices,
+                            mesh->index_count, patches, &count);
+}
+
 // Compresses the material's colour texture. The texture of a sky is not compressed.
 static bool compress_texture(DipReference *reference, const DipMaterialDef *material,
                              DipError *err) {
@@ -120,11 +137,9 @@ static bool find_patches(DipReference *reference, DipError *err) {
     bool found = reference->patches != NULL;
     for (int m = 0; found && m < def->mesh_count; m++) {
         const DipMeshDef *mesh = &def->meshes[m];
-        uint32_t count;
         uint32_t *patches = malloc((mesh->index_count / 3 + 1) * sizeof *patches);
         reference->patches[m] = patches;
-        found = patches && dip_patches_find(mesh->positions, 3, mesh->vertex_count, mesh->indices,
-                                            mesh->index_count, patches, &count);
+        found = patches && find_patches_of(reference, m, patches);
     }
     return found ||
            dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
@@ -132,7 +147,7 @@ static bool find_patches(DipReference *reference, DipError *err) {
 
 static DipReference *create(const DipSceneDef *def, const atomic_bool *stop, bool for_truth,
                             DipError *err) {
-    if (!check_scene(def, err)) {
+    if (!check_scene(def, err) || (def->motion && !dip_motion_check(def, err))) {
         return NULL;
     }
     DipReference *reference = calloc(1, sizeof *reference);
@@ -141,6 +156,15 @@ static DipReference *create(const DipSceneDef *def, const atomic_bool *stop, boo
         return NULL;
     }
     reference->def = def;
+    reference->motion = def->motion;
+    if (def->motion) {
+        reference->posed = dip_posed_def_create(def, err);
+        if (!reference->posed) {
+            free(reference);
+            return NULL;
+        }
+        reference->def = dip_posed_def(reference->posed);
+    }
     reference->stop = stop;
     reference->for_truth = for_truth;
     reference->textures = calloc((size_t)def->texture_count + 1, sizeof *reference->textures);
@@ -189,6 +213,7 @@ void dip_reference_destroy(DipReference **reference) {
     free((*reference)->textures);
     free((*reference)->pbr_tables);
     dip_reference_shadows_destroy(&(*reference)->shadows);
+    dip_posed_def_destroy(&(*reference)->posed);
     free(*reference);
     *reference = NULL;
 }
@@ -199,9 +224,19 @@ void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index
 
 void dip_reference_set_time(DipReference *reference, int64_t time_ns) {
     reference->time_ns = time_ns;
+    if (reference->posed) {
+        dip_posed_def_set(reference->posed, time_ns);
+        dip_reference_shadows_destroy(&reference->shadows);
+        reference->lacks_shadows =
+            !dip_reference_shadows_create(reference, &reference->shadows, NULL);
+    }
 }
 
-bool dip_reference_check_size(int width, int height, DipError *err) {
+bool dip_reference_check_frame(const DipReference *reference, int width, int height,
+                               DipError *err) {
+    if (reference->lacks_shadows) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for shadows");
+    }
     return (width >= 1 && width <= DIP_MAX_FRAME_SIZE && height >= 1 &&
             height <= DIP_MAX_FRAME_SIZE) ||
            dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size",

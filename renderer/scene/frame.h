@@ -36,6 +36,7 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(normal_map_bytes, "bytes of all normal maps")                                                \
     X(clip_map_bytes, "bytes of the alpha of clip maps and blended textures")                      \
     X(cloud_bytes, "bytes of the textures of skies with clouds")                                   \
+    X(vertices_posed, "vertices that a clip moves with skins or morph targets")                    \
     X(meshes, "meshes that the scene's objects are drawn from, in view or not")                    \
     X(geometry_bytes, "bytes of the vertices, indices and bounds of these meshes")                 \
     X(pixels_filtered, "pixels that filters of the finished picture wrote")                        \

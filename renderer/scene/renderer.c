@@ -163,6 +163,7 @@ static void forget_scene(DipRenderer *renderer) {
     free(renderer->samplers);
     renderer->samplers = NULL;
     dip_unshared_meshes_destroy(&renderer->unshared);
+    dip_posed_scene_destroy(&renderer->posed);
 }
 
 void dip_renderer_destroy(DipRenderer **renderer_pointer) {
@@ -380,6 +381,10 @@ static bool make_for_scene(DipRenderer *renderer, const DipScene *scene, DipErro
         scene->has_water && renderer->reflection.width && !renderer->plain_surfaces;
     made = made && dip_draw_set_make(&renderer->set, scene, reflects, err) &&
            (!reflects || make_mirror(renderer, scene, err));
+    if (made && scene->motion) {
+        renderer->posed = dip_posed_scene_create(scene, err);
+        made = renderer->posed != NULL;
+    }
     if (!made) {
         forget_scene(renderer);
         return false;

@@ -5,6 +5,7 @@
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/cull.h"
 #include "renderer/scene/resources/placement.h"
+#include "renderer/scene/resources/posed.h"
 #include "renderer/scene/resources/repeats.h"
 #include "renderer/scene/resources/scene_check.h"
 #include "renderer/scene/resources/vertex_layout.h"
@@ -58,8 +59,10 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
         .indices = mesh->indices,
         .index_count = mesh->index_count,
     };
-    out->mesh = dip_mesh_create(&data, err);
+    const int moving = dip_moving_mesh(scene->motion, index);
+    out->mesh = moving < 0 ? dip_mesh_create(&data, err) : dip_mesh_create_updatable(&data, err);
     out->material = mesh->material;
+    out->attribute_count = layout.attribute_count;
     if (out->pbr) {
         add_pbr_surface(def, index, scene);
     }
@@ -70,7 +73,12 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
     scene->has_normal_map |= out->normal_mapped;
     scene->has_sky |= out->sky;
     scene->has_lit |= out->lit_by_lights;
-    free(rows);
+    if (moving < 0) {
+        free(rows);
+    } else {
+        scene->moving_rows[moving] = rows;
+        scene->moving_vertices += mesh->vertex_count;
+    }
     return out->mesh != NULL;
 }
 
@@ -234,6 +242,25 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
     return true;
 }
 
+// Extends the scene's bounds over its clips.
+static bool bound_motion(DipScene *scene, DipPool *pool, DipError *err) {
+    DipPosedScene *posed = scene->motion ? dip_posed_scene_create(scene, err) : NULL;
+    for (int k = 0; posed && k < DIP_MOTION_MOMENTS; k++) {
+        const double share = (double)k / DIP_MOTION_MOMENTS;
+        const DipScene *moved = dip_posed_scene_at_share(posed, share, pool);
+        for (int i = 0; i < moved->object_count; i++) {
+            const DipSceneObject *object = &moved->objects[i];
+            if (is_not_sky(surface_of(moved, object)) &&
+                dip_mesh_triangle_count(moved->meshes[object->mesh].mesh)) {
+                add_bounds(scene, object);
+            }
+        }
+    }
+    const bool bounded = !scene->motion || posed;
+    dip_posed_scene_destroy(&posed);
+    return bounded;
+}
+
 // Marks the colour textures as compressible. Other textures are never compressed: BC1 would dent
 // normals, displace clouds and put steps into a light map.
 static void mark_compressible(const DipSceneDef *def, DipScene *scene) {
@@ -290,8 +317,15 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
     scene->meshes = calloc((size_t)def->mesh_count + 1, sizeof *scene->meshes);
     scene->objects = calloc((size_t)def->object_count + 1, sizeof *scene->objects);
     scene->lighting = def->lighting ? dip_scene_lighting_create(def->lighting) : NULL;
+    if (def->motion) {
+        scene->motion = dip_motion_copy(def);
+        scene->moving_rows =
+            calloc((size_t)def->motion->mesh_count + 1, sizeof *scene->moving_rows);
+    }
+    const bool moves = scene->motion && scene->moving_rows;
     if (!scene->textures || !scene->compressible || !scene->late || !scene->materials ||
-        !scene->meshes || !scene->objects || (def->lighting && !scene->lighting)) {
+        !scene->meshes || !scene->objects || (def->lighting && !scene->lighting) ||
+        (def->motion && !moves)) {
         dip_scene_destroy(&scene);
     }
     return scene;
@@ -319,7 +353,7 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
     for (int i = 0; made && i < def->mesh_count; i++) {
         made = create_mesh(def, i, scene, err);
     }
-    if (!made || !place_objects(def, scene, err)) {
+    if (!made || !place_objects(def, scene, err) || !bound_motion(scene, pool, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }
@@ -347,6 +381,11 @@ void dip_scene_destroy(DipScene **scene_pointer) {
     free(scene->meshes);
     free(scene->objects);
     free(scene->lighting);
+    for (int i = 0; scene->motion && scene->moving_rows && i < scene->motion->mesh_count; i++) {
+        free(scene->moving_rows[i]);
+    }
+    free(scene->moving_rows);
+    dip_motion_free(&scene->motion);
     dip_scene_pbr_destroy(&scene->pbr);
     free(scene);
     *scene_pointer = NULL;
@@ -362,8 +401,9 @@ DipSceneTimes dip_scene_times(const DipScene *scene) {
 }
 
 bool dip_scene_moves(const DipScene *scene) {
-    return scene->has_sky &&
-           (scene->sky.layers[0].speed_per_min != 0.0 || scene->sky.layers[1].speed_per_min != 0.0);
+    const bool drifts = scene->has_sky && (scene->sky.layers[0].speed_per_min != 0.0 ||
+                                           scene->sky.layers[1].speed_per_min != 0.0);
+    return drifts || (scene->motion && dip_motion_plays(scene->motion));
 }
 
 bool dip_scene_water_level(const DipScene *scene, double *level_m) {

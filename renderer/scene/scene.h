@@ -31,6 +31,8 @@ typedef enum DipSurface {
 
 enum { DIP_NO_TEXTURE = -1 };
 
+struct DipMotionDef;
+
 // The reflection of a surface as glTF's metallic-roughness materials describe it. A surface with
 // one reflects its surroundings, and its highlights follow from its roughness; docs/picture.md
 // defines the formulas. An index of a texture may be DIP_NO_TEXTURE. The maps are read at the first
@@ -150,8 +152,9 @@ typedef struct DipSceneDef {
     float background_lin[3]; // colour of samples that no surface covers
     float
         near_m; // distance of the near plane, DIP_MIN_NEAR_M..DIP_MAX_NEAR_M; there is no far plane
-    DipSkyDef sky;                  // look of all DIP_SURFACE_SKY surfaces
-    const DipLightingDef *lighting; // NULL: the fixed light of sky and sun
+    DipSkyDef sky;                     // look of all DIP_SURFACE_SKY surfaces
+    const DipLightingDef *lighting;    // NULL: the fixed light of sky and sun
+    const struct DipMotionDef *motion; // clips that move objects and meshes (motion.h); NULL: none
 } DipSceneDef;
 
 typedef struct DipScene DipScene;
@@ -177,12 +180,14 @@ typedef struct DipSceneTimes {
 } DipSceneTimes;
 DIP_API DipSceneTimes dip_scene_times(const DipScene *scene);
 
-// Returns whether the picture of a still camera changes with time, because clouds drift.
+// Returns whether the picture of a still camera changes with time, because clouds drift or a clip
+// plays.
 DIP_API bool dip_scene_moves(const DipScene *scene);
 
 // Axis-aligned bounds in world space of all objects that are not sky, so that a camera placed by
-// these bounds does not look at a sky dome from outside. If the scene has nothing but sky, these
-// are the sky's bounds; if it has no triangles, all coordinates are 0.
+// these bounds does not look at a sky dome from outside. They hold for all moments of the scene's
+// motion. If the scene has nothing but sky, these are the sky's bounds; if it has no triangles, all
+// coordinates are 0.
 DIP_API void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);
 
 // Height (world y) of the scene's lowest water. Returns false if the scene has no water.

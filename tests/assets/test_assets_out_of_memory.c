@@ -52,7 +52,9 @@ static void check_loading(const char *how, const char *name, const DipImporter *
                           int short_count) {
     char title[128];
     Loading l = {.file = fixture_data(name),
-                 .options = {.normal_maps = true, .importer = importer}};
+                 .options = {.normal_maps = true,
+                             .importer = importer,
+                             .animation = DIP_MODEL_ANIMATION_FIRST}};
     l.expected = dip_model_load_with(&l.file, 1, &l.options, NULL, NULL, NULL);
     assert_non_null(l.expected);
     snprintf(title, sizeof title, "%s %s", how, name);
@@ -67,8 +69,8 @@ static void check_loading(const char *how, const char *name, const DipImporter *
 
 static void model_is_loaded_whole_or_not_at_all(void **state) {
     (void)state;
-    static const char *const names[] = {"square.gltf", "seam.gltf",      "square.obj",
-                                        "tags.gltf",   "instances.gltf", "lights.gltf"};
+    static const char *const names[] = {"square.gltf",    "seam.gltf",   "square.obj", "tags.gltf",
+                                        "instances.gltf", "lights.gltf", "motion.gltf"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         check_loading("loading", names[i], NULL, 40);
     }
@@ -79,6 +81,7 @@ static void model_is_imported_whole_or_not_at_all(void **state) {
     const DipImporter importer = {.program = "/proc/self/exe", .command = importer_word};
     check_loading("importing", "square.gltf", &importer, 0);
     check_loading("importing", "lights.gltf", &importer, 0);
+    check_loading("importing", "motion.gltf", &importer, 0);
 }
 
 // --- pictures ------------------------------------------------------------------------------------
@@ -245,10 +248,10 @@ static void free_read(void *context) {
     dip_scene_pack_free(&((Packing *)context)->read);
 }
 
-static void pack_is_written_and_read_whole_or_not_at_all(void **state) {
-    (void)state;
-    const char *path = fixture_data("seam.gltf");
-    DipModel *model = dip_model_load_with_normals(&path, 1, NULL, NULL, NULL);
+static void check_pack_of(const char *name) {
+    const char *path = fixture_data(name);
+    const DipModelOptions options = {.normal_maps = true, .animation = DIP_MODEL_ANIMATION_FIRST};
+    DipModel *model = dip_model_load_with(&path, 1, &options, NULL, NULL, NULL);
     assert_non_null(model);
     Packing p = {.written = {.scene = *dip_model_scene_def(model)}};
     DipError warning;
@@ -277,6 +280,45 @@ static void pack_is_written_and_read_whole_or_not_at_all(void **state) {
     dip_model_destroy(&model);
 }
 
+static void pack_is_written_and_read_whole_or_not_at_all(void **state) {
+    (void)state;
+    check_pack_of("seam.gltf");
+    check_pack_of("motion.gltf");
+}
+
+// --- a scene that moves --------------------------------------------------------------------------
+
+typedef struct Making {
+    const DipSceneDef *def;
+    DipScene *scene;
+} Making;
+
+static bool make_scene(void *context, DipError *err) {
+    Making *making = context;
+    making->scene = dip_scene_create(making->def, NULL, err);
+    return making->scene != NULL;
+}
+
+static void free_scene(void *context) {
+    Making *making = context;
+    dip_scene_destroy(&making->scene);
+}
+
+static void scene_that_moves_is_made_whole_or_not_at_all(void **state) {
+    (void)state;
+    const char *path = fixture_data("motion.gltf");
+    const DipModelOptions options = {.animation = DIP_MODEL_ANIMATION_FIRST};
+    DipModel *model = dip_model_load_with(&path, 1, &options, NULL, NULL, NULL);
+    assert_non_null(model);
+    Making making = {.def = dip_model_scene_def(model)};
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "making a scene that moves",
+                                              .context = &making,
+                                              .run = make_scene,
+                                              .finish = free_scene,
+                                              .needs_every_allocation = true});
+    dip_model_destroy(&model);
+}
+
 int main(int argc, char **argv) {
     if (argc > 1 && strcmp(argv[1], importer_word) == 0) {
         return dip_importer_run(argc - 2, argv + 2);
@@ -288,6 +330,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(picture_is_read_whole_or_not_at_all),
         cmocka_unit_test(animated_model_is_loaded_whole_or_not_at_all),
         cmocka_unit_test(pack_is_written_and_read_whole_or_not_at_all),
+        cmocka_unit_test(scene_that_moves_is_made_whole_or_not_at_all),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

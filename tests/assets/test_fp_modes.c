@@ -67,6 +67,18 @@ static void call_model_loads(DipHash *hash) {
     }
 }
 
+// Loads a model whose animation plays.
+static void call_model_motion(DipHash *hash) {
+    const char *path = fixture_data("motion.gltf");
+    const DipModelOptions options = {.animation = DIP_MODEL_ANIMATION_FIRST};
+    DipModel *model = dip_model_load_with(&path, 1, &options, NULL, NULL, NULL);
+    int count = 0;
+    assert_non_null(model);
+    assert_non_null(dip_model_animations(model, &count));
+    dip_hash_integer(hash, count);
+    hash_model(hash, model);
+}
+
 static void call_model_import(DipHash *hash) {
     const char *path = fixture_data("lights.gltf");
     const DipModelOptions options = {.importer = &importer};
@@ -326,6 +338,7 @@ static const struct {
 } entries[] = {
     {"loading models", call_model_loads},
     {"importing a model", call_model_import},
+    {"loading a model that moves", call_model_motion},
     {"reading a scene pack", call_pack_reader},
     {"reading cameras", call_cameras},
     {"loading and posing models in motion", call_animation},

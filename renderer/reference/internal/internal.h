@@ -4,6 +4,7 @@
 
 #include "renderer/reference/reference.h"
 #include "renderer/reference/internal/texture.h"
+#include "renderer/scene/motion.h"
 
 #include <stddef.h>
 
@@ -14,7 +15,9 @@ typedef struct DipRefPbrTables DipRefPbrTables;
 typedef struct DipRefShadows DipRefShadows;
 
 struct DipReference {
-    const DipSceneDef *def; // borrowed
+    const DipSceneDef *def;     // borrowed; that of `posed` if the scene moves
+    DipPosedDef *posed;         // owned: the scene at the reference's time; NULL if nothing moves
+    const DipMotionDef *motion; // of the scene; NULL if nothing moves
     uint64_t frame_index;
     int64_t time_ns;
     DipReflectionDef reflection;
@@ -26,6 +29,7 @@ struct DipReference {
     DipRefTexture *textures;
     DipRefPbrTables *pbr_tables; // owned; NULL if no material has a metallic-roughness surface
     DipRefShadows *shadows;      // owned; NULL if the scene can have no shadows
+    bool lacks_shadows;          // no memory was left for the shadows of this time
 };
 
 // The varyings: values that a vertex carries besides its position. They are interpolated with
@@ -288,7 +292,7 @@ bool dip_reference_check_samples(int sample_count, int *side, DipError *err);
 enum { DIP_REF_STOP_PERIOD = 4096 };
 bool dip_reference_stopped(const DipReference *reference, DipError *err);
 
-// Checks that a frame may have this size.
-bool dip_reference_check_size(int width, int height, DipError *err);
+// Checks that a frame may have this size, and that the reference has all that it draws.
+bool dip_reference_check_frame(const DipReference *reference, int width, int height, DipError *err);
 
 #endif

@@ -274,7 +274,8 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     const bool clipped =
         material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_varying != DIP_ABSENT;
     *draw = (DipDraw){
-        .mesh = input->unshared ? dip_unshared_mesh(input->unshared, index) : mesh->mesh,
+        .mesh =
+            input->unshared ? dip_unshared_mesh(input->unshared, input->scene, index) : mesh->mesh,
         .vertex_shader = input->kernels->dip_kernel_surface_vertex,
         .fragment_shader = input->kernels->dip_kernel_surface_fragment,
         .clip_shader = clipped ? clip_shader(input) : NULL,

@@ -98,6 +98,7 @@ typedef struct FrameSetup {
     DipPipelineCounters counters;        // sums over all passes
     DipPipelineCounters shadow_counters; // of the shadow map alone
     uint64_t fragments_mirrored;
+    double posing_ms;                  // how long it took to move the scene to the frame's time
     const DipSampleReadback *readback; // NULL unless samples are read
     // The frame, drawn at once, whose pixels this frame may copy; NULL if it shades them all.
     const struct FrameSetup *copies_from;
@@ -200,17 +201,34 @@ static void count_mirror(const DipMirror *mirror, bool drawn, DipCounters *count
     counters->tiles_spared += drawn ? 0 : across * down;
 }
 
-// Sets a frame up: plans it and makes its passes.
-static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene *scene,
-                        const DipPose *pose, int64_t time_ns, const DipSampleReadback *readback,
-                        DipFrame *frame, DipError *err) {
+// Sets the scene of a frame at the frame's time. If the scene moves, the frames that are drawn at
+// once show the posed scene of the first one.
+static void pose_scene(FrameSetup *setup, const DipScene *scene, int64_t time_ns,
+                       const FrameSetup *first) {
+    setup->scene = scene;
+    if (scene->motion && first) {
+        setup->scene = first->scene;
+        setup->posing_ms = first->posing_ms;
+    } else if (scene->motion) {
+        const int64_t begin_ns = dip_clock_ns();
+        setup->scene = dip_posed_scene_at(setup->renderer->posed, time_ns, setup->renderer->pool);
+        setup->posing_ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
+    }
+}
+
+// Sets a frame up: plans it and makes its passes. first: the first of the frames that are drawn at
+// once, or NULL if it is this one.
+static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene *of,
+                        const DipPose *pose, int64_t time_ns, const FrameSetup *first,
+                        const DipSampleReadback *readback, DipFrame *frame, DipError *err) {
     if (!check_pose(pose, err) || !dip_renderer_follow_scale(renderer, err) ||
-        !dip_renderer_adopt_scene(renderer, scene, err) ||
-        !dip_renderer_follow_settings(renderer, scene, err)) {
+        !dip_renderer_adopt_scene(renderer, of, err) ||
+        !dip_renderer_follow_settings(renderer, of, err)) {
         return false;
     }
-    *setup =
-        (FrameSetup){.renderer = renderer, .scene = scene, .frame = frame, .readback = readback};
+    *setup = (FrameSetup){.renderer = renderer, .frame = frame, .readback = readback};
+    pose_scene(setup, of, time_ns, first);
+    const DipScene *scene = setup->scene;
     setup->view =
         dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
     setup->mirrored = dip_view_mirror(&setup->view, renderer->reflection.level_m);
@@ -385,6 +403,9 @@ static void end_frame(const FrameSetup *setup) {
     DipFrame *frame = setup->frame;
     frame->counters = frame_counters(&setup->counters);
     frame->counters.fragments_mirrored = setup->fragments_mirrored;
+    frame->counters.vertices_posed = setup->scene->moving_vertices;
+    frame->stages.geometry_ms += setup->posing_ms;
+    frame->stages.total_ms += setup->posing_ms;
     const bool reflects = setup->plan.effects.reflection.run;
     DipTarget picture = dip_renderer_target(renderer);
     if (renderer->scaled.light16) {
@@ -466,7 +487,8 @@ bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const Di
     }
     bool same = true;
     for (int i = 0; i < count; i++) {
-        if (!begin_frame(&setups[i], renderers[i], scene, pose, time_ns, NULL, frames[i], err)) {
+        if (!begin_frame(&setups[i], renderers[i], scene, pose, time_ns, i > 0 ? &setups[0] : NULL,
+                         NULL, frames[i], err)) {
             return false;
         }
         same = same && same_geometry(renderers[0], renderers[i]);
@@ -531,7 +553,7 @@ bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene, con
             "the pixels that are drawn are not those of the frame, accepted scale=1");
     }
     if (!check_region(renderer, &readback->region, err) ||
-        !begin_frame(&setup, renderer, scene, pose, time_ns, readback, &frame, err) ||
+        !begin_frame(&setup, renderer, scene, pose, time_ns, NULL, readback, &frame, err) ||
         !draw_readback(&setup, err)) {
         return false;
     }

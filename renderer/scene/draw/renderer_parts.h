@@ -10,6 +10,7 @@
 #include "renderer/scene/finish.h"
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/instancing.h"
+#include "renderer/scene/resources/posed.h"
 
 // The resources of the reflection. All members are 0 unless the scene that was drawn last has
 // reflecting water.
@@ -60,6 +61,7 @@ struct DipRenderer {
     DipShadows shadows;
     DipMaterialSamplers *samplers; // one per material
     DipUnsharedMeshes *unshared;   // one mesh per object with gi=off; NULL with gi=on
+    DipPosedScene *posed;          // the scene at the time of a frame; NULL if it has no motion
 };
 
 // Returns the picture that the renderer's main pass draws, and the pipeline that draws it: those of

@@ -1,6 +1,7 @@
 // Copies meshes that several objects share, so that each object has a mesh of its own.
 #include "renderer/scene/resources/instancing.h"
 
+#include "renderer/scene/resources/posed.h"
 #include "renderer/scene/resources/scene_layout.h"
 
 #include <stdlib.h>
@@ -12,18 +13,24 @@ struct DipUnsharedMeshes {
     uint64_t bytes;   // memory of all meshes that are drawn, including the scene's
 };
 
+// Whether an object gets a copy of its mesh. A mesh that moves is not copied.
+static bool is_copied(const DipScene *scene, int object) {
+    const DipSceneObject *placed = &scene->objects[object];
+    return !placed->first_of_mesh && dip_moving_mesh(scene->motion, placed->mesh) < 0;
+}
+
 static void copy_mesh(void *context, int index, int worker) {
     (void)worker;
     const DipUnsharedMeshes *unshared = context;
     const DipSceneObject *object = &unshared->scene->objects[index];
-    if (!object->first_of_mesh) {
+    if (is_copied(unshared->scene, index)) {
         unshared->copies[index] = dip_mesh_copy(unshared->scene->meshes[object->mesh].mesh);
     }
 }
 
 static bool is_complete(const DipUnsharedMeshes *unshared) {
     for (int i = 0; i < unshared->count; i++) {
-        if (!unshared->scene->objects[i].first_of_mesh && !unshared->copies[i]) {
+        if (is_copied(unshared->scene, i) && !unshared->copies[i]) {
             return false;
         }
     }
@@ -48,7 +55,7 @@ DipUnsharedMeshes *dip_unshared_meshes_create(const DipScene *scene, DipPool *po
         return NULL;
     }
     for (int i = 0; i < scene->object_count; i++) {
-        unshared->bytes += dip_mesh_bytes(dip_unshared_mesh(unshared, i));
+        unshared->bytes += dip_mesh_bytes(dip_unshared_mesh(unshared, scene, i));
     }
     return unshared;
 }
@@ -65,8 +72,8 @@ void dip_unshared_meshes_destroy(DipUnsharedMeshes **unshared) {
     *unshared = NULL;
 }
 
-const DipMesh *dip_unshared_mesh(const DipUnsharedMeshes *unshared, int object) {
-    const DipScene *scene = unshared->scene;
+const DipMesh *dip_unshared_mesh(const DipUnsharedMeshes *unshared, const DipScene *scene,
+                                 int object) {
     return unshared->copies[object] ? unshared->copies[object]
                                     : scene->meshes[scene->objects[object].mesh].mesh;
 }

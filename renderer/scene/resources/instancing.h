@@ -16,7 +16,8 @@ DipUnsharedMeshes *dip_unshared_meshes_create(const DipScene *scene, DipPool *po
 void dip_unshared_meshes_destroy(DipUnsharedMeshes **unshared);
 
 // Returns the mesh that an object draws. The scene must still exist.
-const DipMesh *dip_unshared_mesh(const DipUnsharedMeshes *unshared, int object);
+const DipMesh *dip_unshared_mesh(const DipUnsharedMeshes *unshared, const DipScene *scene,
+                                 int object);
 
 // Fills in the counters `meshes` and `geometry_bytes`. unshared: NULL if objects share the scene's
 // meshes.

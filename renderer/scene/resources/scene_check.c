@@ -1,6 +1,8 @@
 // Checks the description of a scene.
 #include "renderer/scene/resources/scene_check.h"
 
+#include "renderer/scene/motion.h"
+
 #include <math.h>
 
 // Checks that all floats of an array are finite. values may be NULL. per_element: floats of one
@@ -189,5 +191,5 @@ bool dip_scene_check(const DipSceneDef *def, DipError *err) {
     for (int i = 0; good && i < def->object_count; i++) {
         good = check_object(def, &def->objects[i], err);
     }
-    return good;
+    return good && (!def->motion || dip_motion_check(def, err));
 }

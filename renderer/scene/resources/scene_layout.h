@@ -9,6 +9,7 @@
 #include "renderer/scene/resources/late_textures.h"
 #include "renderer/scene/resources/lighting.h"
 #include "renderer/scene/resources/pbr.h"
+#include "renderer/scene/motion.h"
 #include "renderer/scene/scene.h"
 
 typedef struct DipSceneMesh {
@@ -26,6 +27,8 @@ typedef struct DipSceneMesh {
     // surfaces; valid if normal_mapped or pbr is true.
     DipSurfaceUniforms full_layout;
     int full_varying_count;
+    int attribute_count;         // floats of a vertex
+    int normal_attribute;        // index of the first attribute of the normals, or DIP_ABSENT
     int uv_varyings[2];          // index of the first varying of uv0 and of uv1, or DIP_ABSENT
     uint32_t repeating_varyings; // see DipDraw
     bool sky; // true for a sky that has the texture and the coordinates that moving clouds need
@@ -91,6 +94,12 @@ struct DipScene {
     uint64_t normal_map_bytes;
     uint64_t clip_map_bytes; // bytes of the clip maps' alpha
     uint64_t cloud_bytes;    // bytes of the textures of skies with moving clouds
+    // The motion, copied, and for each of its meshes the rows of attributes, of which positions and
+    // normals change. NULL: nothing moves. Such a scene's objects and meshes have the shape at
+    // rest; posed.h makes a scene at a time of it.
+    DipMotionDef *motion;
+    float **moving_rows;
+    uint64_t moving_vertices; // vertices of the moving meshes
     DipSceneTimes times;
 };
 

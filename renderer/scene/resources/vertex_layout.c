@@ -121,6 +121,7 @@ DipVertexLayout dip_mesh_lay_out(const DipSceneDef *def, const DipMeshDef *mesh,
         normal_attribute = add_source(&layout, mesh->normals, 3);
         uniforms->normal_attribute = lit ? normal_attribute : DIP_ABSENT;
     }
+    out->normal_attribute = normal_attribute;
     if (mesh->colours_lin) {
         uniforms->colour_attribute = add_source(&layout, mesh->colours_lin, 3);
     }
