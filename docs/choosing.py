@@ -13,7 +13,7 @@ import sys
 PLACES = ("WIRES", "FOLIAGE", "SPECULAR", "TEXT", "WATER")
 OPTIONS = "--errors-only --places 1 --samples 16 --combine none --pictures none".split()
 DEFAULTS = ("aa=none taa=off aaa=off asd=1 af=none aaf=off opt=off miplod=high-quality scale=1 "
-            "upscale=bilinear post=off sharpen=off gi=on mipdebug=off").split()
+            "upscale=bilinear post=off sharpen=off shadows=off gi=on mipdebug=off").split()
 
 
 def changed(settings):

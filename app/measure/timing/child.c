@@ -17,7 +17,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { LINE_SIZE = 1024 };
+// Room for a line of the protocol: for each counter its name, '=', 20 digits and a blank, and for
+// all the rest.
+enum {
+#define ADD_COUNTER(name, text) +(int)sizeof #name + 22
+    LINE_SIZE = 1024 DIP_COUNTER_LIST(ADD_COUNTER)
+#undef ADD_COUNTER
+};
 
 extern char **environ;
 
