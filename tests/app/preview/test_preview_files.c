@@ -490,11 +490,11 @@ static void drops_are_opened_in_their_order(void **state) {
     (void)state;
     turn();
     press('c', 0);
+    assert_true(dip_preview_state(preview)->manual);
     drop("triangle.obj");
     drop("none.obj");
     drop("scene.ini");
     drop("still.pth");
-    assert_true(dip_preview_state(preview)->manual);
     wait_for("Opened still.pth");
     assert_false(dip_preview_state(preview)->manual);
     assert_reddish(true);
