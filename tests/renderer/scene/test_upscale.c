@@ -49,7 +49,7 @@ static void close_stage(Stage *stage) {
 
 static DipFrame draw(Stage *stage, const char *settings) {
     DipQuality quality;
-    DipFrame frame;
+    DipFrame frame = {.rgba8 = NULL};
     DipError err = {0};
     if (!dip_quality_parse(settings, &quality, &err) ||
         !dip_renderer_set_quality(stage->renderer, &quality, &err) ||
