@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const int64_t pose_period_ns = 1000000000; // Duration of the path of --pose.
@@ -99,11 +100,17 @@ static bool load_cameras(DipSession *session, DipErrorList *faults) {
     return loaded;
 }
 
+// Whether something that is no folder has this name.
+static bool is_there(const char *file) {
+    struct stat status;
+    return stat(file, &status) == 0 && !S_ISDIR(status.st_mode);
+}
+
 // Returns the camera with this name, or NULL if there is none or if `file` exists. The value of
 // --path and of an ini key may be either, and a file has precedence.
 static const DipSessionCamera *camera_of(const DipSession *session, const char *file,
                                          const char *name) {
-    for (int i = 0; access(file, F_OK) != 0 && i < session->camera_count; i++) {
+    for (int i = 0; !is_there(file) && i < session->camera_count; i++) {
         if (strcmp(session->cameras[i].name, name) == 0) {
             return &session->cameras[i];
         }

@@ -40,6 +40,15 @@ cat WIRES.txt FOLIAGE.txt SPECULAR.txt TEXT.txt WATER.txt TOUR.txt | cut -d ' ' 
 "$diptych" dump --scene torture --category AAA --size 160x120 --hash --current aa=4 \
     --requested aa=4,aaa=coverage | cmp - FOLIAGE.txt || fail "the category AAA is not FOLIAGE"
 
+# A folder is no camera path, so it does not hide the camera of its name; a file does.
+mkdir TEXT
+"$diptych" dump --scene torture --path TEXT --size 64x48 --hash >/dev/null ||
+    fail "a folder hides the camera"
+rmdir TEXT
+echo nonsense >TEXT
+refuses "not a camera path" dump --hash --scene torture --path TEXT
+rm TEXT
+
 # --scene courtyard is what is drawn without options.
 "$diptych" dump --scene courtyard --size 64x48 --hash >courtyard.txt
 "$diptych" dump --size 64x48 --hash | cmp - courtyard.txt || fail "the courtyard differs"
