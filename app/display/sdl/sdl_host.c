@@ -163,9 +163,10 @@ bool dip_sdl_host_take_focus(const DipSdlHost *host) {
 // Xlib passes no context to a handler.
 static Window own_window; // None: no window is watched.
 static XErrorHandler previous_handler;
+static bool closes; // The own window is being closed.
 
 static int handle_error(Display *display, XErrorEvent *event) {
-    if (event->error_code == BadWindow && event->resourceid != own_window) {
+    if (event->error_code == BadWindow && (closes || event->resourceid != own_window)) {
         return 0;
     }
     return previous_handler(display, event);
@@ -180,7 +181,12 @@ void dip_sdl_x_errors_watch(SDL_Window *own) {
     }
 }
 
+void dip_sdl_x_errors_close(void) {
+    closes = true;
+}
+
 void dip_sdl_x_errors_end(void) {
+    closes = false;
     if (own_window != None) {
         XSetErrorHandler(previous_handler);
         own_window = None;

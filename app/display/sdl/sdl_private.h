@@ -69,6 +69,10 @@ bool dip_sdl_host_take_focus(const DipSdlHost *host);
 // to the process, so only one window at a time can be `own`.
 void dip_sdl_x_errors_watch(SDL_Window *own);
 
+// From now on, BadWindow errors about the own window are ignored, too: an event that SDL has sent
+// to it may reach the X server after the window is gone.
+void dip_sdl_x_errors_close(void);
+
 // Undoes dip_sdl_x_errors_watch. Does nothing if no window is watched.
 void dip_sdl_x_errors_end(void);
 
