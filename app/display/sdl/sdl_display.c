@@ -123,7 +123,7 @@ static bool can_quit(SdlDisplay *sdl) {
 static void close_display(void *context) {
     SdlDisplay *sdl = context;
     const bool quits = can_quit(sdl);
-    dip_sdl_x_errors_close();
+    dip_sdl_x_errors_close(sdl->window);
     SDL_free(sdl->dropped_file);
     if (sdl->window && quits) {
         SDL_DestroyWindow(sdl->window);

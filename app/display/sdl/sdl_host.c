@@ -181,8 +181,19 @@ void dip_sdl_x_errors_watch(SDL_Window *own) {
     }
 }
 
-void dip_sdl_x_errors_close(void) {
+// After an event that ended a wait, SDL sends the window an event by a second connection. Each
+// round trip on the first one gives the X server the time to take it before the window is
+// destroyed.
+void dip_sdl_x_errors_close(SDL_Window *own) {
+    SDL_SysWMinfo info;
+    SDL_VERSION(&info.version);
     closes = true;
+    if (own && SDL_GetWindowWMInfo(own, &info) && info.subsystem == SDL_SYSWM_X11) {
+        for (int i = 0; i < 4; i++) {
+            XSync(info.info.x11.display, False);
+            SDL_Delay(5);
+        }
+    }
 }
 
 void dip_sdl_x_errors_end(void) {

@@ -71,7 +71,7 @@ void dip_sdl_x_errors_watch(SDL_Window *own);
 
 // From now on, BadWindow errors about the own window are ignored, too: an event that SDL has sent
 // to it may reach the X server after the window is gone.
-void dip_sdl_x_errors_close(void);
+void dip_sdl_x_errors_close(SDL_Window *own);
 
 // Undoes dip_sdl_x_errors_watch. Does nothing if no window is watched.
 void dip_sdl_x_errors_end(void);
