@@ -13,7 +13,7 @@
 enum {
     MAX_FRAME = 1000000,
     MAX_RATE = 1000,        // Greatest rate, in frames per second. The least rate is 1 / MAX_RATE.
-    MAX_RATE_SECONDS = 5000 // A frame's time in nanoseconds must fit into 64 bits.
+    MAX_RATE_SECONDS = 5000 // Greatest N of a ratio M/N, so that times in ns fit into 64 bits.
 };
 
 static bool read_frames(void *fields, const DipOptionRow *row, const char *value, DipError *err) {

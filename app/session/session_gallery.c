@@ -57,8 +57,8 @@ DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, D
 // --- camera paths --------------------------------------------------------------------------------
 
 // Makes the camera path of a scene of the gallery, with 64 keys per second. The tour (all scenes,
-// one after another) flies from one scene to the next between two keys. That is within 1/64 s, so
-// that no frame at 30 or 60 frames per second falls between the scenes.
+// one after another) flies to the next scene in the last 1/64 s of each scene. Scenes end at whole
+// seconds, so no frame at 30 or 60 frames per second lies within this time and shows the flight.
 static DipCamPath *make_path(int scene, DipError *err) {
     static const int64_t period_ns = 15625000;
     const size_t count = (size_t)(dip_gallery_duration_ns(scene) / period_ns);

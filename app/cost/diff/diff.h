@@ -43,7 +43,7 @@ typedef struct DipCostDiffArguments {
     int set_count;
     DipMeasureOptions measure; // 0 rounds mean DIP_COST_DIFF_ROUNDS, or 1 with a report.
     int frames;                // 0 means DIP_COST_DIFF_FRAMES. Unused with a report.
-    double fail_over;          // 1.03 for --fail-over 3%; 0 if nothing fails.
+    double fail_over;          // 1.03 for --fail-over 3%; 0 without this option.
     const char *json;
 } DipCostDiffArguments;
 
@@ -105,7 +105,7 @@ typedef struct DipCostDiff {
     char machines[2][256];      // "Xeon, 2 threads, avx512"; "" if not known.
     char builds[2][33];         // Hash of the program's file; "" if not known.
     char scene[DIP_COST_TEXT];  // "court.gltf, 640x480 pixels"; "" if not known.
-    bool some_rows;             // One side was measured with only some rows of the other.
+    bool some_rows;             // One side is a program that measured only some rows of the other.
     bool same_machine;          // The sides' machines, threads and instruction sets are the same.
     bool has_times;             // The times may be compared.
     DipCostVerdict verdicts[2]; // How quiet each side's machine was; for programs both are equal.
@@ -117,7 +117,7 @@ typedef struct DipCostDiff {
     int note_count;
     char cause[512];   // The likely cause of a slowdown; "" if nothing is sure.
     double limit;      // A row is slower if B surely takes more than this many times as long.
-    double fail_over;  // The limit beyond which times and errors fail; 0 if nothing fails.
+    double fail_over;  // The limit beyond which times and errors fail; 0 if there is none.
     int slower;        // Number of rows that are marked as slower.
     int faster;        // Number of rows that are marked as faster.
     int failed_times;  // Number of rows that are slower beyond fail_over.
@@ -211,7 +211,8 @@ bool dip_cause_is_same_work(const DipCauseData *data, int a, int b);
 
 // Writes diff->cause from the times of two programs: the stage that takes most of the additional
 // time of the slower rows and, with four rows or more, the kind of work with which this time grows.
-// Subject 2 * row + side of the times is the row on this side. Fails with DIP_ERROR_MEMORY.
+// In `times` and `fit`, each row is a subject on each side, with the index 2 * row + side. Fails
+// with DIP_ERROR_MEMORY.
 bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTimesFit *fit,
                            DipError *err);
 

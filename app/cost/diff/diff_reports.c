@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Standard deviation of the logarithm of a ratio between starts of one program. A report of a
-// single start cannot measure it.
+// A ratio differs a little from one start of a program to the next. This is the standard deviation
+// of its logarithm. A report of a single start cannot measure it.
 static const double start_error = 0.006;
 
 enum { NAMED_ROWS = 4 }; // Greatest number of rows that a note names.
@@ -204,8 +204,9 @@ static void copy_errors(const DipCostReport *const reports[2], const int rows[2]
     }
 }
 
-// Copies the means of counters over the frames. The sums of counters are whole numbers, so they are
-// rounded to whole numbers first: the means in two reports may have been rounded in different ways.
+// Copies the means of counters over the frames. Two reports may have rounded equal means in
+// different ways. A counter's sum over the frames is a whole number, so the means are computed
+// again from the rounded sums.
 static void copy_counters(const DipCostReport *const reports[2], const int rows[2],
                           DipCostDiffRow *to) {
     for (int side = 0; side < 2; side++) {

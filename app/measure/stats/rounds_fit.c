@@ -368,8 +368,8 @@ static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) 
 
 // Computes how far each unit moves the values. If find_values leaves out the unit, the move is
 // units - 1 times the difference that this makes (the jackknife). If find_values uses the times of
-// this unit alone, the move is the difference of the unit's values from their mean over all units
-// that have times, scaled up if some units have none.
+// this unit alone, the move is the unit's values minus the mean of the values of all units that
+// have times. If some units have no times, this difference is scaled up.
 static void find_moves(DipTimesWork *w, int s) {
     DipTimesFit *fit = w->fit;
     const int units = fit->units;

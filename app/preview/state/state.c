@@ -261,7 +261,8 @@ void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
     const int64_t span_ns = path ? dip_campath_span_ns(path, state->track->end) : 0;
     const int64_t at_ns = dip_camtrack_time(state->track, state->play_ns);
     const bool once = state->track->end == DIP_CAMPATH_END_once;
-    // Stays in the present repetition of the path. On a path there and back, takes the way there.
+    // Stays in the present repetition of the path. If a repetition plays the path forwards and then
+    // backwards, goes to the part that plays forwards.
     const int64_t past_ns = once || span_ns == 0 ? at_ns : (at_ns % span_ns + span_ns) % span_ns;
     const int64_t to_ns = state->play_ns + path_ns - past_ns;
     state->play_ns = to_ns >= 0 ? to_ns : once ? 0 : to_ns + span_ns;

@@ -62,9 +62,9 @@ static DipColour flip_colour(const DipPrice *price) {
                                : dip_style_worse;
 }
 
-// Returns whether the edited pane can have a step beside its other settings. If it cannot, writes
-// why. Every step of antialiasing is valid, since the group size of adaptive antialiasing follows
-// the number of samples.
+// Returns whether a step is valid together with the other settings of the edited pane. If it is
+// not, writes why. Every step of antialiasing is valid: if its samples cannot be divided into the
+// groups of adaptive antialiasing, choosing the step also sets the group size to its default.
 static bool is_valid(const DipPreviewState *state, DipSetting setting, int step, char why[256]) {
     DipQuality quality = state->quality[edited_pane(state)];
     DipError err;
@@ -135,7 +135,7 @@ typedef struct Slider {
     DipPrice prices[DIP_MAX_STEPS]; // Prices of the steps by their position.
     double most_ms;                 // The greatest time of a price, which has the longest bar.
     double most_flip;               // The greatest change of FLIP.
-    bool rough;  // Some prices come from a few frames only. A mark before all prices says so.
+    bool rough;  // Some prices come from a few frames only. The word "ms" then gets a mark.
     bool dimmed; // The setting has no effect beside the pane's other settings.
 } Slider;
 
@@ -396,7 +396,8 @@ void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, 
     dip_step_tip(setting, requested, &price, "", tip);
     DipUiInput input = dip_ui_stepper(ui, id_of(setting), rect, tip);
     const int title_end = rect.x + dip_ui_px(ui, 10) + dip_ui_text_width(ui, LINE_SIZE, title);
-    if (input.pressed) { // A click in the left half behind the title goes one step back.
+    // A click in the left half of the room right of the title goes one step back.
+    if (input.pressed) {
         const bool back = input.hovered && input.x >= title_end &&
                           input.x < (title_end + dip_rect_right(rect)) / 2;
         dip_preview_act(window->state, DIP_ACTION_SETTING, (int)setting, back, dip_ui_now_ns(ui));

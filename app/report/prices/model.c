@@ -6,7 +6,7 @@
 #include <math.h>
 
 enum {
-    MOST_MISSES = 32, // Greatest number of rows that are predicted to see how far predictions miss.
+    MOST_MISSES = 32, // Greatest number of rows whose known times are compared with predictions.
     LEAST_JUDGED = 16 // Least number of rows with errors for a model of errors.
 };
 
@@ -22,8 +22,8 @@ DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses) {
 }
 
 // Returns the counters of the row with these settings on path 0, for dip_work_compose. Returns NULL
-// if there is none, or if the settings differ from the base in two groups or more, so that no row
-// is composed from itself.
+// if there is none. Also returns NULL if the settings differ from the base in two groups or more:
+// the row may be the one that is to be composed, and no row may be composed from itself.
 static const double *find_counters(const void *context, const DipQuality *quality) {
     const DipPriceView *view = context;
     const bool plain = dip_work_count_groups(&view->base, quality) <= 1;
