@@ -264,8 +264,8 @@ bool dip_cost_check_out(const char *out, DipError *err) {
                                 "there is no folder for the report; give one with --out DIR");
 }
 
-// Fails if all starts together have fewer than two rounds, since times then have no interval, or
-// too many rounds.
+// Fails if all starts together have too few or too many rounds. Times have an interval only if
+// there are at least two rounds.
 static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
     const int rounds = measure->rounds * measure->starts;
     return (rounds >= 2 && rounds <= DIP_MEASURE_MOST_ROUNDS) ||

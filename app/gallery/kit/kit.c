@@ -262,8 +262,8 @@ void dip_kit_stock_free(DipKitStock *stock) {
     }
 }
 
-// For each mip level of the texture, finds the level of the mip colours that stands for the longer
-// side.
+// Shows each mip level of the texture in the colour of its size. A level's size is its longer side.
+// Level i of the mip colours has the colour for 1024 >> i texels.
 void dip_kit_show_mip_colours(DipSampler *sampler, const DipGalleryView *view) {
     const int last = dip_texture_level_count(sampler->texture) - 1;
     const int last_colour = dip_texture_level_count(view->mip_colours) - 1;

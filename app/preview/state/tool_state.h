@@ -20,7 +20,7 @@ typedef enum DipTab {
 // How the window compares the pictures of the two panes.
 typedef enum DipComparison {
     DIP_COMPARE_SIDE_BY_SIDE,
-    DIP_COMPARE_WIPE,       // One picture: the current pane's left of a divider, requested right.
+    DIP_COMPARE_WIPE,       // One picture: the current one left of a divider, the requested right.
     DIP_COMPARE_BLINK,      // One pane's picture; a key or a timer switches to the other pane's.
     DIP_COMPARE_DIFFERENCE, // Absolute difference of the two pictures, times a gain.
     DIP_COMPARE_ALONE,      // One pane alone, as large as both.

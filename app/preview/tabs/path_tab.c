@@ -24,9 +24,9 @@ static void action_button(DipFlow *flow, unsigned id, const char *text, DipUiLoo
 
 // --- the path that plays -------------------------------------------------------------------------
 
-// Lists one category of camera paths (camtrack.h) for each path. If several categories share a
-// path, this is the active category or else the first of them. Returns the number of listed
-// categories.
+// Lists the camera paths, each once. A category of settings may have a path (camtrack.h), and
+// several categories may share one. A path is listed as the index of a category that has it: the
+// active category if it has this path, otherwise the first one. Returns the number of paths.
 static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEGORIES]) {
     const DipCamTrack *track = state->track;
     int count = 0;

@@ -32,8 +32,8 @@ DipLoupeCrop dip_loupe_crop(int width, int height, int x, int y, int zoom, DipRe
     return crop;
 }
 
-// Returns the pixel of a row that pixel i shows after the row is scaled from `from` to `to` pixels
-// as dip_canvas_copy does.
+// A row of `from` pixels is scaled to `to` pixels, as dip_canvas_copy does. Returns the index of
+// the original pixel that the scaled row's pixel i shows.
 static int scaled(int i, int from, int to) {
     return (int)((2 * (int64_t)i + 1) * from / (2 * (int64_t)to));
 }
@@ -48,8 +48,8 @@ bool dip_loupe_pixel_at(DipRect shown, int width, int height, int window_x, int 
     return true;
 }
 
-// Returns the first pixel k of a row, scaled from `from` to `to` pixels, that shows the row's pixel
-// i or a later one.
+// The inverse of scaled(): returns the least k such that pixel k of the scaled row shows the
+// original pixel i or a later one.
 static int first_showing(int i, int from, int to) {
     const int64_t twice = 2 * (int64_t)to * i - from; // (2 * k + 1) * from >= 2 * to * i
     return twice <= 0 ? 0 : (int)((twice + 2 * (int64_t)from - 1) / (2 * (int64_t)from));

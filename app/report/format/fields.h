@@ -67,7 +67,8 @@ typedef struct DipRecord {
     const struct DipField *fields;
     int count;
     // Bytes from item to item. If it is 0, the items are no structs of their own. Their owner then
-    // holds each field in an array, in which item i lies i * DipField.stride bytes from the start.
+    // has an array for each field, and item i's value of the field lies i * DipField.stride bytes
+    // behind the array's start.
     size_t size;
     // Returns whether the facts of an item fit together. It is called when all of them have been
     // read. NULL if they always fit.
@@ -164,8 +165,9 @@ bool dip_fields_read_json(const DipRecord *record, const DipFieldAt *at, const s
 // The columns of a table are listed in a text such as "settings; row.ms=time; row.counters=". It
 // has the paths of fields. After a path, there may be '=' and the title that the column has in this
 // table. Without '=', the title in CSV is the path with '_' in place of '.', and the title for
-// people is the field's own. An object of numbers has a column for each number. CSV names it after
-// the title and the number, and tables for people name it after the number alone.
+// people is the field's own. An object of numbers has a column for each number. In CSV, this column
+// has the title followed by the number's name (DipField.names). Tables for people show the number's
+// name alone.
 typedef struct DipColumn {
     char path[64];
     char title[64];
@@ -204,9 +206,9 @@ typedef struct DipTable {
     const void *items;
     int count;
     bool (*shows)(const DipFieldAt *at); // Returns whether to show an item; NULL shows all items.
-    // Points to the member of the first item that holds the index of the report's row that the item
-    // shows, or -1 if it shows none. The other items have this member at the same offset. NULL if
-    // no item shows a row.
+    // Items may have an int member with the index of the row of the report that the item shows, or
+    // -1 if it shows none. This points to that member of the first item. The other items have it at
+    // the same offset. NULL if no item shows a row.
     const int *row;
     const char *set; // Name of the page's set of pictures of these rows; NULL if there is none.
 } DipTable;
