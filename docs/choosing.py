@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 PLACES = ("WIRES", "FOLIAGE", "SPECULAR", "TEXT", "WATER")
-OPTIONS = "--errors-only --places 1 --samples 16 --combine none --pictures none".split()
+OPTIONS = "--errors-only --places 1 --samples 16 --combine taa --pictures none".split()
 DEFAULTS = ("aa=none taa=off aaa=off asd=1 af=none aaf=off opt=off miplod=high-quality scale=1 "
             "upscale=bilinear post=off sharpen=off shadows=off gi=on mipdebug=off").split()
 
@@ -29,7 +29,7 @@ def main(diptych, folder, *options):
                         *OPTIONS, *options], check=True, stdout=subprocess.DEVNULL)
         with open(report / "cost.csv", newline="") as file:
             for row in csv.DictReader(file):
-                if row["kind"] == "step" and row["all_flip"]:
+                if row["kind"] in ("step", "combination") and row["all_flip"]:
                     table.setdefault(changed(row["settings"]), {})[place] = float(row["all_flip"])
     print("| settings |" + "".join(f" {place} |" for place in PLACES))
     print("|---|" + "---|" * len(PLACES))

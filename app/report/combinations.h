@@ -28,8 +28,8 @@ enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE 
 // (antialiasing, temporal AA, adaptive AA and its groups), anisotropic filtering with advanced AF,
 // texture optimisation, mip detail, render scale with its upscaling filter, filters of the finished
 // picture, and instancing. A composed counter is the base combination's counter, times the factors
-// by which each group alone changes it; pixels that filters write are added instead, and so is the
-// work of shadows.
+// by which each group alone changes it. The pixels that filters write follow from the settings
+// instead, and the work of shadows is added.
 
 // Returns how many pixels all filters of the finished picture write, per pixel of the frame.
 double dip_cost_pixels_filtered(const DipQuality *quality);

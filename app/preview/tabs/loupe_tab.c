@@ -97,7 +97,7 @@ static void say_fitting(Part *part, const char *const *texts, int count) {
 // Says how many samples the pixel has and what they show.
 static void say_count(Part *part) {
     const int count = part->pattern->count;
-    const bool temporal = part->window->state->quality[part->pane].step[DIP_SETTING_TAA] != 0;
+    const bool temporal = dip_quality_alternates(&part->window->state->quality[part->pane]);
     char longest[96];
     char text[64] = "1 sample, at the centre";
     char brief[32] = "1 sample";

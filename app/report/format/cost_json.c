@@ -47,13 +47,14 @@ static void forget_no_interval(cJSON *object) {
 }
 
 // Adds the counters that reports lacked before surfaces could be blended or reflect their
-// surroundings, panes could copy each other's pixels, pictures were filtered, models moved and
-// shadows fell. They count work that was not done then.
+// surroundings, panes could copy each other's pixels, pictures were filtered, models moved, shadows
+// fell and frames had a history. They count work that was not done then.
 static void add_counters(cJSON *counters) {
     static const char *const later[] = {
-        "fragments_pbr",     "fragments_occluded", "fragments_emitting", "fragments_coated",
-        "fragments_blended", "fragments_copied",   "pixels_filtered",    "edges_found",
-        "vertices_posed",    "fragments_shadowed", "shadow_texels",      "shadow_bytes"};
+        "fragments_pbr",      "fragments_occluded", "fragments_emitting", "fragments_coated",
+        "fragments_blended",  "fragments_copied",   "pixels_filtered",    "edges_found",
+        "vertices_posed",     "fragments_shadowed", "shadow_texels",      "shadow_bytes",
+        "pixels_reprojected", "history_bytes"};
     for (size_t i = 0; i < sizeof later / sizeof *later && cJSON_IsObject(counters); i++) {
         add_missing(counters, later[i], add_zero);
     }
