@@ -1,25 +1,8 @@
 #!/bin/sh
 # Tests --animation and --animation-time of the program.
 # Usage: animations.sh DIPTYCH SOURCE_FOLDER
-set -u
-diptych=$1
+. "$(dirname "$0")/../program.sh"
 model=$2/tests/assets/data/motion.gltf
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-check() {
-    description=$1
-    shift
-    checks=$((checks + 1))
-    if ! "$@" >check.txt 2>&1; then
-        failures=$((failures + 1))
-        echo "FAILED: $description"
-        sed 's/^/  | /' check.txt
-    fi
-}
 
 # hashes ARGUMENTS...: the hashes of the left pane, without the numbers of the frames.
 hashes() {
@@ -51,5 +34,4 @@ check "an unknown animation is refused" grep -q \
 hashes --animation-time -1 >out.txt
 check "a time before 0 is refused" grep -q 'a time from 0 to 1,000,000 seconds' err.txt
 
-echo "$checks checks, $failures failed"
-[ "$failures" = 0 ]
+finish
