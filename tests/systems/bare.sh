@@ -1,0 +1,158 @@
+#!/bin/sh
+# Runs the documented commands on bare Debian systems: folders made by debootstrap, which have nothing
+# but what these commands install.
+#
+# Usage: bare.sh bookworm|sid [--folder DIR] [--mirror URL] [PART]...
+#   --folder DIR   where the systems are made (build/bare/SUITE)
+#   --mirror URL   Debian's mirror (http://deb.debian.org/debian)
+#
+# Without PART, all parts run, in this order:
+#   run        ./run in a fresh clone of HEAD: it installs packages, builds, draws and opens a window
+#   quick      ./test quick in the same clone
+#   packages   cpack there; then the Debian package and the archive, each on a system without
+#              compilers, draw the same bits and open a window
+#   library    cmake --install there; then tests/install/check_install.sh on a system that has
+#              compilers but no sources, with the commands and programs of the installed pages
+# The parts packages and library need the system that run has made. The script needs root's rights,
+# debootstrap and git, and changes nothing outside the folder. What it mounts is gone when it ends.
+set -eu
+
+usage() {
+    sed -n '2,/^set -eu/s/^# \{0,1\}//p' "$0" | sed '$d'
+}
+suite='' folder='' mirror=http://deb.debian.org/debian parts=''
+while [ $# -gt 0 ]; do
+    case $1 in
+    --folder | --mirror)
+        [ $# -ge 2 ] || { echo "bare.sh: the value of $1 is missing" >&2; exit 2; }
+        [ "$1" = --mirror ] && mirror=$2 || folder=$2
+        shift
+        ;;
+    run | quick | packages | library) parts="$parts $1" ;;
+    --help) usage && exit 0 ;;
+    -*) echo "bare.sh: no option is called $1; --help lists the options" >&2 && exit 2 ;;
+    *) suite=$1 ;;
+    esac
+    shift
+done
+[ -n "$suite" ] || { usage >&2; exit 2; }
+top=$(cd -P "$(dirname "$0")/../.." && pwd)
+folder=${folder:-$top/build/bare/$suite}
+for tool in debootstrap git unshare chroot; do
+    command -v "$tool" >/dev/null || { echo "bare.sh: $tool is missing" >&2; exit 77; }
+done
+[ "$(id -u)" = 0 ] || { echo "bare.sh: debootstrap and chroot need root's rights" >&2; exit 77; }
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+
+fail() {
+    echo "bare.sh: $*" >&2
+    exit 1
+}
+
+# make_system NAME: makes the system NAME anew, bare.
+make_system() {
+    if [ ! -d "$folder/bare" ]; then
+        rm -rf "$folder/new"
+        debootstrap --variant=minbase "$suite" "$folder/new" "$mirror" >"$folder/debootstrap.log" ||
+            fail "debootstrap failed; see $folder/debootstrap.log"
+        mv "$folder/new" "$folder/bare" # Last, so that a system that was left half made is made again.
+    fi
+    rm -rf "${folder:?}/$1"
+    cp -a "$folder/bare" "$folder/$1"
+    inside "$1" 'apt-get -qq update'
+}
+
+# inside NAME COMMANDS: runs lines of shell in root's home folder of a system. Its processes and
+# mounts end with the last line.
+inside() {
+    unshare --mount --pid --fork --kill-child sh -ec '
+        mount -t proc proc "$1/proc"
+        mount -t sysfs sys "$1/sys"
+        mount --rbind /dev "$1/dev"
+        exec chroot "$1" env -i HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+            PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
+            ${http_proxy:+http_proxy="$http_proxy"} sh -ec "cd; install() {
+                apt-get -qq install -y --no-install-recommends \"\$@\" >install.log 2>&1 || {
+                    cat install.log >&2; exit 1; }
+            }
+            $2"' sh "$folder/$1" "$2"
+}
+
+# draw NAME COMMAND: writes PNG files of some scenes by a command that starts the program, and prints
+# the hashes of their pixels.
+draw() {
+    inside "$1" "
+        for scene in courtyard blend water torture; do
+            rm -rf pictures-\$scene
+            echo \$scene
+            $2 dump --scene \$scene --frames 0:1 --size 320x240 --hash --out pictures-\$scene
+            ls pictures-\$scene | grep -q png
+        done"
+}
+
+# show NAME COMMAND: opens the preview's window under Xvfb, writes its picture and quits.
+show() {
+    inside "$1" "install xvfb xauth
+        rm -f window.png
+        printf '%s\n' '{\"request\":\"screenshot\",\"file\":\"/root/window.png\"}' \
+            '{\"request\":\"quit\"}' | timeout 300 xvfb-run -a $2 --control - >window.txt
+        [ \$(grep -c '\"ok\":true' window.txt) = 2 ] || { cat window.txt; exit 1; }"
+    [ -s "$folder/$1/root/window.png" ] || fail "the preview in $1 wrote no picture of its window"
+}
+
+part_run() {
+    make_system build
+    git clone --quiet "$top" "$folder/build/root/diptych"
+    draw build diptych/run >"$folder/hashes"
+    show build diptych/run
+}
+
+part_quick() {
+    inside build 'cd diptych && ./test quick'
+}
+
+# documented START: prints the line of docs/install.md that begins with START.
+documented() {
+    grep "^$1" "$folder/build/root/diptych/docs/install.md"
+}
+
+part_packages() {
+    inside build "install dpkg-dev; cd diptych
+        $(documented 'cmake --preset') >/dev/null; $(documented 'cpack ') >/dev/null"
+    package=$(echo "$folder"/build/root/diptych/build/release/*.deb)
+    needed=$(documented 'apt-get install -y fonts' || true)
+    if [ "$suite" != bookworm ]; then # The page has the names of Debian 12.
+        needed="install $(dpkg-deb -f "$package" Depends | sed 's/([^)]*)//g; s/|[^,]*//g; s/,/ /g')"
+    fi
+    make_system deb
+    cp "$package" "$folder/deb/root"
+    inside deb "$(documented 'apt-get install ./' | sed 's|\./.*|-qq -y ./*.deb|') >install.log 2>&1"
+    make_system zip
+    cp "${package%/*}"/*.zip "$folder/zip/root"
+    inside zip "$needed; install unzip; unzip -q *.zip; mv diptych-*/ diptych"
+    for name in deb zip; do
+        program=diptych
+        [ $name = deb ] || program=diptych/bin/diptych
+        inside $name "! command -v cc gcc cmake; $program --version"
+        draw $name $program | cmp - "$folder/hashes" || fail "$name draws something else"
+        show $name $program
+    done
+}
+
+part_library() {
+    inside build "cd diptych
+        $(documented 'cmake --preset') >/dev/null
+        cmake --install build/release --strip --prefix /root/installed >/dev/null"
+    make_system library
+    cp -a "$folder/build/root/installed" "$folder/library/root"
+    mkdir -p "$folder/library/root/diptych"
+    cp -a "$top/tests" "$folder/library/root/diptych"
+}
+
+for part in ${parts:-run quick packages library}; do
+    begin=$(date +%s)
+    echo "== $suite: $part" >&2
+    "part_$part"
+    echo "== $suite: $part passed in $(($(date +%s) - begin)) s" >&2
+done
