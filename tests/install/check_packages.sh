@@ -29,6 +29,6 @@ done
 # libc is always installed.
 needed=$(dpkg-deb -f "$build"/diptych_*.deb Depends | tr ',' '\n' | sed 's/^ *//; s/ .*//; /^$/d' |
     grep -v '^libc6' | sort)
-named=$(documented install.md 'apt-get install ' | sed 's/apt-get install //' | tr ' ' '\n' | sort)
+named=$(documented install.md 'apt-get install fonts' | sed 's/apt-get install //' | tr ' ' '\n' | sort)
 [ "$needed" = "$named" ] || [ "$(sed -n 's/^VERSION_ID=//p' /etc/os-release)" != '"12"' ] ||
     fail "the package needs: $needed; docs/install.md names: $named"

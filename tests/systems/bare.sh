@@ -63,8 +63,8 @@ make_system() {
     inside "$1" 'apt-get -qq update'
 }
 
-# inside NAME COMMANDS: runs lines of shell in root's home folder of a system. Its processes and
-# mounts end with the last line.
+# inside NAME COMMANDS: runs lines of shell in root's home folder of a system, where `get` installs
+# packages. Its processes and mounts end with the last line.
 inside() {
     unshare --mount --pid --fork --kill-child sh -ec '
         mount -t proc proc "$1/proc"
@@ -72,11 +72,12 @@ inside() {
         mount --rbind /dev "$1/dev"
         exec chroot "$1" env -i HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
             PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-            ${http_proxy:+http_proxy="$http_proxy"} sh -ec "cd; install() {
-                apt-get -qq install -y --no-install-recommends \"\$@\" >install.log 2>&1 || {
-                    cat install.log >&2; exit 1; }
-            }
-            $2"' sh "$folder/$1" "$2"
+            ${http_proxy:+http_proxy="$http_proxy"} sh -ec "$2"' sh "$folder/$1" '
+        cd
+        get() {
+            apt-get install -y --no-install-recommends "$@" >get.log 2>&1 || { cat get.log; exit 1; }
+        }
+        '"$2"
 }
 
 # draw NAME COMMAND: writes PNG files of some scenes by a command that starts the program, and prints
@@ -93,7 +94,7 @@ draw() {
 
 # show NAME COMMAND: opens the preview's window under Xvfb, writes its picture and quits.
 show() {
-    inside "$1" "install xvfb xauth
+    inside "$1" "get xvfb xauth
         rm -f window.png
         printf '%s\n' '{\"request\":\"screenshot\",\"file\":\"/root/window.png\"}' \
             '{\"request\":\"quit\"}' | timeout 300 xvfb-run -a $2 --control - >window.txt
@@ -118,36 +119,42 @@ documented() {
 }
 
 part_packages() {
-    inside build "install dpkg-dev; cd diptych
-        $(documented 'cmake --preset') >/dev/null; $(documented 'cpack ') >/dev/null"
+    inside build "get dpkg-dev; cd diptych
+        { $(documented 'cmake --preset'); $(documented 'cpack '); } >/dev/null"
     package=$(echo "$folder"/build/root/diptych/build/release/*.deb)
-    needed=$(documented 'apt-get install -y fonts' || true)
-    if [ "$suite" != bookworm ]; then # The page has the names of Debian 12.
-        needed="install $(dpkg-deb -f "$package" Depends | sed 's/([^)]*)//g; s/|[^,]*//g; s/,/ /g')"
-    fi
     make_system deb
     cp "$package" "$folder/deb/root"
-    inside deb "$(documented 'apt-get install ./' | sed 's|\./.*|-qq -y ./*.deb|') >install.log 2>&1"
+    inside deb 'get ./*.deb' # docs/install.md: apt-get install ./diptych_VERSION_ARCHITECTURE.deb
     make_system zip
     cp "${package%/*}"/*.zip "$folder/zip/root"
-    inside zip "$needed; install unzip; unzip -q *.zip; mv diptych-*/ diptych"
-    for name in deb zip; do
-        program=diptych
-        [ $name = deb ] || program=diptych/bin/diptych
-        inside $name "! command -v cc gcc cmake; $program --version"
-        draw $name $program | cmp - "$folder/hashes" || fail "$name draws something else"
-        show $name $program
+    needed=$(documented 'apt-get install fonts' | sed 's/^apt-get install//')
+    if [ "$suite" != bookworm ]; then # The page has the names of Debian 12.
+        needed=$(inside deb "dpkg-deb -f *.deb Depends" | sed 's/([^)]*)//g; s/|[^,]*//g; s/,/ /g')
+    fi
+    inside zip "get $needed unzip; unzip -q *.zip; mv diptych-*/ diptych"
+    for system in 'deb diptych' 'zip diptych/bin/diptych'; do
+        set -- $system
+        inside "$1" "$2 --version; ! command -v cc || exit 1"
+        draw "$1" "$2" | cmp - "$folder/hashes" || fail "the program in $1 draws something else"
+        show "$1" "$2"
     done
 }
 
 part_library() {
-    inside build "cd diptych
-        $(documented 'cmake --preset') >/dev/null
-        cmake --install build/release --strip --prefix /root/installed >/dev/null"
+    inside build "cd diptych; { $(documented 'cmake --preset')
+        $(documented 'cmake --install' | sed 's|\<DIR\>|/root/installed|'); } >/dev/null"
     make_system library
-    cp -a "$folder/build/root/installed" "$folder/library/root"
-    mkdir -p "$folder/library/root/diptych"
-    cp -a "$top/tests" "$folder/library/root/diptych"
+    # Elsewhere than it was installed, and beside nothing but the tests.
+    cp -a "$folder/build/root/installed" "$folder/library/root/copy"
+    mkdir -p "$folder/library/root/diptych/tests"
+    cp -a "$folder/build/root/diptych/tests/install" "$folder/library/root/diptych/tests"
+    ln -s ../copy/share/doc/diptych/docs "$folder/library/root/diptych/docs"
+    cp "$folder"/build/root/diptych/build/release/*.deb "$folder/library/root"
+    # The Debian package brings what the installed program needs.
+    inside library 'get ./*.deb gcc g++ libc6-dev cmake make pkg-config python3-cffi libassimp-dev \
+            libcjson-dev libdraco-dev libmeshoptimizer-dev libwebp-dev
+        sh diptych/tests/install/check_install.sh ~/diptych ~/copy gcc g++
+        sh diptych/tests/install/check_python.sh ~/diptych ~/copy'
 }
 
 for part in ${parts:-run quick packages library}; do
