@@ -56,6 +56,8 @@ make_system() {
         rm -rf "$folder/new"
         debootstrap --variant=minbase "$suite" "$folder/new" "$mirror" >"$folder/debootstrap.log" ||
             fail "debootstrap failed; see $folder/debootstrap.log"
+        # The mirror may be an archive whose signature is old.
+        echo 'Acquire::Check-Valid-Until "false";' >"$folder/new/etc/apt/apt.conf.d/old-archive"
         mv "$folder/new" "$folder/bare" # Last, so that a system that was left half made is made again.
     fi
     rm -rf "${folder:?}/$1"
