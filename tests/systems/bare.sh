@@ -58,6 +58,7 @@ make_system() {
             fail "debootstrap failed; see $folder/debootstrap.log"
         # The mirror may be an archive whose signature is old.
         echo 'Acquire::Check-Valid-Until "false";' >"$folder/new/etc/apt/apt.conf.d/old-archive"
+        echo force-unsafe-io >"$folder/new/etc/dpkg/dpkg.cfg.d/fast"
         mv "$folder/new" "$folder/bare" # Last, so that a system that was left half made is made again.
     fi
     rm -rf "${folder:?}/$1"
