@@ -1,13 +1,13 @@
 #!/bin/sh
-# Runs the documented commands on bare Debian systems: folders made by debootstrap, which have nothing
-# but what these commands install.
+# Runs the documented commands on bare Debian systems: folders made by debootstrap, which have
+# nothing but what these commands install.
 #
 # Usage: bare.sh bookworm|sid [--folder DIR] [--mirror URL] [PART]...
 #   --folder DIR   where the systems are made (build/bare/SUITE)
 #   --mirror URL   Debian's mirror (http://deb.debian.org/debian)
 #
 # Without PART, all parts run, in this order:
-#   run        ./run in a fresh clone of HEAD: it installs packages, builds, draws and opens a window
+#   run        ./run in a fresh clone of HEAD: it installs packages, builds, draws, opens the window
 #   quick      ./test quick in the same clone
 #   packages   cpack there; then the Debian package and the archive, each on a system without
 #              compilers, draw the same bits and open a window
@@ -59,7 +59,8 @@ make_system() {
         # The mirror may be an archive whose signature is old.
         echo 'Acquire::Check-Valid-Until "false";' >"$folder/new/etc/apt/apt.conf.d/old-archive"
         echo force-unsafe-io >"$folder/new/etc/dpkg/dpkg.cfg.d/fast"
-        mv "$folder/new" "$folder/bare" # Last, so that a system that was left half made is made again.
+        # Last, so that a system that was left half made is made again.
+        mv "$folder/new" "$folder/bare"
     fi
     rm -rf "${folder:?}/$1"
     cp -a "$folder/bare" "$folder/$1"
@@ -78,13 +79,14 @@ inside() {
             ${http_proxy:+http_proxy="$http_proxy"} sh -ec "$2"' sh "$folder/$1" '
         cd
         get() {
-            apt-get install -y --no-install-recommends "$@" >get.log 2>&1 || { cat get.log; exit 1; }
+            apt-get install -y --no-install-recommends "$@" >get.log 2>&1 ||
+                { cat get.log; exit 1; }
         }
         '"$2"
 }
 
-# draw NAME COMMAND: writes PNG files of some scenes by a command that starts the program, and prints
-# the hashes of their pixels.
+# draw NAME COMMAND: writes PNG files of some scenes by a command that starts the program, and
+# prints the hashes of their pixels.
 draw() {
     inside "$1" "
         for scene in courtyard blend water torture; do
@@ -97,6 +99,7 @@ draw() {
 
 # show NAME COMMAND: opens the preview's window under Xvfb, writes its picture and quits.
 show() {
+    # xvfb-run and xauth belong to the test, not to what ./run needs.
     inside "$1" "get xvfb xauth
         rm -f window.png
         printf '%s\n' '{\"request\":\"screenshot\",\"file\":\"/root/window.png\"}' \
