@@ -16,7 +16,7 @@ typedef struct DipCostLine {
     const DipCostPrediction *prediction; // NULL if there is none.
     int number;                          // Number on the Pareto front, from 1 on; 0 if not on it.
     const DipCandidate *candidate;       // NULL if the line is not on the front.
-    const DipCandidate *before;          // The previous candidate on the front; NULL if none is.
+    const DipCandidate *before;          // The previous candidate on the front, or NULL.
 } DipCostLine;
 
 extern const DipRecord dip_cost_line_record;
