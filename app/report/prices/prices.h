@@ -48,7 +48,8 @@ typedef struct DipPrice {
     double without_ms;  // The whole time without the step; 0 for the base.
     bool has_flip;      // The error is known. (The preview has times before it has errors.)
     double flip;        // What the step adds to the base's FLIP; for the base itself, its FLIP.
-    bool flip_at_floor; // The error with the step cannot be told from the truth's own noise.
+    bool flip_at_floor; // The error with the step cannot be told from the noise of the converged
+                        // picture that it is measured against.
     bool needs_company; // The step has no effect with the settings of the pane. `needs` then says
                         // what it needs, such as "AF".
     char needs[24];
