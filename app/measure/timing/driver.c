@@ -61,10 +61,10 @@ struct DipDriver {
     Block *blocks;    // Blocks of the round, in the order in which they are drawn.
     int *order;       // Scratch for shuffling.
     int *frames;      // First the frames that all subjects draw, then those that only bases draw.
-    int frame_count;  // Number of frames that all subjects draw.
-    int all_frame_count; // Length of `frames`.
-    int *is_needed;      // [subject]: 1 if the round draws the subject.
-    int *score;          // [subject]: undisturbed frames less three times the disturbed ones.
+    // Number of the frames that all subjects draw, and number of all elements of `frames`.
+    int frame_count, all_frame_count;
+    int *is_needed; // [subject]: 1 if the round draws the subject.
+    int *score;     // [subject]: undisturbed frames less three times the disturbed ones.
 
     DipTimed *fresh; // Frames of the incomplete round.
     int fresh_count;
