@@ -23,8 +23,8 @@ static bool prepare_textures(const DipCostContext *cost, DipError *err) {
            dip_scene_compress_textures(cost->session->scene, cost->session->pool, err);
 }
 
-// Opens the gallery if the session shows it. Otherwise, if there are truths (converged pictures),
-// opens the reference renderer, which draws the truths of models.
+// Opens the gallery if the session shows it. Otherwise, if `judges` is true, opens the reference
+// renderer, which draws the truths (converged pictures) of models.
 static bool open_source(DipCostContext *cost, bool judges, DipError *err) {
     const DipSession *session = cost->session;
     if (session->shows_gallery) {

@@ -99,7 +99,7 @@ static void hash_rig(const DipMotionRig *rig, DipHash *hash) {
     }
 }
 
-// A scene without motion has the hash that it had before motions existed.
+// Adds nothing for a scene without motion, so that its hash is the same as in older reports.
 static void hash_motion(const DipMotionDef *motion, DipHash *hash) {
     for (int r = 0; motion && r < motion->rig_count; r++) {
         hash_rig(&motion->rigs[r], hash);

@@ -42,11 +42,10 @@ unsigned dip_cost_sampling_settings(void);
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
-// Composes the counters of a combination. All groups but the settings of samples and shadows are
-// taken together if the base with only their settings was counted; otherwise each group is taken
-// alone. Returns
-// false if a combination that is needed was not counted, or if the combination differs from the
-// base in a setting that belongs to no group.
+// Composes the counters of a combination. Samples and shadows always count as groups of their own.
+// All other groups count as one group if the base with the settings of all of them was counted;
+// otherwise each counts alone. Returns false if a combination that is needed was not counted, or if
+// the combination differs from the base in a setting that belongs to no group.
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
                       const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]);
 

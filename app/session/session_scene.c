@@ -138,8 +138,8 @@ static void set_light(const DipSession *session, float ambient_lin[3], DipModelO
     }
 }
 
-// Returns the animation that shall play, or NULL for the first one of each model. The ini's choice
-// is about the ini's models.
+// Returns the animation that shall play, or NULL for the first one of each model. The ini chooses
+// the animation of its own models only, not of those that --model names.
 static const char *chosen_animation(const DipSession *session) {
     const char *of_ini = session->options->model_count ? "" : session->config.animation.text;
     return session->options->animation ? session->options->animation : of_ini[0] ? of_ini : NULL;
