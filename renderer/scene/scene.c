@@ -4,6 +4,7 @@
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/cull.h"
+#include "renderer/scene/resources/blended_pieces.h"
 #include "renderer/scene/resources/placement.h"
 #include "renderer/scene/resources/posed.h"
 #include "renderer/scene/resources/repeats.h"
@@ -331,11 +332,8 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
     return scene;
 }
 
-DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
-    DIP_FP_MODE_SCOPE();
-    if (!dip_scene_check(def, err)) {
-        return NULL;
-    }
+// Creates a scene from a valid description whose blended meshes are cut.
+static DipScene *create_scene(const DipSceneDef *def, DipPool *pool, DipError *err) {
     DipScene *scene = allocate_scene(def);
     if (!scene) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
@@ -360,6 +358,17 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
     add_effect_bytes(scene);
     scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
                                    1e-6 * (double)(dip_clock_ns() - textured_ns)};
+    return scene;
+}
+
+DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    DipCutScene *cut;
+    if (!dip_scene_check(def, err) || !dip_blended_cut(def, &cut, err)) {
+        return NULL;
+    }
+    DipScene *scene = create_scene(cut ? dip_cut_scene_def(cut) : def, pool, err);
+    dip_cut_scene_destroy(&cut);
     return scene;
 }
 
