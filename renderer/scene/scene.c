@@ -38,6 +38,7 @@ static void add_pbr_surface(const DipSceneDef *def, int index, DipScene *scene) 
     DipPbrUniforms *surface = &scene->pbr->surfaces[index];
     *surface = dip_pbr_surface(def, &def->meshes[index], &scene->pbr->tables, mesh->uv_varyings[0],
                                mesh->uv_varyings[1]);
+    surface->environment = scene->pbr->environment;
     mesh->full_layout.pbr = surface;
     scene->has_occlusion |= surface->occlusion_varying != DIP_ABSENT;
     scene->has_emission |= surface->emits;
@@ -339,7 +340,7 @@ static DipScene *create_scene(const DipSceneDef *def, DipPool *pool, DipError *e
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
         return NULL;
     }
-    if (!dip_scene_pbr_create(def, &scene->pbr, err)) {
+    if (!dip_scene_pbr_create(def, pool, &scene->pbr, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }
