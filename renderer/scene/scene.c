@@ -340,13 +340,13 @@ static DipScene *create_scene(const DipSceneDef *def, DipPool *pool, DipError *e
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
         return NULL;
     }
+    const int64_t begin_ns = dip_clock_ns();
     if (!dip_scene_pbr_create(def, pool, &scene->pbr, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }
     copy_materials(def, scene);
     mark_compressible(def, scene);
-    const int64_t begin_ns = dip_clock_ns();
     bool made = create_textures(def, scene, pool, err);
     const int64_t textured_ns = dip_clock_ns();
     for (int i = 0; made && i < def->mesh_count; i++) {

@@ -178,7 +178,7 @@ DIP_API bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, D
 
 // Durations of the parts of dip_scene_create, in milliseconds.
 typedef struct DipSceneTimes {
-    double textures_ms; // packing the textures and building their mip chains
+    double textures_ms; // packing the textures, building their mip chains, blurring the environment
     double meshes_ms;
 } DipSceneTimes;
 DIP_API DipSceneTimes dip_scene_times(const DipScene *scene);

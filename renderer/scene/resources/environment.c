@@ -18,7 +18,7 @@ enum {
     ROWS_OF_TASK = 8,
 };
 
-static const int level_cells[DIP_ENVIRONMENT_LEVELS] = {256, 256, 128, 64, 32, 32, 16, 16, 16};
+static const int level_cells[DIP_ENVIRONMENT_LEVELS] = {256, 128, 128, 64, 32, 32, 16, 16, 16};
 
 // The picture, made smaller if it was large.
 typedef struct Source {

@@ -203,6 +203,24 @@ static void blended_meshes_are_cut_or_no_scene_is_made(void **state) {
     end(&fixture);
 }
 
+static void environments_are_blurred_or_no_scene_is_made(void **state) {
+    (void)state;
+    static Fixture fixture;
+    static const float light[6] = {0.2f, 0.4f, 0.6f, 1.5f, 0.1f, 0.3f};
+    static const DipEnvironmentDef environment = {light, 2, 1};
+    begin(&fixture, DIP_TEST_SCENE_metal_gloss);
+    fixture.made.def.environment = &environment;
+    draw_truth(&fixture, NULL, fixture.before);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a scene with an environment",
+                                              .context = &fixture,
+                                              .run = make_scene,
+                                              .check = check_scene,
+                                              .finish = free_panes,
+                                              .needs_every_allocation = true,
+                                              .short_count = 12});
+    end(&fixture);
+}
+
 static void check_renderer(void *context, bool succeeded) {
     Fixture *fixture = context;
     assert_int_equal(fixture->panes[0] != NULL, succeeded);
@@ -547,6 +565,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(pool_starts_all_threads_or_none),
         cmocka_unit_test(scene_is_made_whole_or_not_at_all),
         cmocka_unit_test(blended_meshes_are_cut_or_no_scene_is_made),
+        cmocka_unit_test(environments_are_blurred_or_no_scene_is_made),
         cmocka_unit_test(renderer_is_made_whole_or_not_at_all),
         cmocka_unit_test(failed_frame_leaves_the_renderer_usable),
         cmocka_unit_test(failed_change_of_a_setting_can_be_taken_back),
