@@ -1,47 +1,8 @@
 #!/bin/sh
 # Runs the program as users do and checks its exit codes, its messages and the files that it writes.
 # Usage: test_cli.sh DIPTYCH SOURCE_FOLDER
-set -u
-diptych=$1
+. "$(dirname "$0")/program.sh"
 source=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-# expect CODE REGEX COMMAND...: the command must end with this exit code, and a line of its standard
-# error must match.
-expect() {
-    code=$1
-    regex=$2
-    shift 2
-    "$@" >out.txt 2>err.txt
-    found=$?
-    checks=$((checks + 1))
-    if [ "$found" != "$code" ] || { [ -n "$regex" ] && ! grep -qE "$regex" err.txt; }; then
-        failures=$((failures + 1))
-        echo "FAILED: $*"
-        echo "  expected exit $code and /$regex/; found exit $found and:"
-        sed 's/^/  | /' err.txt
-    fi
-    if [ "$code" = 2 ] && [ "$(wc -l <err.txt)" -gt "${most_lines:-1}" ]; then
-        failures=$((failures + 1))
-        echo "FAILED: more than one line for one fault: $*"
-        sed 's/^/  | /' err.txt
-    fi
-}
-
-# check DESCRIPTION COMMAND...: the command must succeed.
-check() {
-    description=$1
-    shift
-    checks=$((checks + 1))
-    if ! "$@" >/dev/null 2>&1; then
-        failures=$((failures + 1))
-        echo "FAILED: $description"
-    fi
-}
 
 # --- help and version
 expect 0 '' "$diptych" --help
@@ -63,74 +24,74 @@ check "help on path names both commands" grep -q 'path convert .*rewrite' out.tx
 expect 0 '' "$diptych" --version
 check "the version is one line" grep -qE '^diptych [0-9]+\.[0-9]+\.[0-9]+$' out.txt
 
-expect 2 '\[import\] only Diptych itself runs this command' "$diptych" import
-expect 2 '\[import\] only Diptych itself runs this command' "$diptych" import -- 1 1 1 1 1 1 a.obj
+refuse '\[import\] only Diptych itself runs this command' import
+refuse '\[import\] only Diptych itself runs this command' import -- 1 1 1 1 1 1 a.obj
 check "help does not show the hidden command" sh -c '! "$0" --help | grep -q "^  import"' "$diptych"
 
 # --- bad command lines: one line of error, exit code 2, nothing written
-expect 2 'diptych: \[dump\] nothing to do; give one of --out DIR, --json FILE, --hash, --y4m FILE, --raw FILE$' "$diptych" dump
-expect 2 '\[--frmes\] is not an option of .diptych dump.; did you mean --frames\?$' "$diptych" dump --hash --frmes 0:1
-expect 2 "\[--frames\] '5:2' is not FIRST:END" "$diptych" dump --hash --frames 5:2
-expect 2 "\[--frames\] 'a:b'" "$diptych" dump --hash --frames a:b
-expect 2 "\[--frames\] '0:9999999'" "$diptych" dump --hash --frames 0:9999999
-expect 2 "\[--fps\] '0'" "$diptych" dump --hash --fps 0
-expect 2 "\[--size\] '640' is not WIDTHxHEIGHT .* such as 640x480" "$diptych" dump --hash --size 640
-expect 2 "\[--size\] '0x5'" "$diptych" dump --hash --size 0x5
-expect 2 "\[--size\] '9000x5'" "$diptych" dump --hash --size 9000x5
-expect 2 "\[--threads\] '-1'" "$diptych" dump --hash --threads -1
-expect 2 "\[--threads\] 'many'" "$diptych" dump --hash --threads many
-expect 2 "\[--isa\] 'mmx' is not an instruction set; give one of auto\|scalar" "$diptych" dump --hash --isa mmx
-expect 2 "\[aa\] '3' is no step, accepted none\|2\|4\|6\|8" "$diptych" dump --hash --current aa=3
-expect 2 "\[opt\] 'on' is no step" "$diptych" dump --hash --requested opt=on
-expect 2 "\[asd\] asd=3 needs aa=6; with aa=4, give asd=1\|2$" \
-    "$diptych" dump --hash --requested aa=4,aaa=on,asd=3
-expect 2 "\[--requested\] needs a value: --requested SET" "$diptych" dump --hash --requested
-expect 2 "\[--hash\] takes no value" "$diptych" dump --hash=yes
-expect 2 "\[--out\] is not an option of .diptych path info." "$diptych" path info --out x y
-expect 2 "\[path\] 'show' is not a command; give one of path info FILE, path convert IN OUT" "$diptych" path show x
-expect 2 "\[path convert\] needs two files but got 1: path convert IN OUT" "$diptych" path convert x.pth
-expect 2 "\[dmp\] is not a command; did you mean dump\?" "$diptych" dmp --hash
-expect 2 "\[stray\] is one argument too many for .diptych dump." "$diptych" dump --hash stray
-expect 2 "\[--category\] 'SKY' is not a camera path of the ini; give one of DEFAULT\|AA" "$diptych" dump --hash --category SKY
-expect 2 "\[--category\] 'AF' .* follows --path; leave out one" "$diptych" dump --hash --category AF --path x.pth
-expect 2 "\[--category\] 'AF' .* follows an orbit .* leave out one" "$diptych" dump --hash --category AF --model x.obj
-expect 2 "\[path\] nothing to do; give one of path info FILE, path convert IN OUT" "$diptych" path
+refuse 'diptych: \[dump\] nothing to do; give one of --out DIR, --json FILE, --hash, --y4m FILE, --raw FILE$' dump
+refuse '\[--frmes\] is not an option of .diptych dump.; did you mean --frames\?$' dump --hash --frmes 0:1
+refuse "\[--frames\] '5:2' is not FIRST:END" dump --hash --frames 5:2
+refuse "\[--frames\] 'a:b'" dump --hash --frames a:b
+refuse "\[--frames\] '0:9999999'" dump --hash --frames 0:9999999
+refuse "\[--fps\] '0'" dump --hash --fps 0
+refuse "\[--size\] '640' is not WIDTHxHEIGHT .* such as 640x480" dump --hash --size 640
+refuse "\[--size\] '0x5'" dump --hash --size 0x5
+refuse "\[--size\] '9000x5'" dump --hash --size 9000x5
+refuse "\[--threads\] '-1'" dump --hash --threads -1
+refuse "\[--threads\] 'many'" dump --hash --threads many
+refuse "\[--isa\] 'mmx' is not an instruction set; give one of auto\|scalar" dump --hash --isa mmx
+refuse "\[aa\] '3' is no step, accepted none\|2\|4\|6\|8" dump --hash --current aa=3
+refuse "\[opt\] 'on' is no step" dump --hash --requested opt=on
+refuse "\[asd\] asd=3 needs aa=6; with aa=4, give asd=1\|2$" \
+    dump --hash --requested aa=4,aaa=on,asd=3
+refuse "\[--requested\] needs a value: --requested SET" dump --hash --requested
+refuse "\[--hash\] takes no value" dump --hash=yes
+refuse "\[--out\] is not an option of .diptych path info." path info --out x y
+refuse "\[path\] 'show' is not a command; give one of path info FILE, path convert IN OUT" path show x
+refuse "\[path convert\] needs two files but got 1: path convert IN OUT" path convert x.pth
+refuse "\[dmp\] is not a command; did you mean dump\?" dmp --hash
+refuse "\[stray\] is one argument too many for .diptych dump." dump --hash stray
+refuse "\[--category\] 'SKY' is not a camera path of the ini; give one of DEFAULT\|AA" dump --hash --category SKY
+refuse "\[--category\] 'AF' .* follows --path; leave out one" dump --hash --category AF --path x.pth
+refuse "\[--category\] 'AF' .* follows an orbit .* leave out one" dump --hash --category AF --model x.obj
+refuse "\[path\] nothing to do; give one of path info FILE, path convert IN OUT" path
 
 # The hint for a mistyped option names only options of the same command: dump has --requested, bench
 # does not.
-expect 2 "\[--requsted\] is not an option of .diptych bench.; .diptych bench --help. lists" \
-    "$diptych" bench --requsted aa=2
-expect 2 "\[--requsted\] is not an option of .diptych preview.; did you mean --requested\?" \
-    "$diptych" --requsted aa=2
-expect 2 "\[show\] is not a command; .diptych --help. lists" "$diptych" show
-expect 2 "\[--hash\] prints to standard output, and so does --json -;" \
-    "$diptych" dump --hash --json -
-expect 2 "\[path convert\] needs two files but got 0" "$diptych" path convert
-expect 2 "\[--threads\] '257' is not a number of threads from 1 to 256" \
-    "$diptych" dump --hash --threads 257
+refuse "\[--requsted\] is not an option of .diptych bench.; .diptych bench --help. lists" \
+    bench --requsted aa=2
+refuse "\[--requsted\] is not an option of .diptych preview.; did you mean --requested\?" \
+    --requsted aa=2
+refuse "\[show\] is not a command; .diptych --help. lists" show
+refuse "\[--hash\] prints to standard output, and so does --json -;" \
+    dump --hash --json -
+refuse "\[path convert\] needs two files but got 0" path convert
+refuse "\[--threads\] '257' is not a number of threads from 1 to 256" \
+    dump --hash --threads 257
 
-expect 2 "\[aa\] '3' is no step" "$diptych" bench --sets "aa=none;aa=3"
-expect 2 "\[--sets\] 'aa=2;' holds an empty value; write one ';' between two values" "$diptych" bench --sets "aa=2;"
-expect 2 "\[--threads\] 'two' is not a whole number from 0 to 256" "$diptych" bench --threads 1,two
-expect 2 "\[--isa\] 'mmx' is not an instruction set; give one of auto\|scalar" "$diptych" bench --isa scalar,mmx
-expect 2 "\[--size\] '64' is not WIDTHxHEIGHT" "$diptych" bench --size 64x48,64
-expect 2 "\[--grid\] '1' is not a whole number from 2 to 20000000" "$diptych" bench --grid 1
-expect 2 "\[--frames\] '0:4' is not a whole number from 1 to 10000" "$diptych" bench --frames 0:4
-expect 2 "\[--rounds\] '0' is not a whole number from 1" "$diptych" bench --rounds 0
-expect 2 "\[--grid-out-of-view\] there is no grid; give one with --grid" "$diptych" bench --grid-out-of-view
-expect 2 "\[--grid\] a grid replaces the scene and its path; leave out --grid or --path" "$diptych" bench --grid 9 --path x.pth
-expect 2 "\[--svg\] there is nothing to plot; give more than one value" "$diptych" bench --sets aa=none --svg plots
-expect 2 "none: \[--vs\] cannot be run" "$diptych" bench --vs ./none
-expect 2 "\[--svg\] plots show one program; leave out" "$diptych" bench --svg plots --vs "$diptych"
-expect 2 "\[bench\] the lists make 1024 combinations; give values for at most 512" "$diptych" bench --sets "aa=none;aa=2" \
+refuse "\[aa\] '3' is no step" bench --sets "aa=none;aa=3"
+refuse "\[--sets\] 'aa=2;' holds an empty value; write one ';' between two values" bench --sets "aa=2;"
+refuse "\[--threads\] 'two' is not a whole number from 0 to 256" bench --threads 1,two
+refuse "\[--isa\] 'mmx' is not an instruction set; give one of auto\|scalar" bench --isa scalar,mmx
+refuse "\[--size\] '64' is not WIDTHxHEIGHT" bench --size 64x48,64
+refuse "\[--grid\] '1' is not a whole number from 2 to 20000000" bench --grid 1
+refuse "\[--frames\] '0:4' is not a whole number from 1 to 10000" bench --frames 0:4
+refuse "\[--rounds\] '0' is not a whole number from 1" bench --rounds 0
+refuse "\[--grid-out-of-view\] there is no grid; give one with --grid" bench --grid-out-of-view
+refuse "\[--grid\] a grid replaces the scene and its path; leave out --grid or --path" bench --grid 9 --path x.pth
+refuse "\[--svg\] there is nothing to plot; give more than one value" bench --sets aa=none --svg plots
+refuse "none: \[--vs\] cannot be run" bench --vs ./none
+refuse "\[--svg\] plots show one program; leave out" bench --svg plots --vs "$diptych"
+refuse "\[bench\] the lists make 1024 combinations; give values for at most 512" bench --sets "aa=none;aa=2" \
     --threads "1$(printf ',%d' $(seq 2 32))" --size "1x1$(printf ',%dx1' $(seq 2 16))"
-expect 2 "\[--current\] is not an option of .diptych bench.; .diptych bench --help. lists" "$diptych" bench --current aa=2
+refuse "\[--current\] is not an option of .diptych bench.; .diptych bench --help. lists" bench --current aa=2
 
 # --- bad input files
-expect 2 'none.ini: ' "$diptych" dump --hash --config none.ini
-expect 2 'none.glb: ' "$diptych" dump --hash --model none.glb
-expect 2 'none.pth: ' "$diptych" dump --hash --path none.pth
-expect 2 'none.pth: ' "$diptych" path info none.pth
+refuse 'none.ini: ' dump --hash --config none.ini
+refuse 'none.glb: ' dump --hash --model none.glb
+refuse 'none.pth: ' dump --hash --path none.pth
+refuse 'none.pth: ' path info none.pth
 # The library that reads PLY files looks for the end of the header beyond the file, or for ever.
 printf 'ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nelement face 1\n' >hang.ply
 { cat hang.ply && head -c 60 /dev/zero; } >crash.ply
@@ -140,28 +101,28 @@ grep -aq __asan_init "$diptych" && importer_lines=100
 most_lines=$importer_lines expect 2 \
     'crash.ply: the importer (crashed|ended) while it read the model' \
     "$diptych" dump --hash --model crash.ply
-expect 2 'hang.ply: the importer hung while it read the model, accepted at most 2 s' \
-    "$diptych" dump --hash --import-seconds 2 --model hang.ply
-expect 2 "\[--shading\] 'toon' is not a shading; give one of auto\|flat\|gouraud\|phong" \
-    "$diptych" dump --hash --shading toon
-expect 2 "\[--up\] 'x' is not an axis; give one of auto\|y\|z" "$diptych" dump --hash --up x
+refuse 'hang.ply: the importer hung while it read the model, accepted at most 2 s' \
+    dump --hash --import-seconds 2 --model hang.ply
+refuse "\[--shading\] 'toon' is not a shading; give one of auto\|flat\|gouraud\|phong" \
+    dump --hash --shading toon
+refuse "\[--up\] 'x' is not an axis; give one of auto\|y\|z" dump --hash --up x
 printf 'v 0 0 0\nv 1e-10 0 0\nv 0 1e-10 0\nf 1 2 3\n' >tiny.obj
-expect 2 "tiny.obj: \[box\] the model's size is 1e-10" "$diptych" dump --hash --model tiny.obj
-expect 2 'tiny.obj:1: .* not a camera path, .*; load a model with --model$' \
-    "$diptych" path convert tiny.obj tiny.pth
+refuse "tiny.obj: \[box\] the model's size is 1e-10" dump --hash --model tiny.obj
+refuse 'tiny.obj:1: .* not a camera path, .*; load a model with --model$' \
+    path convert tiny.obj tiny.pth
 sed 's/1e-10/1e-7/' tiny.obj >small.obj
 expect 0 '' "$diptych" dump --hash --model small.obj
 sed 's/1e-10/1e12/' tiny.obj >huge.obj
-expect 2 'huge.obj: \[box\] 0\.\.9\.9+6e\+11 along axis 0' "$diptych" dump --hash --model huge.obj
+refuse 'huge.obj: \[box\] 0\.\.9\.9+6e\+11 along axis 0' dump --hash --model huge.obj
 printf 'diptych-path 1\nperiod 1\n0 0 0 0 0 0 1\n0 0 nan 0 0 0 1\n' >nan.pth
-expect 2 'nan.pth:4: ' "$diptych" path info nan.pth
-expect 2 'nan.pth:4: ' "$diptych" dump --hash --path nan.pth
+refuse 'nan.pth:4: ' path info nan.pth
+refuse 'nan.pth:4: ' dump --hash --path nan.pth
 sed 's#\.\./#'"$source"'/#' "$source/config/courtyard.ini" >good.ini
 sed 's/^RES:.*/RES: 640/; s/^MIPDEBUG:.*/MIPDEBUG: maybe/' good.ini >bad.ini
 most_lines=2 expect 2 'bad.ini:[0-9]+: \[RES\] ' "$diptych" dump --hash --config bad.ini
 check "one run reports all faults of a file" grep -qE 'bad.ini:[0-9]+: \[MIPDEBUG\] ' err.txt
 sed 's/court.gltf/none.gltf/' good.ini >missing.ini
-expect 2 'missing.ini:[0-9]+: \[XFILE\] .*none.gltf' "$diptych" dump --hash --config missing.ini
+refuse 'missing.ini:[0-9]+: \[XFILE\] .*none.gltf' dump --hash --config missing.ini
 sed 's/aa.pth/none.pth/' good.ini >missing.ini
 most_lines=3 expect 2 'missing.ini:[0-9]+: \[CAMPATH_AA\] .*none.pth' "$diptych" dump --hash \
     --config missing.ini
@@ -175,7 +136,7 @@ if [ "$(uname -m)" = x86_64 ]; then
     expect 2 "isa.ini:[0-9]+: \[ISA\] this machine cannot run 'neon'" "$diptych" dump --hash --config isa.ini
 fi
 sed 's/^RES:/LOG: faults.log\nRES:/; s/court.gltf/none.gltf/' good.ini >log.ini
-expect 2 'none.gltf' "$diptych" dump --hash --config log.ini
+refuse 'none.gltf' dump --hash --config log.ini
 check "the ini's log file gets the errors too" grep -q 'none.gltf' faults.log
 
 # --- what dump writes
@@ -293,7 +254,7 @@ expect 1 'c.json/x' "$diptych" dump $small --json c.json/x
 expect 1 '\[--out\] ' "$diptych" dump $small --out c.json
 
 # --- wrong input and failures at run time have different exit codes
-expect 2 'none.json: ' "$diptych" --cost none.json
+refuse 'none.json: ' --cost none.json
 expect 1 'none/x.png: |\[--out\] ' "$diptych" dump $small --out c.json/x
 
 # --- camera paths
@@ -303,26 +264,26 @@ expect 0 '' "$diptych" path convert aa.pth again.bth
 check "conversion to .pth and back changes no byte" cmp aa.bth again.bth
 expect 0 '' "$diptych" path info aa.bth
 check "path info prints the duration" grep -q '^duration   24 s' out.txt
-expect 2 "'aa.txt' names no format; write to a file that ends in .pth" "$diptych" path convert aa.bth aa.txt
+refuse "'aa.txt' names no format; write to a file that ends in .pth" path convert aa.bth aa.txt
 head -c 100 aa.bth >cut.bth
-expect 2 'cut.bth: ' "$diptych" path info cut.bth
+refuse 'cut.bth: ' path info cut.bth
 expect 1 'none/x.bth: ' "$diptych" path convert aa.pth none/x.bth
 
 # --- what cost writes
-expect 2 "\[--out\] there is no folder for the report; give one with --out DIR" "$diptych" cost
-expect 2 "\[--samples\] '50' is not a square number from 1 to 4096" "$diptych" cost --out x --samples 50
-expect 2 "\[--part\] '3:2' is not A:B" "$diptych" cost --out x --part 3:2
-expect 2 "\[--part\] ends at 4 of 3 viewpoints" "$diptych" cost --out x --part 0:4
-expect 2 "\[--budget-ms\] 'x' is not a number of milliseconds" "$diptych" cost --out x --budget-ms 8,x
-expect 2 "\[--budget-ms\] advice needs times" "$diptych" cost --out x --budget-ms 8 --errors-only
-expect 2 "\[--combine\] 'ab' is not a setting; give none, or some of aa, taa" "$diptych" cost --out x --combine aa,ab
-expect 2 "\[--pixels-per-degree\] '2' is not a number from 5 to 500" "$diptych" cost --out x --pixels-per-degree 2
-expect 2 "\[--viewing\] 'tv' is not phone, monitor, uhd or headset" "$diptych" cost --out x --viewing tv
-expect 2 "\[--pictures\] 'all' is not crops, full or none" "$diptych" cost --out x --pictures all
-expect 2 "\[cost merge\] there are no parts to join; give the cost.json of each" "$diptych" cost merge --out x
-expect 2 'none.json: cannot open report' "$diptych" cost merge --out x none.json
+refuse "\[--out\] there is no folder for the report; give one with --out DIR" cost
+refuse "\[--samples\] '50' is not a square number from 1 to 4096" cost --out x --samples 50
+refuse "\[--part\] '3:2' is not A:B" cost --out x --part 3:2
+refuse "\[--part\] ends at 4 of 3 viewpoints" cost --out x --part 0:4
+refuse "\[--budget-ms\] 'x' is not a number of milliseconds" cost --out x --budget-ms 8,x
+refuse "\[--budget-ms\] advice needs times" cost --out x --budget-ms 8 --errors-only
+refuse "\[--combine\] 'ab' is not a setting; give none, or some of aa, taa" cost --out x --combine aa,ab
+refuse "\[--pixels-per-degree\] '2' is not a number from 5 to 500" cost --out x --pixels-per-degree 2
+refuse "\[--viewing\] 'tv' is not phone, monitor, uhd or headset" cost --out x --viewing tv
+refuse "\[--pictures\] 'all' is not crops, full or none" cost --out x --pictures all
+refuse "\[cost merge\] there are no parts to join; give the cost.json of each" cost merge --out x
+refuse 'none.json: cannot open report' cost merge --out x none.json
 echo '{}' >empty.json
-expect 2 'empty.json: \[version\] is missing' "$diptych" cost merge --out x empty.json
+refuse 'empty.json: \[version\] is missing' cost merge --out x empty.json
 rm -rf x
 expect 0 '' "$diptych" cost --help
 check "help on cost gives examples" grep -q 'cost merge --out report' out.txt
@@ -366,8 +327,8 @@ expect 0 '' "$diptych" cost merge --out merged-full $square --pictures full part
 check "a merged page has whole frames" grep -q 'data-part="frame"[^>]*data:image/jpeg' merged-full/cost.html
 expect 0 '' "$diptych" cost merge --out merged-none --pictures none part0
 check "a merged page has no pictures if none are asked for" test "$(grep -c '<img' merged-none/cost.html)" = 0
-expect 2 'the parts show "square.gltf", and the pictures of the page would be drawn from' \
-    "$diptych" cost merge --out x part0 part1
+refuse 'the parts show "square.gltf", and the pictures of the page would be drawn from' \
+    cost merge --out x part0 part1
 check "the report has errors" test "$(wc -l <once.txt)" -gt 50
 check "merged parts have the same errors as one run" cmp once.txt merged.txt
 # A cache whose files cannot be written: folders stand in their places.
@@ -384,19 +345,19 @@ expect 0 '' $cost --out one-thread --errors-only --combine aa --threads 1 --isa 
 sums_of one-thread >other.txt
 check "errors are the same on one thread, without vectors" cmp once.txt other.txt
 sed 's/"samples":4,/"samples":9,/' part1/cost.json >else.json
-expect 2 'else.json: is not a part of the same report' \
-    "$diptych" cost merge --out x part0/cost.json else.json
+refuse 'else.json: is not a part of the same report' \
+    cost merge --out x part0/cost.json else.json
 
 # --- two reports, or two programs
-expect 2 "\[cost diff\] there is nothing to compare; give two reports or programs" "$diptych" cost diff once
-expect 2 "\[c\] is one argument too many" "$diptych" cost diff a b c
-expect 2 "\[--fail-over\] '3' is not a share from 0.1% to 1000%" "$diptych" cost diff once part0 --fail-over 3
-expect 2 'none.json: cannot open report' "$diptych" cost diff once none.json
-expect 2 'empty.json: \[version\] is missing' "$diptych" cost diff once empty.json
+refuse "\[cost diff\] there is nothing to compare; give two reports or programs" cost diff once
+refuse "\[c\] is one argument too many" cost diff a b c
+refuse "\[--fail-over\] '3' is not a share from 0.1% to 1000%" cost diff once part0 --fail-over 3
+refuse 'none.json: cannot open report' cost diff once none.json
+refuse 'empty.json: \[version\] is missing' cost diff once empty.json
 head -c 3000 once/cost.json >broken.json
-expect 2 'broken.json: is not a JSON file' "$diptych" cost diff broken.json once
-expect 2 "\[cost diff\] /bin/true has ended" "$diptych" cost diff /bin/true .
-expect 2 "\[cost diff\] /bin/echo did not answer as diptych's bench does" "$diptych" cost diff . /bin/echo
+refuse 'broken.json: is not a JSON file' cost diff broken.json once
+refuse "\[cost diff\] /bin/true has ended" cost diff /bin/true .
+refuse "\[cost diff\] /bin/echo did not answer as diptych's bench does" cost diff . /bin/echo
 expect 0 '' "$diptych" cost diff once one-thread --json same.json --fail-over 1%
 check "errors are the same on one thread" grep -q 'All errors and counters that both sides have are the same' out.txt
 check "a report without times is named" grep -q 'times and counters are not compared: B has none' out.txt
@@ -422,11 +383,11 @@ check "Ctrl-C ends cost diff with code 1" test $? = 1
 check "Ctrl-C is named" grep -q '\[cost diff\] interrupted' err.txt
 
 # --- one choice for several reports
-expect 2 "\[cost advise\] there are no reports; give the cost.json of each" "$diptych" cost advise
-expect 2 "\[--fps\] '0' is not a number of frames a second" "$diptych" cost advise once --fps 60,0
-expect 2 "\[--budget-of\] 'median' is not p95, mean or worst" "$diptych" cost advise once --budget-ms 8 --budget-of median
-expect 2 'none.json: cannot open report' "$diptych" cost advise none.json --budget-ms 8
-expect 2 'part1: has no times' "$diptych" cost advise part1 --budget-ms 8
+refuse "\[cost advise\] there are no reports; give the cost.json of each" cost advise
+refuse "\[--fps\] '0' is not a number of frames a second" cost advise once --fps 60,0
+refuse "\[--budget-of\] 'median' is not p95, mean or worst" cost advise once --budget-ms 8 --budget-of median
+refuse 'none.json: cannot open report' cost advise none.json --budget-ms 8
+refuse 'part1: has no times' cost advise part1 --budget-ms 8
 "$diptych" cost advise once merged/cost.json --budget-ms 1000 --json advice.json >out.txt 2>err.txt
 case $? in
 0)
@@ -458,5 +419,4 @@ check "the same command finishes the report" test -s stopped/cost.html -a ! -e s
 expect 0 '' $cost --out killed --starts 1 --rounds 8
 check "the killed run is finished, too" test -s killed/cost.html -a ! -e killed/cost.state
 
-echo "$checks checks, $failures failed"
-[ "$failures" = 0 ]
+finish

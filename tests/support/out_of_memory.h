@@ -27,7 +27,7 @@ typedef struct DipOutOfMemory {
     // The operation may only succeed while no allocation fails.
     bool needs_every_allocation;
     // Greatest number of allocations that the short test fails in each way, spread evenly over all;
-    // 0: every one. The long test fails every one.
+    // 0: every one. With sanitizers, it fails a quarter of them. The long test fails every one.
     int short_count;
 } DipOutOfMemory;
 

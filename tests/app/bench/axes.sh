@@ -1,36 +1,13 @@
 #!/bin/sh
 # Runs `bench` with render scales, threads and instruction sets as users do. No check looks at a
 # time. Usage: axes.sh DIPTYCH
-set -u
-diptych=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
+. "$(dirname "$0")/../program.sh"
 
-fail() {
-    failures=$((failures + 1))
-    echo "FAILED: $*"
-    sed 's/^/  | /' err.txt
-}
-
-# bench CODE ARGUMENT...: bench must end with this exit code, and a fault of the input must be one
-# line.
+# bench CODE ARGUMENT...: bench must end with this exit code.
 bench() {
     code=$1
     shift
-    "$diptych" bench "$@" >out.txt 2>err.txt
-    found=$?
-    [ $found = "$code" ] || fail "bench $*: exit code $found, expected $code"
-    [ "$code" != 2 ] || [ "$(wc -l <err.txt)" = 1 ] || fail "bench $*: expected one line"
-}
-
-# has REGEX [FILE]
-has() {
-    grep -qE -- "$1" "${2:-out.txt}" || {
-        fail "nothing matches $1 in:"
-        sed 's/^/  | /' "${2:-out.txt}"
-    }
+    expect "$code" '' "$diptych" bench "$@"
 }
 
 bench 2 --scale 0.5,1.01
@@ -90,5 +67,4 @@ for wait in 0 1.5; do
     has '\[bench\] interrupted' err.txt
 done
 
-echo "$failures failed"
-[ $failures = 0 ]
+finish

@@ -2,53 +2,27 @@
 # Runs `cost predict` as users do: faults of its options and of reports, its table and its files. No
 # check looks at a time.
 # Usage: predict.sh DIPTYCH SOURCES
-set -u
-diptych=$1
+. "$(dirname "$0")/../program.sh"
 square=$2/tests/assets/data/square.gltf
 courtyard=$2/config/courtyard.ini
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
 
-fail() {
-    failures=$((failures + 1))
-    echo "FAILED: $*"
-    sed 's/^/  | /' err.txt
-}
-
-# predict CODE ARGUMENT...: cost predict must end with this exit code, and a fault must be one line.
+# predict ARGUMENT...: cost predict must run.
 predict() {
-    code=$1
-    shift
-    "$diptych" cost predict "$@" >out.txt 2>err.txt
-    found=$?
-    [ $found = "$code" ] || fail "cost predict $*: exit code $found, expected $code"
-    [ "$code" != 2 ] || [ "$(wc -l <err.txt)" = 1 ] || fail "cost predict $*: expected one line"
+    expect 0 '' "$diptych" cost predict "$@"
 }
 
 # refuses REGEX ARGUMENT...
 refuses() {
     regex=$1
     shift
-    predict 2 "$@"
-    grep -qE -- "$regex" err.txt || fail "cost predict $*: no line matches $regex"
-}
-
-# has REGEX
-has() {
-    grep -qE -- "$1" out.txt || {
-        fail "nothing matches $1 in:"
-        sed 's/^/  | /' out.txt
-    }
+    refuse "$regex" cost predict "$@"
 }
 
 # measure FOLDER ARGUMENT...
 measure() {
     folder=$1
     shift
-    "$diptych" cost --out "$folder" --places 1 --samples 4 --cache truths --pictures none "$@" \
-        >out.txt 2>err.txt || fail "cost $* does not run"
+    expect 0 '' "$diptych" cost --out "$folder" --places 1 --samples 4 --cache truths --pictures none "$@"
 }
 
 measure report --model "$square" --size 96x64 --starts 1 --rounds 2 --timed 2
@@ -78,16 +52,16 @@ assert json.load(open("tiny/cost.json"))["smaller"] is None
 PYTHON
 
 # --- from the report alone: exact, and the same each time
-predict 0 report/cost.json --model "$square" --size 192x128 --time 0 --csv a.csv --json a.json
+predict report/cost.json --model "$square" --size 192x128 --time 0 --csv a.csv --json a.json
 has "^  There +192x128 pixels, path DEFAULT, "
 has "^  Model +prices of work from [0-9]+ rows and 4 at 48x32 of the report$"
 has "^  Timed +nothing: the predictions come from the report alone$"
-predict 0 report --model "$square" --size 192x128 --time 0 --csv b.csv
+predict report --model "$square" --size 192x128 --time 0 --csv b.csv
 cmp a.csv b.csv || fail "two predictions from the same report differ"
-predict 0 report --model "$square" --size 192x128 --time 3 --check 4 --csv c.csv --json c.json
+predict report --model "$square" --size 192x128 --time 3 --check 4 --csv c.csv --json c.json
 has "^  Timed +3 combinations there, "
 has "^  Checked +4 other combinations there$"
-predict 0 tiny --model "$square" --threads 1 --time 1
+predict tiny --model "$square" --threads 1 --time 1
 has "^  There +48x36 pixels, path DEFAULT, 1 thread, "
 python3 - <<'PYTHON' || fail "the files are not as expected"
 import csv, json
@@ -118,11 +92,10 @@ PYTHON
 
 # --- another camera path of the courtyard, and a scene of the gallery
 measure court --config "$courtyard" --size 96x72 --starts 1 --rounds 2 --timed 1 --combine af
-predict 0 court --config "$courtyard" --category AAA --time 2
+predict court --config "$courtyard" --category AAA --time 2
 has "^  There +96x72 pixels, path AAA, "
 measure blend --scene blend --size 96x72 --starts 1 --rounds 2 --timed 1 --combine aa
-predict 0 blend --scene blend --size 64x64 --time 2
+predict blend --scene blend --size 64x64 --time 2
 refuses "blend: is of another scene " blend --scene toon
 
-[ $failures = 0 ] && echo "cost predict does what it should"
-exit $((failures > 0))
+finish

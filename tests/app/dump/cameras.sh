@@ -1,34 +1,8 @@
 #!/bin/sh
 # Tests --pose, --fov and --path-end, and the texts of the PNG files, which hold the pose.
 # Usage: cameras.sh DIPTYCH SOURCE_FOLDER
-set -u
-diptych=$1
+. "$(dirname "$0")/../program.sh"
 source=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-check() {
-    description=$1
-    shift
-    checks=$((checks + 1))
-    if ! "$@" >check.txt 2>&1; then
-        failures=$((failures + 1))
-        echo "FAILED: $description"
-        sed 's/^/  | /' check.txt
-    fi
-}
-
-# refuse REGEX ARGUMENTS...: the program must end with exit code 2 and one line of error.
-refuse() {
-    regex=$1
-    shift
-    "$diptych" "$@" >out.txt 2>err.txt
-    check "exit 2 and /$regex/ from $*, found exit $? and: $(cat err.txt)" \
-        sh -c "[ $? = 2 ] && [ \$(wc -l <err.txt) = 1 ] && grep -qE \"\$0\" err.txt" "$regex"
-}
 
 small="dump --size 48x36 --current aa=none --requested aa=2"
 
@@ -143,5 +117,4 @@ done
 "$diptych" bench --frames 2 --rounds 1 --size 8x8 --sets aa=none --pose '0 1.7 6 0 0 0 1' >out.txt 2>err.txt
 check "bench takes --pose and says so" grep -q ', one pose$' out.txt
 
-echo "$checks checks, $failures failed"
-[ "$failures" = 0 ]
+finish

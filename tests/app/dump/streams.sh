@@ -2,36 +2,7 @@
 # Tests the streams of `diptych dump` as another program reads them: standard output holds the
 # stream and nothing else, a reader that ends early is answered with one line, and ffmpeg decodes
 # the streams to the same colours. Usage: streams.sh DIPTYCH
-set -u
-diptych=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-# check DESCRIPTION COMMAND...: the command must succeed.
-check() {
-    description=$1
-    shift
-    checks=$((checks + 1))
-    if ! "$@" >check.txt 2>&1; then
-        failures=$((failures + 1))
-        echo "FAILED: $description"
-        sed 's/^/  | /' check.txt
-    fi
-}
-
-# expect CODE REGEX COMMAND...: the command must end with this exit code and one line of error.
-expect() {
-    code=$1
-    regex=$2
-    shift 2
-    "$@" >out.bin 2>err.txt
-    found=$?
-    check "exit $code and /$regex/ from: $*; found exit $found: $(cat err.txt)" \
-        sh -c "[ $found = $code ] && grep -qE \"\$0\" err.txt && [ \$(wc -l <err.txt) = 1 ]" "$regex"
-}
+. "$(dirname "$0")/../program.sh"
 
 size_of() {
     wc -c <"$1"
@@ -70,12 +41,12 @@ if command -v convert >/dev/null; then
 fi
 
 # --- mistakes
-expect 2 '\[--raw -\] prints to standard output, and so does --y4m -;' \
-    "$diptych" $small --y4m - --raw -
-expect 2 '\[--hash\] prints to standard output, and so does --y4m -;' \
-    "$diptych" $small --y4m - --hash
-expect 2 "\[--pane\] 'left' is not a picture; give one of current.requested.both.difference" \
-    "$diptych" $small --raw - --pane left
+refuse '\[--raw -\] prints to standard output, and so does --y4m -;' \
+    $small --y4m - --raw -
+refuse '\[--hash\] prints to standard output, and so does --y4m -;' \
+    $small --y4m - --hash
+refuse "\[--pane\] 'left' is not a picture; give one of current.requested.both.difference" \
+    $small --raw - --pane left
 expect 1 'none/x.y4m: \[--y4m\] cannot be written: ' "$diptych" $small --y4m none/x.y4m
 if command -v script >/dev/null; then
     script -qec "$diptych $small --y4m - ; echo code \$?" /dev/null </dev/null >terminal.txt 2>&1
@@ -122,5 +93,4 @@ raise SystemExit(len(a) != len(b) or worst > 3)"
 else
     echo "ffmpeg is missing, so nothing is decoded"
 fi
-echo "$checks checks, $failures failed"
-[ "$failures" = 0 ]
+finish

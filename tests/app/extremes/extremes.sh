@@ -4,21 +4,9 @@
 # compared with truths that do not need Diptych's own idea of a picture: exact numbers of samples,
 # and other inputs that must show the same.
 # Usage: extremes.sh DIPTYCH MAKE_INPUTS small|big
-set -u
-diptych=$1
+. "$(dirname "$0")/../program.sh"
 make_inputs=$2
 part=$3
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-fail() {
-    failures=$((failures + 1))
-    echo "FAILED: $1"
-    sed 's/^/  | /' err.txt
-}
 
 # run COMMAND...: runs a command that must succeed, with its output in out.txt and err.txt. In the
 # big part, prints how long it took and how much memory it used.
@@ -30,17 +18,6 @@ run() {
         echo "$(($(date +%s) - begin)) s: $*" | sed "s|$diptych|diptych|"
         grep -o 'peak .* resident' err.txt | sed 's/^/    /'
     }
-}
-
-# refuse REGEX COMMAND...: the command must end with exit code 2 and one line that matches.
-refuse() {
-    regex=$1
-    shift
-    checks=$((checks + 1))
-    "$@" >out.txt 2>err.txt
-    code=$?
-    { [ $code = 2 ] && [ "$(wc -l <err.txt)" = 1 ] && grep -qE "$regex" err.txt; } ||
-        fail "exit code $code and the lines below, expected 2 and one line /$regex/: $*"
 }
 
 # counter PANE NAME: prints a counter of the first frame of the record in out.txt.
@@ -118,9 +95,9 @@ if [ "$part" = small ]; then
     for size in 1x1 2x1 1x7 1x8192 8192x5 63x65; do
         pane $size
     done
-    refuse "\[--size\] '0x1'" "$diptych" dump --hash --size 0x1
-    refuse "\[--size\] '8193x1'" "$diptych" dump --hash --size 8193x1
-    refuse "\[--size\] '1x8193'" "$diptych" bench --size 1x8193
+    refuse "\[--size\] '0x1'" dump --hash --size 0x1
+    refuse "\[--size\] '8193x1'" dump --hash --size 8193x1
+    refuse "\[--size\] '1x8193'" bench --size 1x8193
     for size in 1x1 8192x1; do
         hashes court.txt --size $size --frames 0:90:30 --requested aa=8,af=16,aaa=on,asd=1
         hashes court_scalar.txt --size $size --frames 0:90:30 --requested aa=8,af=16,aaa=on,asd=1 \
@@ -137,13 +114,13 @@ if [ "$part" = small ]; then
     printf '{"asset":{"version":"2.0"}}' >none.gltf
     printf 'solid x\nendsolid x\n' >empty.stl
     printf 'RES: 8x8\n' >none.ini
-    refuse 'points.obj: the model has no triangles' "$diptych" dump --hash --model points.obj
-    refuse 'lines.obj: the model has no triangles' "$diptych" dump --hash --model lines.obj
-    refuse 'blank.obj: the model file is empty' "$diptych" dump --hash --model blank.obj
-    refuse 'node.gltf: the model has no triangles' "$diptych" dump --hash --model node.gltf
-    refuse 'none.gltf: the model has no triangles' "$diptych" dump --hash --model none.gltf
-    refuse 'empty.stl: the model has no triangles' "$diptych" dump --hash --model empty.stl
-    refuse 'none.ini: \[XFILE\] is missing' "$diptych" dump --hash --config none.ini
+    refuse 'points.obj: the model has no triangles' dump --hash --model points.obj
+    refuse 'lines.obj: the model has no triangles' dump --hash --model lines.obj
+    refuse 'blank.obj: the model file is empty' dump --hash --model blank.obj
+    refuse 'node.gltf: the model has no triangles' dump --hash --model node.gltf
+    refuse 'none.gltf: the model has no triangles' dump --hash --model none.gltf
+    refuse 'empty.stl: the model has no triangles' dump --hash --model empty.stl
+    refuse 'none.ini: \[XFILE\] is missing' dump --hash --config none.ini
 
     # One triangle: its area is that of a perspective projection, 6642 pixels, more or less the
     # 394 pixels of its outline.
@@ -183,8 +160,8 @@ if [ "$part" = small ]; then
     head -c 12 one.bth >zero.bth
     printf '\0\0\0\0' >>zero.bth
     tail -c +17 one.bth | head -c 8 >>zero.bth
-    refuse 'zero.pth:2: \[keys\] there are no keys' "$diptych" dump --hash --model one.obj --path zero.pth
-    refuse 'zero.bth: \[keys\] at byte 12: 0 keys' "$diptych" dump --hash --model one.obj --path zero.bth
+    refuse 'zero.pth:2: \[keys\] there are no keys' dump --hash --model one.obj --path zero.pth
+    refuse 'zero.bth: \[keys\] at byte 12: 0 keys' dump --hash --model one.obj --path zero.bth
 else
     pane 8192x8192
     run "$diptych" dump --hash --timing --size 8192x8192 --category WATER --current aa=none \
@@ -203,7 +180,6 @@ else
     hashes ten_million.txt --size 512x512 --model ten_million.glb --path square.pth --requested aa=8
     same two.txt ten_million.txt "a square of 2 and of 10 million triangles"
     run "$diptych" bench --grid 10000000 --size 512x512 --frames 1 --rounds 1 --sets aa=4
-    refuse "\[--grid\] '20000001' is not a whole number" "$diptych" bench --grid 20000001
+    refuse "\[--grid\] '20000001' is not a whole number" bench --grid 20000001
 fi
-echo "extremes: $checks checks, $failures failures"
-[ $failures = 0 ]
+finish

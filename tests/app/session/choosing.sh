@@ -5,7 +5,7 @@
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 "$2/docs/choosing.py" "$1" "$folder/out" --size 48x36 --cache "$folder/cache" >"$folder/table"
+python3 "$2/docs/choosing.py" errors "$1" "$folder/out" --size 48x36 --cache "$folder/cache" >"$folder/table"
 sed -n 's/^\(| `*[a-z][^|]*\) | \..*/\1/p' "$2/docs/choosing.md" | tr -d '`' >"$folder/rows"
 [ "$(wc -l <"$folder/rows")" -ge 16 ] || { echo "FAILED: the page has no table" >&2; exit 1; }
 while read -r row; do

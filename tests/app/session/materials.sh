@@ -1,27 +1,10 @@
 #!/bin/sh
 # Tests the MATERIAL_ keys of the ini: an X file that the ini marks draws the same pictures as the
 # same scene in a glTF file with tags. Usage: materials.sh DIPTYCH TEST_FOLDER
-set -u
-diptych=$1
+. "$(dirname "$0")/../program.sh"
 here=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
 mkdir scene || exit 1
 python3 "$here/materials.py" scene || exit 1
-failures=0
-checks=0
-
-check() {
-    description=$1
-    shift
-    checks=$((checks + 1))
-    if ! "$@" >check.txt 2>&1; then
-        failures=$((failures + 1))
-        echo "FAILED: $description"
-        sed 's/^/  | /' check.txt
-    fi
-}
 
 # write_ini NAME MODEL LINE...: writes an ini.
 write_ini() {
@@ -37,13 +20,6 @@ write_ini() {
 draw() {
     "$diptych" dump --config "$1" --pose '0 1.5 7 0 0 0 1' --frames 0:3 --fps 1 --hash >"$2" 2>err.txt
     check "$1 is drawn without a warning: $(cat err.txt)" test ! -s err.txt
-}
-
-# refuse INI REGEX: the program must end with exit code 2 and one line of error.
-refuse() {
-    "$diptych" dump --config "$1" --hash >out.txt 2>err.txt
-    check "exit 2 and /$2/ from $1, found exit $? and: $(cat err.txt)" \
-        sh -c "[ $? = 2 ] && [ \$(wc -l <err.txt) = 1 ] && grep -qE \"\$0\" err.txt" "$2"
 }
 
 lit='MATERIAL_LIGHTMAP: Lit_wall = scene/light.png'
@@ -86,20 +62,19 @@ write_ini wrong.ini scene.x 'MATERIAL_WATER: Pond*'
 check "--model ignores the marks: $(cat err.txt)" test ! -s err.txt
 
 # --- mistakes
-refuse wrong.ini "^diptych: wrong.ini:5: \[MATERIAL_WATER\] 'Pond\*' fits no material of the models, accepted \"Plain_wall\", \"Lit_wall\", \"Fence\", \"Glass_1\", \"Pool_é\", \"Himmel\"$"
+refuse "^diptych: wrong.ini:5: \[MATERIAL_WATER\] 'Pond\*' fits no material of the models, accepted \"Plain_wall\", \"Lit_wall\", \"Fence\", \"Glass_1\", \"Pool_é\", \"Himmel\"$" dump --config wrong.ini --hash
 write_ini lost.ini scene.x 'MATERIAL_LIGHTMAP: Lit_wall = scene/lost.png'
-refuse lost.ini '^diptych: lost.ini:5: \[MATERIAL_LIGHTMAP\] scene/lost.png: '
+refuse '^diptych: lost.ini:5: \[MATERIAL_LIGHTMAP\] scene/lost.png: ' dump --config lost.ini --hash
 write_ini broken.ini scene.x 'MATERIAL_LIGHTMAP: Lit_wall = scene/scene.x'
-refuse broken.ini '^diptych: broken.ini:5: \[MATERIAL_LIGHTMAP\] scene/scene.x: '
+refuse '^diptych: broken.ini:5: \[MATERIAL_LIGHTMAP\] scene/scene.x: ' dump --config broken.ini --hash
 write_ini empty.ini scene.x 'MATERIAL_SKY:'
-refuse empty.ini "\[MATERIAL_SKY\] has no value, accepted a name with \* and \?, up to 32 times"
+refuse "\[MATERIAL_SKY\] has no value, accepted a name with \* and \?, up to 32 times" dump --config empty.ini --hash
 write_ini many.ini scene.x
 for i in $(seq 33); do echo 'MATERIAL_SKY: Himmel' >>many.ini; done
-refuse many.ini '^diptych: many.ini:37: \[MATERIAL_SKY\] is given more than 32 times, accepted up to 32 names'
+refuse '^diptych: many.ini:37: \[MATERIAL_SKY\] is given more than 32 times, accepted up to 32 names' dump --config many.ini --hash
 write_ini dark.ini scene.x 'MATERIAL_LIGHTMAP: Lit_wall'
 "$diptych" dump --config dark.ini --size 8x8 --hash >out.txt 2>err.txt
 check "a mark without a light map gives a warning: $(cat err.txt)" \
     grep -q 'warning: .*\[Lit_wall\] .*marked as light-mapped, but has no light map' err.txt
 
-echo "$checks checks, $failures failed"
-[ "$failures" = 0 ]
+finish

@@ -1,24 +1,7 @@
 #!/bin/sh
 # Tests camera paths from the cameras of glTF models. Usage: model_cameras.sh DIPTYCH TEST_FOLDER
-set -u
-diptych=$1
+. "$(dirname "$0")/../program.sh"
 here=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-check() {
-    description=$1
-    shift
-    checks=$((checks + 1))
-    if ! "$@" >check.txt 2>&1; then
-        failures=$((failures + 1))
-        echo "FAILED: $description"
-        sed 's/^/  | /' check.txt
-    fi
-}
 
 for seed in 1 2 3; do
     check "the paths are those of the specification, seed $seed" \
@@ -80,5 +63,4 @@ if command -v xvfb-run >which.txt && command -v timeout >which.txt; then
     check "a name that is no camera is refused" grep -q '"id":4,"ok":false.*Busy/Two' out.txt
 fi
 
-echo "$checks checks, $failures failed"
-[ "$failures" = 0 ]
+finish

@@ -3,23 +3,7 @@
 # are for change the picture there, and options that do not fit it are refused.
 #
 # Usage: torture.sh DIPTYCH
-set -eu
-diptych=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-fail() {
-    echo "FAILED: $1" >&2
-    exit 1
-}
-refuses() { # refuses TEXT ARGUMENT...: exit code 2 and a message that has TEXT
-    text=$1
-    shift
-    code=0
-    "$diptych" "$@" >out.txt 2>err.txt || code=$?
-    [ "$code" = 2 ] || fail "'$*' ended with $code"
-    grep -qF -- "$text" err.txt || { cat err.txt; fail "'$*' does not say '$text'"; }
-}
+. "$(dirname "$0")/../program.sh"
 
 # changes CAMERA SET: at this camera, SET and the set aa=4 differ, and the pictures draw.
 changes() {
@@ -46,15 +30,15 @@ mkdir TEXT
     fail "a folder hides the camera"
 rmdir TEXT
 echo nonsense >TEXT
-refuses "not a camera path" dump --hash --scene torture --path TEXT
+refuse "not a camera path" dump --hash --scene torture --path TEXT
 rm TEXT
 
 # --scene courtyard is what is drawn without options.
 "$diptych" dump --scene courtyard --size 64x48 --hash >courtyard.txt
 "$diptych" dump --size 64x48 --hash | cmp - courtyard.txt || fail "the courtyard differs"
 
-refuses "|models|courtyard|torture" dump --hash --scene tortur
-refuses "has an ini of its own" dump --hash --scene torture --config x.ini
-refuses "has camera paths instead" dump --hash --scene torture --look 2
-refuses "leave out one of the two options" dump --hash --scene torture --model x.glb
-echo "all passed"
+refuse "\|models\|courtyard\|torture" dump --hash --scene tortur
+refuse "has an ini of its own" dump --hash --scene torture --config x.ini
+refuse "has camera paths instead" dump --hash --scene torture --look 2
+refuse "leave out one of the two options" dump --hash --scene torture --model x.glb
+finish
