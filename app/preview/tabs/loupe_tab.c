@@ -364,7 +364,7 @@ static void declare_head(DipUi *ui, DipWindow *window, DipRect row) {
     const int padding = dip_ui_px(ui, row.width < dip_ui_px(ui, 300) ? 4 : 8);
     int id = ID_ZOOM;
     for (int zoom = DIP_LOUPE_MIN_ZOOM; zoom <= DIP_LOUPE_MAX_ZOOM; zoom *= 2) {
-        char text[8];
+        char text[16];
         snprintf(text, sizeof text, "%dx", zoom);
         if (row_button(ui, id++, &row, padding, text, tools->zoom == zoom,
                        "Shows each pixel of the panes this many times as large.")) {
