@@ -494,11 +494,11 @@ static void draw_mirror(World *world) {
                                                    .reference = 1,
                                                    .read_mask = 255,
                                                    .front = {.function = DIP_COMPARE_EQUAL}}};
-    static const float silver[3] = {0.6f, 0.65f, 0.7f};
+    static const float tint[3] = {0.05f, 0.06f, 0.08f};
     Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
     Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
-    Lit pane = lit_at(world, 0.5f, 1.2f, -1.5f, silver);
-    pane.alpha = 0.2f;
+    Lit pane = lit_at(world, 0.5f, 1.2f, -1.5f, tint);
+    pane.alpha = 0.35f;
     const DipDraw scene[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
 
     // The mirrored scene, whose triangles wind the other way round.
