@@ -123,9 +123,7 @@ static bool write_map(const char *file, const float *flip, int width, int height
         dip_magma(flip[i], rgba8 + 4 * i);
         rgba8[4 * i + 3] = 255;
     }
-    const DipFrame frame = {
-        .rgba8 = rgba8, .stride_bytes = (size_t)width * 4, .width = width, .height = height};
-    const bool written = dip_png_write(file, &frame, err);
+    const bool written = dip_png_write_rgba8(file, rgba8, (size_t)width * 4, width, height, err);
     free(rgba8);
     return written;
 }
@@ -220,11 +218,7 @@ static void print_json(const CompareOptions *options, const DipPicture *a,
 // --- command -------------------------------------------------------------------------------------
 
 static bool save(const char *file, const DipPicture *a, DipError *err) {
-    const DipFrame frame = {.rgba8 = a->rgba8,
-                            .stride_bytes = (size_t)a->width * 4,
-                            .width = a->width,
-                            .height = a->height};
-    return dip_png_write(file, &frame, err);
+    return dip_png_write_rgba8(file, a->rgba8, (size_t)a->width * 4, a->width, a->height, err);
 }
 
 static bool run_compare(DipSession *session, const void *arguments, DipError *err) {

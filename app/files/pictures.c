@@ -258,8 +258,27 @@ static bool add_texts(unsigned char **bytes, size_t *size_bytes, const DipPngTex
 
 // --- files ---------------------------------------------------------------------------------------
 
+// Checks that there is a row of pixels in each stride.
+static bool check_pixels(const char *file, const DipFrame *frame, DipError *err) {
+    if (!frame->rgba8) {
+        return dip_error_set(err, DIP_ERROR_MISSING, file, 0, "rgba8", "NULL, accepted a pointer");
+    }
+    if (frame->width < 1 || frame->height < 1) {
+        return dip_error_set(err, DIP_ERROR_RANGE, file, 0, "width",
+                             "%dx%d pixels, accepted 1x1 and more", frame->width, frame->height);
+    }
+    const size_t row_bytes = 4 * (size_t)frame->width;
+    return frame->stride_bytes >= row_bytes ||
+           dip_error_set(err, DIP_ERROR_RANGE, file, 0, "stride_bytes",
+                         "%zu, accepted the %zu bytes of a row and more", frame->stride_bytes,
+                         row_bytes);
+}
+
 bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const DipPngText *texts,
                               int count, DipError *err) {
+    if (!check_pixels(file, frame, err)) {
+        return false;
+    }
     unsigned char *bytes = NULL;
     size_t size_bytes;
     if (!dip_png_encode(frame->rgba8, frame->stride_bytes, frame->width, frame->height, &bytes,
@@ -275,6 +294,13 @@ bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const Dip
 
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     return dip_png_write_with_texts(file, frame, NULL, 0, err);
+}
+
+bool dip_png_write_rgba8(const char *file, const uint8_t *rgba8, size_t stride_bytes, int width,
+                         int height, DipError *err) {
+    const DipFrame frame = {
+        .rgba8 = rgba8, .stride_bytes = stride_bytes, .width = width, .height = height};
+    return dip_png_write(file, &frame, err);
 }
 
 // --- PFM -----------------------------------------------------------------------------------------

@@ -33,8 +33,13 @@ DIP_API bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palet
 DIP_API bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
                              int quality, unsigned char **bytes, size_t *size_bytes);
 
-// Writes a frame as a PNG file, whole or not at all (whole_file.h). Fails with DIP_ERROR_IO or
-// DIP_ERROR_MEMORY.
+// Writes 8-bit RGBA pixels, the top row first, as a PNG file, whole or not at all (whole_file.h);
+// alpha is left out. Fails with MISSING if rgba8 is NULL, with RANGE if the picture has no pixels
+// or stride_bytes is less than a row, and with IO or MEMORY.
+DIP_API bool dip_png_write_rgba8(const char *file, const uint8_t *rgba8, size_t stride_bytes,
+                                 int width, int height, DipError *err);
+
+// Writes a frame's pixels as dip_png_write_rgba8 does.
 DIP_API bool dip_png_write(const char *file, const DipFrame *frame, DipError *err);
 
 // Does what dip_png_write does, and inserts texts into the file, before the picture.

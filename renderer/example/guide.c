@@ -1,7 +1,7 @@
-// The pictures of docs/pipeline.md, from the first triangle to particles over a kept picture. The
-// document quotes this file.
+// The pictures of docs/pipeline.md, from the first triangle to a mirror. The document quotes this
+// file.
 //
-// Usage: guide FOLDER (writes guide_1.ppm to guide_7.ppm into the folder)
+// Usage: guide FOLDER (writes guide_1.ppm to guide_8.ppm into the folder)
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/shapes/camera.h"
 #include "renderer/shapes/shapes.h"
@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { WIDTH = 320, HEIGHT = 240, MAP = 512, SPARKS = 60 };
 
@@ -134,6 +135,7 @@ typedef struct World {
     DipMesh *ball;
     DipMesh *spark;
     DipMesh *ground;
+    DipMesh *mirror;
     DipMatrix to_clip;
     DipMatrix to_light_clip;
 } World;
@@ -252,12 +254,14 @@ static void draw_outline(World *world) {
                     .reference = 1,
                     .read_mask = 255,
                     .write_mask = 255,
-                    .front = {.function = DIP_COMPARE_ALWAYS, .passed = DIP_STENCIL_REPLACE}}};
+                    .front = {.function = DIP_COMPARE_ALWAYS, .passed = DIP_STENCIL_REPLACE},
+                    .back = {.function = DIP_COMPARE_ALWAYS, .passed = DIP_STENCIL_REPLACE}}};
     static const DipDrawState outside = {.depth_test = DIP_DEPTH_ALWAYS,
                                          .stencil = {.enabled = true,
                                                      .reference = 1,
                                                      .read_mask = 255,
-                                                     .front = {.function = DIP_COMPARE_NOT_EQUAL}}};
+                                                     .front = {.function = DIP_COMPARE_NOT_EQUAL},
+                                                     .back = {.function = DIP_COMPARE_NOT_EQUAL}}};
     static const float gold[3] = {1.0f, 0.7f, 0.1f};
     const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
     const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
@@ -320,7 +324,7 @@ static void shadowed_fragment(DipFragmentBatch *batch) {
 
 // Draws what the light sees: depths alone.
 static void draw_map(World *world, DipDepth *depth) {
-    static const DipDrawState away = {.depth_bias = {.slope = -2.0f, .relative = -8.0f}};
+    static const DipDrawState away = {.depth_bias = {.slope = -2.0f, .constant = -0x1p-20f}};
     Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
     dip_matrix_floats(&world->to_light_clip, ball.to_clip);
     DipDraw draw = lit_draw(world->ball, &ball);
@@ -429,6 +433,104 @@ static void draw_sparks(World *world) {
     dip_depth_destroy(&kept.depth);
 }
 
+// --- 8. a mirror ---------------------------------------------------------------------------------
+
+enum { NO_COLOUR = DIP_CHANNEL_RED | DIP_CHANNEL_GREEN | DIP_CHANNEL_BLUE | DIP_CHANNEL_ALPHA };
+
+// Draws into kept samples and depths. first: the pass clears them, and has the clip plane.
+static void draw_into(World *world, const Kept *kept, const DipDraw *draws, int count, bool first,
+                      const float clip_plane[4]) {
+    DipPass pass = {
+        .draws = draws,
+        .draw_count = count,
+        .sample_count = 4,
+        .clear_lin = {0.25f, 0.42f, 0.65f},
+        .target = {.width = WIDTH, .height = HEIGHT},
+        .attachments = {.samples = kept->samples, .keep_target = true, .depth = kept->depth},
+    };
+    if (first) {
+        pass.clip_plane_count = 1;
+        memcpy(pass.clip_planes[0], clip_plane, sizeof pass.clip_planes[0]);
+    } else {
+        pass.attachments.colour_load = DIP_LOAD_KEEP;
+        pass.attachments.depth_load = DIP_LOAD_KEEP;
+        pass.attachments.stencil_load = DIP_LOAD_KEEP;
+    }
+    DipError err = {0};
+    require(dip_pipeline_draw(world->pipeline, &pass, NULL, NULL, &err), &err);
+}
+
+// Stores the means of the samples in the picture.
+static void resolve(World *world, const Kept *kept) {
+    const DipPass means = {
+        .sample_count = 4,
+        .target = {.rgba8 = &picture[0][0][0],
+                   .stride_bytes = WIDTH * 4,
+                   .width = WIDTH,
+                   .height = HEIGHT},
+        .attachments = {.samples = kept->samples, .colour_load = DIP_LOAD_KEEP},
+    };
+    DipError err = {0};
+    require(dip_pipeline_draw(world->pipeline, &means, NULL, NULL, &err), &err);
+}
+
+// Draws the scene with a mirror in the plane z = -1.5.
+static void draw_mirror(World *world) {
+    static const DipDrawState mark = {
+        .kept_channels = NO_COLOUR,
+        .keep_depth = true,
+        .stencil = {.enabled = true,
+                    .reference = 1,
+                    .write_mask = 255,
+                    .front = {.function = DIP_COMPARE_ALWAYS, .passed = DIP_STENCIL_REPLACE}}};
+    static const DipDrawState inside = {.stencil = {.enabled = true,
+                                                    .reference = 1,
+                                                    .read_mask = 255,
+                                                    .front = {.function = DIP_COMPARE_EQUAL},
+                                                    .back = {.function = DIP_COMPARE_EQUAL}}};
+    static const DipDrawState glass = {.blend = DIP_BLEND_MODE_ALPHA,
+                                       .depth_test = DIP_DEPTH_ALWAYS,
+                                       .stencil = {.enabled = true,
+                                                   .reference = 1,
+                                                   .read_mask = 255,
+                                                   .front = {.function = DIP_COMPARE_EQUAL}}};
+    static const float tint[3] = {0.05f, 0.06f, 0.08f};
+    Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
+    Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    Lit pane = lit_at(world, 0.5f, 1.2f, -1.5f, tint);
+    pane.alpha = 0.35f;
+    const DipDraw scene[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
+
+    // The mirrored scene, whose triangles wind the other way round.
+    const double facing[3] = {0.0, 0.0, 1.0};
+    const DipMatrix reflection = dip_matrix_reflection(facing, -1.5);
+    const DipMatrix mirrored_to_clip = dip_matrix_multiply(&world->to_clip, &reflection);
+    Lit mirrored[2] = {ground, ball};
+    DipDraw first[3] = {lit_draw(world->mirror, &pane), scene[0], scene[1]};
+    first[0].state = &mark;
+    for (int i = 0; i < 2; i++) {
+        dip_matrix_floats(&mirrored_to_clip, mirrored[i].to_clip);
+        first[1 + i].uniforms = &mirrored[i];
+        first[1 + i].cull = DIP_CULL_FRONT;
+        first[1 + i].state = &inside;
+    }
+
+    // What is mirrored lies behind the mirror. The margin keeps the mirror itself.
+    const double behind[4] = {0.0, 0.0, -1.0, -1.5 + 0.001};
+    float clip_plane[4];
+    DipError err = {0};
+    require(dip_matrix_clip_plane(&world->to_clip, behind, clip_plane, &err), &err);
+
+    DipDraw second[3] = {lit_draw(world->mirror, &pane), scene[0], scene[1]};
+    second[0].state = &glass;
+    Kept kept = make_kept();
+    draw_into(world, &kept, first, 3, true, clip_plane);
+    draw_into(world, &kept, second, 3, false, NULL);
+    resolve(world, &kept);
+    dip_samples_destroy(&kept.samples);
+    dip_depth_destroy(&kept.depth);
+}
+
 // --- the program ---------------------------------------------------------------------------------
 
 static void write_picture(const char *folder, int number) {
@@ -465,20 +567,23 @@ int main(int argc, char **argv) {
     world.spark = mesh_of(&shape, "spark");
     require(dip_shape_plane(&shape, 8.0f, 8.0f, 1, 1, &err), &err);
     world.ground = mesh_of(&shape, "ground");
+    require(dip_shape_quad(&shape, 3.4f, 2.4f, &err), &err);
+    world.mirror = mesh_of(&shape, "mirror");
     make_camera(&world);
     make_light(&world);
 
     draw_triangle(world.pipeline);
     write_picture(argv[1], 1);
-    static void (*const steps[])(World *) = {draw_lit,   draw_glass,  draw_outline,
-                                             draw_wires, draw_shadow, draw_sparks};
-    for (int i = 0; i < 6; i++) {
+    static void (*const steps[])(World *) = {draw_lit,    draw_glass,  draw_outline, draw_wires,
+                                             draw_shadow, draw_sparks, draw_mirror};
+    for (int i = 0; i < 7; i++) {
         steps[i](&world);
         write_picture(argv[1], 2 + i);
     }
     dip_mesh_destroy(&world.ball);
     dip_mesh_destroy(&world.spark);
     dip_mesh_destroy(&world.ground);
+    dip_mesh_destroy(&world.mirror);
     dip_pipeline_destroy(&world.pipeline);
     dip_pipeline_destroy(&world.map_pipeline);
     dip_pool_destroy(&pool);

@@ -34,11 +34,14 @@ DIP_API int dip_depth_sample_count(const DipDepth *depth);
 DIP_API float *dip_depth_row(DipDepth *depth, int sample, int y);
 DIP_API uint8_t *dip_stencil_row(DipDepth *depth, int sample, int y);
 
-// How a shader compares with stored depths.
+// How a shader compares with stored depths. A read compares with texels whose middles lie up to 1,
+// 1/2 or 3/2 texels away along each axis. So that surfaces do not shade themselves, the map is
+// drawn with a depth bias (state.h) that moves them away from the light by their rise over this
+// distance along both axes: the slope that stands beside each filter.
 typedef enum DipShadowFilter {
-    DIP_SHADOW_LINEAR,  // the bilinear mean of four comparisons
-    DIP_SHADOW_NEAREST, // one comparison
-    DIP_SHADOW_WIDE,    // the mean of nine comparisons over a square of 2x2 texels
+    DIP_SHADOW_LINEAR,  // the bilinear mean of four comparisons; slope -2
+    DIP_SHADOW_NEAREST, // one comparison; slope -1
+    DIP_SHADOW_WIDE,    // the mean of nine comparisons over a square of 2x2 texels; slope -3
 } DipShadowFilter;
 
 // Depths that a shader compares with, usually a light's (DipSampleShadow in shader.h). Only sample

@@ -1,6 +1,7 @@
 // Meshes: the vertices and indices that the pipeline draws. A mesh is split into chunks of
-// triangles, and each chunk has a bounding box, so that chunks out of view are left out early. A
-// mesh is immutable, unless it is made by dip_mesh_create_updatable.
+// triangles, and each chunk has a bounding box, so that chunks out of view are left out early. The
+// chunks keep the order of the indices, in which ordered draws (state.h) take effect. A mesh is
+// immutable, unless it is made by dip_mesh_create_updatable.
 #ifndef DIP_RENDERER_PIPELINE_MESH_H
 #define DIP_RENDERER_PIPELINE_MESH_H
 

@@ -66,7 +66,8 @@ typedef struct DipDraw {
     const void *uniforms;
     const DipSampler *samplers; // at most DIP_MAX_SAMPLERS
     // 4x4 matrix, row-major, that takes mesh positions to clip space. The pipeline uses it to cull
-    // chunks of the mesh by their boxes. NULL: no chunk is culled.
+    // chunks of the mesh by their boxes. Set it if much of a mesh may be out of view and the vertex
+    // shader moves positions by this matrix alone. NULL: no chunk is culled.
     const float *bounds_to_clip;
     // What the vertex shader computes in floats. The pipeline uses it for triangles that have to be
     // cut and reach far away: floats of the far corners are too coarse for the new corners near the
@@ -110,7 +111,7 @@ typedef struct DipAttachments {
     // `store` may then be NULL.
     bool keep_target;
     // Depths and stencil values that outlive the pass, borrowed, of the target's size and of the
-    // pass's sample_count. NULL: the pass has its own.
+    // pass's sample_count. NULL: the pass has its own, and cannot keep earlier ones.
     DipDepth *depth;
     DipLoad depth_load;
     DipStore depth_store;
@@ -142,7 +143,9 @@ typedef struct DipPass {
     bool alpha_to_coverage;
     // Linear light, not NaN; clamped to 0..1 for targets of 8 bits per channel.
     float clear_lin[3];
-    // User clip planes in clip space. A surface is kept where dot(plane, clip position) >= 0.
+    // User clip planes in clip space, for all draws of the pass. A surface is kept where
+    // dot(plane, clip position) >= 0. dip_matrix_clip_plane (renderer/shapes/camera.h) makes them
+    // from planes of the world.
     float clip_planes[DIP_MAX_CLIP_PLANES][4];
     int clip_plane_count;
     // A target whose pixels are NULL, of any format but DIP_FORMAT_CALLER, is a pass without

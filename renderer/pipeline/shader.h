@@ -93,7 +93,9 @@ typedef void DipSampleTarget(DipFragmentBatch *batch, const DipTarget *target, c
 // first, and the four results are averaged with the weights of bilinear filtering, in 1/256. With
 // DIP_SHADOW_WIDE, each of the nine texels around the point is compared, and the weight of a result
 // is the area that its texel has in common with a square of 2x2 texels around the point. Points
-// outside the map are lit; texels beyond its border repeat the border.
+// beside the map are lit, and those behind its far plane (z < 0) are compared as if they lay on it:
+// they are lit where the map is cleared to 0. Texels beyond the map's border repeat the border. A
+// map is drawn with the depth bias that its filter needs (DipShadowFilter in depth.h).
 typedef void DipSampleShadow(DipFragmentBatch *batch, const DipShadowMap *map, const float *u,
                              const float *v, const float *z, float *out);
 

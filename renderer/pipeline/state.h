@@ -73,7 +73,7 @@ typedef struct DipBlendEquation {
 } DipBlendEquation;
 
 // Blending. If it is not enabled, the source replaces the target. If it is enabled, both equations
-// must be set: an equation that is all 0 gives 0.
+// must be set: an equation that is all 0 gives 0, and if both are all 0, the draw is refused.
 typedef struct DipBlend {
     bool enabled;
     DipBlendEquation colour;
@@ -129,6 +129,7 @@ typedef enum DipDepthTest {
 // moves a surface by the same share of its distance everywhere: its units are units in the last
 // place of the sample's own depth. `constant` moves all surfaces by the same depth, as the constant
 // bias of Direct3D 9 does; OpenGL and later versions of Direct3D count it in units of their format.
+// `constant` suits parallel projections, whose depths are equally coarse everywhere.
 typedef struct DipDepthBias {
     float slope;
     float relative;
@@ -159,14 +160,15 @@ typedef struct DipStencilFace {
 } DipStencilFace;
 
 // The stencil test, which comes before the depth test. A clip shader comes before both, so what it
-// cuts away changes no stencil value. An operation writes the bits of write_mask only.
+// cuts away changes no stencil value. An operation writes the bits of write_mask only. A test of
+// which all masks are 0 is refused.
 typedef struct DipStencil {
     bool enabled;
     uint8_t reference;
     uint8_t read_mask;
     uint8_t write_mask;
     DipStencilFace front; // for triangles that wind counter-clockwise on the screen
-    DipStencilFace back;
+    DipStencilFace back;  // for the others, such as the front faces of a mirrored object
     // If true, the three values below replace those above for back faces. If false, both faces
     // share those above.
     bool back_has_values;

@@ -92,6 +92,14 @@ DIP_API bool dip_matrix_invert(DipMatrix *inverse, const DipMatrix *matrix, DipE
 // if the 3x3 elements have no inverse or one of them is not finite.
 DIP_API bool dip_matrix_normals(float normals[9], const DipMatrix *model, DipError *err);
 
+// Makes a clip plane of a pass (DipPass.clip_planes in pipeline.h) from a plane of the space that
+// to_clip takes to clip space. Points p with plane[0..2] . p + plane[3] >= 0 are kept. out is
+// scaled by a power of two for which its largest element has a magnitude of 1 to 2. Fails with
+// RANGE if the matrix has no inverse or is not finite, or if plane[0..2] is 0 or an element of the
+// plane is not finite; the error's key is the parameter.
+DIP_API bool dip_matrix_clip_plane(const DipMatrix *to_clip, const double plane[4], float out[4],
+                                   DipError *err);
+
 // Writes matrix * point, without dividing by w.
 DIP_API void dip_matrix_apply(const DipMatrix *matrix, const double point[4], double out[4]);
 

@@ -176,9 +176,9 @@ static void eliminate(Elimination *e, int c) {
     }
 }
 
-static bool are_finite(const double matrix[16]) {
-    for (int i = 0; i < 16; i++) {
-        if (!isfinite(matrix[i])) {
+static bool are_finite(const double *values, int count) {
+    for (int i = 0; i < count; i++) {
+        if (!isfinite(values[i])) {
             return false;
         }
     }
@@ -186,7 +186,7 @@ static bool are_finite(const double matrix[16]) {
 }
 
 static bool invert(double out[16], const double matrix[16]) {
-    if (!are_finite(matrix)) {
+    if (!are_finite(matrix, 16)) {
         return false;
     }
     Elimination e = {.right = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}},
@@ -206,7 +206,7 @@ static bool invert(double out[16], const double matrix[16]) {
             out[4 * to + c] = ldexp(e.right[r][c], -e.column_exponent[to] - e.row_exponent[c]);
         }
     }
-    return are_finite(out);
+    return are_finite(out, 16);
 }
 
 bool dip_matrix_invert(DipMatrix *inverse, const DipMatrix *matrix, DipError *err) {
@@ -248,6 +248,43 @@ bool dip_matrix_normals(float normals[9], const DipMatrix *model, DipError *err)
         for (int c = 0; c < 3; c++) {
             normals[3 * r + c] = (float)ldexp(made[4 * c + r], -exponent);
         }
+    }
+    return true;
+}
+
+// Takes a plane to clip space: the plane, as a row, times the inverse of to_clip.
+static bool take_to_clip(double out[4], const DipMatrix *to_clip, const double plane[4]) {
+    double from_clip[16];
+    if (!invert(from_clip, to_clip->m)) {
+        return false;
+    }
+    const int exponent = exponent_of(plane, 1);
+    for (int c = 0; c < 4; c++) {
+        out[c] = 0.0;
+        for (int r = 0; r < 4; r++) {
+            out[c] += ldexp(plane[r], -exponent) * from_clip[4 * r + c];
+        }
+    }
+    return are_finite(out, 4);
+}
+
+bool dip_matrix_clip_plane(const DipMatrix *to_clip, const double plane[4], float out[4],
+                           DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    if (!are_finite(plane, 4) || (plane[0] == 0.0 && plane[1] == 0.0 && plane[2] == 0.0)) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "plane",
+                             "(%g, %g, %g, %g), accepted finite numbers, not all of the first "
+                             "three 0",
+                             plane[0], plane[1], plane[2], plane[3]);
+    }
+    double made[4];
+    if (!take_to_clip(made, to_clip, plane)) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "to_clip",
+                             "a matrix that has no inverse or is not finite");
+    }
+    const int exponent = exponent_of(made, 1) - 1;
+    for (int c = 0; c < 4; c++) {
+        out[c] = (float)ldexp(made[c], -exponent);
     }
     return true;
 }

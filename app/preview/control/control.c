@@ -219,12 +219,9 @@ static bool pick(const DipPreviewMoment *moment, const DipControlRequest *reques
 
 static bool save(const DipPreviewMoment *moment, const char *file, cJSON *reply, DipError *err) {
     const DipPixels *picture = &moment->picture;
-    const DipFrame frame = {.rgba8 = picture->rgba8,
-                            .stride_bytes = picture->stride_bytes,
-                            .width = picture->width,
-                            .height = picture->height};
     cJSON_AddStringToObject(reply, "file", file);
-    return dip_png_write(file, &frame, err);
+    return dip_png_write_rgba8(file, picture->rgba8, picture->stride_bytes, picture->width,
+                               picture->height, err);
 }
 
 // --- all requests --------------------------------------------------------------------------------

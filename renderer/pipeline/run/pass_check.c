@@ -42,10 +42,15 @@ static bool check_memory(const DipTarget *target, DipError *err) {
                          "not aligned, accepted addresses that are multiples of 4");
 }
 
-// Whether a target without pixels is enough for the pass.
-static bool may_lack_pixels(const DipPass *pass) {
+// Checks that the target has pixels, unless the pass needs none.
+static bool check_pixels(const DipPass *pass, DipError *err) {
     const DipAttachments *a = &pass->attachments;
-    return a->samples ? a->keep_target : a->depth != NULL;
+    const bool may_lack_pixels = a->samples ? a->keep_target : a->depth != NULL;
+    return pass->target.rgba8 || may_lack_pixels ||
+           dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "target.rgba8", "NULL, accepted %s",
+                         a->samples ? "a pointer, or attachments.keep_target for a pass that keeps "
+                                      "samples alone"
+                                    : "a pointer, or attachments.depth for a pass without colours");
 }
 
 static bool check_target(const DipPass *pass, int width, int height, DipError *err) {
@@ -53,8 +58,7 @@ static bool check_target(const DipPass *pass, int width, int height, DipError *e
     if (!in_range((int)target->format, 0, DIP_FORMAT_COUNT - 1, "target.format", err)) {
         return false;
     }
-    if (target->format != DIP_FORMAT_CALLER && !may_lack_pixels(pass) &&
-        !is_set(target->rgba8, "target.rgba8", err)) {
+    if (target->format != DIP_FORMAT_CALLER && !check_pixels(pass, err)) {
         return false;
     }
     if (target->width != width || target->height != height) {

@@ -20,11 +20,22 @@ static bool check_equation(const DipBlendEquation *equation, const char *field, 
            in_range((int)equation->op, 0, DIP_BLEND_OP_COUNT - 1, field, err);
 }
 
+// Whether an equation has not been set, or gives 0.
+static bool is_zero(const DipBlendEquation *equation) {
+    return equation->source == DIP_BLEND_ZERO && equation->target == DIP_BLEND_ZERO &&
+           equation->op == DIP_BLEND_ADD;
+}
+
 static bool check_blend(const DipBlend *blend, DipError *err) {
     for (int c = 0; c < 4; c++) {
         if (!is_finite(blend->constant[c], "draws.state.blend.constant", err)) {
             return false;
         }
+    }
+    if (blend->enabled && is_zero(&blend->colour) && is_zero(&blend->alpha)) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "draws.state.blend.colour",
+                             "blending without equations, accepted a mode such as "
+                             "DIP_BLEND_MODE_ALPHA, or equations of your own");
     }
     return check_equation(&blend->colour, "draws.state.blend.colour", err) &&
            check_equation(&blend->alpha, "draws.state.blend.alpha", err);
@@ -35,6 +46,15 @@ static bool check_face(const DipStencilFace *face, const char *field, DipError *
            in_range((int)face->stencil_failed, 0, DIP_STENCIL_OP_COUNT - 1, field, err) &&
            in_range((int)face->depth_failed, 0, DIP_STENCIL_OP_COUNT - 1, field, err) &&
            in_range((int)face->passed, 0, DIP_STENCIL_OP_COUNT - 1, field, err);
+}
+
+// Checks that the stencil test can find or change something.
+static bool check_masks(const DipStencil *stencil, DipError *err) {
+    const bool back_has_masks =
+        stencil->back_has_values && (stencil->back_read_mask || stencil->back_write_mask);
+    return !stencil->enabled || stencil->read_mask || stencil->write_mask || back_has_masks ||
+           dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "draws.state.stencil.read_mask",
+                         "all masks of the test are 0, accepted a read_mask or write_mask above 0");
 }
 
 static bool check_line_width(float width, DipError *err) {
@@ -55,14 +75,19 @@ bool dip_state_check(const DipDrawState *state, DipError *err) {
             is_finite(state->depth_bias.constant, "draws.state.depth_bias.constant", err) &&
             check_face(&state->stencil.front, "draws.state.stencil.front", err) &&
             check_face(&state->stencil.back, "draws.state.stencil.back", err) &&
+            check_masks(&state->stencil, err) &&
             in_range((int)state->fill, 0, DIP_FILL_COUNT - 1, "draws.state.fill", err) &&
             check_line_width(state->line_width, err));
 }
 
 static bool check_depth(const DipPass *pass, DipError *err) {
-    const DipDepth *depth = pass->attachments.depth;
+    const DipAttachments *a = &pass->attachments;
+    const DipDepth *depth = a->depth;
     if (!depth) {
-        return true;
+        return (a->depth_load != DIP_LOAD_KEEP && a->stencil_load != DIP_LOAD_KEEP) ||
+               dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "attachments.depth",
+                             "NULL, accepted depths if the pass keeps earlier depths or stencil "
+                             "values (DIP_LOAD_KEEP)");
     }
     const int width = dip_depth_width(depth);
     const int height = dip_depth_height(depth);
@@ -75,6 +100,15 @@ static bool check_depth(const DipPass *pass, DipError *err) {
            dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.depth",
                          "%d samples per pixel, accepted the pass's %d",
                          dip_depth_sample_count(depth), pass->sample_count);
+}
+
+static const char *format_name(DipFormat format) {
+    static const char *const names[DIP_FORMAT_COUNT] = {
+        [DIP_FORMAT_SRGB8] = "DIP_FORMAT_SRGB8",     [DIP_FORMAT_LINEAR8] = "DIP_FORMAT_LINEAR8",
+        [DIP_FORMAT_RGBA32F] = "DIP_FORMAT_RGBA32F", [DIP_FORMAT_R32F] = "DIP_FORMAT_R32F",
+        [DIP_FORMAT_CALLER] = "DIP_FORMAT_CALLER",
+    };
+    return names[format];
 }
 
 // Checks the samples that outlive the pass.
@@ -99,8 +133,9 @@ static bool check_samples(const DipPass *pass, DipError *err) {
     }
     return dip_samples_format(samples) == pass->target.format ||
            dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "attachments.samples",
-                         "samples for targets of format %d, accepted the target's format %d",
-                         (int)dip_samples_format(samples), (int)pass->target.format);
+                         "samples for targets of %s, accepted the target's %s",
+                         format_name(dip_samples_format(samples)),
+                         format_name(pass->target.format));
 }
 
 bool dip_attachments_check(const DipPass *pass, DipError *err) {

@@ -27,6 +27,11 @@ VEC_INLINE Axis axis_at(Vf fraction, int size, bool linear) {
                   .outside = vf_lt(inside, vf_splat(0.0f))};
 }
 
+// Returns the depths to compare. Points behind the far plane are compared as if they lay on it.
+VEC_INLINE Vf depths_at(const float *z) {
+    return vf_max(vf_splat(0.0f), vf_load(z));
+}
+
 // Returns the weight where the stored depth is not nearer than z, and 0 elsewhere.
 VEC_INLINE Vi lit(const float *depths, Vi index, Vf z, Vi weight) {
     return vi_select(vf_lt(z, vf_gather(depths, index)), vi_splat(0), weight);
@@ -55,7 +60,7 @@ VEC_INLINE void sample_wide(DipFragmentBatch *batch, const DipDepth *depth, cons
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         const WideAxis x = wide_axis_at(vf_load(u + i), depth->width);
         const WideAxis y = wide_axis_at(vf_load(v + i), depth->height);
-        const Vf from = vf_load(z + i);
+        const Vf from = depths_at(z + i);
         Vi sum = vi_splat(0);
         for (int row = 0; row < 3; row++) {
             const Vi first = y.texel[row] * depth->width;
@@ -83,7 +88,7 @@ void DIP_KERNEL(dip_kernel_sample_shadow)(DipFragmentBatch *batch, const DipShad
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         const Axis x = axis_at(vf_load(u + i), depth->width, linear);
         const Axis y = axis_at(vf_load(v + i), depth->height, linear);
-        const Vf from = vf_load(z + i);
+        const Vf from = depths_at(z + i);
         const Vi near = y.near * depth->width;
         const Vi far = y.far * depth->width;
         Vi sum = lit(depth->depth, near + x.near, from, (256 - x.share) * (256 - y.share));

@@ -90,6 +90,53 @@ static void jpegs_are_close_to_the_picture(void **state) {
     free(bytes);
 }
 
+// A PNG is written from rows with padding. Pixels that cannot be a picture are refused by name.
+static void pngs_are_written_from_pixels(void **state) {
+    (void)state;
+    enum { WIDTH = 5, HEIGHT = 3, STRIDE = 4 * WIDTH + 8 };
+    static const char *const file = "test_cost_pictures.png";
+    static const struct {
+        bool has_pixels;
+        size_t stride_bytes;
+        int width, height;
+        DipErrorCode code;
+        const char *key;
+    } bad[] = {
+        {false, STRIDE, WIDTH, HEIGHT, DIP_ERROR_MISSING, "rgba8"},
+        {true, 0, WIDTH, HEIGHT, DIP_ERROR_RANGE, "stride_bytes"},
+        {true, 4 * WIDTH - 1, WIDTH, HEIGHT, DIP_ERROR_RANGE, "stride_bytes"},
+        {true, STRIDE, 0, HEIGHT, DIP_ERROR_RANGE, "width"},
+        {true, STRIDE, WIDTH, -1, DIP_ERROR_RANGE, "width"},
+    };
+    uint8_t rgba8[STRIDE * HEIGHT];
+    for (int i = 0; i < STRIDE * HEIGHT; i++) {
+        rgba8[i] = (uint8_t)(i * 11);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        DipError err = {.code = DIP_ERROR_NONE};
+        assert_false(dip_png_write_rgba8(file, bad[i].has_pixels ? rgba8 : NULL,
+                                         bad[i].stride_bytes, bad[i].width, bad[i].height, &err));
+        assert_int_equal(err.code, bad[i].code);
+        assert_string_equal(err.key, bad[i].key);
+        assert_null(fopen(file, "rb"));
+    }
+    char bytes[1024];
+    assert_true(dip_png_write_rgba8(file, rgba8, STRIDE, WIDTH, HEIGHT, NULL));
+    FILE *in = fopen(file, "rb");
+    assert_non_null(in);
+    const size_t size = fread(bytes, 1, sizeof bytes, in);
+    fclose(in);
+    remove(file);
+    DipPicture picture;
+    assert_true(dip_picture_decode((const unsigned char *)bytes, size, file, &picture, NULL));
+    assert_true(picture.width == WIDTH && picture.height == HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const uint8_t *pixel = rgba8 + i / WIDTH * STRIDE + i % WIDTH * 4;
+        assert_memory_equal(picture.rgba8 + 4 * i, pixel, 3);
+    }
+    dip_picture_free(&picture);
+}
+
 // The bytes of IEEE 754 numbers, written out: 1 is 3f800000, -2 is c0000000, 0.5 is 3f000000.
 static void pfm_rows_go_from_the_bottom_up(void **state) {
     (void)state;
@@ -191,6 +238,7 @@ int main(void) {
         cmocka_unit_test(data_uris_are_base64),
         cmocka_unit_test(indexed_pngs_have_the_colours_of_the_palette),
         cmocka_unit_test(jpegs_are_close_to_the_picture),
+        cmocka_unit_test(pngs_are_written_from_pixels),
         cmocka_unit_test(pfm_rows_go_from_the_bottom_up),
         cmocka_unit_test(what_does_not_fit_is_left_out_and_counted),
     };

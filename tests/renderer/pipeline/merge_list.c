@@ -1,6 +1,8 @@
 // Makes random lists of draws with states.
 #include "tests/renderer/pipeline/merge_list.h"
 
+#include <string.h>
+
 static DipDrawState random_state(Random *random) {
     DipDrawState state = {.ordered = random_int(random, 0, 9) == 0};
     if (random_int(random, 0, 3) == 0) {
@@ -17,6 +19,10 @@ static DipDrawState random_state(Random *random) {
         equations[i]->target = (DipBlendFactor)random_int(random, 0, DIP_BLEND_FACTOR_COUNT - 1);
         equations[i]->op = (DipBlendOp)random_int(random, 0, DIP_BLEND_OP_COUNT - 1);
     }
+    static const DipBlendEquation none[2];
+    if (!memcmp(&blend->colour, none, sizeof *none) && !memcmp(&blend->alpha, none, sizeof *none)) {
+        blend->colour.source = DIP_BLEND_ONE; // Blending without equations is refused.
+    }
     for (int c = 0; c < 4; c++) {
         blend->constant[c] = (float)random_real(random, 0.0, 1.0);
     }
@@ -30,6 +36,9 @@ static DipDrawState random_state(Random *random) {
     stencil->reference = (uint8_t)random_int(random, 0, 255);
     stencil->read_mask = random_int(random, 0, 1) ? 255 : (uint8_t)random_int(random, 0, 255);
     stencil->write_mask = random_int(random, 0, 1) ? 255 : (uint8_t)random_int(random, 0, 255);
+    if (!stencil->read_mask && !stencil->write_mask) {
+        stencil->write_mask = 1; // A test without masks is refused.
+    }
     DipStencilFace *faces[2] = {&stencil->front, &stencil->back};
     for (int i = 0; i < 2; i++) {
         faces[i]->function = (DipCompare)random_int(random, 0, DIP_COMPARE_GREATER);

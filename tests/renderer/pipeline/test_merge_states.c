@@ -443,7 +443,7 @@ static double wide_light(DipDepth *depth, double x, double y, double z) {
 static double expected_light(const ShadowReads *reads, DipDepth *depth, int i) {
     const double u = reads->u[i];
     const double v = reads->v[i];
-    const double z = reads->z[i];
+    const double z = fmax(reads->z[i], 0.0); // behind the far plane: as if on it
     if (u < 0.0 || u > 1.0 || v < 0.0 || v > 1.0) {
         return 1.0;
     }
@@ -486,7 +486,7 @@ static void shadow_maps(void **state) {
         for (int i = 0; i < READS; i++) {
             reads.u[i] = (float)random_real(&random, -0.1, 1.1);
             reads.v[i] = (float)random_real(&random, -0.1, 1.1);
-            reads.z[i] = (float)random_int(&random, 0, 16) / 16.0f;
+            reads.z[i] = (float)random_int(&random, -4, 16) / 16.0f;
         }
         run(&pass);
         for (int i = 0; i < READS; i++) {
@@ -700,6 +700,26 @@ static void spoil_target(DipPass *pass, DipDrawState *state) {
     pass->target.rgba8 = NULL;
 }
 
+static void spoil_equations(DipPass *pass, DipDrawState *state) {
+    (void)pass;
+    state->blend.enabled = true;
+}
+
+static void spoil_masks(DipPass *pass, DipDrawState *state) {
+    (void)pass;
+    state->stencil = (DipStencil){.enabled = true, .front = {.function = DIP_COMPARE_EQUAL}};
+}
+
+static void spoil_depth_load(DipPass *pass, DipDrawState *state) {
+    (void)state;
+    pass->attachments.depth_load = DIP_LOAD_KEEP;
+}
+
+static void spoil_stencil_load(DipPass *pass, DipDrawState *state) {
+    (void)state;
+    pass->attachments.stencil_load = DIP_LOAD_KEEP;
+}
+
 static void bad_fields(void **test_state) {
     (void)test_state;
     static const BadField bad[] = {
@@ -722,6 +742,10 @@ static void bad_fields(void **test_state) {
         {"viewport", DIP_ERROR_RANGE, spoil_viewport},
         {"scissor", DIP_ERROR_RANGE, spoil_scissor},
         {"target.rgba8", DIP_ERROR_MISSING, spoil_target},
+        {"draws[0].state.blend.colour", DIP_ERROR_MISSING, spoil_equations},
+        {"draws[0].state.stencil.read_mask", DIP_ERROR_MISSING, spoil_masks},
+        {"attachments.depth", DIP_ERROR_MISSING, spoil_depth_load},
+        {"attachments.depth", DIP_ERROR_MISSING, spoil_stencil_load},
     };
     static const Colour white = {{1, 1, 1, 1}};
     DipMesh *mesh = rectangle(1, 1, 5, 5, 0.5f);

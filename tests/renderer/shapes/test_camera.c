@@ -343,6 +343,65 @@ static void reflections_mirror_at_their_plane(void **context) {
     assert_true(out[0] == 21.0 && out[1] == 32.0 && out[2] == -37.0 && out[3] == 1.0);
 }
 
+// Returns plane . point, with the fourth element as it is.
+static double beyond(const double plane[4], const double p[3]) {
+    return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3];
+}
+
+static double beyond_in_clip(const float plane[4], const DipMatrix *to_clip, const double p[3],
+                             double *magnitude) {
+    double clip[4], sum = 0.0;
+    apply_point(to_clip, p, clip);
+    *magnitude = 0.0;
+    for (int k = 0; k < 4; k++) {
+        sum += (double)plane[k] * clip[k];
+        *magnitude += fabs((double)plane[k] * clip[k]);
+    }
+    return sum;
+}
+
+// A clip plane gives all points of the world what the plane of the world gives them, times one
+// positive factor.
+static void clip_planes_keep_what_their_planes_keep(void **context) {
+    (void)context;
+    Random random = {12};
+    for (int i = 0; i < 2000; i++) {
+        const DipPerspective lens = {random_real(&random, 20.0, 120.0), 1.5, 0.1,
+                                     i % 2 ? 0.0 : 50.0};
+        double eye[3], target[3], up[3], plane[4], scaled[4], magnitude;
+        random_vector(&random, 10.0, eye);
+        random_vector(&random, 10.0, target);
+        random_vector(&random, 1.0, up);
+        random_vector(&random, 1.0, plane);
+        plane[3] = random_real(&random, -5.0, 5.0);
+        for (int k = 0; k < 4; k++) {
+            scaled[k] = plane[k] * (i % 3 ? 1.0 : 1e-200);
+        }
+        DipMatrix view, projection;
+        assert_true(dip_camera_look_at(&view, eye, target, up, NULL));
+        assert_true(dip_camera_perspective(&projection, &lens, NULL));
+        const DipMatrix to_clip = dip_matrix_multiply(&projection, &view);
+        float made[4];
+        assert_true(dip_matrix_clip_plane(&to_clip, scaled, made, NULL));
+        const double largest = fmax(fmax(fabs((double)made[0]), fabs((double)made[1])),
+                                    fmax(fabs((double)made[2]), fabs((double)made[3])));
+        assert_true(largest >= 1.0 && largest <= 2.0);
+        // The factor, from a point at which the plane gives 5.
+        const double along = (5.0 - plane[3]) / (beyond(plane, plane) - plane[3]);
+        const double known[3] = {along * plane[0], along * plane[1], along * plane[2]};
+        const double factor = beyond_in_clip(made, &to_clip, known, &magnitude) / 5.0;
+        const double known_error = 1e-7 * magnitude / 5.0;
+        assert_true(factor > 0.0);
+        for (int n = 0; n < 20; n++) {
+            double p[3];
+            random_vector(&random, 10.0, p);
+            const double expected = beyond(plane, p);
+            const double found = beyond_in_clip(made, &to_clip, p, &magnitude);
+            assert_near(found, factor * expected, 1e-7 * magnitude + known_error * fabs(expected));
+        }
+    }
+}
+
 // --- refusals ------------------------------------------------------------------------------------
 
 static void check_error(bool made, const DipError *err, const char *key) {
@@ -420,6 +479,14 @@ static void singular_matrices_are_refused(void **context) {
     const DipMatrix flat = dip_matrix_scaling(1.0, 0.0, 1.0);
     float normals[9];
     check_error(dip_matrix_normals(normals, &flat, &err), &err, "model");
+    float clip_plane[4];
+    const double good[4] = {0.0, 1.0, 0.0, 0.0}, nowhere[4] = {0.0, 0.0, 0.0, 1.0};
+    const double undefined[4] = {0.0, 1.0, 0.0, NAN};
+    check_error(dip_matrix_clip_plane(&flat, good, clip_plane, &err), &err, "to_clip");
+    check_error(dip_matrix_clip_plane(&bad, good, clip_plane, &err), &err, "to_clip");
+    const DipMatrix same = dip_matrix_identity();
+    check_error(dip_matrix_clip_plane(&same, nowhere, clip_plane, &err), &err, "plane");
+    check_error(dip_matrix_clip_plane(&same, undefined, clip_plane, &err), &err, "plane");
 }
 
 static void wide_and_near_lenses_keep_their_precision(void **state) {
@@ -454,6 +521,7 @@ int main(void) {
         cmocka_unit_test(normals_stay_perpendicular),
         cmocka_unit_test(rotations_turn_counter_clockwise),
         cmocka_unit_test(reflections_mirror_at_their_plane),
+        cmocka_unit_test(clip_planes_keep_what_their_planes_keep),
         cmocka_unit_test(bad_cameras_are_refused_by_name),
         cmocka_unit_test(singular_matrices_are_refused),
     };
