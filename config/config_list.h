@@ -42,6 +42,7 @@
     KEY(MATERIAL_LIGHTMAP, material_lightmap, LIGHTMAPS, "", 0, 0,                                 \
         "materials that a light map lights, and the picture of the light map; without a picture, " \
         "the light map that the model names")                                                      \
+    KEY(ANIMATION, animation, NAME, "", 0, 0, "animation of the models that plays, or `none`")     \
     KEY(CAMPATH_RESET_ON_SWITCH, campath_reset_on_switch, FLAG, "true", 0, 0,                      \
         "after a change of path, true: the new path starts at its beginning; "                     \
         "false: it goes on at the old path's time")                                                \

@@ -98,9 +98,58 @@ static void extend(void *context, const Point corners[3]) {
     }
 }
 
+// A scene in which a moving mesh is the corners of its box, so that only objects move.
+typedef struct BoxedScene {
+    DipSceneDef def;
+    DipMotionDef motion;
+    DipMeshDef *meshes;
+    float (*corners)[24]; // Those of all moving meshes.
+} BoxedScene;
+
+static void box_mesh(const DipMovingMesh *moving, float corners[24], DipMeshDef *mesh) {
+    static const uint32_t indices[9] = {0, 1, 2, 3, 4, 5, 6, 7, 7};
+    for (int i = 0; i < 24; i++) {
+        const int axis = i % 3;
+        corners[i] = moving->box[(i / 3 >> axis & 1) ? 3 + axis : axis];
+    }
+    mesh->positions = corners;
+    mesh->vertex_count = 8;
+    mesh->indices = indices;
+    mesh->index_count = 9;
+}
+
+// Makes the boxed scene. Without motion, without memory or for a mesh without a box, it is the
+// scene itself.
+static void make_boxed(const DipSceneDef *def, BoxedScene *boxed) {
+    const DipMotionDef *motion = def->motion;
+    const size_t moving = motion ? (size_t)motion->mesh_count : 0;
+    *boxed = (BoxedScene){.def = *def};
+    boxed->meshes = calloc((size_t)def->mesh_count + 1, sizeof *boxed->meshes);
+    boxed->corners = calloc(moving + 1, sizeof *boxed->corners);
+    bool made = moving > 0 && boxed->meshes && boxed->corners;
+    for (size_t m = 0; made && m < moving; m++) {
+        made = motion->meshes[m].box != NULL;
+    }
+    if (!made) {
+        return;
+    }
+    memcpy(boxed->meshes, def->meshes, (size_t)def->mesh_count * sizeof *boxed->meshes);
+    for (size_t m = 0; m < moving; m++) {
+        box_mesh(&motion->meshes[m], boxed->corners[m], &boxed->meshes[motion->meshes[m].mesh]);
+    }
+    boxed->motion = *motion;
+    boxed->motion.mesh_count = 0;
+    boxed->def.motion = &boxed->motion;
+    boxed->def.meshes = boxed->meshes;
+}
+
 DipExtent dip_extent_of(const DipSceneDef *def) {
     ExtentJob job = {.found = false};
-    visit_moments(def, DIP_MOTION_MOMENTS, extend, &job);
+    BoxedScene boxed;
+    make_boxed(def, &boxed);
+    visit_moments(&boxed.def, DIP_MOTION_MOMENTS, extend, &job);
+    free(boxed.meshes);
+    free(boxed.corners);
     return job.extent;
 }
 

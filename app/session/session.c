@@ -281,6 +281,7 @@ void dip_session_close(DipSession *session) {
     dip_campath_destroy(&session->gallery_path);
     free(session->assets);
     dip_session_free_paths(session);
+    dip_session_free_animations(session);
     dip_scene_destroy(&session->scene);
     dip_ground_destroy(&session->ground);
     dip_model_destroy(&session->model);

@@ -157,6 +157,38 @@ static void times_follow_from_work(void **state) {
     dip_cost_report_free(&report);
 }
 
+// All settings pose the same vertices, so their price takes in whatever else geometry costs in
+// every frame. It must not be less than the vertices cost.
+static void posed_vertices_have_a_price(void **state) {
+    (void)state;
+    const double vertices = 4e4, ms_per_vertex = 2e-5;
+    DipCostMisses times, errors;
+    DipCostReport report;
+    int rows[COMBINATIONS];
+    make_report(&report, courtyard_flip, 0.0, 1);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        DipCostRow *row = &report.rows[i];
+        rows[i] = i;
+        row->counters[DIP_COST_COUNTER_vertices_posed] = vertices;
+        report.predicted.list[i].counters[DIP_COST_COUNTER_vertices_posed] = vertices;
+        row->stage_ms[DIP_COST_STAGE_geometry] += ms_per_vertex * vertices;
+        row->time.mean_ms.value += ms_per_vertex * vertices;
+        row->time.p95_ms = dip_estimate_unknown(1.3 * row->time.mean_ms.value);
+    }
+    train(&report, &times, &errors);
+    assert_true(times.p90 < 1e-6);
+    const DipCostModel model = dip_cost_model_fit(&report, DIP_COST_TIME, rows, COMBINATIONS);
+    double counters[DIP_COST_COUNTER_COUNT];
+    memcpy(counters, report.rows[0].counters, sizeof counters);
+    const double before_ms = dip_cost_model_value(&model, counters, &report.rows[0].quality);
+    counters[DIP_COST_COUNTER_vertices_posed] += vertices;
+    const double more_ms =
+        dip_cost_model_value(&model, counters, &report.rows[0].quality) - before_ms;
+    assert_true(more_ms >= 0.999 * ms_per_vertex * vertices);
+    assert_true(more_ms <= 1.001 * report.rows[0].stage_ms[DIP_COST_STAGE_geometry]);
+    dip_cost_report_free(&report);
+}
+
 static void flip_follows_from_settings(void **state) {
     (void)state;
     const double *const scenes[] = {courtyard_flip, city_flip};
@@ -637,6 +669,7 @@ int main(void) {
         cmocka_unit_test(composed_work_is_one),
         cmocka_unit_test(composed_filters_write_the_pixels_of_their_pictures),
         cmocka_unit_test(times_follow_from_work),
+        cmocka_unit_test(posed_vertices_have_a_price),
         cmocka_unit_test(flip_follows_from_settings),
         cmocka_unit_test(leaving_one_out_does_not_promise_too_much),
         cmocka_unit_test(the_front_is_found),
