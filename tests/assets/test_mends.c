@@ -92,6 +92,29 @@ static void generated_texture_coordinates_are_kept(void **state) {
     dip_model_destroy(&model);
 }
 
+// --- normals -------------------------------------------------------------------------------------
+
+// Many programs write facets with the normal 0 0 0. The first facet lies in the plane z = 0 and
+// runs counter-clockwise as seen from +z. The second one keeps the normal that the file gives it.
+static void normals_of_length_zero_are_made(void **state) {
+    (void)state;
+    DipModel *model = load_text(
+        "zero.stl", "solid s\n"
+                    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 3 0\n"
+                    "endloop\nendfacet\n"
+                    "facet normal 0 1 0\nouter loop\nvertex 0 0 9\nvertex 2 0 9\nvertex 0 3 9\n"
+                    "endloop\nendfacet\nendsolid s\n");
+    const DipMeshDef *mesh = &dip_model_scene_def(model)->meshes[0];
+    assert_int_equal(mesh->index_count, 6);
+    for (size_t i = 0; i < 6; ++i) {
+        const float *normal = mesh->normals + 3 * (size_t)mesh->indices[i];
+        assert_true(normal[0] == 0.0f);
+        assert_true(normal[1] == (i < 3 ? 0.0f : 1.0f));
+        assert_true(normal[2] == (i < 3 ? 1.0f : 0.0f));
+    }
+    dip_model_destroy(&model);
+}
+
 // --- colours -------------------------------------------------------------------------------------
 
 static const char *amf(const char *vertex_colour) {
@@ -264,6 +287,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_broken_picture_gives_a_warning),
         cmocka_unit_test(generated_texture_coordinates_are_kept),
+        cmocka_unit_test(normals_of_length_zero_are_made),
         cmocka_unit_test(vertices_without_a_colour_are_not_black),
         cmocka_unit_test(black_vertices_stay_black),
         cmocka_unit_test(colours_of_signed_bytes_are_read_as_bytes),
