@@ -132,13 +132,15 @@ static void read_alpha(DipModel *model, const DipModelFile *file, const struct a
             model, file->path, def->name,
             "blending is not drawn: the surface is solid where its texture's alpha is 0.5 or more");
     }
-    if (!file->linear_colours && float_property(material, AI_MATKEY_OPACITY, 1.0f) < 1.0f &&
-        plan->opacity.picture < 0) {
-        dip_model_warn(model, file->path, def->name,
-                       "transparency is not drawn: the surface is solid");
-    }
+    const float opacity = float_property(material, AI_MATKEY_OPACITY, 1.0f);
     if (masked || blended || plan->opacity.picture >= 0 || plan->tag == DIP_TAG_MASK) {
         def->surface = DIP_SURFACE_CLIPPED;
+    } else if (opacity > 0.0f && opacity < 1.0f) {
+        def->surface = DIP_SURFACE_BLENDED;
+        def->opacity = opacity;
+    } else if (opacity <= 0.0f) { // Nobody exports what cannot be seen.
+        dip_model_warn(model, file->path, def->name,
+                       "the opacity is 0 or less in the file: the surface is drawn solid");
     }
 }
 

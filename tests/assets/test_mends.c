@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <cmocka.h>
 
 static DipModel *load_up(const char *path, DipUpAxis up, DipErrorList *warnings) {
@@ -65,6 +67,81 @@ static void a_broken_picture_gives_a_warning(void **state) {
     fixture_write_text("colour.tga", "no picture at all");
     assert_drawn_without_picture(fixture_path("square.obj"), "colour.tga",
                                  "not a supported picture");
+}
+
+// --- pictures elsewhere --------------------------------------------------------------------------
+
+// Writes a square with a picture of this path.
+static const char *square_with(const char *picture) {
+    char text[300];
+    fixture_copy("square.obj");
+    snprintf(text, sizeof text, "newmtl painted\nKd 1 1 1\nmap_Kd %s\n", picture);
+    fixture_write_text("square.mtl", text);
+    return fixture_path("square.obj");
+}
+
+static void paths_of_other_machines_are_looked_for_beside(void **state) {
+    (void)state;
+    const char *path = square_with("D:\\projects\\wood\\bark.tga");
+    DipErrorList warnings = {0};
+    DipModel *model = load(path, &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.items[0].message,
+                        "the picture bark.tga is not beside the model, so its surfaces are drawn "
+                        "in their base colour");
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+    assert_int_equal(mkdir(fixture_path("textures"), 0777), 0);
+    fixture_write_tga("textures/bark.tga", 2, 2, 100);
+    model = load(fixture_path("square.obj"), NULL);
+    assert_int_equal(dip_model_scene_def(model)->texture_count, 1);
+    dip_model_destroy(&model);
+    assert_int_equal(unlink(fixture_path("textures/bark.tga")), 0);
+    assert_int_equal(rmdir(fixture_path("textures")), 0);
+}
+
+static void a_skin_may_be_called_like_its_model(void **state) {
+    (void)state;
+    size_t size_bytes;
+    uint8_t *bytes = fixture_read(fixture_data("../../../assets/gallery/crab.md2"), &size_bytes);
+    fixture_write("crab.md2", bytes, size_bytes);
+    free(bytes);
+    DipErrorList warnings = {0};
+    DipModel *model = load(fixture_path("crab.md2"), &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.items[0].message, "nor is crab with the ending .pcx, .png"));
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+    fixture_write_tga("crab.tga", 2, 2, 100);
+    model = load(fixture_path("crab.md2"), NULL);
+    assert_int_equal(dip_model_scene_def(model)->texture_count, 1);
+    dip_model_destroy(&model);
+}
+
+// --- transparency and missing materials ----------------------------------------------------------
+
+static void a_constant_opacity_blends(void **state) {
+    (void)state;
+    fixture_copy("square.obj");
+    fixture_write_text("square.mtl", "newmtl painted\nKd 1 1 1\nd 0.25\n");
+    DipModel *model = load(fixture_path("square.obj"), NULL);
+    const DipMaterialDef *material = &dip_model_scene_def(model)->materials[0];
+    assert_int_equal(material->surface, DIP_SURFACE_BLENDED);
+    assert_true(material->opacity == 0.25f);
+    dip_model_destroy(&model);
+}
+
+static void one_line_says_that_no_mtl_is_named(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    fixture_write_text("grey.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Wood\nf 1 2 3\n"
+                                   "usemtl Steel\nf 1 3 2\n");
+    DipModel *model = load(fixture_path("grey.obj"), &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.items[0].message, "the file names no .mtl file with its "
+                                                   "materials, so its surfaces are grey");
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
 }
 
 // --- texture coordinates -------------------------------------------------------------------------
@@ -286,6 +363,10 @@ static void the_caller_can_say_which_way_is_up(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_broken_picture_gives_a_warning),
+        cmocka_unit_test(paths_of_other_machines_are_looked_for_beside),
+        cmocka_unit_test(a_skin_may_be_called_like_its_model),
+        cmocka_unit_test(a_constant_opacity_blends),
+        cmocka_unit_test(one_line_says_that_no_mtl_is_named),
         cmocka_unit_test(generated_texture_coordinates_are_kept),
         cmocka_unit_test(normals_of_length_zero_are_made),
         cmocka_unit_test(vertices_without_a_colour_are_not_black),
