@@ -212,10 +212,12 @@ static int skin(DipModel *model, int file, const char *path) {
         index = register_file(model, file, alike ? alike : named);
         model->lost_picture |= index < 0;
     } else {
+        const bool is_named = strcmp(path, none) != 0;
         dip_model_warn(model, model_path, NULL,
-                       "the skin %s is not beside the model, nor is %.*s with the ending .pcx, "
-                       ".png, .bmp, .jpg or .tga, so its surfaces are drawn in their base colour",
-                       strcmp(path, none) == 0 ? "(the file names none)" : base_name(path),
+                       "%s%s is beside the model, nor %.*s with the ending .pcx, .png, .bmp, .jpg "
+                       "or .tga, so its surfaces are drawn in their base colour",
+                       is_named ? "neither its skin " : "the file names no skin that",
+                       is_named ? base_name(path) : "",
                        (int)(strrchr(model_name, '.') - model_name), model_name);
     }
     free(named);
