@@ -105,7 +105,8 @@ char *dip_model_find_file(const char *model_path, const char *picture_path) {
     return first;
 }
 
-// Finds a picture that is called like the model, or returns NULL.
+// Finds a picture that is called like the model. Returns its path, or the last path tried if there
+// is none, or NULL when memory runs out.
 static char *find_like_model(const char *model_path) {
     static const char *const endings[] = {".pcx", ".png", ".bmp", ".jpg", ".tga"};
     const int stem_length = (int)(strrchr(model_path, '.') - model_path);
@@ -114,11 +115,10 @@ static char *find_like_model(const char *model_path) {
         snprintf(path, (size_t)stem_length + sizeof ".pcx", "%.*s%s", stem_length, model_path,
                  endings[i]);
         if (exists(path)) {
-            return path;
+            break;
         }
     }
-    free(path);
-    return NULL;
+    return path;
 }
 
 static int find_picture(const DipModel *model, const char *name, const void *bytes) {
@@ -205,23 +205,25 @@ static int skin(DipModel *model, int file, const char *path) {
     static const char none[] = "$texture_dummy.bmp"; // assimp's name where the file has none
     const char *model_path = model->files[file].path;
     const char *model_name = base_name(model_path);
-    char *named = dip_model_find_file(model_path, path);
-    char *alike = named && exists(named) ? NULL : find_like_model(model_path);
+    char *found = dip_model_find_file(model_path, path);
+    if (found && !exists(found)) {
+        free(found);
+        found = find_like_model(model_path);
+    }
     int index = DIP_NO_TEXTURE;
-    if (alike || (named && exists(named))) {
-        index = register_file(model, file, alike ? alike : named);
+    if (!found || exists(found)) {
+        index = found ? register_file(model, file, found) : DIP_NO_TEXTURE;
         model->lost_picture |= index < 0;
     } else {
         const bool is_named = strcmp(path, none) != 0;
         dip_model_warn(model, model_path, NULL,
-                       "%s%s is beside the model, nor %.*s with the ending .pcx, .png, .bmp, .jpg "
-                       "or .tga, so its surfaces are drawn in their base colour",
-                       is_named ? "neither its skin " : "the file names no skin that",
-                       is_named ? base_name(path) : "",
+                       "%s%s%s, and there is no %.*s with the ending .pcx, .png, .bmp, .jpg or "
+                       ".tga, so its surfaces are drawn in their base colour",
+                       is_named ? "its skin " : "the file names no skin",
+                       is_named ? base_name(path) : "", is_named ? " is not beside the model" : "",
                        (int)(strrchr(model_name, '.') - model_name), model_name);
     }
-    free(named);
-    free(alike);
+    free(found);
     return index;
 }
 

@@ -109,8 +109,9 @@ static void a_skin_may_be_called_like_its_model(void **state) {
     DipErrorList warnings = {0};
     DipModel *model = load(fixture_path("crab.md2"), &warnings);
     assert_int_equal(warnings.count, 1);
-    assert_non_null(strstr(warnings.items[0].message,
-                           "neither its skin crab.pcx is beside the model, nor crab with"));
+    assert_non_null(
+        strstr(warnings.items[0].message,
+               "its skin crab.pcx is not beside the model, and there is no crab with the ending"));
     dip_error_list_free(&warnings);
     dip_model_destroy(&model);
     fixture_write_tga("crab.tga", 2, 2, 100);
