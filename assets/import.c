@@ -4,6 +4,7 @@
 // checked, and only then processed. assimp's readers recurse as deep as the file nests, so they run
 // on a thread with a large stack. precheck.c limits the depth.
 #include "assets/model_parts.h"
+#include "renderer/base/assert.h"
 #include "renderer/base/file.h"
 
 #include <assimp/cimport.h>
@@ -15,6 +16,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 // aiProcess_JoinIdenticalVertices is left out. It merges vertices that differ only in their second
@@ -30,9 +32,31 @@ enum {
     MAX_LOG_WARNINGS = 8, // most warnings of assimp that are passed on per file
 };
 
+static bool has_ending(const char *path, const char *ending) {
+    const char *dot = strrchr(path, '.');
+    return dot && strcasecmp(dot, ending) == 0;
+}
+
+// True for a file that may be a texture of a model.
+static bool is_picture(const char *path) {
+    static const char *const endings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga",  ".dds", ".webp",
+                                          ".pcx", ".ppm", ".pgm",  ".hdr", ".ktx2", ".tif", ".gif"};
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(endings); ++i) {
+        if (has_ending(path, endings[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool check_extension(const char *path, DipError *err) {
     const char *slash = strrchr(path, '/');
     const char *dot = strrchr(slash ? slash : path, '.');
+    if (is_picture(path)) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL,
+                             "the file is a picture and no model; open the model, and its pictures "
+                             "are found beside it");
+    }
     return (dot && aiIsExtensionSupported(dot)) ||
            dip_error_set(
                err, DIP_ERROR_FORMAT, path, 0, NULL,
@@ -53,6 +77,11 @@ bool dip_model_check_file(const char *path, DipError *err) {
     const bool known = is_pipe || fstat(fileno(file), &info) == 0;
     if (file) {
         fclose(file);
+    }
+    if (known && S_ISDIR(info.st_mode)) {
+        return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL,
+                             "the model is not a regular file but a folder; give the model file "
+                             "inside the folder");
     }
     if (!known || !S_ISREG(info.st_mode)) {
         return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "the model is not a regular file");
@@ -204,8 +233,9 @@ static bool import_error(const char *path, DipError *err) {
     if (strstr(reason, "bad_alloc")) {
         return dip_model_out_of_memory(err, path);
     }
-    return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "the model cannot be read: %s",
-                         reason[0] ? reason : "assimp gives no reason");
+    return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "the model cannot be read: %s%s",
+                         reason[0] ? reason : "assimp gives no reason",
+                         has_ending(path, ".blend") ? "; export glTF from Blender" : "");
 }
 
 static void count_left_out(DipModel *model, const char *path, const struct aiScene *scene) {
@@ -225,7 +255,35 @@ typedef struct ImportLog {
     const char *path;
     int warning_count;
     bool indices_dropped; // assimp has dropped faces whose indices are out of range
+    int obj_lines;        // lines about materials that an OBJ file lacks
+    bool names_no_mtl;    // it names materials, but no .mtl file
+    int blend_lines;      // lines about a BLEND file
 } ImportLog;
+
+// True if an OBJ file names a .mtl file.
+static bool names_mtl(const char *path) {
+    FILE *file = fopen(path, "rb");
+    char part[256]; // A longer line is read in parts.
+    bool found = false;
+    bool line_begins = true;
+    while (file && !found && fgets(part, sizeof part, file)) {
+        found = line_begins && strncmp(part + strspn(part, " \t"), "mtllib", 6) == 0;
+        line_begins = strchr(part, '\n') != NULL;
+    }
+    if (file) {
+        fclose(file);
+    }
+    return found;
+}
+
+// True for a line about a material of an OBJ file that names no .mtl file.
+static bool is_about_mtl(ImportLog *log, const char *text) {
+    if (!strstr(text, "OBJ: failed to locate material ")) {
+        return false;
+    }
+    log->names_no_mtl = log->names_no_mtl || (log->obj_lines++ == 0 && !names_mtl(log->path));
+    return log->names_no_mtl;
+}
 
 // The callback of aiLogStream. Lines look like "Warn,  T0: text". Only the log tells that assimp
 // has dropped faces because of their indices.
@@ -237,6 +295,13 @@ static void add_log_line(const char *line, char *user) {
         return;
     }
     log->indices_dropped = log->indices_dropped || strstr(text, "out-of-range indices");
+    if (has_ending(log->path, ".blend")) {
+        log->blend_lines++;
+        return;
+    }
+    if (is_about_mtl(log, text)) {
+        return;
+    }
     char copy[200] = "";
     snprintf(copy, sizeof copy, "%s", text + 2);
     tidy(copy);
@@ -252,6 +317,15 @@ static bool import_bare(DipModel *model, DipModelFile *file, DipError *err) {
     aiAttachLogStream(&stream);
     file->scene = aiImportFile(file->path, 0);
     aiDetachLogStream(&stream);
+    if (log.names_no_mtl) {
+        dip_model_warn(model, file->path, NULL,
+                       "the file names no .mtl file with its materials, so its surfaces are grey");
+    }
+    if (log.blend_lines > 0) {
+        dip_model_warn(model, file->path, NULL,
+                       "only files of some old versions of Blender are read well, so parts may be "
+                       "missing; export glTF from Blender");
+    }
     if ((!file->scene || log.indices_dropped) && model->warnings) {
         model->warnings->count = warnings_before; // The error replaces the warnings.
     }

@@ -132,13 +132,15 @@ static void read_alpha(DipModel *model, const DipModelFile *file, const struct a
             model, file->path, def->name,
             "blending is not drawn: the surface is solid where its texture's alpha is 0.5 or more");
     }
-    if (!file->linear_colours && float_property(material, AI_MATKEY_OPACITY, 1.0f) < 1.0f &&
-        plan->opacity.picture < 0) {
-        dip_model_warn(model, file->path, def->name,
-                       "transparency is not drawn: the surface is solid");
-    }
+    const float opacity = float_property(material, AI_MATKEY_OPACITY, 1.0f);
     if (masked || blended || plan->opacity.picture >= 0 || plan->tag == DIP_TAG_MASK) {
         def->surface = DIP_SURFACE_CLIPPED;
+    } else if (opacity > 0.0f && opacity < 1.0f) {
+        def->surface = DIP_SURFACE_BLENDED;
+        def->opacity = opacity;
+    } else if (opacity <= 0.0f) { // Nobody exports what cannot be seen.
+        dip_model_warn(model, file->path, def->name,
+                       "the opacity is 0 or less in the file: the surface is drawn solid");
     }
 }
 
@@ -192,7 +194,7 @@ static void read_pictures(DipModel *model, int file, const char *name, const str
         plan->normal = texture_use(model, file, name, mesh, normal, 2);
     }
     plan->light = (DipTextureUse){.picture = DIP_NO_TEXTURE};
-    plan->metal_rough = plan->occlusion = plan->emission = plan->light;
+    plan->metal_rough = plan->gloss = plan->occlusion = plan->emission = plan->light;
     // In glTF the occlusion picture is a light map only if the object's metadata says so.
     if (plan->light_mapped || !model->files[file].linear_colours) {
         plan->light = light_use(model, file, name, mesh, plan->light_rule);
@@ -391,9 +393,35 @@ static int texture_of(DipModel *model, const DipTextureUse *use, const DipTextur
     return index;
 }
 
+// Multiplies f0 and the glossiness by the means of a specular-glossiness picture. f0 is that of a
+// dielectric if the picture is NULL, because the factor 1 without the picture would make a mirror.
+static void apply_gloss(const DipPicture *picture, DipPbrDef *pbr) {
+    size_t counts[4][256] = {{0}};
+    double means[4] = {0.0, 0.0, 0.0, 0.0};
+    const size_t texels = picture ? (size_t)picture->width * (size_t)picture->height : 0;
+    for (size_t i = 0; i < 4 * texels; ++i) {
+        counts[i % 4][picture->rgba8[i]]++;
+    }
+    for (int c = 0; c < 4; ++c) {
+        for (int value = 0; value < 256; ++value) {
+            const float shown = dip_model_colour_to_linear((float)value / 255.0f, c == 3);
+            means[c] += (double)counts[c][value] * (double)shown;
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        pbr->f0_lin[c] =
+            texels ? pbr->f0_lin[c] * (float)(means[c] / (double)texels) : dielectric_specular;
+    }
+    pbr->roughness = texels ? 1.0f - (1.0f - pbr->roughness) * (float)(means[3] / (double)texels)
+                            : pbr->roughness;
+}
+
 // Gives a material's reflection its textures.
 static void finish_pbr(DipModel *model, const DipMaterialPlan *plan, bool *ok) {
     DipPbrDef *pbr = plan->pbr;
+    if (plan->gloss.picture >= 0) {
+        apply_gloss(decoded(model, plan->gloss.picture), pbr);
+    }
     pbr->metal_rough_map = texture_of(model, &plan->metal_rough, NULL, DIP_ENCODING_LINEAR, ok);
     pbr->occlusion_map = texture_of(model, &plan->occlusion, NULL, DIP_ENCODING_LINEAR, ok);
     pbr->emission_map = texture_of(model, &plan->emission, NULL, DIP_ENCODING_SRGB, ok);

@@ -15,6 +15,22 @@ bool dip_mesh_is_triangles(const struct aiMesh *mesh) {
     return (mesh->mPrimitiveTypes & kinds) == aiPrimitiveType_TRIANGLE;
 }
 
+// True if a vector has a direction.
+static bool is_normal(struct aiVector3D n) {
+    return isfinite(n.x) && isfinite(n.y) && isfinite(n.z) &&
+           (n.x != 0.0f || n.y != 0.0f || n.z != 0.0f);
+}
+
+// True if normals must be made: the mesh has none, or some that are zero, as many STL files do.
+static bool lacks_normals(const struct aiMesh *mesh) {
+    for (unsigned i = 0; mesh->mNormals && i < mesh->mNumVertices; ++i) {
+        if (!is_normal(mesh->mNormals[i])) {
+            return true;
+        }
+    }
+    return !mesh->mNormals;
+}
+
 // Decides which vertices of the file become vertices of the mesh, and in which order. If normals
 // must be made, each corner of a face becomes a vertex; otherwise each vertex is used once.
 typedef struct VertexSource {
@@ -24,7 +40,7 @@ typedef struct VertexSource {
 } VertexSource;
 
 static VertexSource vertex_source(const struct aiMesh *mesh) {
-    const bool by_corner = !mesh->mNormals;
+    const bool by_corner = lacks_normals(mesh);
     return (VertexSource){mesh, by_corner, by_corner ? 3 * mesh->mNumFaces : mesh->mNumVertices};
 }
 
@@ -52,14 +68,15 @@ void dip_model_unit_normal(const double n[3], float to[3]) {
 }
 
 static float *pack_normals(DipModel *model, const VertexSource *source) {
-    if (source->by_corner) {
-        return dip_model_make_normals(model, source->mesh);
-    }
-    float *to = dip_model_alloc(model, source->count, 3 * sizeof *to);
-    for (uint32_t i = 0; to && i < source->count; ++i) {
-        const struct aiVector3D n = source->mesh->mNormals[i];
+    const struct aiVector3D *from = source->mesh->mNormals;
+    float *to = source->by_corner ? dip_model_make_normals(model, source->mesh)
+                                  : dip_model_alloc(model, source->count, 3 * sizeof *to);
+    for (uint32_t i = 0; to && from && i < source->count; ++i) {
+        const struct aiVector3D n = from[source_vertex(source, i)];
         const double normal[3] = {n.x, n.y, n.z};
-        dip_model_unit_normal(normal, to + 3 * (size_t)i);
+        if (is_normal(n)) { // Otherwise the one that has been made stays.
+            dip_model_unit_normal(normal, to + 3 * (size_t)i);
+        }
     }
     return to;
 }
@@ -163,12 +180,13 @@ bool dip_model_join(DipModel *model, const DipVertexArrays *arrays, uint32_t cou
     return def->vertex_count > 0;
 }
 
-static uint32_t *pack_indices(DipModel *model, const struct aiMesh *mesh, const uint32_t *remap) {
+static uint32_t *pack_indices(DipModel *model, const VertexSource *source, const uint32_t *remap) {
+    const struct aiMesh *mesh = source->mesh;
     uint32_t *to = dip_model_alloc(model, mesh->mNumFaces, 3 * sizeof *to);
-    const bool by_corner = vertex_source(mesh).by_corner;
     for (unsigned f = 0; to && f < mesh->mNumFaces; ++f) {
         for (unsigned k = 0; k < 3; ++k) {
-            to[3 * (size_t)f + k] = remap[by_corner ? 3 * f + k : mesh->mFaces[f].mIndices[k]];
+            to[3 * (size_t)f + k] =
+                remap[source->by_corner ? 3 * f + k : mesh->mFaces[f].mIndices[k]];
         }
     }
     return to;
@@ -208,7 +226,7 @@ static bool fill_arrays(DipModel *model, const struct aiMesh *mesh, const DipMes
     if (!dip_model_join(model, &arrays, source.count, def, &remap)) {
         return false;
     }
-    def->indices = pack_indices(model, mesh, remap);
+    def->indices = pack_indices(model, &source, remap);
     return def->indices;
 }
 

@@ -203,7 +203,7 @@ DIP_API DipModelTimes dip_model_times(const DipModel *model);
 // The names of parts of a model, for a message: `, "Run", "Walk" and 3 more`. Begin it with a text
 // or with zeros.
 typedef struct DipNameList {
-    char text[224];
+    char text[200];
     int left_out; // Number of names that did not fit.
 } DipNameList;
 

@@ -86,6 +86,7 @@ typedef struct DipMaterialPlan {
     // The following are those of glTF. For other formats, uv_channel of the pictures says which
     // coordinates they use, and pbr is NULL.
     DipTextureUse metal_rough;
+    DipTextureUse gloss; // its mean multiplies f0 in pbr, and that of its alpha 1 - roughness
     DipTextureUse occlusion;
     DipTextureUse emission;
     DipCoordinates uv0;

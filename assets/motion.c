@@ -66,8 +66,9 @@ bool dip_model_check_animation(const DipModel *model, DipError *err) {
         dip_name_list_add(&list, model->clips[i]);
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, DIP_MODEL_ANIMATION_KEY,
-                         "'%.60s' is not an animation of the models, accepted %s",
-                         model->animation_name, dip_name_list_end(&list));
+                         "'%.60s' is not an animation of the models, accepted %s%s",
+                         model->animation_name, dip_name_list_end(&list),
+                         list.left_out > 0 ? "; diptych path info MODEL lists all" : "");
 }
 
 // --- names for messages --------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 // Finds the pictures of a model and decodes each of them once, in parallel.
 #include "assets/model_parts.h"
+#include "renderer/base/assert.h"
 
 #include <assimp/scene.h>
 #include <assimp/texture.h>
@@ -8,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -61,36 +63,62 @@ static void decode_percent(char *path) {
     *to = '\0';
 }
 
-// Two names are tried in the model's folder: the path that the model gives, and only the last part
-// of this path, because some models contain absolute paths of another machine. In BLEND files, "//"
-// at the beginning stands for the model's folder. Each name is tried as written and then with
+// True for a path that does not begin in the model's folder, on any system.
+static bool is_absolute(const char *path) {
+    return path[0] == '/' || (isalpha((unsigned char)path[0]) && path[1] == ':');
+}
+
+// The path that the model gives is tried in the model's folder. Some models contain absolute paths
+// of another machine, or were moved without the folders of their pictures. So the last part of the
+// path is tried, too, in the model's folder and where pictures usually lie. In BLEND files, "//" at
+// the beginning stands for the model's folder. Each name is tried as written and then with
 // percent-encoding decoded.
 char *dip_model_find_file(const char *model_path, const char *picture_path) {
-    const size_t folder_length = (size_t)(base_name(model_path) - model_path);
-    const size_t size_bytes = folder_length + strlen(picture_path) + 1;
+    static const char *const folders[] = {"", "textures/", "Textures/", "../textures/",
+                                          "../Textures/"};
+    enum { LONGEST_FOLDER = 12, FOLDERS = (int)DIP_ARRAY_COUNT(folders) };
+    const int folder_length = (int)(base_name(model_path) - model_path);
+    const size_t size_bytes = (size_t)folder_length + LONGEST_FOLDER + strlen(picture_path) + 1;
     char *name = strdup(picture_path);
     char *path = malloc(size_bytes);
     char *first = NULL;
-    for (int attempt = 0; name && path && attempt < 4; ++attempt) {
-        if (attempt == 2) {
+    for (int attempt = 0; name && path && attempt < 2 * (1 + FOLDERS); ++attempt) {
+        const int folder = attempt % (1 + FOLDERS) - 1; // -1 for the path as the model gives it
+        if (attempt == 1 + FOLDERS) {
             decode_percent(name);
         } else if (attempt == 0) {
             use_forward_slashes(name);
         }
         const char *written = strncmp(name, "//", 2) == 0 ? name + 2 : name;
-        const char *relative = attempt % 2 == 0 ? written : base_name(name);
-        const int folder = relative[0] == '/' ? 0 : (int)folder_length;
-        snprintf(path, size_bytes, "%.*s%s", folder, model_path, relative);
+        const bool absolute = folder < 0 && is_absolute(written);
+        snprintf(path, size_bytes, "%.*s%s%s", absolute ? 0 : folder_length, model_path,
+                 folder < 0 ? "" : folders[folder], folder < 0 ? written : base_name(name));
         if (exists(path)) {
             free(name);
             free(first);
             return path;
         }
-        first = first ? first : strdup(path);
+        first = first || absolute ? first : strdup(path);
     }
     free(name);
     free(path);
     return first;
+}
+
+// Finds a picture that is called like the model. Returns its path, or the last path tried if there
+// is none, or NULL when memory runs out.
+static char *find_like_model(const char *model_path) {
+    static const char *const endings[] = {".pcx", ".png", ".bmp", ".jpg", ".tga"};
+    const int stem_length = (int)(strrchr(model_path, '.') - model_path);
+    char *path = malloc((size_t)stem_length + sizeof ".pcx");
+    for (size_t i = 0; path && i < DIP_ARRAY_COUNT(endings); ++i) {
+        snprintf(path, (size_t)stem_length + sizeof ".pcx", "%.*s%s", stem_length, model_path,
+                 endings[i]);
+        if (exists(path)) {
+            break;
+        }
+    }
+    return path;
 }
 
 static int find_picture(const DipModel *model, const char *name, const void *bytes) {
@@ -171,10 +199,44 @@ int dip_model_picture_beside(DipModel *model, int file, const char *path) {
     return index;
 }
 
+// Registers the skin of an MD2 model. Skins are often named by a path in the folders of a game, or
+// not at all, and lie beside the model under its name.
+static int skin(DipModel *model, int file, const char *path) {
+    static const char none[] = "$texture_dummy.bmp"; // assimp's name where the file has none
+    const char *model_path = model->files[file].path;
+    const char *model_name = base_name(model_path);
+    char *found = dip_model_find_file(model_path, path);
+    if (found && !exists(found)) {
+        free(found);
+        found = find_like_model(model_path);
+    }
+    int index = DIP_NO_TEXTURE;
+    if (!found || exists(found)) {
+        index = found ? register_file(model, file, found) : DIP_NO_TEXTURE;
+        model->lost_picture |= index < 0;
+    } else {
+        const bool is_named = strcmp(path, none) != 0;
+        dip_model_warn(model, model_path, NULL,
+                       "%s%s%s, and there is no %.*s with the ending .pcx, .png, .bmp, .jpg or "
+                       ".tga, so its surfaces are drawn in their base colour",
+                       is_named ? "its skin " : "the file names no skin",
+                       is_named ? base_name(path) : "", is_named ? " is not beside the model" : "",
+                       (int)(strrchr(model_name, '.') - model_name), model_name);
+    }
+    free(found);
+    return index;
+}
+
+static bool is_md2(const char *path) {
+    const char *dot = strrchr(path, '.');
+    return dot && strcasecmp(dot, ".md2") == 0;
+}
+
 int dip_model_picture(DipModel *model, int file, const char *path) {
     const struct aiTexture *texture = find_embedded(model->files[file].scene, path);
     if (!texture || !texture->pcData) {
-        return dip_model_picture_beside(model, file, path);
+        return is_md2(model->files[file].path) ? skin(model, file, path)
+                                               : dip_model_picture_beside(model, file, path);
     }
     const int index = embedded_picture(model, file, path, texture);
     model->lost_picture |= index < 0;
@@ -243,6 +305,12 @@ static bool decode_all(DipModel *model, DipPool *pool) {
     return true;
 }
 
+// True if a file lies, or would lie, in the model's own folder.
+static bool is_beside(const char *model_path, const char *path) {
+    const size_t length = (size_t)(base_name(model_path) - model_path);
+    return (size_t)(base_name(path) - path) == length && strncmp(path, model_path, length) == 0;
+}
+
 bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
     if (model->lost_picture || !decode_all(model, pool)) {
         return dip_model_out_of_memory(err, NULL);
@@ -252,11 +320,13 @@ bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
     }
     for (int i = 0; i < model->picture_count; ++i) {
         const DipPictureEntry *entry = &model->pictures[i];
+        const char *path = model->files[entry->file].path;
         if (entry->error.code == DIP_ERROR_MISSING) {
-            dip_model_warn(
-                model, model->files[entry->file].path, NULL,
-                "the picture %s is missing, so its surfaces are drawn in their base colour",
-                entry->name);
+            const bool beside = is_beside(path, entry->name);
+            dip_model_warn(model, path, NULL,
+                           "the picture %s is %s, so its surfaces are drawn in their base colour",
+                           beside ? base_name(entry->name) : entry->name,
+                           beside ? "not beside the model" : "missing");
         } else if (entry->error.origin == DIP_ORIGIN_RUNTIME) {
             return dip_model_out_of_memory(err, entry->name);
         } else if (entry->error.code != DIP_ERROR_NONE) {

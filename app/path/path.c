@@ -1,7 +1,11 @@
-// Implements the commands `diptych path info`, which describes a camera path, and `diptych path
-// convert`, which rewrites a camera path in another format.
+// Implements the commands `diptych path info`, which describes a camera path or lists the
+// animations and cameras of a model, and `diptych path convert`, which rewrites a camera path in
+// another format.
 #include "app/path/path.h"
 
+#include "assets/animation.h"
+#include "assets/cameras.h"
+#include "assets/importer.h"
 #include "campaths/campath.h"
 #include "renderer/base/assert.h"
 
@@ -46,9 +50,41 @@ static bool check_convert(const void *options, DipError *err) {
                          path->files[1]);
 }
 
+static void print_model(const DipAnimatedDef *def, const DipModelCamera *cameras, int count) {
+    for (int i = 0; i < def->animation_count; i++) {
+        printf("animation  %s, %.6g s\n", def->animations[i].name, def->animations[i].duration_s);
+    }
+    for (int i = 0; i < count; i++) {
+        printf("camera     %s, %.6g s\n", cameras[i].name,
+               1e-9 * (double)cameras[i].period_ns * (double)(cameras[i].key_count - 1));
+    }
+    if (def->animation_count + count == 0) {
+        printf("no animations and no cameras\n");
+    }
+}
+
+static bool run_model_info(const char *file, DipError *err) {
+    // Another process of this program decodes the pictures.
+    const DipImporter importer = {.program = "/proc/self/exe", .command = "import"};
+    DipAnimatedModel *model = dip_animated_model_load(file, &importer, NULL, err);
+    DipModelCameras *cameras = model ? dip_model_cameras_load(file, DIP_UP_auto, NULL, err) : NULL;
+    const bool ok = cameras != NULL;
+    if (ok) {
+        int count;
+        const DipModelCamera *list = dip_model_cameras_list(cameras, &count);
+        print_model(dip_animated_model_def(model), list, count);
+    }
+    dip_model_cameras_destroy(&cameras);
+    dip_animated_model_destroy(&model);
+    return ok;
+}
+
 static bool run_info(DipSession *session, const void *options, DipError *err) {
     (void)session;
     const char *file = ((const PathOptions *)options)->files[0];
+    if (ends_with(file, ".gltf") || ends_with(file, ".glb") || ends_with(file, ".md2")) {
+        return run_model_info(file, err);
+    }
     DipCamPath *path;
     if (!dip_campath_load(file, &path, err)) {
         return false;
@@ -83,6 +119,7 @@ static bool run_convert(DipSession *session, const void *options, DipError *err)
 static const DipExample info_examples[] = {
     {"diptych path info campaths/ambient.pth",
      "prints the duration, length and speeds of the courtyard's default path"},
+    {"diptych path info fox.glb", "lists all animations and cameras of a model"},
 };
 
 static const DipExample convert_examples[] = {
@@ -97,10 +134,12 @@ static const DipExample convert_examples[] = {
 
 const DipCommand dip_path_info_command = {
     .name = "path info",
-    .summary = "print the keys, duration, length and speeds of a camera path",
+    .summary = "print the keys, duration, length and speeds of a camera path, or the animations of "
+               "a model",
     .usage = "FILE",
     .text = "Path info reads a camera path and prints its keys, its duration and length, the box "
-            "that holds it and its greatest speeds.",
+            "that holds it and its greatest speeds. Of a model (.gltf, .glb, .md2) it lists the "
+            "animations, which --animation plays, and the cameras, which --path flies.",
     .examples = info_examples,
     .example_count = DIP_ARRAY_COUNT(info_examples),
     .parts = &all_parts,

@@ -148,7 +148,6 @@ static void warn_of_maps(const DipGltf *gltf, DipModel *model) {
         {"KHR_materials_clearcoat", "clearcoatTexture"},
         {"KHR_materials_clearcoat", "clearcoatRoughnessTexture"},
         {"KHR_materials_clearcoat", "clearcoatNormalTexture"},
-        {"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture"},
         {"KHR_materials_specular", "specularTexture"},
         {"KHR_materials_specular", "specularColorTexture"},
         {"KHR_materials_transmission", "transmissionTexture"},

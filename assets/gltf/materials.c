@@ -105,6 +105,16 @@ static double unit_of(const cJSON *object, const char *name, double otherwise) {
     return clamp(dip_gltf_number_of(object, name, otherwise), 0.0, 1.0);
 }
 
+// Returns the description of the material in the shading of old files, or NULL. Of its specular
+// picture only the mean is drawn, so a description with a metallic-roughness picture outranks it.
+static const cJSON *glossy_of(const cJSON *json) {
+    const cJSON *glossy = dip_gltf_extension(json, "KHR_materials_pbrSpecularGlossiness");
+    const cJSON *metallic = cJSON_GetObjectItemCaseSensitive(json, "pbrMetallicRoughness");
+    const bool outranked = cJSON_GetObjectItemCaseSensitive(glossy, "specularGlossinessTexture") &&
+                           cJSON_GetObjectItemCaseSensitive(metallic, "metallicRoughnessTexture");
+    return outranked ? NULL : glossy;
+}
+
 // The shading of old files: a diffuse colour, and a specular colour that is f0.
 static bool read_glossy(const DipGltf *gltf, const cJSON *glossy, DipGltfMaterial *material) {
     double specular[3] = {1.0, 1.0, 1.0};
@@ -114,7 +124,8 @@ static bool read_glossy(const DipGltf *gltf, const cJSON *glossy, DipGltfMateria
     material->metal_rough.index = -1;
     if (!dip_gltf_numbers(gltf, glossy, "diffuseFactor", 4, material->base) ||
         !dip_gltf_numbers(gltf, glossy, "specularFactor", 3, specular) ||
-        !read_texture(gltf, glossy, "diffuseTexture", &material->colour)) {
+        !read_texture(gltf, glossy, "diffuseTexture", &material->colour) ||
+        !read_texture(gltf, glossy, "specularGlossinessTexture", &material->gloss)) {
         return false;
     }
     material->is_glossy = true;
@@ -180,10 +191,11 @@ bool dip_gltf_describe_material(const DipGltf *gltf, int index, DipGltfMaterial 
     const cJSON *json = index < 0 ? &nothing : dip_gltf_item(gltf, DIP_GLTF_materials, index);
     const cJSON *name = cJSON_GetObjectItemCaseSensitive(json, "name");
     *material = (DipGltfMaterial){.name = cJSON_IsString(name) ? name->valuestring : "",
-                                  .base = {1.0, 1.0, 1.0, 1.0}};
+                                  .base = {1.0, 1.0, 1.0, 1.0},
+                                  .gloss.index = -1};
     const cJSON *normal = cJSON_GetObjectItemCaseSensitive(json, "normalTexture");
     const cJSON *occlusion = cJSON_GetObjectItemCaseSensitive(json, "occlusionTexture");
-    const cJSON *glossy = dip_gltf_extension(json, "KHR_materials_pbrSpecularGlossiness");
+    const cJSON *glossy = glossy_of(json);
     const cJSON *coat = dip_gltf_extension(json, "KHR_materials_clearcoat");
     const cJSON *transmission = dip_gltf_extension(json, "KHR_materials_transmission");
     if (!json || !read_metallic(gltf, json, material) || !read_specular(gltf, json, material) ||

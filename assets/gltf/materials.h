@@ -40,7 +40,8 @@ typedef struct DipGltfMaterial {
     DipGltfAlpha alpha;
     bool double_sided;
     bool unlit;
-    bool is_glossy; // KHR_materials_pbrSpecularGlossiness describes the material.
+    bool is_glossy;       // KHR_materials_pbrSpecularGlossiness describes the material.
+    DipGltfTexture gloss; // Of is_glossy: it multiplies f0, and its alpha 1 - roughness.
     DipGltfTexture colour;
     DipGltfTexture metal_rough;
     DipGltfTexture normal;

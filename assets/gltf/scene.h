@@ -31,6 +31,7 @@ typedef struct DipGltfScene {
 // Features of which there is one warning for each file.
 typedef enum DipGltfLoss {
     DIP_GLTF_LOSS_COORDINATES,
+    DIP_GLTF_LOSS_GLOSS,
     DIP_GLTF_LOSS_LIGHT_MAPPED,
     DIP_GLTF_LOSS_VERTEX_ALPHA,
     DIP_GLTF_LOSS_MOVED_LIGHT,

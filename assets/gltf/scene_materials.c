@@ -163,6 +163,7 @@ static void read_pbr(Maker *maker) {
             dip_model_out_of_memory(maker->scene->reader.gltf.err, maker->scene->reader.gltf.path);
         return;
     }
+    plan->gloss = use(maker, &from->gloss, "specular-glossiness map");
     *pbr = (DipPbrDef){.metallic = (float)from->metallic,
                        .roughness = (float)from->roughness,
                        .metal_rough_map = DIP_NO_TEXTURE,
@@ -173,7 +174,9 @@ static void read_pbr(Maker *maker) {
                        .coat = (float)from->coat,
                        .coat_roughness = (float)from->coat_roughness};
     for (int i = 0; i < 3; ++i) {
-        pbr->f0_lin[i] = (float)from->f0[i];
+        // Without the picture that belongs to it, the factor 1 would make a mirror.
+        const bool is_mirror = from->gloss.index >= 0 && plan->gloss.picture < 0;
+        pbr->f0_lin[i] = is_mirror ? dielectric_specular : (float)from->f0[i];
         pbr->emission_lin[i] = (float)from->emission[i];
     }
     plan->metal_rough = use(maker, &from->metal_rough, "metallic-roughness map");
@@ -183,6 +186,9 @@ static void read_pbr(Maker *maker) {
     place_or_drop(maker, &from->emission_map, true, &pbr->emission_at_uv1, &plan->emission);
     place_or_drop(maker, &from->occlusion, true, &pbr->occlusion_at_uv1, &plan->occlusion);
     plan->pbr = pbr;
+    if (plan->gloss.picture >= 0 && dip_gltf_warns_of(maker->scene, DIP_GLTF_LOSS_GLOSS)) {
+        warn(maker, "only the mean of the picture specularGlossinessTexture is drawn");
+    }
 }
 
 static void warn_of_lost_light(Maker *maker) {
@@ -258,7 +264,7 @@ static void fill(Maker *maker) {
     def->colour_texture = def->light_map = def->normal_map = DIP_NO_TEXTURE;
     plan->unlit = from->unlit;
     plan->opacity = plan->normal = plan->light = no_use;
-    plan->metal_rough = plan->occlusion = plan->emission = no_use;
+    plan->metal_rough = plan->gloss = plan->occlusion = plan->emission = no_use;
     plan->colour = use(maker, &from->colour, "colour texture");
     place_or_drop(maker, &from->colour, false, &at_uv1, &plan->colour);
     if (maker->scene->model->normal_maps) {
@@ -274,7 +280,7 @@ static void fill(Maker *maker) {
     read_surface(maker);
     float f0[3];
     for (int i = 0; i < 3; ++i) {
-        f0[i] = from->is_glossy ? (float)from->f0[i] : specular[i];
+        f0[i] = from->is_glossy && from->gloss.index < 0 ? (float)from->f0[i] : specular[i];
     }
     dip_material_set_highlight(def, def->roughness, f0);
     warn_of_lost_light(maker);

@@ -272,6 +272,8 @@ expect 0 '' "$diptych" path convert aa.pth again.bth
 check "conversion to .pth and back changes no byte" cmp aa.bth again.bth
 expect 0 '' "$diptych" path info aa.bth
 check "path info prints the duration" grep -q '^duration   24 s' out.txt
+expect 0 '' "$diptych" path info "$source/assets/gallery/crab.md2"
+check "path info lists the animations of a model" grep -q '^animation  walk, 1.2 s' out.txt
 refuse "'aa.txt' names no format; write to a file that ends in .pth" path convert aa.bth aa.txt
 head -c 100 aa.bth >cut.bth
 refuse 'cut.bth: ' path info cut.bth

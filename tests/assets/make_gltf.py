@@ -190,6 +190,23 @@ def materials():
     m.save("materials")
 
 
+def glossy():
+    """Specular-glossiness pictures: alone, beside metal and roughness, and one that is missing."""
+    m = Model()
+    one = png(1, 1, [(10, 20, 30)])
+    gloss = {"index": m.texture(png(2, 1, [(255, 0, 255, 255), (0, 0, 255, 51)]))["index"]}
+    lost = {"index": m.add("textures", {"source": m.add("images", {"uri": "lost.png"})})}
+    rough = {"metallicFactor": .25, "metallicRoughnessTexture": m.texture(one)}
+    for name, picture, metallic in (("alone", gloss, {}), ("beside", gloss, rough),
+                                    ("lost", lost, {})):
+        extension = {"diffuseFactor": [.5, .25, 0, 1], "specularFactor": [1, 1, .5],
+                     "glossinessFactor": .5, "specularGlossinessTexture": picture}
+        m.node(name, m.triangle(material=m.add("materials", {
+            "name": name, "pbrMetallicRoughness": metallic,
+            "extensions": {"KHR_materials_pbrSpecularGlossiness": extension}})))
+    m.save("glossy")
+
+
 def coordinates():
     """Colour on set 1 and turned, emission and occlusion on set 0, and a normal map that fits none."""
     m = Model()
@@ -291,6 +308,6 @@ def plain():
     m.save("plain")
 
 
-for make in (strips, sparse, quantized, colours, materials, coordinates, instancing, shapes, lamps,
-             losses, plain):
+for make in (strips, sparse, quantized, colours, materials, glossy, coordinates, instancing, shapes,
+             lamps, losses, plain):
     make()

@@ -238,6 +238,35 @@ static void materials_have_their_factors(void **state) {
     dip_model_destroy(&model);
 }
 
+// The picture has the texels (1, 0, 1) with alpha 1 and (0, 0, 1) with alpha 0.2, of which the
+// material takes the means. Without its picture, a material is a dielectric and no mirror.
+static void specular_pictures_are_drawn_as_their_means(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    DipModel *model = load("glossy.gltf", &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    const DipPbrDef *alone = material_of(def, "alone")->pbr;
+    assert_near_3(alone->f0_lin, 0.5, 0.0, 0.5);
+    assert_near((double)alone->roughness, 1.0 - 0.5 * 0.6);
+    assert_near((double)alone->metallic, 0.0);
+    assert_near_3(material_of(def, "alone")->base_colour_lin, 0.5, 0.25, 0.0);
+    const DipPbrDef *beside = material_of(def, "beside")->pbr;
+    assert_near((double)beside->metallic, 0.25);
+    assert_near_3(beside->f0_lin, 0.04, 0.04, 0.04);
+    assert_near_3(material_of(def, "beside")->base_colour_lin, 1.0, 1.0, 1.0);
+    assert_true(beside->metal_rough_map >= 0);
+    const DipPbrDef *lost = material_of(def, "lost")->pbr;
+    assert_near_3(lost->f0_lin, 0.04, 0.04, 0.04);
+    assert_near((double)lost->roughness, 0.5);
+    assert_int_equal(warnings.count, 2);
+    assert_string_equal(warnings.items[0].message,
+                        "only the mean of the picture specularGlossinessTexture is drawn");
+    assert_string_equal(warnings.items[0].key, "alone");
+    assert_non_null(strstr(warnings.items[1].message, "lost.png"));
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
 static void assert_texture(const DipSceneDef *def, int index, DipEncoding encoding) {
     assert_true(index >= 0);
     assert_int_equal(def->textures[index].encoding, encoding);
@@ -614,6 +643,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(skins_and_morph_targets_have_their_shape_at_rest),
         cmocka_unit_test(every_node_with_a_light_is_a_light),
         cmocka_unit_test(materials_have_their_factors),
+        cmocka_unit_test(specular_pictures_are_drawn_as_their_means),
         cmocka_unit_test(materials_have_their_pictures),
         cmocka_unit_test(transparent_surfaces_are_blended),
         cmocka_unit_test(textures_have_coordinates_of_their_own),

@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <cmocka.h>
 
 static DipModel *load_up(const char *path, DipUpAxis up, DipErrorList *warnings) {
@@ -67,6 +69,83 @@ static void a_broken_picture_gives_a_warning(void **state) {
                                  "not a supported picture");
 }
 
+// --- pictures elsewhere --------------------------------------------------------------------------
+
+// Writes a square with a picture of this path.
+static const char *square_with(const char *picture) {
+    char text[300];
+    fixture_copy("square.obj");
+    snprintf(text, sizeof text, "newmtl painted\nKd 1 1 1\nmap_Kd %s\n", picture);
+    fixture_write_text("square.mtl", text);
+    return fixture_path("square.obj");
+}
+
+static void paths_of_other_machines_are_looked_for_beside(void **state) {
+    (void)state;
+    const char *path = square_with("D:\\projects\\wood\\bark.tga");
+    DipErrorList warnings = {0};
+    DipModel *model = load(path, &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.items[0].message,
+                        "the picture bark.tga is not beside the model, so its surfaces are drawn "
+                        "in their base colour");
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+    assert_int_equal(mkdir(fixture_path("textures"), 0777), 0);
+    fixture_write_tga("textures/bark.tga", 2, 2, 100);
+    model = load(fixture_path("square.obj"), NULL);
+    assert_int_equal(dip_model_scene_def(model)->texture_count, 1);
+    dip_model_destroy(&model);
+    assert_int_equal(unlink(fixture_path("textures/bark.tga")), 0);
+    assert_int_equal(rmdir(fixture_path("textures")), 0);
+}
+
+static void a_skin_may_be_called_like_its_model(void **state) {
+    (void)state;
+    size_t size_bytes;
+    uint8_t *bytes = fixture_read(fixture_data("../../../assets/gallery/crab.md2"), &size_bytes);
+    fixture_write("crab.md2", bytes, size_bytes);
+    free(bytes);
+    DipErrorList warnings = {0};
+    DipModel *model = load(fixture_path("crab.md2"), &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(
+        strstr(warnings.items[0].message,
+               "its skin crab.pcx is not beside the model, and there is no crab with the ending"));
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+    fixture_write_tga("crab.tga", 2, 2, 100);
+    model = load(fixture_path("crab.md2"), NULL);
+    assert_int_equal(dip_model_scene_def(model)->texture_count, 1);
+    dip_model_destroy(&model);
+}
+
+// --- transparency and missing materials ----------------------------------------------------------
+
+static void a_constant_opacity_blends(void **state) {
+    (void)state;
+    fixture_copy("square.obj");
+    fixture_write_text("square.mtl", "newmtl painted\nKd 1 1 1\nd 0.25\n");
+    DipModel *model = load(fixture_path("square.obj"), NULL);
+    const DipMaterialDef *material = &dip_model_scene_def(model)->materials[0];
+    assert_int_equal(material->surface, DIP_SURFACE_BLENDED);
+    assert_true(material->opacity == 0.25f);
+    dip_model_destroy(&model);
+}
+
+static void one_line_says_that_no_mtl_is_named(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    fixture_write_text("grey.obj", "o leaf\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Wood\nf 1 2 3\n"
+                                   "usemtl Steel\nf 1 3 2\n");
+    DipModel *model = load(fixture_path("grey.obj"), &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.items[0].message, "the file names no .mtl file with its "
+                                                   "materials, so its surfaces are grey");
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
 // --- texture coordinates -------------------------------------------------------------------------
 
 // An NFF file's sphere has no texture coordinates; the reader asks for a mapping around it.
@@ -88,6 +167,29 @@ static void generated_texture_coordinates_are_kept(void **state) {
     }
     for (int k = 0; k < 2; ++k) { // The texture goes around the whole sphere.
         assert_true(low[k] >= -0.01f && low[k] < 0.1f && high[k] > 0.9f && high[k] <= 1.01f);
+    }
+    dip_model_destroy(&model);
+}
+
+// --- normals -------------------------------------------------------------------------------------
+
+// Many programs write facets with the normal 0 0 0. The first facet lies in the plane z = 0 and
+// runs counter-clockwise as seen from +z. The second one keeps the normal that the file gives it.
+static void normals_of_length_zero_are_made(void **state) {
+    (void)state;
+    DipModel *model = load_text(
+        "zero.stl", "solid s\n"
+                    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 3 0\n"
+                    "endloop\nendfacet\n"
+                    "facet normal 0 1 0\nouter loop\nvertex 0 0 9\nvertex 2 0 9\nvertex 0 3 9\n"
+                    "endloop\nendfacet\nendsolid s\n");
+    const DipMeshDef *mesh = &dip_model_scene_def(model)->meshes[0];
+    assert_int_equal(mesh->index_count, 6);
+    for (size_t i = 0; i < 6; ++i) {
+        const float *normal = mesh->normals + 3 * (size_t)mesh->indices[i];
+        assert_true(normal[0] == 0.0f);
+        assert_true(normal[1] == (i < 3 ? 0.0f : 1.0f));
+        assert_true(normal[2] == (i < 3 ? 1.0f : 0.0f));
     }
     dip_model_destroy(&model);
 }
@@ -263,7 +365,12 @@ static void the_caller_can_say_which_way_is_up(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_broken_picture_gives_a_warning),
+        cmocka_unit_test(paths_of_other_machines_are_looked_for_beside),
+        cmocka_unit_test(a_skin_may_be_called_like_its_model),
+        cmocka_unit_test(a_constant_opacity_blends),
+        cmocka_unit_test(one_line_says_that_no_mtl_is_named),
         cmocka_unit_test(generated_texture_coordinates_are_kept),
+        cmocka_unit_test(normals_of_length_zero_are_made),
         cmocka_unit_test(vertices_without_a_colour_are_not_black),
         cmocka_unit_test(black_vertices_stay_black),
         cmocka_unit_test(colours_of_signed_bytes_are_read_as_bytes),
