@@ -115,9 +115,10 @@ DipViewInput dip_loop_view_input(DipPreview *preview, int64_t now_ns) {
 }
 
 void dip_loop_report(DipPreview *preview, const DipError *err, int64_t now_ns) {
-    char line[512];
-    dip_error_format(err, line, sizeof line);
-    dip_preview_notice(&preview->state, now_ns, "%.120s", line);
+    char text[DIP_NOTICE_SIZE];
+    dip_preview_error_text(err, text);
+    dip_preview_notice(&preview->state, now_ns, "%s", text);
+    dip_preview_keep_notice(&preview->state, now_ns);
 }
 
 // --- events --------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 #include "renderer/base/clock.h"
 
 #include <pthread.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +23,7 @@ typedef struct Opening {
     pthread_t thread;
     bool running;
     atomic_bool done;
-    bool dropped;                   // False if a file has changed.
+    const char *file;               // The dropped file; NULL if a file has changed.
     char name[DIP_WATCH_NAME_SIZE]; // Name, without folder, of the dropped or changed file.
     DipSessionOptions options;
     const DipImporter *importer;
@@ -40,7 +41,9 @@ struct DipReload {
     char changed_name[DIP_WATCH_NAME_SIZE];
     const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first.
     int drop_count;
-    char **names; // Names of all files dropped so far, each once; options point to them.
+    const char *passed; // Dropped file that was opened just before; the next one follows at once.
+    bool passed_failed; // It could not be opened.
+    char **names;       // Names of all files dropped so far, each once; options point to them.
     int name_count;
     Opening opening;
     DipCostReport *costs; // Owned; NULL if none was opened.
@@ -179,12 +182,16 @@ static bool ends_with(const char *file, const char *ending) {
     return length >= tail && strcasecmp(file + length - tail, ending) == 0;
 }
 
+static bool is_path(const char *file) {
+    return ends_with(file, ".pth") || ends_with(file, ".bth");
+}
+
 // Changes the options as if the command line named the file.
 static void aim(DipSessionOptions *options, const char *file) {
     options->category = NULL;
     options->has_pose = false;
     options->path = NULL;
-    if (ends_with(file, ".pth") || ends_with(file, ".bth")) {
+    if (is_path(file)) {
         options->path = file;
         return;
     }
@@ -228,15 +235,14 @@ static bool tell(DipReloadNews *news, DipReloadKind kind, const char *what, cons
 }
 
 static bool tell_fault(DipReloadNews *news, const DipErrorList *faults) {
-    char line[512] = "out of memory";
+    news->kind = DIP_RELOAD_FAULT;
+    snprintf(news->notice, sizeof news->notice, "out of memory");
     for (size_t i = 0; i < faults->count; ++i) {
         if (faults->items[i].severity == DIP_SEVERITY_ERROR || faults->error_count == 0) {
-            dip_error_format(&faults->items[i], line, sizeof line);
+            dip_preview_error_text(&faults->items[i], news->notice);
             break;
         }
     }
-    news->kind = DIP_RELOAD_FAULT;
-    snprintf(news->notice, sizeof news->notice, "%.150s", line);
     return true;
 }
 
@@ -263,13 +269,13 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
     Opening *opening = &reload->opening;
     opening->options = reload->options;
     opening->importer = reload->session->importer;
-    opening->dropped = file != NULL;
+    opening->file = file;
     opening->opened = false;
     snprintf(opening->name, sizeof opening->name, "%.255s", name);
     if (file) {
         aim(&opening->options, file);
     }
-    news->dropped = opening->dropped;
+    news->dropped = file != NULL;
     if (is_no_file(opening->options.config)) {
         DipError err;
         dip_error_set(&err, DIP_ERROR_IO, opening->options.config, 0, NULL,
@@ -286,7 +292,7 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
 // unreadable picture is such a file: the session opens with a warning, but lacks its texture.
 static bool lacks_changed_file(const Opening *opening) {
     const char *sign = opening->name[0] ? opening->name : "is missing";
-    for (size_t i = 0; !opening->dropped && i < opening->faults.count; ++i) {
+    for (size_t i = 0; !opening->file && i < opening->faults.count; ++i) {
         const DipError *fault = &opening->faults.items[i];
         if (strstr(fault->message, sign) || strstr(fault->file, sign)) {
             return true;
@@ -295,15 +301,64 @@ static bool lacks_changed_file(const Opening *opening) {
     return false;
 }
 
+static void add(DipReloadNews *news, const char *format, ...) {
+    const size_t length = strlen(news->notice);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(news->notice + length, sizeof news->notice - length, format, arguments);
+    va_end(arguments);
+}
+
+// Adds to the notice how many pictures are missing, and the first of the other warnings.
+static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
+    const DipError *first = NULL;
+    int pictures = 0;
+    for (size_t i = faults->count; i-- > 0;) {
+        const DipError *fault = &faults->items[i];
+        const bool missing = strncmp(fault->message, "the picture ", 12) == 0 &&
+                             strstr(fault->message, " is missing");
+        pictures += missing;
+        first = missing ? first : fault;
+    }
+    const int others = (int)faults->count - pictures;
+    news->warns = faults->count > 0;
+    if (pictures > 0) {
+        add(news, ", %d picture%s missing", pictures, pictures > 1 ? "s" : "");
+    }
+    if (others > 1) {
+        add(news, ", with %d warnings: %s", others, first->message);
+    } else if (others > 0) {
+        add(news, ", with a warning: %s", first->message);
+    }
+}
+
+// Adds to the notice what became of the file that was dropped together with this one.
+static void tell_passed(const DipReload *reload, DipReloadNews *news) {
+    const char *passed = reload->passed;
+    if (passed && reload->passed_failed) {
+        add(news, "; %.60s could not be opened", base_name(passed));
+    } else if (passed && (is_path(passed) || !is_path(reload->opening.file))) {
+        add(news, " in place of %.60s", base_name(passed));
+    }
+}
+
 // Takes the result of the thread that opened a session. The thread has ended.
 static bool finish(DipReload *reload, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     join(opening);
     dip_log_errors(&opening->faults);
-    news->dropped = opening->dropped;
-    if (opening->opened && !lacks_changed_file(opening)) {
-        return tell(news, DIP_RELOAD_SESSION, opening->dropped ? "Opened " : "Reloaded ",
-                    opening->name[0] ? opening->name : "the scene");
+    news->dropped = opening->file != NULL;
+    const bool good = opening->opened && !lacks_changed_file(opening);
+    if (good) {
+        tell(news, DIP_RELOAD_SESSION, opening->file ? "Opened " : "Reloaded ",
+             opening->name[0] ? opening->name : "the scene");
+        tell_passed(reload, news);
+        tell_warnings(news, &opening->faults);
+    }
+    reload->passed = opening->file && reload->drop_count > 0 ? opening->file : NULL;
+    reload->passed_failed = !good;
+    if (good) {
+        return true;
     }
     tell_fault(news, &opening->faults);
     watch_session(reload, &opening->faults);

@@ -39,6 +39,7 @@ typedef enum DipReloadKind {
 typedef struct DipReloadNews {
     DipReloadKind kind;
     bool dropped;                 // True if the user dropped a file, false if a file has changed.
+    bool warns;                   // With SESSION: the notice names what does not show.
     char notice[DIP_NOTICE_SIZE]; // What to tell the user.
     const DipCostReport *costs;   // With COSTS, the report. Valid until the next one is loaded.
 } DipReloadNews;

@@ -57,7 +57,7 @@ typedef enum DipAction {
     DIP_ACTION_QUIT
 } DipAction;
 
-enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32, DIP_HELP_WORDS = 32 };
+enum { DIP_NOTICE_SIZE = 320, DIP_UNDO_DEPTH = 32, DIP_HELP_WORDS = 32 };
 
 // Settings that a user can ask for by name.
 typedef enum DipPreset {
@@ -237,6 +237,13 @@ void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns);
 // Shows a notice for a few seconds.
 void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+// Writes an error for a notice: what is wrong, then the name of the file without its folder.
+void dip_preview_error_text(const DipError *err, char text[DIP_NOTICE_SIZE]);
+
+// Lets the notice that shows stay for 10 seconds, or until the next one. For errors and warnings,
+// which take longer to read than what a key has just done.
+void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns);
 
 // Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
 const char *dip_preview_category_name(int category);

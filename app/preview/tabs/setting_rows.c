@@ -297,6 +297,18 @@ static void add_drawn_size(const DipPreviewState *state, int step, char note[DIP
     }
 }
 
+// Writes what a step of the open setting does, what it costs, and why it cannot be chosen.
+static void write_note(const DipWindow *window, DipSetting setting, int step,
+                       char note[DIP_STEP_TEXT_BYTES]) {
+    const DipPrice price = price_of(window, setting, step);
+    char why[256];
+    is_valid(window->state, setting, step, why);
+    dip_step_tip(setting, step, &price, why, note);
+    if (setting == DIP_SETTING_SCALE) {
+        add_drawn_size(window->state, step, note);
+    }
+}
+
 void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPreviewState *state = window->state;
     const DipSetting setting = state->open_setting;
@@ -309,9 +321,12 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipRect head = dip_cut_top(&rest, dip_ui_px(ui, NAME_HEIGHT));
     dip_cut_top(&rest, dip_ui_px(ui, has_note ? 6 : 2));
     Slider slider = make_slider(ui, window, setting, dip_cut_top(&rest, steps_height));
+    char note[DIP_STEP_TEXT_BYTES];
+    write_note(window, setting, dip_setting_step_at(setting, slider.pointed), note);
     slider.input =
         dip_ui_control(ui, &(DipUiControl){.id = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_EDITOR),
                                            .rect = slider.cells,
+                                           .tip = has_note ? NULL : note,
                                            .skips_focus = true,
                                            .takes_wheel = true});
     change_by(ui, window, setting, &slider.input, slider.pointed);
@@ -322,14 +337,8 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     draw_head(ui, state, setting, head);
     draw_steps(ui, state, &slider);
     if (has_note) { // About the step under the pointer, or the one that is requested.
-        const int step = slider.input.hovered ? dip_setting_step_at(setting, slider.pointed)
-                                              : step_of(state, DIP_PANE_REQUESTED, setting);
-        const DipPrice price = price_of(window, setting, step);
-        char why[256], note[DIP_STEP_TEXT_BYTES];
-        is_valid(state, setting, step, why);
-        dip_step_tip(setting, step, &price, why, note);
-        if (setting == DIP_SETTING_SCALE) {
-            add_drawn_size(state, step, note);
+        if (!slider.input.hovered) {
+            write_note(window, setting, step_of(state, DIP_PANE_REQUESTED, setting), note);
         }
         dip_cut_top(&rest, dip_ui_px(ui, 5));
         dip_ui_fill(ui, dip_cut_top(&rest, 1), dip_style_line);

@@ -330,7 +330,7 @@ static void other_files_are_not_touched(void **state) {
     write_file("poses.pth", "a shopping list\n");
     turn();
     press('s', DIP_MODIFIER_CTRL);
-    assert_notice("poses.pth:1: ");
+    assert_notice("(poses.pth:1)");
     FILE *in = fopen("poses.pth", "r");
     char line[64];
     assert_true(in && fgets(line, sizeof line, in));
@@ -388,7 +388,7 @@ static void bad_files_leave_what_is_shown(void **state) {
         const char *name;
         const char *bad;
         const char *part; // Of the notice.
-    } files[] = {{"scene.ini", "RES: 200x150\nXFILE: wall.obj\nNONSENSE\n", "scene.ini:3:"},
+    } files[] = {{"scene.ini", "RES: 200x150\nXFILE: wall.obj\nNONSENSE\n", "(scene.ini:3)"},
                  {"scene.ini", "RES: 200x150\nXFILE: none.obj\n", "none.obj"},
                  {"scene.ini", "", "scene.ini"},
                  {"still.pth", "diptych-path 1\nperiod 1\n0 0 nan 0 0 0 1\n", "still.pth:3:"},
