@@ -351,8 +351,10 @@ static void follow_motion(DipPreview *preview) {
     if (path != preview->judged_path || session->scene != preview->judged_scene) {
         preview->judged_path = path;
         preview->judged_scene = session->scene;
-        preview->state.stands = !session->shows_gallery && session->scene &&
-                                !dip_scene_moves(session->scene) &&
+        preview->state.scene_moves =
+            session->shows_gallery || (session->scene && dip_scene_moves(session->scene));
+        preview->state.lacks_shadows = session->scene && !dip_scene_has_shadows(session->scene);
+        preview->state.stands = session->scene && !preview->state.scene_moves &&
                                 dip_preview_path_stands(&preview->state);
     }
 }

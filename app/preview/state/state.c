@@ -396,12 +396,16 @@ void dip_preview_seek(DipPreviewState *state, int64_t play_ns) {
     ++state->scene_changes;
 }
 
+bool dip_preview_time_runs(const DipPreviewState *state) {
+    return !state->paused && (state->manual ? state->scene_moves : !state->stands);
+}
+
 bool dip_preview_rests(const DipPreviewState *state, bool flying) {
-    return state->manual ? !flying : state->paused || state->stands;
+    return !dip_preview_time_runs(state) && !(state->manual && flying);
 }
 
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns) {
-    if (!state->paused && !state->manual && !state->stands) {
+    if (dip_preview_time_runs(state)) {
         state->play_ns += elapsed_ns;
         ++state->scene_changes;
     }

@@ -104,10 +104,12 @@ typedef struct DipPreviewState {
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
     bool stands;           // Neither the camera nor the scene moves although time may run.
+    bool scene_moves;      // The scene moves, so that time runs although the camera is free.
+    bool lacks_shadows;    // Nothing in the scene casts a shadow that `shadows` could draw.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
-    bool manual;             // The user flies the camera; the time on the path stands still.
+    bool manual;             // The user flies the camera; a scene that does not move stands still.
     bool shows_gallery;      // The panes show a scene of the gallery.
     int scene_step;          // Scenes to go forward (below 0: back), as the user asked.
     int look;                // The scene's variant; numbers past the last variant wrap around.
@@ -218,11 +220,15 @@ const DipCamPath *dip_preview_playing_path(const DipPreviewState *state);
 // Returns whether all poses of the playing path are the same.
 bool dip_preview_path_stands(const DipPreviewState *state);
 
+// Returns whether the picture changes with time: it is not paused, and the camera or the scene
+// moves.
+bool dip_preview_time_runs(const DipPreviewState *state);
+
 // Returns whether camera and scene stand still. `flying` means that the user moves the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);
 
-// Lets time pass. Moves on along the path unless the preview is paused or the user flies the
-// camera. Removes a notice that has ended.
+// Lets time pass. Moves on along the path if time runs (dip_preview_time_runs). Removes a notice
+// that has ended.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
 
 // The first function returns the time on the active camera path, from 0 to the path's length. The

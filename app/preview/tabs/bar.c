@@ -190,14 +190,32 @@ static Bar measure(const DipUi *ui, const DipWindow *window) {
 
 // --- controls ------------------------------------------------------------------------------------
 
+// Returns whether the tool of a tab changes what the panes show, whichever tab is open.
+static bool is_tool_on(const DipToolState *tools, DipTab tab) {
+    switch (tab) {
+    case DIP_TAB_LOUPE:
+        return tools->loupe;
+    case DIP_TAB_COMPARE:
+        return tools->comparison != DIP_COMPARE_SIDE_BY_SIDE;
+    case DIP_TAB_MAPS:
+        return tools->map != DIP_MAP_NONE;
+    default:
+        return false;
+    }
+}
+
 static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
     const DipToolState *tools = &window->state->tools;
     DipRect rest = bar->rect;
     for (int t = 0; t < DIP_TAB_COUNT; ++t) {
         const DipRect rect = dip_cut_left(&rest, bar->tab_width[t]);
-        char tip[160];
+        char tip[240];
         bool chosen = tools->open && (int)tools->tab == t;
-        snprintf(tip, sizeof tip, "%s%s", tab_tips[t], chosen ? "\nY folds the panel" : "");
+        const bool tool_shows = !chosen && is_tool_on(tools, (DipTab)t);
+        snprintf(tip, sizeof tip, "%s%s", tab_tips[t],
+                 chosen       ? "\nY folds the panel"
+                 : tool_shows ? "\nIt shows over the panes now; Esc takes it away"
+                              : "");
         const DipUiInput input = dip_ui_control(
             ui, &(DipUiControl){.id = bar_id(BAR_TABS + t), .rect = rect, .tip = tip});
         draw_ring(ui, rect, &input);
@@ -209,6 +227,10 @@ static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
             DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
             dip_ui_fill(ui, rect, dip_style_dock);
             dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_white);
+        }
+        if (tool_shows && !chosen) {
+            DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
+            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_accent);
         }
         if (bar->words) {
             dip_ui_label(ui, TAB_SIZE, colour_of(&input, chosen), DIP_ALIGN_CENTRE, rect,

@@ -387,7 +387,7 @@ static void put_swatch(const Tab *tab, int pane, DipRect area, DipColour colour,
     const int edge = px(tab, 1), inner = side - px(tab, 2);
     dip_ui_fill(tab->ui, (DipRect){square.x + edge, square.y + edge, inner, inner}, colour);
     dip_cut_left(&area, gap);
-    area.width = px(tab, 120);
+    area.width = px(tab, 160);
     area.x += put(tab, 15, own, area, 2, value) + gap;
     area.width = px(tab, 100);
     put(tab, NOTE, dip_style_soft, area, 5, pane ? "requested" : "current");

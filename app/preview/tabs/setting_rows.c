@@ -37,12 +37,18 @@ static int step_of(const DipPreviewState *state, int pane, DipSetting setting) {
     return state->quality[pane].step[setting];
 }
 
-// Returns whether the setting has no effect beside the other settings of the pane that is edited.
-static bool is_dimmed(const DipPreviewState *state, DipSetting setting) {
-    return dip_quality_needs(&state->quality[edited_pane(state)], setting) != NULL;
+// Returns what the setting needs to have an effect in this scene, beside the other settings of the
+// pane that is edited. Returns NULL if it has an effect.
+static const char *needs_of(const DipPreviewState *state, DipSetting setting) {
+    return setting == DIP_SETTING_SHADOWS && state->lacks_shadows
+               ? "needs a directional light"
+               : dip_quality_needs(&state->quality[edited_pane(state)], setting);
 }
 
 static DipPrice price_of(const DipWindow *window, DipSetting setting, int step) {
+    if (setting == DIP_SETTING_SHADOWS && window->state->lacks_shadows) {
+        return (DipPrice){.needs_company = true, .needs = "a directional light"};
+    }
     return dip_prices_step(window->prices, setting, step,
                            &window->state->quality[DIP_PANE_REQUESTED]);
 }
@@ -263,7 +269,7 @@ static Slider make_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipR
     slider.cell_width = dip_max(1, (rect.width - indent) / slider.count);
     slider.cells =
         (DipRect){rect.x + indent, rect.y, slider.cell_width * slider.count, rect.height};
-    slider.dimmed = is_dimmed(window->state, setting);
+    slider.dimmed = needs_of(window->state, setting) != NULL;
     const int under = (dip_ui_pointer_x(ui) - slider.cells.x) / slider.cell_width;
     slider.pointed = dip_max(0, dip_min(slider.count - 1, under));
     return slider;
@@ -274,7 +280,7 @@ static Slider make_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipR
 // Draws the setting's name, its key and what it needs, and its steps in both panes.
 static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting setting, DipRect head) {
     const DipSettingInfo *info = dip_setting_info(setting);
-    const char *needs = dip_quality_needs(&state->quality[edited_pane(state)], setting);
+    const char *needs = needs_of(state, setting);
     const int gap = dip_ui_px(ui, 8);
     dip_ui_word(ui, NAME_SIZE, dip_style_white, &head, gap,
                 setting == DIP_SETTING_ASD ? "Samples per adaptive group" : info->title);
@@ -352,7 +358,7 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
 void dip_setting_entry_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
     DipPreviewState *state = window->state;
     const int requested = step_of(state, DIP_PANE_REQUESTED, setting);
-    const char *needs = dip_quality_needs(&state->quality[edited_pane(state)], setting);
+    const char *needs = needs_of(state, setting);
     DipUiInput input = dip_ui_stepper(ui, id_of(setting), rect, NULL);
     if (input.began || input.focused) {
         state->open_setting = setting;
