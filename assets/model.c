@@ -2,6 +2,7 @@
 // and completes the scene description.
 #include "assets/model.h"
 
+#include "assets/animation.h"
 #include "assets/gltf/reader.h"
 #include "assets/importer.h"
 #include "assets/model_parts.h"
@@ -179,6 +180,15 @@ bool dip_model_add_object(DipModel *model, int file, int mesh, const double tran
     return true;
 }
 
+// Adds the object of a file whose key frames play. Their reader turns them so that +Y is up.
+static bool add_key_frames(DipModel *model, int file, unsigned source, int material,
+                           const char *name, DipError *err) {
+    double root[12];
+    dip_model_up_transform(model, &model->files[file], root);
+    const int mesh = dip_model_key_frame_mesh(model, file, source, material, root, err);
+    return mesh >= 0 && dip_model_add_object(model, file, mesh, root, name, err);
+}
+
 static bool add_object(DipModel *model, int file, const struct aiNode *node, unsigned source,
                        const NodeState *state, DipError *err) {
     const struct aiMesh *mesh = model->files[file].scene->mMeshes[source];
@@ -192,6 +202,9 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
     }
     if (model->plans[material].invisible) {
         return true;
+    }
+    if (model->files[file].key_frames) {
+        return add_key_frames(model, file, source, material, node->mName.data, err);
     }
     const int index = dip_model_mesh(model, file, source, material, err);
     return index >= 0 &&
@@ -237,11 +250,20 @@ static bool list_materials(DipModel *model, DipModelFile *file, DipError *err) {
     return file->material_names || dip_model_out_of_memory(err, file->path);
 }
 
+// Returns whether the name of a file has this ending.
+static bool ends_with(const char *path, const char *ending) {
+    const char *dot = strrchr(path, '.');
+    return dot && strcasecmp(dot, ending) == 0;
+}
+
 // Reads a file with assimp.
 static bool load_with_assimp(DipModel *model, int index, DipError *err) {
     DipModelFile *file = &model->files[index];
     NodeState root = {.tag = DIP_TAG_SOLID};
     if (!dip_model_import(model, file, err) || !list_materials(model, file, err)) {
+        return false;
+    }
+    if (ends_with(file->path, ".md2") && !dip_model_read_key_frames(model, file, err)) {
         return false;
     }
     dip_model_up_transform(model, file, root.world);
@@ -252,9 +274,8 @@ static bool load_with_assimp(DipModel *model, int index, DipError *err) {
 // Reads a file as glTF 2. Sets *is_other if it is something else.
 static bool load_as_gltf(DipModel *model, int index, bool *is_other, DipError *err) {
     DipModelFile *file = &model->files[index];
-    const char *dot = strrchr(file->path, '.');
     double root[12];
-    *is_other = !dot || (strcasecmp(dot, ".gltf") != 0 && strcasecmp(dot, ".glb") != 0);
+    *is_other = !ends_with(file->path, ".gltf") && !ends_with(file->path, ".glb");
     if (*is_other) {
         return true;
     }
@@ -290,6 +311,7 @@ static void release_scenes(DipModel *model) {
             free(model->files[i].gltf);
             model->files[i].gltf = NULL;
         }
+        dip_animated_model_destroy(&model->files[i].key_frames);
     }
 }
 
@@ -303,12 +325,11 @@ static bool finish(DipModel *model, DipError *err) {
     model->def.meshes = model->meshes;
     model->def.objects = model->objects;
     memcpy(model->def.background_lin, background_lin, sizeof background_lin);
-    dip_model_finish_motion(model);
     model->def.sky = dip_sky_default();
     model->warnings = NULL;
     DipModelBounds bounds;
-    if (!dip_model_bounds(model, &bounds, err)) {
-        return false;
+    if (!dip_model_finish_motion(model) || !dip_model_bounds(model, &bounds)) {
+        return dip_model_out_of_memory(err, model->file_count > 0 ? model->files[0].path : NULL);
     }
     model->def.near_m = dip_model_near_distance(&bounds);
     dip_model_scale_lights(model, &bounds);

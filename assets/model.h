@@ -5,8 +5,9 @@
 // - Polygons are triangulated. Points and lines are left out with a warning.
 // - A mesh without normals gets normals: in glTF those of its triangles; in other formats they are
 //   smooth where faces meet at less than 60 degrees.
-// - Files of glTF 2 may play an animation (DipModelOptions.animation). Without one, skins and morph
-//   targets have their shape at rest. Animations of other formats are not played.
+// - Files of glTF 2 and MD2 may play an animation (DipModelOptions.animation). Without one, skins
+//   and morph targets have their shape at rest, and an MD2 model that of its first frame.
+//   Animations of other formats are not played.
 // - A mesh that several nodes use stays one mesh with several objects. A node that mirrors uses the
 //   same mesh; the renderer turns the winding back (docs/picture.md, Coverage).
 // - Base colours and vertex colours are linear in glTF. In all other formats they are taken as
@@ -198,6 +199,19 @@ typedef struct DipModelTimes {
     double pictures_ms; // reading and decoding pictures
 } DipModelTimes;
 DIP_API DipModelTimes dip_model_times(const DipModel *model);
+
+// The names of parts of a model, for a message: `, "Run", "Walk" and 3 more`. Begin it with a text
+// or with zeros.
+typedef struct DipNameList {
+    char text[224];
+    int left_out; // Number of names that did not fit.
+} DipNameList;
+
+// Adds a name, or counts it if it does not fit.
+DIP_API void dip_name_list_add(DipNameList *list, const char *name);
+
+// Ends the text with the number of names that did not fit, and returns the text.
+DIP_API const char *dip_name_list_end(DipNameList *list);
 
 // Returns the names of the animations of all files, each once, in the order of the files. They
 // belong to the model.

@@ -115,6 +115,10 @@ typedef struct DipModelFile {
     const char **material_names; // of all the file's materials; "" for one without a name
     int material_count;
     bool linear_colours; // true: colours are linear, as in glTF; false: colours are sRGB
+    // The key frames of an MD2 file whose animation number `clip` plays, otherwise NULL; owned.
+    // NULL after the load.
+    struct DipAnimatedModel *key_frames;
+    int clip;
 } DipModelFile;
 
 struct DipModel {
@@ -234,8 +238,8 @@ typedef struct DipModelBounds {
 } DipModelBounds;
 
 // bounds.c: computes the bounds over all moments of the model's motion, and the distance of the
-// near plane that suits them. The bounds fail when memory runs out.
-bool dip_model_bounds(const DipModel *model, DipModelBounds *to, DipError *err);
+// near plane that suits them. The bounds return false when memory runs out.
+bool dip_model_bounds(const DipModel *model, DipModelBounds *to);
 float dip_model_near_distance(const DipModelBounds *bounds);
 
 // lights.c: adds the lights of an imported file to the model. world: see dip_model_up_transform.
@@ -286,12 +290,23 @@ bool dip_model_add_rig(DipModel *model, const DipMotionRig *rig);
 bool dip_model_add_moving_object(DipModel *model, const DipMovingObject *object);
 bool dip_model_add_moving_mesh(DipModel *model, const DipMovingMesh *mesh);
 
-// motion.c: describes the motion in the model's scene, if anything moves.
-void dip_model_finish_motion(DipModel *model);
+// motion.c: describes the motion in the model's scene, if anything moves. Returns false when memory
+// runs out.
+bool dip_model_finish_motion(DipModel *model);
 
 // motion.c: gives the `count` corners of a mesh vertices of their own in its motion, if it has any.
 // The mesh then has the normals of its triangles. Returns false when memory runs out.
 bool dip_model_flatten_motion(DipModel *model, int mesh, const uint32_t *indices, uint32_t count);
+
+// animation/md2_scene.c: reads the key frames of an MD2 file and chooses the animation that plays.
+// If they cannot be read, warns, and the file stands still. Fails when memory runs out.
+bool dip_model_read_key_frames(DipModel *model, DipModelFile *file, DipError *err);
+
+// animation/md2_scene.c: adds the mesh of a file with key frames, which moves as the animation
+// says, and returns its index, or DIP_NOT_FOUND on failure. index: that of the file. root: the
+// transform of the whole file.
+int dip_model_key_frame_mesh(DipModel *model, int index, unsigned source, int material,
+                             const double root[12], DipError *err);
 
 // mesh.c: true if a processed mesh consists of triangles.
 bool dip_mesh_is_triangles(const struct aiMesh *mesh);

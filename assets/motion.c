@@ -55,30 +55,41 @@ int dip_model_choose_clip(const DipModel *model, const char *const *names, int c
 }
 
 bool dip_model_check_animation(const DipModel *model, DipError *err) {
-    char list[200] = "none";
-    size_t length = strlen(list);
-    int left_out = 0;
+    DipNameList list = {.text = "none"};
     if (model->animation != DIP_MODEL_ANIMATION_NAMED) {
         return true;
     }
     for (int i = 0; i < model->clip_count; ++i) {
-        const char *name = model->clips[i];
-        if (strcmp(name, model->animation_name) == 0) {
+        if (strcmp(model->clips[i], model->animation_name) == 0) {
             return true;
         }
-        if (length + strlen(name) + 5 > sizeof list) {
-            left_out++;
-            continue;
-        }
-        length += (size_t)snprintf(list + length, sizeof list - length, ", \"%s\"", name);
-    }
-    char more[24] = "";
-    if (left_out > 0) {
-        snprintf(more, sizeof more, " and %d more", left_out);
+        dip_name_list_add(&list, model->clips[i]);
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, DIP_MODEL_ANIMATION_KEY,
-                         "'%.60s' is not an animation of the models, accepted %s%s",
-                         model->animation_name, list, more);
+                         "'%.60s' is not an animation of the models, accepted %s",
+                         model->animation_name, dip_name_list_end(&list));
+}
+
+// --- names for messages --------------------------------------------------------------------------
+
+enum { ROOM_FOR_COUNT = 24 }; // Bytes of a list's end: " and 3 more".
+
+void dip_name_list_add(DipNameList *list, const char *name) {
+    const size_t length = strlen(list->text);
+    const size_t room = sizeof list->text - ROOM_FOR_COUNT;
+    if (length + strlen(name) + 5 > room) {
+        list->left_out++;
+    } else {
+        snprintf(list->text + length, room - length, ", \"%s\"", name);
+    }
+}
+
+const char *dip_name_list_end(DipNameList *list) {
+    const size_t length = strlen(list->text);
+    if (list->left_out > 0) {
+        snprintf(list->text + length, sizeof list->text - length, " and %d more", list->left_out);
+    }
+    return list->text;
 }
 
 // --- the motion ----------------------------------------------------------------------------------
@@ -131,12 +142,21 @@ bool dip_model_add_moving_mesh(DipModel *model, const DipMovingMesh *mesh) {
     return meshes != NULL;
 }
 
-void dip_model_finish_motion(DipModel *model) {
-    model->motion.rigs = model->rigs;
-    model->motion.objects = model->moving_objects;
-    model->motion.meshes = model->moving_meshes;
-    const bool moves = model->motion.object_count > 0 || model->motion.mesh_count > 0;
-    model->def.motion = moves ? &model->motion : NULL;
+bool dip_model_finish_motion(DipModel *model) {
+    DipMotionDef *motion = &model->motion;
+    motion->rigs = model->rigs;
+    motion->objects = model->moving_objects;
+    motion->meshes = model->moving_meshes;
+    if (motion->object_count == 0 && motion->mesh_count == 0) {
+        return true;
+    }
+    model->def.motion = motion;
+    float(*boxes)[6] = dip_model_alloc(model, (size_t)motion->mesh_count, sizeof *boxes);
+    const bool bounded = boxes && dip_motion_bound_meshes(motion, boxes);
+    for (int m = 0; bounded && m < motion->mesh_count; ++m) {
+        model->moving_meshes[m].box = boxes[m][0] <= boxes[m][3] ? boxes[m] : NULL;
+    }
+    return bounded;
 }
 
 // --- flat shading --------------------------------------------------------------------------------

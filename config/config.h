@@ -29,7 +29,7 @@ enum {
     DIP_CONFIG_MAX_FAULTS = 100,         // Reading stops after this many faults.
     DIP_CONFIG_MAX_MODELS = 64,          // XFILE keys in an ini.
     DIP_CONFIG_MAX_MATERIALS = 32,       // Repetitions of each MATERIAL_ key in an ini.
-    DIP_CONFIG_MAX_NAME = 32,            // Bytes in a NAME, with the final 0.
+    DIP_CONFIG_MAX_NAME = 64,            // Bytes in a NAME, with the final 0.
     DIP_CONFIG_ISA_AUTO = -1             // The best instruction set that the processor has.
 };
 

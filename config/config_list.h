@@ -42,6 +42,7 @@
     KEY(MATERIAL_LIGHTMAP, material_lightmap, LIGHTMAPS, "", 0, 0,                                 \
         "materials that a light map lights, and the picture of the light map; without a picture, " \
         "the light map that the model names")                                                      \
+    KEY(ANIMATION, animation, NAME, "", 0, 0, "animation of the models that plays, or `none`")     \
     KEY(CAMPATH_RESET_ON_SWITCH, campath_reset_on_switch, FLAG, "true", 0, 0,                      \
         "after a change of path, true: the new path starts at its beginning; "                     \
         "false: it goes on at the old path's time")                                                \
@@ -123,6 +124,8 @@
     KEY(LIGHT_SCALE, light_scale, SCALE, "auto", 0, 1e6,                                           \
         "factor of the models' lights; 0 ignores them; auto: their light is 1 at the models' "     \
         "centre")                                                                                  \
+    KEY(ENVIRONMENT, environment, FILE, "", 0, 0,                                                  \
+        "Radiance HDR picture (equirectangular) that metallic-roughness surfaces reflect")         \
     KEY(LOG, log, FILE, "", 0, 0, "file that receives a copy of all warnings and errors")          \
     KEY(SCENE, scene, NAME, "", 0, 0,                                                              \
         "scene of the gallery that is shown instead of the models, or `tour` (docs/gallery.md)")

@@ -190,6 +190,9 @@ static const char *default_in_words(DipConfigKey key) {
     if (info->type == DIP_TYPE_SETTINGS) {
         return "the default of each setting";
     }
+    if (key == DIP_KEY_ANIMATION) {
+        return "the first of each model";
+    }
     if (key == DIP_KEY_CAMPATH_DEFAULT) {
         return "an orbit";
     }

@@ -29,6 +29,7 @@ enum {
     X(set, SET)                                                                                    \
     X(apply, APPLY)                                                                                \
     X(path, PATH)                                                                                  \
+    X(animation, ANIMATION)                                                                        \
     X(pause, PAUSE)                                                                                \
     X(play, PLAY)                                                                                  \
     X(seek, SEEK)                                                                                  \
@@ -74,6 +75,7 @@ typedef enum DipControlTopic {
     X(times, TIMES)                                                                                \
     X(errors, ERRORS)                                                                              \
     X(paths, PATHS)                                                                                \
+    X(animations, ANIMATIONS)                                                                      \
     X(scenes, SCENES)                                                                              \
     X(steps, STEPS)                                                                                \
     X(prices, PRICES)
@@ -122,7 +124,7 @@ typedef struct DipControlRequest {
     unsigned notices;                     // SET: with DIP_CONTROL_OFF, no notice names the change.
     unsigned show;                        // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF.
     char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
-    char name[DIP_CONTROL_NAME_SIZE];     // SCENE: name of a scene.
+    char name[DIP_CONTROL_NAME_SIZE];     // SCENE, ANIMATION: name of a scene or animation.
     char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT: file to write.
     double time_s;                        // SEEK: time on the path, 0..86400.
     int width;                            // SIZE: size of a pane, in pixels.

@@ -75,7 +75,7 @@ static DipEstimate between(double value, double low, double high) {
 
 DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric) {
     const DipCostRow *r = &report->rows[row];
-    double means[DIP_COST_MAX_PLACES];
+    double means[DIP_COST_MAX_PLACES] = {0};
     int count = 0;
     for (int p = 0; p < report->options.places; p++) {
         if (r->judged[p]) {

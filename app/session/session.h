@@ -75,6 +75,13 @@ typedef struct DipSessionCamera {
     double fov_y_deg; // Vertical field of view that the model file gives.
 } DipSessionCamera;
 
+// The animations of the models, of which the user can choose one.
+typedef struct DipSessionAnimations {
+    char **names; // Each once, in the order of the files.
+    int count;
+    int playing; // Index of the animation that plays, or -1 if the models stand still.
+} DipSessionAnimations;
+
 typedef struct DipSession {
     const DipSessionOptions *options; // Borrowed from the def.
     const DipImporter *importer;      // Borrowed from the def.
@@ -87,11 +94,15 @@ typedef struct DipSession {
     // --model is given or if the ini has no level.
     DipReflectionDef reflection;
     bool force_all_effects;
-    DipModel *model;       // NULL unless the session keeps it for the reference renderer.
-    DipGround *ground;     // The ground below that model; NULL if it has none.
+    DipModel *model;                // NULL unless the session keeps it for the reference renderer.
+    DipGround *ground;              // The ground below that model; NULL if it has none.
+    DipEnvironmentDef *environment; // What the models reflect, from the ini; NULL if it has none.
     DipSceneDef scene_def; // The model's scene with its background and sky, and with the ground.
-                           // Points into `model` and `ground`.
-    DipExtent extent;      // The extent and the silhouette of the models, without the ground.
+                           // Points into `model`, `ground` and `environment`.
+    DipSessionAnimations animations;
+    // The extent and the silhouette of the models, without the ground. The silhouette is known only
+    // if the camera orbits the models.
+    DipExtent extent;
     DipSilhouette silhouette;
     DipCamTrack track;  // The camera path of each category.
     DipCamPath **paths; // The paths of files, of --pose and of the orbit. A file that two

@@ -130,8 +130,10 @@ static const DipOptionRow scene_rows[] = {
              "(docs/models.md)."},
     {"--animation", "NAME", DIP_OPTION_TEXT, FIELD(animation),
      .text =
-         "Play this animation of the models' glTF files, or `none`. Without the option, the first "
-         "animation of each file plays. A file without an animation of this name stands still."},
+         "Play this animation of the models' glTF and MD2 files, or `none`. Without the option, "
+         "the "
+         "ini's ANIMATION decides; without that and with --model, the first animation of each file "
+         "plays. A file without an animation of this name stands still."},
     {"--animation-time", "S", DIP_OPTION_NUMBER, FIELD(animation_time_s),
      .given = FIELD(has_animation_time), .least = 0.0, .most = 1e6,
      .accepted = "a time from 0 to 1,000,000 seconds",

@@ -5,7 +5,6 @@
 #include "assets/cameras.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -130,25 +129,14 @@ static void track_cameras(DipSession *session) {
 
 // Fails because --path names neither a file nor a camera. The message lists the cameras.
 static bool refuse_path(const DipSession *session, DipErrorList *faults) {
-    char list[200] = "";
-    size_t length = 0;
-    int left_out = 0;
+    DipNameList list = {.left_out = 0};
     for (int i = 0; i < session->camera_count; i++) {
-        const char *name = session->cameras[i].name;
-        if (length + strlen(name) + 5 > sizeof list) {
-            left_out++;
-            continue;
-        }
-        length += (size_t)snprintf(list + length, sizeof list - length, ", \"%s\"", name);
-    }
-    char more[24] = "";
-    if (left_out > 0) {
-        snprintf(more, sizeof more, " and %d more", left_out);
+        dip_name_list_add(&list, session->cameras[i].name);
     }
     return dip_session_refuse(
         faults, DIP_ERROR_MISSING, NULL, 0, "--path",
-        "'%.60s' is neither a file nor a camera of the models, accepted a file%s%s",
-        session->options->path, list, more);
+        "'%.60s' is neither a file nor a camera of the models, accepted a file%s",
+        session->options->path, dip_name_list_end(&list));
 }
 
 // --- paths ---------------------------------------------------------------------------------------
@@ -300,6 +288,12 @@ static bool choose_category(DipSession *session, DipErrorList *faults) {
                               session->options->category, known);
 }
 
+bool dip_session_orbits(const DipSession *session) {
+    const DipSessionOptions *options = session->options;
+    return !options->path && !options->has_pose &&
+           (options->model_count || !session->config.camera[DIP_CATEGORY_DEFAULT].file.path);
+}
+
 static bool load_all(DipSession *session, DipErrorList *faults) {
     if (session->options->path) {
         return load_own_path(session, faults);
@@ -307,15 +301,15 @@ static bool load_all(DipSession *session, DipErrorList *faults) {
     if (session->options->has_pose) {
         return make_pose(session, faults);
     }
-    if (session->options->model_count) {
-        return !session->scene || make_orbit(session, faults);
-    }
     bool loaded = true;
-    for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+    for (int c = 0; !session->options->model_count && c < DIP_CATEGORY_COUNT; c++) {
         loaded = load_category(session, c, faults) && loaded;
     }
-    if (!session->config.camera[DIP_CATEGORY_DEFAULT].file.path && session->scene) {
+    if (dip_session_orbits(session) && session->scene) {
         loaded = make_orbit(session, faults) && loaded;
+    }
+    if (session->options->model_count) {
+        return loaded;
     }
     return choose_category(session, faults) && loaded;
 }

@@ -34,6 +34,11 @@ int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX
 // Loads the models and makes the scene. If keep_model is true, keeps the models' data. In
 // session_scene.c.
 bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults);
+void dip_session_free_animations(DipSession *session);
+
+// Returns whether the camera will orbit the models, because neither a path nor a pose is given. In
+// session_paths.c.
+bool dip_session_orbits(const DipSession *session);
 
 // Loads the camera paths and the cameras of the models, or makes an orbit around the model. In
 // session_paths.c.

@@ -2,6 +2,7 @@
 #include "app/session/session_private.h"
 
 #include "assets/model.h"
+#include "assets/picture.h"
 #include "renderer/base/srgb.h"
 
 #include <stdlib.h>
@@ -47,9 +48,10 @@ static bool has_sky(const DipSceneDef *def) {
 // and bright models stand out. It is the colour of their ground, too.
 static const DipConfigColor plain_background = {{172, 174, 178}};
 
-// Sets the background, the sky and the near plane. For the ini's models, all three come from the
-// ini. A model given with --model keeps its own near plane. If such a model has a sky, the colour
-// of the sky's horizon becomes the background, so that gaps beside the sky do not show.
+// Sets the background, the sky, the environment and the near plane. For the ini's models, all four
+// come from the ini. A model given with --model keeps its own near plane. If such a model has a
+// sky, the colour of the sky's horizon becomes the background, so that gaps beside the sky do not
+// show.
 static void set_surroundings(const DipSession *session, DipSceneDef *def) {
     if (session->options->model_count) {
         if (has_sky(def)) {
@@ -59,6 +61,7 @@ static void set_surroundings(const DipSession *session, DipSceneDef *def) {
         }
         return;
     }
+    def->environment = session->environment;
     set_colour(&session->config.background, 1.0, def->background_lin);
     def->near_m = (float)session->config.near_m;
     def->sky = sky_of(&session->config);
@@ -138,15 +141,50 @@ static void set_light(const DipSession *session, float ambient_lin[3], DipModelO
     }
 }
 
+// Returns the animation that shall play, or NULL for the first one of each model. The ini chooses
+// the animation of its own models only, not of those that --model names.
+static const char *chosen_animation(const DipSession *session) {
+    const char *of_ini = session->options->model_count ? "" : session->config.animation.text;
+    return session->options->animation ? session->options->animation : of_ini[0] ? of_ini : NULL;
+}
+
 // Sets which animation plays, and whether it stands still.
 static void set_animation(const DipSession *session, DipModelOptions *options) {
-    const char *name = session->options->animation;
+    const char *name = chosen_animation(session);
     options->animation = !name                       ? DIP_MODEL_ANIMATION_FIRST
                          : strcmp(name, "none") == 0 ? DIP_MODEL_ANIMATION_NONE
                                                      : DIP_MODEL_ANIMATION_NAMED;
     options->animation_name = name;
     options->animation_is_held = session->options->has_animation_time;
     options->animation_held_s = session->options->animation_time_s;
+}
+
+// Keeps the names of the animations. Fails when memory runs out.
+static bool keep_animations(DipSession *session, const DipModel *model, DipError *err) {
+    DipSessionAnimations *animations = &session->animations;
+    const char *chosen = chosen_animation(session);
+    int count;
+    const char *const *names = dip_model_animations(model, &count);
+    animations->playing = chosen || count == 0 ? -1 : 0;
+    animations->names = calloc((size_t)count + 1, sizeof *animations->names);
+    for (int i = 0; animations->names && i < count; i++) {
+        char *name = strdup(names[i]);
+        if (!name) {
+            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "animations", "out of memory");
+        }
+        animations->names[animations->count++] = name;
+        animations->playing = chosen && strcmp(name, chosen) == 0 ? i : animations->playing;
+    }
+    return animations->names ||
+           dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "animations", "out of memory");
+}
+
+void dip_session_free_animations(DipSession *session) {
+    for (int i = 0; i < session->animations.count; i++) {
+        free(session->animations.names[i]);
+    }
+    free(session->animations.names);
+    session->animations = (DipSessionAnimations){.playing = -1};
 }
 
 int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX_MODELS]) {
@@ -157,6 +195,18 @@ int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX
         files[i] = options->model_count ? options->models[i] : named->items[i].path;
     }
     return count;
+}
+
+// Reads the environment of the ini's models. If it cannot be read, the error has the line of the
+// ini that names it.
+static bool load_environment(DipSession *session, DipErrorList *faults) {
+    const DipConfigFile *file = &session->config.environment;
+    if (!file->path || session->options->model_count || session->environment) {
+        return true;
+    }
+    DipError err;
+    session->environment = dip_environment_read_file(file->path, &err);
+    return session->environment || dip_session_place_fault(session, file, faults, &err);
 }
 
 static DipModel *load_model(const DipSession *session, DipErrorList *faults, DipSceneDef *def,
@@ -231,11 +281,17 @@ bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *
     DipError err = {0};
     DipSceneDef def;
     DipGround *ground = NULL;
+    if (!load_environment(session, faults)) {
+        return false;
+    }
     DipModel *model = load_model(session, faults, &def, &err);
     if (model) {
         session->extent = dip_extent_of(&def);
-        session->silhouette = dip_silhouette_of(&def, &session->extent);
-        session->scene = add_ground(session, &session->extent, &def, &ground, &err)
+        if (dip_session_orbits(session)) {
+            session->silhouette = dip_silhouette_of(&def, &session->extent);
+        }
+        session->scene = keep_animations(session, model, &err) &&
+                                 add_ground(session, &session->extent, &def, &ground, &err)
                              ? dip_scene_create(&def, session->pool, &err)
                              : NULL;
         session->times.import_ms = dip_model_times(model).import_ms;
@@ -253,6 +309,11 @@ bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *
         session->times.textures_ms = dip_scene_times(session->scene).textures_ms;
         session->times.meshes_ms = dip_scene_times(session->scene).meshes_ms;
         return true;
+    }
+    if (strcmp(err.key, DIP_MODEL_ANIMATION_KEY) == 0 && !session->options->animation) {
+        return dip_session_refuse(faults, err.code, session->config.file,
+                                  session->config.line[DIP_KEY_ANIMATION], "ANIMATION", "%s",
+                                  err.message);
     }
     const DipConfigFiles *named = &session->config.xfile;
     for (size_t i = 0; !session->options->model_count && i < named->count; i++) {

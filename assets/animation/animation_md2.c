@@ -345,27 +345,27 @@ static bool make_animations(Md2 *md2) {
 // --- the model -----------------------------------------------------------------------------------
 
 // The first skin is the colour texture; games choose among the others by themselves.
-static bool make_material(Md2 *md2) {
-    DipAnimatedModel *model = md2->model;
+static bool make_material(DipAnimatedModel *model, const char *skin, DipError *err) {
     model->materials = dip_animated_alloc(model, 1, sizeof *model->materials);
     model->textures = dip_animated_alloc(model, 1, sizeof *model->textures);
     model->pictures = dip_animated_alloc(model, 1, sizeof *model->pictures);
     if (!model->materials || !model->textures || !model->pictures) {
-        return dip_animated_no_room(model, md2->err);
+        return dip_animated_no_room(model, err);
     }
     model->materials[0] = dip_animated_material("skin");
     model->materials[0].double_sided = false;
     model->def.material_count = 1;
-    if (md2->header[HEADER_SKIN_COUNT] == 0 || md2->header[HEADER_COORDINATE_COUNT] == 0) {
-        return true;
-    }
-    const char *skin =
-        dip_animated_text(model, (const char *)md2->bytes + md2->header[HEADER_SKINS], SKIN_BYTES);
-    if (!skin) {
-        return dip_animated_no_room(model, md2->err);
-    }
-    return !skin[0] || dip_animated_add_picture_file(model, skin,
-                                                     &model->materials[0].colour_texture, md2->err);
+    return !skin[0] ||
+           dip_animated_add_picture_file(model, skin, &model->materials[0].colour_texture, err);
+}
+
+// Copies the name of the first skin, or an empty text if the model has no use for one.
+static bool read_skin(Md2 *md2, const char **skin) {
+    const bool used =
+        md2->header[HEADER_SKIN_COUNT] > 0 && md2->header[HEADER_COORDINATE_COUNT] > 0;
+    const char *name = used ? (const char *)md2->bytes + md2->header[HEADER_SKINS] : "";
+    *skin = dip_animated_text(md2->model, name, SKIN_BYTES);
+    return *skin || dip_animated_no_room(md2->model, md2->err);
 }
 
 // One node and one object, so that a pose works as for other models.
@@ -396,18 +396,23 @@ static bool read_all(Md2 *md2) {
     model->def.mesh_count = 1;
     return read_header(md2) && read_corners(md2) && make_indices(md2, model->meshes) &&
            make_uv(md2, model->meshes) && make_shapes(md2, model->meshes) &&
-           read_frame_names(md2) && make_animations(md2) && make_object(md2) && make_material(md2);
+           read_frame_names(md2) && make_animations(md2) && make_object(md2);
 }
 
-bool dip_animated_read_md2(DipAnimatedModel *model, DipError *err) {
+bool dip_md2_read(DipAnimatedModel *model, const char **skin, DipError *err) {
     unsigned char *bytes = NULL;
     Md2 md2 = {.model = model, .err = err};
     if (!dip_file_read(model->path, "model", max_file_bytes, &bytes, &md2.size_bytes, err)) {
         return false;
     }
     md2.bytes = bytes;
-    const bool ok = read_all(&md2);
+    const bool ok = read_all(&md2) && read_skin(&md2, skin);
     free(md2.corners);
     free(bytes);
     return ok;
+}
+
+bool dip_animated_read_md2(DipAnimatedModel *model, DipError *err) {
+    const char *skin;
+    return dip_md2_read(model, &skin, err) && make_material(model, skin, err);
 }

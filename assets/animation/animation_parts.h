@@ -81,6 +81,10 @@ DipMaterialDef dip_animated_material(const char *name);
 bool dip_animated_read_md2(DipAnimatedModel *model, DipError *err);
 bool dip_animated_read_gltf(DipAnimatedModel *model, DipError *err);
 
+// animation_md2.c: reads everything but the material, so no picture. *skin becomes the name of the
+// picture, or an empty text.
+bool dip_md2_read(DipAnimatedModel *model, const char **skin, DipError *err);
+
 // md2_normals.c: writes the unit vector that an MD2 file calls by this number, with z up. index:
 // 0..DIP_MD2_NORMAL_COUNT - 1.
 enum { DIP_MD2_NORMAL_COUNT = 162 };

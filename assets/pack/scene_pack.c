@@ -471,7 +471,7 @@ static bool read_moving_mesh(Reader *reader, uint64_t index, DipMovingMesh *mesh
                     read_floats(reader, record.normals, 3 * rows, &mesh->normals) &&
                     read_array(reader, record.joints, corners, sizeof *mesh->joints, &joints) &&
                     read_floats(reader, record.joint_weights, corners, &mesh->joint_weights) &&
-                    mesh->positions;
+                    read_floats(reader, record.box, 6, &mesh->box) && mesh->positions;
     mesh->joints = ok ? joints : NULL;
     return ok || refuse(reader, "a moving mesh", index);
 }

@@ -202,6 +202,7 @@ typedef struct PackMovingMesh {
     uint64_t normals;
     uint64_t joints;        // vertex_count rows of 4 numbers of 16 bits
     uint64_t joint_weights; // vertex_count rows of 4 floats
+    uint64_t box;           // 6 floats
     int32_t mesh;
     int32_t rig;
     int32_t node;

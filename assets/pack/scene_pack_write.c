@@ -348,7 +348,8 @@ static bool add_moving_mesh(Writer *writer, const DipMovingMesh *mesh, PackMovin
            add_array(writer, mesh->normals, 3 * rows * sizeof(float), &record->normals) &&
            add_array(writer, mesh->joints, 4 * vertices * sizeof(uint16_t), &record->joints) &&
            add_array(writer, mesh->joint_weights, 4 * vertices * sizeof(float),
-                     &record->joint_weights);
+                     &record->joint_weights) &&
+           add_array(writer, mesh->box, 6 * sizeof(float), &record->box);
 }
 
 static bool add_moving_meshes(Writer *writer, const DipMotionDef *motion) {

@@ -62,6 +62,9 @@ typedef struct DipMovingMesh {
     const float *normals;
     const uint16_t *joints; // 4 for each vertex, which are joints of the skin; NULL without one
     const float *joint_weights;
+    // Least x, y and z, and then greatest x, y and z of the vertices over the clip
+    // (dip_motion_bound_meshes). NULL: not known; dip_scene_create then computes them.
+    const float *box;
 } DipMovingMesh;
 
 typedef struct DipMotionDef {
@@ -73,7 +76,9 @@ typedef struct DipMotionDef {
     int mesh_count;
 } DipMotionDef;
 
-// Number of moments, at equal distances over every clip, at which bounds of a motion are taken.
+// Number of moments, at equal distances over every clip, at which bounds of a motion are taken. A
+// mesh without joints whose weights move straight between keys is bounded at these keys instead,
+// which holds it at all times.
 enum { DIP_MOTION_MOMENTS = 16 };
 
 // Checks the motion of a scene whose other parts are valid. Fails with RANGE.
@@ -113,6 +118,10 @@ DIP_API void dip_motion_pose_transform(const DipMotionPose *pose, int moving, fl
 DIP_API void dip_motion_pose_vertices(const DipMotionPose *pose, int moving, uint32_t first,
                                       uint32_t count, size_t stride, float *positions,
                                       float *normals);
+
+// Computes the box of each moving mesh (DipMovingMesh.box). This computes all vertices for each of
+// the moments, on one thread. Returns false if memory runs out.
+DIP_API bool dip_motion_bound_meshes(const DipMotionDef *motion, float (*boxes)[6]);
 
 // A scene's description at one time of its motion, for code that reads descriptions.
 typedef struct DipPosedDef DipPosedDef;

@@ -4,6 +4,7 @@
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/cull.h"
+#include "renderer/scene/resources/blended_pieces.h"
 #include "renderer/scene/resources/placement.h"
 #include "renderer/scene/resources/posed.h"
 #include "renderer/scene/resources/repeats.h"
@@ -37,6 +38,7 @@ static void add_pbr_surface(const DipSceneDef *def, int index, DipScene *scene) 
     DipPbrUniforms *surface = &scene->pbr->surfaces[index];
     *surface = dip_pbr_surface(def, &def->meshes[index], &scene->pbr->tables, mesh->uv_varyings[0],
                                mesh->uv_varyings[1]);
+    surface->environment = scene->pbr->environment;
     mesh->full_layout.pbr = surface;
     scene->has_occlusion |= surface->occlusion_varying != DIP_ABSENT;
     scene->has_emission |= surface->emits;
@@ -153,11 +155,8 @@ static void add_effect_bytes(DipScene *scene) {
 
 // --- the scene ---------------------------------------------------------------------------------
 
-static void add_bounds(DipScene *scene, const DipSceneObject *object) {
-    const DipMesh *mesh = scene->meshes[object->mesh].mesh;
-    float low[3];
-    float high[3];
-    dip_mesh_bounds(mesh, low, high);
+static void add_bounds(DipScene *scene, const DipSceneObject *object, const float low[3],
+                       const float high[3]) {
     for (int corner = 0; corner < 8; corner++) {
         const float p[3] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
                             corner & 4 ? high[2] : low[2]};
@@ -198,7 +197,10 @@ static bool bound_objects(DipScene *scene, bool (*is)(DipSurface)) {
         const DipSceneObject *object = &scene->objects[i];
         if (is(surface_of(scene, object)) &&
             dip_mesh_triangle_count(scene->meshes[object->mesh].mesh)) {
-            add_bounds(scene, object);
+            float low[3];
+            float high[3];
+            dip_mesh_bounds(scene->meshes[object->mesh].mesh, low, high);
+            add_bounds(scene, object, low, high);
             any = true;
         }
     }
@@ -242,23 +244,63 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
     return true;
 }
 
-// Extends the scene's bounds over its clips.
-static bool bound_motion(DipScene *scene, DipPool *pool, DipError *err) {
-    DipPosedScene *posed = scene->motion ? dip_posed_scene_create(scene, err) : NULL;
-    for (int k = 0; posed && k < DIP_MOTION_MOMENTS; k++) {
-        const double share = (double)k / DIP_MOTION_MOMENTS;
-        const DipScene *moved = dip_posed_scene_at_share(posed, share, pool);
-        for (int i = 0; i < moved->object_count; i++) {
-            const DipSceneObject *object = &moved->objects[i];
-            if (is_not_sky(surface_of(moved, object)) &&
-                dip_mesh_triangle_count(moved->meshes[object->mesh].mesh)) {
-                add_bounds(scene, object);
-            }
+// Extends the scene's bounds by an object in a pose. moving: index of the moving object, or -1.
+static void bound_object(DipScene *scene, const DipSceneObject *of, int moving,
+                         const DipMotionPose *pose, const float (*boxes)[6]) {
+    const int mesh = dip_moving_mesh(scene->motion, of->mesh);
+    DipSceneObject object = *of;
+    float box[6];
+    if (!is_not_sky(surface_of(scene, of)) ||
+        !dip_mesh_triangle_count(scene->meshes[of->mesh].mesh)) {
+        return;
+    }
+    if (moving >= 0) {
+        dip_motion_pose_transform(pose, moving, object.transform);
+    }
+    if (mesh >= 0) {
+        memcpy(box, boxes[mesh], sizeof box);
+    } else {
+        dip_mesh_bounds(scene->meshes[of->mesh].mesh, box, box + 3);
+    }
+    add_bounds(scene, &object, box, box + 3);
+}
+
+// Extends the scene's bounds over its clips. boxes: those of the moving meshes.
+static void bound_clips(DipScene *scene, DipMotionPose *pose, const float (*boxes)[6]) {
+    const DipMotionDef *motion = scene->motion;
+    for (int k = 0; k < DIP_MOTION_MOMENTS; k++) {
+        int moving = 0;
+        dip_motion_pose_set_share(pose, (double)k / DIP_MOTION_MOMENTS);
+        for (int i = 0; i < scene->object_count; i++) {
+            const bool moves = moving < motion->object_count && motion->objects[moving].object == i;
+            bound_object(scene, &scene->objects[i], moves ? moving : -1, pose, boxes);
+            moving += moves;
         }
     }
-    const bool bounded = !scene->motion || posed;
-    dip_posed_scene_destroy(&posed);
-    return bounded;
+}
+
+static bool bound_motion(DipScene *scene, DipError *err) {
+    const DipMotionDef *motion = scene->motion;
+    if (!motion) {
+        return true;
+    }
+    DipMotionPose *pose = dip_motion_pose_create(motion);
+    float(*boxes)[6] = calloc((size_t)motion->mesh_count + 1, sizeof *boxes);
+    bool known = true;
+    for (int m = 0; m < motion->mesh_count; m++) {
+        known = known && motion->meshes[m].box;
+    }
+    const bool made = pose && boxes && (known || dip_motion_bound_meshes(motion, boxes));
+    for (int m = 0; made && known && m < motion->mesh_count; m++) {
+        memcpy(boxes[m], motion->meshes[m].box, sizeof boxes[m]);
+    }
+    if (made) {
+        bound_clips(scene, pose, (const float(*)[6])boxes);
+    }
+    dip_motion_pose_destroy(&pose);
+    free(boxes);
+    return made ||
+           dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "motion", "no memory for moving meshes");
 }
 
 // Marks the colour textures as compressible. Other textures are never compressed: BC1 would dent
@@ -331,35 +373,43 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
     return scene;
 }
 
-DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
-    DIP_FP_MODE_SCOPE();
-    if (!dip_scene_check(def, err)) {
-        return NULL;
-    }
+// Creates a scene from a valid description whose blended meshes are cut.
+static DipScene *create_scene(const DipSceneDef *def, DipPool *pool, DipError *err) {
     DipScene *scene = allocate_scene(def);
     if (!scene) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
         return NULL;
     }
-    if (!dip_scene_pbr_create(def, &scene->pbr, err)) {
+    const int64_t begin_ns = dip_clock_ns();
+    if (!dip_scene_pbr_create(def, pool, &scene->pbr, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }
     copy_materials(def, scene);
     mark_compressible(def, scene);
-    const int64_t begin_ns = dip_clock_ns();
     bool made = create_textures(def, scene, pool, err);
     const int64_t textured_ns = dip_clock_ns();
     for (int i = 0; made && i < def->mesh_count; i++) {
         made = create_mesh(def, i, scene, err);
     }
-    if (!made || !place_objects(def, scene, err) || !bound_motion(scene, pool, err)) {
+    if (!made || !place_objects(def, scene, err) || !bound_motion(scene, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }
     add_effect_bytes(scene);
     scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
                                    1e-6 * (double)(dip_clock_ns() - textured_ns)};
+    return scene;
+}
+
+DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    DipCutScene *cut;
+    if (!dip_scene_check(def, err) || !dip_blended_cut(def, &cut, err)) {
+        return NULL;
+    }
+    DipScene *scene = create_scene(cut ? dip_cut_scene_def(cut) : def, pool, err);
+    dip_cut_scene_destroy(&cut);
     return scene;
 }
 

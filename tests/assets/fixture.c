@@ -2,10 +2,13 @@
 #include "tests/assets/fixture.h"
 
 #include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <cmocka.h>
 
 const uint8_t fixture_png[76] = {
     0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
@@ -101,4 +104,23 @@ void fixture_write_tga(const char *name, int width, int height, uint8_t grey) {
     bytes[17] = 0x20; // top row first
     memset(bytes + 18, grey, 3 * (size_t)(width * height));
     fixture_write(name, bytes, 18 + 3 * (size_t)(width * height));
+}
+
+DipModel *fixture_load(const char *path, const DipModelOptions *options, DipErrorList *warnings) {
+    DipError err = {0};
+    DipModel *model = dip_model_load_with(&path, 1, options, NULL, warnings, &err);
+    if (!model) {
+        fail_msg("%s: %s", path, err.message);
+    }
+    return model;
+}
+
+const DipObjectDef *fixture_object(const DipSceneDef *def, const char *name) {
+    for (int i = 0; i < def->object_count; ++i) {
+        if (strcmp(def->objects[i].name, name) == 0) {
+            return &def->objects[i];
+        }
+    }
+    fail_msg("no object %s", name);
+    return NULL;
 }

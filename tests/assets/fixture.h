@@ -1,6 +1,9 @@
 // Files for the tests of assets/: a temporary folder, and small pictures and copies to put there.
+// Also loads models.
 #ifndef DIP_TESTS_ASSETS_FIXTURE_H
 #define DIP_TESTS_ASSETS_FIXTURE_H
+
+#include "assets/model.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -27,6 +30,13 @@ void fixture_copy(const char *data_name);
 
 // Writes an uncompressed TGA of 24 bits, top row first. All pixels have the same grey.
 void fixture_write_tga(const char *name, int width, int height, uint8_t grey);
+
+// Loads a model, or fails the running cmocka test with the message of the load. warnings may be
+// NULL.
+DipModel *fixture_load(const char *path, const DipModelOptions *options, DipErrorList *warnings);
+
+// Returns the object of this name, or fails the running test.
+const DipObjectDef *fixture_object(const DipSceneDef *def, const char *name);
 
 // Reads a file of less than 1 MiB. The caller frees the array, which has room for one more byte.
 uint8_t *fixture_read(const char *path, size_t *size_bytes);

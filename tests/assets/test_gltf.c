@@ -27,28 +27,14 @@ static const char *gltf_path(const char *name) {
 }
 
 static DipModel *load(const char *name, DipErrorList *warnings) {
-    const char *path = gltf_path(name);
-    DipError err = {0};
-    DipModel *model = dip_model_load_with_normals(&path, 1, NULL, warnings, &err);
-    if (!model) {
-        fail_msg("%s: %s", path, err.message);
-    }
+    const DipModelOptions options = {.normal_maps = true};
+    DipModel *model = fixture_load(gltf_path(name), &options, warnings);
     read_whole_scene(dip_model_scene_def(model));
     return model;
 }
 
-static const DipObjectDef *object_of(const DipSceneDef *def, const char *name) {
-    for (int i = 0; i < def->object_count; ++i) {
-        if (strcmp(def->objects[i].name, name) == 0) {
-            return &def->objects[i];
-        }
-    }
-    fail_msg("no object %s", name);
-    return NULL;
-}
-
 static const DipMeshDef *mesh_of(const DipSceneDef *def, const char *name) {
-    return &def->meshes[object_of(def, name)->mesh];
+    return &def->meshes[fixture_object(def, name)->mesh];
 }
 
 static const DipMaterialDef *material_of(const DipSceneDef *def, const char *name) {
@@ -129,7 +115,7 @@ static void quantized_numbers_keep_their_meaning(void **state) {
     assert_near_3(corner(mesh, mesh->normals, 2, 3), 0.0, 0.0, 1.0);
     assert_near((double)corner(mesh, mesh->uv0, 1, 2)[0], 3.0);
     assert_near((double)corner(mesh, mesh->uv0, 2, 2)[1], 2.0);
-    assert_near((double)object_of(def, "small")->transform[0], 2.0);
+    assert_near((double)fixture_object(def, "small")->transform[0], 2.0);
     assert_int_equal(warnings.count, 0);
     dip_model_destroy(&model);
 }
@@ -181,7 +167,7 @@ static void skins_and_morph_targets_have_their_shape_at_rest(void **state) {
     assert_near_3(corner(skinned, skinned->positions, 0, 3), 0.0, 0.0, 5.0);
     assert_near_3(corner(skinned, skinned->positions, 1, 3), 1.0, 6.0, 5.0);
     assert_near_3(corner(skinned, skinned->positions, 2, 3), 0.0, 4.0, 5.0);
-    assert_near((double)object_of(def, "skinned")->transform[3], 0.0);
+    assert_near((double)fixture_object(def, "skinned")->transform[3], 0.0);
     static const struct {
         const char *name;
         double weight;

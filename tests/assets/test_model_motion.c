@@ -26,17 +26,8 @@ static const DipPose pose = {
 
 static const DipModelOptions first = {.animation = DIP_MODEL_ANIMATION_FIRST};
 
-static DipModel *load(const char *path, const DipModelOptions *options) {
-    DipError err = {0};
-    DipModel *model = dip_model_load_with(&path, 1, options, NULL, NULL, &err);
-    if (!model) {
-        fail_msg("%s: %s", path, err.message);
-    }
-    return model;
-}
-
 static DipModel *load_motion(const DipModelOptions *options) {
-    return load(fixture_data("motion.gltf"), options);
+    return fixture_load(fixture_data("motion.gltf"), options, NULL);
 }
 
 static DipPosedDef *posed_of(const DipModel *model) {
@@ -45,16 +36,6 @@ static DipPosedDef *posed_of(const DipModel *model) {
     DipPosedDef *posed = dip_posed_def_create(def, NULL);
     assert_non_null(posed);
     return posed;
-}
-
-static const DipObjectDef *object_of(const DipSceneDef *def, const char *name) {
-    for (int i = 0; i < def->object_count; ++i) {
-        if (strcmp(def->objects[i].name, name) == 0) {
-            return &def->objects[i];
-        }
-    }
-    fail_msg("no object %s", name);
-    return NULL;
 }
 
 // --- shapes --------------------------------------------------------------------------------------
@@ -74,7 +55,7 @@ static void check_vertex(const DipSceneDef *def, double time_s, int object, int 
                          const double e[6]) {
     static const char *const names[] = {"stepping", "spline", "morphed", "spinning", "bent"};
     static const uint32_t corners[] = {0, 1, 2, 5}; // the file's triangles are 0 1 2 and 0 2 3
-    const DipObjectDef *placed = object_of(def, names[object]);
+    const DipObjectDef *placed = fixture_object(def, names[object]);
     const DipMeshDef *mesh = &def->meshes[placed->mesh];
     const size_t at = 3 * (size_t)mesh->indices[corners[vertex]];
     double p[3];
@@ -141,7 +122,7 @@ static void an_imported_model_moves_as_one_that_is_loaded_here(void **state) {
 
 static void moved_normals_have_length_one(void **state) {
     (void)state;
-    DipModel *model = load(DIP_ASSETS_DIR "/gallery/pump.glb", &first);
+    DipModel *model = fixture_load(DIP_ASSETS_DIR "/gallery/pump.glb", &first, NULL);
     DipPosedDef *posed = posed_of(model);
     const DipSceneDef *def = dip_posed_def(posed);
     for (int k = 0; k < 8; ++k) {
@@ -185,7 +166,7 @@ static void without_an_animation_the_model_has_its_shape_at_rest(void **state) {
     DipModel *still = load_motion(&(DipModelOptions){.animation = DIP_MODEL_ANIMATION_NONE});
     const DipSceneDef *def = dip_model_scene_def(still);
     assert_null(def->motion);
-    assert_true(fabs((double)object_of(def, "spinning")->transform[3] - 9.0) < 1e-5);
+    assert_true(fabs((double)fixture_object(def, "spinning")->transform[3] - 9.0) < 1e-5);
     dip_model_destroy(&still);
 }
 

@@ -180,7 +180,8 @@ static void check_refused(const DipError *err) {
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     static const DipImporter importer = {
         .program = "/proc/self/exe", .command = "import", .wall_s = 10, .cpu_s = 1};
-    const DipModelOptions options = {.normal_maps = true, .importer = &importer};
+    const DipModelOptions options = {
+        .normal_maps = true, .importer = &importer, .animation = DIP_MODEL_ANIMATION_FIRST};
     char ending[16];
     char name[32];
     const uint8_t *content = size_bytes > 0 ? split(bytes, size_bytes, ending) : NULL;

@@ -5,6 +5,7 @@
 # an installed page must lead to a file.
 #
 # Usage: check_install.sh SOURCE_DIR BUILD_DIR COMPILER CXX_COMPILER
+# BUILD_DIR may be an installed copy instead.
 set -eu
 source=$1 build=$2 compiler=$3 cxx=$4
 . "$source/tests/install/installed.sh"
@@ -55,16 +56,32 @@ sed -i 's/COMPONENTS pipeline/COMPONENTS pipelines/' "$folder/cmake/CMakeLists.t
 ! cmake -S "$folder/cmake" -B "$folder/cmake/wrong" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$compiler" >"$folder/log" 2>&1 || fail "an unknown component is accepted"
 
-# A program in C++ with models, camera paths, scenes and metrics: static, then shared. The measuring
-# example: static.
+# The first block of C in the guide is a whole program.
+awk '/^```c$/ { inside = 1; next } /^```$/ && inside { exit } inside' \
+    "$prefix/share/doc/diptych/docs/pipeline.md" >"$folder/first.c"
+first_draws() { # PROGRAM: it writes first.png.
+    [ "$("$1")" = "37015 fragments shaded" ] || fail "the guide's first program, $1, draws something else"
+    [ "$(od -A n -t x1 -N 24 first.png | tr -d ' \n')" = \
+        89504e470d0a1a0a0000000d4948445200000140000000f0 ] ||
+        fail "the guide's first program, $1, writes no PNG of 320x240 pixels"
+    rm first.png
+}
+
+# The guide's program, and programs in C++ with a scene alone and with models, camera paths and metrics:
+# static, then shared. The measuring example: static.
 mkdir "$folder/model"
-cp "$source/tests/install/model.cpp" "$prefix/share/doc/diptych/app/measure/example/two_ways.c" \
-    "$folder/model"
+cp "$folder/first.c" "$source/tests/install/scene.cpp" "$source/tests/install/model.cpp" \
+    "$prefix/share/doc/diptych/app/measure/example/two_ways.c" "$folder/model"
 cat >"$folder/model/CMakeLists.txt" <<'TEXT'
 cmake_minimum_required(VERSION 3.25)
 project(model LANGUAGES C CXX)
 find_package(Diptych REQUIRED COMPONENTS assets campaths measure)
 foreach(kind "" "_shared")
+    add_executable(first${kind} first.c)
+    target_link_libraries(first${kind} PRIVATE Diptych::pipeline${kind} Diptych::files${kind})
+    add_executable(scene${kind} scene.cpp)
+    target_compile_features(scene${kind} PRIVATE cxx_std_17)
+    target_link_libraries(scene${kind} PRIVATE Diptych::scene${kind})
     add_executable(model${kind} model.cpp)
     target_compile_features(model${kind} PRIVATE cxx_std_17)
     target_link_libraries(model${kind} PRIVATE
@@ -74,8 +91,10 @@ add_executable(two_ways two_ways.c)
 target_link_libraries(two_ways PRIVATE Diptych::measure m)
 TEXT
 build_project "$folder/model"
-for program in model model_shared; do
-    "$folder/model/build/$program" "$prefix/share/diptych" || fail "$program fails"
+for kind in "" _shared; do
+    (cd "$folder" && first_draws "$folder/model/build/first$kind")
+    "$folder/model/build/scene$kind" || fail "scene$kind fails"
+    "$folder/model/build/model$kind" "$prefix/share/diptych" || fail "model$kind fails"
 done
 "$folder/model/build/two_ways" >"$folder/log" || fail "two_ways fails"
 
@@ -106,28 +125,29 @@ TEXT
     cc version.c $(pkg-config --cflags --libs diptych-base) -o version
     [ "$(./version)" = "$(pkg-config --modversion diptych-base)" ] ||
         fail "dip_version and pkg-config differ"
-    # C++.
+    # C++: shared, then static.
     "$cxx" -std=c++17 $warnings "$source/tests/install/scene.cpp" -o scene \
         $(pkg-config --cflags --libs diptych-scene)
     ./scene
+    "$cxx" -std=c++17 -static $warnings "$source/tests/install/scene.cpp" -o scene_static \
+        $(pkg-config --static --cflags --libs diptych-scene)
+    ./scene_static
     # Models, camera paths and metrics.
     "$cxx" -std=c++17 $warnings "$source/tests/install/model.cpp" -o model \
         $(pkg-config --cflags --libs diptych-assets diptych-campaths diptych-measure)
     ./model "$prefix/share/diptych"
 
-    # The first block of C in the guide is a whole program. It must also build beside folders whose
-    # headers have the same names as those of this tree.
-    awk '/^```c$/ { inside = 1; next } /^```$/ && inside { exit } inside' \
-        "$prefix/share/doc/diptych/docs/pipeline.md" >first.c
+    # The guide's program must also build beside folders whose headers have the same names as those
+    # of this tree. Shared, then static.
+    cp "$folder/first.c" .
     mkdir -p renderer/base renderer/pipeline
     echo '#error "This is the header of another program."' >renderer/base/error.h
     cp renderer/base/error.h renderer/pipeline/pipeline.h
     cc -std=c17 $warnings -I. -c first.c -o first.o $(pkg-config --cflags diptych-pipeline)
-    eval "$(documented pipeline.md 'cc first.c')" >first.txt
-    [ "$(cat first.txt)" = "37015 fragments shaded" ] || fail "the guide's first program: $(cat first.txt)"
-    [ "$(od -A n -t x1 -N 24 first.png | tr -d ' \n')" = \
-        89504e470d0a1a0a0000000d4948445200000140000000f0 ] ||
-        fail "the guide's first program writes no PNG of 320x240 pixels"
+    eval "$(documented pipeline.md 'cc first.c')" >/dev/null
+    first_draws ./first
+    cc -static first.c $(pkg-config --static --cflags --libs diptych-pipeline diptych-files) -o first
+    first_draws ./first
 
     # The gallery's sources build against the installed headers and need only exported functions.
     gallery=$prefix/share/doc/diptych/app/gallery

@@ -6,8 +6,8 @@
 # Usage: check_packages.sh SOURCE_DIR BUILD_DIR
 set -eu
 source=$1 build=$2
-command -v dpkg-shlibdeps >/dev/null && command -v dpkg-deb >/dev/null ||
-    { echo "skipped: no dpkg-shlibdeps or no dpkg-deb (Debian: dpkg-dev)"; exit 77; }
+command -v dpkg-shlibdeps >/dev/null && command -v dpkg-deb >/dev/null && command -v file >/dev/null ||
+    { echo "skipped: no dpkg-shlibdeps, no dpkg-deb or no file (Debian: dpkg-dev, file)"; exit 77; }
 . "$source/tests/install/installed.sh"
 
 rm -f "$build"/diptych-*.zip "$build"/diptych_*.deb
@@ -29,6 +29,6 @@ done
 # libc is always installed.
 needed=$(dpkg-deb -f "$build"/diptych_*.deb Depends | tr ',' '\n' | sed 's/^ *//; s/ .*//; /^$/d' |
     grep -v '^libc6' | sort)
-named=$(documented install.md 'apt-get install ' | sed 's/apt-get install //' | tr ' ' '\n' | sort)
+named=$(documented install.md 'apt-get install fonts' | sed 's/apt-get install //' | tr ' ' '\n' | sort)
 [ "$needed" = "$named" ] || [ "$(sed -n 's/^VERSION_ID=//p' /etc/os-release)" != '"12"' ] ||
     fail "the package needs: $needed; docs/install.md names: $named"

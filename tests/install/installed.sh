@@ -1,5 +1,6 @@
 # Installs a build into a new folder. The tests of this folder source this file, with the variables
-# source and build. Then $prefix is the installed copy and $folder a folder for the test's files.
+# source and build. Then $prefix is the installed copy and $folder a folder for the test's files. If
+# build is no build but an installed copy, it serves as it is.
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -25,8 +26,12 @@ documented() {
     echo "$line" | sed "s|build/release|$build|g; s|\<DIR\>|$prefix|g"
 }
 
-# The files move after they are installed: nothing in them may name the folder.
-command=$(documented install.md 'cmake --install')
-run_quietly "the build cannot be installed" sh -c "$command"
-mv "$prefix" "$folder/moved"
-prefix=$folder/moved
+if [ -f "$build/CMakeCache.txt" ]; then
+    # The files move after they are installed: nothing in them may name the folder.
+    command=$(documented install.md 'cmake --install')
+    run_quietly "the build cannot be installed" sh -c "$command"
+    mv "$prefix" "$folder/moved"
+    prefix=$folder/moved
+else
+    prefix=$build
+fi

@@ -75,7 +75,10 @@ static DipEvent character_event(int character, unsigned modifiers) {
     if (character <= 26) {
         return key_event('a' + character - 1, modifiers | DIP_MODIFIER_CTRL);
     }
-    return character < ' ' ? (DipEvent){.kind = DIP_EVENT_NONE} : key_event(character, modifiers);
+    if (character < ' ') {
+        return (DipEvent){.kind = DIP_EVENT_NONE};
+    }
+    return key_event(character, modifiers);
 }
 
 // xterm sends 1 plus a sum of bits: 1 Shift, 2 Alt, 4 Ctrl, 8 Super.

@@ -125,6 +125,51 @@ static DipControlAnswer show_scene(const DipPreviewMoment *moment, const char *n
     return DIP_CONTROL_LATER;
 }
 
+// Finds the index of an animation, or -1 for "none".
+static bool find_animation(const DipSessionAnimations *animations, const char *name, int *index,
+                           DipError *err) {
+    DipNameList accepted = {.text = "none"};
+    *index = -1;
+    if (strcmp(name, "none") == 0) {
+        return true;
+    }
+    for (int i = 0; i < animations->count; ++i) {
+        if (strcmp(name, animations->names[i]) == 0) {
+            *index = i;
+            return true;
+        }
+        dip_name_list_add(&accepted, animations->names[i]);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "name",
+                         "'%s' is no animation of the models, accepted %s", name,
+                         dip_name_list_end(&accepted));
+}
+
+// The first attempt asks for the animation. The later ones wait until the models have been opened
+// with it.
+static DipControlAnswer play_animation(const DipPreviewMoment *moment, const char *name,
+                                       int attempt, DipError *err) {
+    const DipSessionAnimations *animations = &moment->session->animations;
+    DipPreviewState *state = moment->state;
+    int index;
+    if (!find_animation(animations, name, &index, err)) {
+        return DIP_CONTROL_REFUSED;
+    }
+    const bool plays = animations->count == 0 || index == animations->playing;
+    if (attempt == 0 && (!plays || state->opens_animation)) {
+        dip_preview_act(state, DIP_ACTION_ANIMATION, index, false, moment->now_ns);
+    }
+    if (state->wants_animation || state->opens_animation) {
+        return DIP_CONTROL_LATER;
+    }
+    if (plays) {
+        return DIP_CONTROL_DONE;
+    }
+    dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "name", "the animation does not play: %s",
+                  state->notice);
+    return DIP_CONTROL_REFUSED;
+}
+
 // Returns where panes and dock lie in a window of the given size.
 static DipLayout layout_of(const DipPreviewMoment *moment, int width, int height) {
     const DipToolState *tools = &moment->state->tools;
@@ -262,8 +307,11 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
         remote->waits = true;
         return DIP_CONTROL_LATER;
     }
-    if (request->verb == DIP_CONTROL_SCENE) {
-        const DipControlAnswer answer = show_scene(remote->moment, request->name, attempt, err);
+    if (request->verb == DIP_CONTROL_SCENE || request->verb == DIP_CONTROL_ANIMATION) {
+        const DipControlAnswer answer =
+            request->verb == DIP_CONTROL_SCENE
+                ? show_scene(remote->moment, request->name, attempt, err)
+                : play_animation(remote->moment, request->name, attempt, err);
         remote->waits |= answer == DIP_CONTROL_LATER;
         return answer;
     }

@@ -39,6 +39,13 @@ static const char *scene_name(const DipSession *session) {
                : dip_gallery_info(session->gallery_scene)->name;
 }
 
+// Returns the name by which the request `animation` asks for the animation that plays.
+static const char *animation_name(const DipSession *session) {
+    const DipSessionAnimations *animations = &session->animations;
+    const bool plays = animations->playing >= 0 && animations->playing < animations->count;
+    return plays ? animations->names[animations->playing] : "none";
+}
+
 static void add_size(cJSON *object, const DipPreviewMoment *moment) {
     cJSON_AddNumberToObject(object, "width", moment->panes[0].width);
     cJSON_AddNumberToObject(object, "height", moment->panes[0].height);
@@ -51,6 +58,7 @@ static void add_state(cJSON *object, const DipPreviewMoment *moment) {
     cJSON_AddStringToObject(object, "category", dip_preview_path_name(state, state->track->active));
     cJSON_AddBoolToObject(object, "free_camera", state->manual);
     cJSON_AddStringToObject(object, "scene", scene_name(moment->session));
+    cJSON_AddStringToObject(object, "animation", animation_name(moment->session));
     add_size(object, moment);
 }
 
@@ -142,6 +150,14 @@ static void add_scenes(cJSON *object, const DipPreviewMoment *moment) {
     }
     if (moment->session->scene) {
         add_name(scenes, "models");
+    }
+}
+
+static void add_animations(cJSON *object, const DipPreviewMoment *moment) {
+    const DipSessionAnimations *animations = &moment->session->animations;
+    cJSON *names = cJSON_AddArrayToObject(object, "animations");
+    for (int i = 0; i < animations->count; ++i) {
+        add_name(names, animations->names[i]);
     }
 }
 
@@ -267,6 +283,7 @@ const DipReplyPart dip_reply_parts[DIP_CONTROL_PART_COUNT] = {
     [DIP_CONTROL_PART_ERRORS] = {add_errors, false},
     [DIP_CONTROL_PART_PRICES] = {add_prices, false},
     [DIP_CONTROL_PART_PATHS] = {add_paths, true},
+    [DIP_CONTROL_PART_ANIMATIONS] = {add_animations, true},
     [DIP_CONTROL_PART_SCENES] = {add_scenes, true},
     [DIP_CONTROL_PART_STEPS] = {add_steps, true},
 };

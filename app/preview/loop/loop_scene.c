@@ -123,11 +123,32 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     ++preview->picture_number;
 }
 
+// Hands the animation that the user has asked for to the reload.
+static void follow_animation(DipPreview *preview, int64_t now_ns) {
+    DipPreviewState *state = &preview->state;
+    const int wanted = state->wanted_animation;
+    if (!state->wants_animation) {
+        return;
+    }
+    state->wants_animation = false;
+    state->opens_animation =
+        preview->def.reload && wanted < state->animations->count &&
+        dip_reload_animate(preview->def.reload,
+                           wanted < 0 ? "none" : state->animations->names[wanted]);
+    if (!state->opens_animation) {
+        dip_preview_notice(state, now_ns, "The animation cannot be opened");
+    }
+}
+
 void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns) {
     DipReloadNews news;
+    follow_animation(preview, now_ns);
     if (!preview->def.reload ||
         !dip_reload_poll(preview->def.reload, preview->prices, now_ns, &news)) {
         return;
+    }
+    if (news.animated) {
+        preview->state.opens_animation = news.kind == DIP_RELOAD_BEGUN;
     }
     if (news.kind == DIP_RELOAD_SESSION) {
         use_new_session(preview, news.dropped);

@@ -1,4 +1,5 @@
-// Opens sessions on a thread, from files that were dropped or have changed.
+// Opens sessions on a thread, from files that were dropped or have changed, or with another
+// animation.
 #include "app/preview/loop/reload.h"
 
 #include "app/cost/plan.h"
@@ -23,8 +24,10 @@ typedef struct Opening {
     pthread_t thread;
     bool running;
     atomic_bool done;
-    const char *file;               // The dropped file; NULL if a file has changed.
-    char name[DIP_WATCH_NAME_SIZE]; // Name, without folder, of the dropped or changed file.
+    const char *file;               // The dropped file; NULL if none was dropped.
+    bool animated;                  // Another animation was chosen.
+    char name[DIP_WATCH_NAME_SIZE]; // Name, without folder, of the dropped or changed file, or of
+                                    // the chosen animation.
     DipSessionOptions options;
     const DipImporter *importer;
     DipSession session;
@@ -39,11 +42,13 @@ struct DipReload {
     DipWatch *watch;                        // NULL without --watch.
     bool changed; // A file has changed, so the session must be opened again.
     char changed_name[DIP_WATCH_NAME_SIZE];
+    const char *animation;        // Animation that waits to be opened, or NULL.
     const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first.
     int drop_count;
     const char *passed; // Dropped file that was opened just before; the next one follows at once.
     bool passed_failed; // It could not be opened.
-    char **names;       // Names of all files dropped so far, each once; options point to them.
+    // Names of all files dropped and animations chosen so far, each once; options point to them.
+    char **names;
     int name_count;
     Opening opening;
     DipCostReport *costs; // Owned; NULL if none was opened.
@@ -176,6 +181,12 @@ bool dip_reload_drop(DipReload *reload, const char *file) {
     return name != NULL;
 }
 
+bool dip_reload_animate(DipReload *reload, const char *animation) {
+    const char *name = keep_name(reload, animation);
+    reload->animation = name ? name : reload->animation;
+    return name != NULL;
+}
+
 static bool ends_with(const char *file, const char *ending) {
     const size_t length = strlen(file);
     const size_t tail = strlen(ending);
@@ -197,6 +208,8 @@ static void aim(DipSessionOptions *options, const char *file) {
     }
     options->scene = NULL;
     options->look = 0;
+    options->animation = NULL; // Other models have other animations.
+    options->has_animation_time = false;
     options->model_count = 0;
     if (ends_with(file, ".ini")) {
         options->config = file;
@@ -264,18 +277,24 @@ static bool is_no_file(const char *file) {
     return file && stat(file, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-// Begins to open the dropped `file`, or the files of the present session again if `file` is NULL.
+// Begins to open the dropped `file`, or the files of the present session again if `file` is NULL,
+// with the animation that waits.
 static bool begin(DipReload *reload, const char *file, const char *name, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     opening->options = reload->options;
     opening->importer = reload->session->importer;
     opening->file = file;
+    opening->animated = !file && reload->animation;
     opening->opened = false;
     snprintf(opening->name, sizeof opening->name, "%.255s", name);
     if (file) {
         aim(&opening->options, file);
+    } else if (reload->animation) {
+        opening->options.animation = reload->animation;
+        reload->animation = NULL;
     }
     news->dropped = file != NULL;
+    news->animated = opening->animated;
     if (is_no_file(opening->options.config)) {
         DipError err;
         dip_error_set(&err, DIP_ERROR_IO, opening->options.config, 0, NULL,
@@ -292,7 +311,8 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
 // unreadable picture is such a file: the session opens with a warning, but lacks its texture.
 static bool lacks_changed_file(const Opening *opening) {
     const char *sign = opening->name[0] ? opening->name : "is missing";
-    for (size_t i = 0; !opening->file && i < opening->faults.count; ++i) {
+    const bool changed = !opening->file && !opening->animated;
+    for (size_t i = 0; changed && i < opening->faults.count; ++i) {
         const DipError *fault = &opening->faults.items[i];
         if (strstr(fault->message, sign) || strstr(fault->file, sign)) {
             return true;
@@ -348,11 +368,17 @@ static bool finish(DipReload *reload, DipReloadNews *news) {
     join(opening);
     dip_log_errors(&opening->faults);
     news->dropped = opening->file != NULL;
+    news->animated = opening->animated && !reload->animation;
     const bool good = opening->opened && !lacks_changed_file(opening);
     if (good) {
-        tell(news, DIP_RELOAD_SESSION, opening->file ? "Opened " : "Reloaded ",
+        tell(news, DIP_RELOAD_SESSION,
+             opening->animated ? "Animation: "
+             : opening->file   ? "Opened "
+                               : "Reloaded ",
              opening->name[0] ? opening->name : "the scene");
         tell_passed(reload, news);
+    }
+    if (good && !opening->animated) {
         tell_warnings(news, &opening->faults);
     }
     reload->passed = opening->file && reload->drop_count > 0 ? opening->file : NULL;
@@ -417,9 +443,10 @@ bool dip_reload_poll(DipReload *reload, DipPrices *prices, int64_t now_ns, DipRe
     if (reload->drop_count > 0) {
         return open_next_drop(reload, prices, news);
     }
-    if (reload->changed) {
+    if (reload->changed || reload->animation) {
         reload->changed = false;
-        return begin(reload, NULL, reload->changed_name, news);
+        return begin(reload, NULL, reload->animation ? reload->animation : reload->changed_name,
+                     news);
     }
     return false;
 }

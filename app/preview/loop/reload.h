@@ -1,6 +1,7 @@
 // Opens a new session beside the one that the preview shows, after the user has dropped a file onto
-// the window or, with --watch, after a file of the session has changed. The new session replaces
-// the old one when it is completely open. If it cannot be opened, the old one stays.
+// the window or has chosen another animation or, with --watch, after a file of the session has
+// changed. The new session replaces the old one when it is completely open. If it cannot be opened,
+// the old one stays.
 //
 // Sessions are opened on a thread, so that the preview keeps running. All functions of this file
 // must be called on one thread, that of the preview.
@@ -28,6 +29,10 @@ void dip_reload_destroy(DipReload **reload);
 // too many files wait or memory runs out.
 bool dip_reload_drop(DipReload *reload, const char *file);
 
+// Opens the session again with this animation of the models, or "none". Of animations that wait to
+// be opened, only the last one counts. Returns false if memory runs out.
+bool dip_reload_animate(DipReload *reload, const char *animation);
+
 typedef enum DipReloadKind {
     DIP_RELOAD_NOTHING, // There is no news.
     DIP_RELOAD_BEGUN,   // A session is being opened.
@@ -38,7 +43,8 @@ typedef enum DipReloadKind {
 
 typedef struct DipReloadNews {
     DipReloadKind kind;
-    bool dropped;                 // True if the user dropped a file, false if a file has changed.
+    bool dropped;                 // The user dropped a file.
+    bool animated;                // The user chose another animation, and no further one waits.
     bool warns;                   // With SESSION: the notice names what does not show.
     char notice[DIP_NOTICE_SIZE]; // What to tell the user.
     const DipCostReport *costs;   // With COSTS, the report. Valid until the next one is loaded.

@@ -25,12 +25,13 @@ static bool read_poses(const char *file, unsigned char **bytes, size_t *size_byt
         return dip_file_read(file, "camera path", DIP_CAMPATH_MAX_FILE_BYTES, bytes, size_bytes,
                              err);
     }
-    *bytes = malloc(sizeof header);
+    const size_t length = strlen(header);
+    *bytes = malloc(length + 1);
     if (!*bytes) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
-    memcpy(*bytes, header, sizeof header);
-    *size_bytes = strlen(header);
+    memcpy(*bytes, header, length + 1);
+    *size_bytes = length;
     return true;
 }
 

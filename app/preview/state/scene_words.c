@@ -51,6 +51,9 @@ void dip_scene_words(const DipSessionOptions *options, char text[DIP_SCENE_WORDS
     for (int i = 0; i < options->model_count; ++i) {
         add_option(text, "--model", options->models[i]);
     }
+    if (options->animation) {
+        add_option(text, "--animation", options->animation);
+    }
     if (options->scene) {
         add_option(text, "--scene", options->scene);
     }

@@ -286,6 +286,19 @@ void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
     ++state->scene_changes;
 }
 
+// --- animations ----------------------------------------------------------------------------------
+
+// Asks for an animation of the models, or for none if index is -1.
+static void choose_animation(DipPreviewState *state, int index, int64_t now_ns) {
+    const DipSessionAnimations *animations = state->animations;
+    if (!animations || animations->count == 0 || index < -1 || index >= animations->count) {
+        dip_preview_notice(state, now_ns, "The models have no such animation");
+    } else if (index != animations->playing || state->opens_animation) {
+        state->wants_animation = true;
+        state->wanted_animation = index;
+    }
+}
+
 // --- all actions ---------------------------------------------------------------------------------
 
 static void change_look(DipPreviewState *state, bool reverse, int64_t now_ns) {
@@ -343,6 +356,9 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         break;
     case DIP_ACTION_PATH:
         choose_path(state, argument, now_ns);
+        break;
+    case DIP_ACTION_ANIMATION:
+        choose_animation(state, argument, now_ns);
         break;
     case DIP_ACTION_NEXT_SCENE:
         state->scene_step = reverse ? -1 : 1;

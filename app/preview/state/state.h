@@ -15,8 +15,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// What a key can ask for. The argument of SETTING is a DipSetting, and that of PATH is a category
-// of camera paths.
+// What a key can ask for. The argument of SETTING is a DipSetting, that of PATH is a category of
+// camera paths, and that of ANIMATION is the index of an animation of the models, or -1 for none.
 typedef enum DipAction {
     DIP_ACTION_SETTING,
     DIP_ACTION_NEXT_PANE,
@@ -27,6 +27,7 @@ typedef enum DipAction {
     DIP_ACTION_NEXT_PATH,
     DIP_ACTION_PREVIOUS_PATH,
     DIP_ACTION_PATH,
+    DIP_ACTION_ANIMATION,
     DIP_ACTION_NEXT_SCENE,
     DIP_ACTION_LOOK,
     DIP_ACTION_CAMERA,
@@ -109,9 +110,14 @@ typedef struct DipPreviewState {
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
-    bool manual;             // The user flies the camera; a scene that does not move stands still.
-    bool shows_gallery;      // The panes show a scene of the gallery.
-    int scene_step;          // Scenes to go forward (below 0: back), as the user asked.
+    bool manual;        // The user flies the camera; a scene that does not move stands still.
+    bool shows_gallery; // The panes show a scene of the gallery.
+    int scene_step;     // Scenes to go forward (below 0: back), as the user asked.
+    const DipSessionAnimations
+        *animations;         // Those of the models. Borrowed; NULL if there are none.
+    bool wants_animation;    // The user asked for an animation. Cleared when it begins to open.
+    int wanted_animation;    // Its index, or -1 for none.
+    bool opens_animation;    // An animation is being opened; until then, the one before plays.
     int look;                // The scene's variant; numbers past the last variant wrap around.
     const char *scene_title; // Title of the gallery's scene; NULL if the panes show models.
     const char *scene_look;  // Name of the scene's variant; NULL if the panes show models.

@@ -350,7 +350,9 @@ static void draw_axes(DipUi *ui, const Plot *plot) {
         double step = pow(10.0, floor(log10(spans[axis] / 3.0)));
         step *= spans[axis] / step > 12.0 ? 5.0 : spans[axis] / step > 6.0 ? 2.0 : 1.0;
         const double from = axis ? plot->from_flip : plot->from_ms;
-        for (double at = ceil(from / step) * step; at < from + spans[axis]; at += step) {
+        const double begin = ceil(from / step) * step;
+        for (int i = 0; begin + i * step < from + spans[axis]; ++i) {
+            const double at = begin + i * step;
             char text[DIP_STEP_NAME_BYTES];
             if (axis) {
                 const int y = plot_y(plot, at);

@@ -1,5 +1,6 @@
-// Declares the camera's tab: the choice of the path that the camera follows, the controls that fly
-// the camera, and the editor of a path that the user makes key by key.
+// Declares the camera's tab: the choice of the path that the camera follows and of the animation
+// that the models play, the controls that fly the camera, and the editor of a path that the user
+// makes key by key.
 #include "app/preview/state/pilot.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
@@ -8,7 +9,15 @@
 #include <stdio.h>
 
 enum { KEY_WIDTH = 34, NARROW = 400 };
-enum { ID_EDIT, ID_CAMERA = 16, ID_END = 32, ID_KEYS = 64, MAX_SHOWN_KEYS = 64, ID_PATHS = 256 };
+enum {
+    ID_EDIT,
+    ID_CAMERA = 16,
+    ID_END = 32,
+    ID_KEYS = 64,
+    MAX_SHOWN_KEYS = 64,
+    ID_PATHS = 256,
+    ID_ANIMATIONS = 1024
+};
 
 static void act(DipFlow *flow, DipAction action, int argument, bool reverse) {
     dip_preview_act(flow->window->state, action, argument, reverse, dip_ui_now_ns(flow->ui));
@@ -45,17 +54,31 @@ static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEG
     return count;
 }
 
-static int path_width(const DipFlow *flow, int path) {
-    return dip_flow_button_width(flow, dip_preview_path_title(flow->window->state, path));
-}
+// --- rows of alternatives ------------------------------------------------------------------------
 
-// Returns the index of the first path to show, so that the one that plays is among the shown ones
-// in a row of the given width.
-static int first_path(const DipFlow *flow, const int *paths, int playing, int width) {
-    int first = playing;
-    int used = path_width(flow, paths[playing]);
+// One of these plays.
+typedef struct Choices {
+    const char *const *texts;
+    int count;
+    int playing;     // Index of the one that plays, or -1 for none.
+    bool chosen;     // The one that plays shows as chosen.
+    unsigned id;     // Id of the first button. The arrows have the two ids before it.
+    const char *tip; // What the button of an alternative does, before the alternative's name.
+    const char *const *names; // These names.
+    const char *tip_before;   // Tips of the arrows.
+    const char *tip_next;
+} Choices;
+
+// What was pressed, if it is not the index of an alternative.
+enum { PRESSED_NOTHING = -1, PRESSED_BEFORE = -2, PRESSED_NEXT = -3 };
+
+// Returns the index of the first alternative to show, so that the one that plays is among the shown
+// ones in a row of the given width.
+static int first_choice(const DipFlow *flow, const Choices *choices, int width) {
+    int first = dip_max(choices->playing, 0);
+    int used = dip_flow_button_width(flow, choices->texts[first]);
     while (first > 0) {
-        used += flow->gap + path_width(flow, paths[first - 1]);
+        used += flow->gap + dip_flow_button_width(flow, choices->texts[first - 1]);
         if (used > width) {
             break;
         }
@@ -64,40 +87,115 @@ static int first_path(const DipFlow *flow, const int *paths, int playing, int wi
     return first;
 }
 
-// Declares one row of paths, with arrows if the row has no room for all.
-static void declare_paths(DipFlow *flow) {
-    DipPreviewState *state = flow->window->state;
-    int paths[DIP_CAMTRACK_CATEGORIES];
-    const int count = list_paths(state, paths);
-    int playing = 0, width = 0, first = 0;
-    if (count < 2 || state->shows_gallery) {
-        return;
+// Declares the alternatives in the rest of the row, with arrows if the rest has no room for all.
+// Returns what was pressed.
+static int declare_choices(DipFlow *flow, const Choices *choices) {
+    const int room = dip_rect_right(flow->body) - flow->x;
+    int width = -flow->gap, first = 0, pressed = PRESSED_NOTHING;
+    for (int i = 0; i < choices->count; ++i) {
+        width += flow->gap + dip_flow_button_width(flow, choices->texts[i]);
     }
-    for (int i = 0; i < count; ++i) {
-        playing = paths[i] == state->track->active ? i : playing;
-        width += flow->gap + path_width(flow, paths[i]);
-    }
-    if (width > flow->body.width) {
+    if (width > room) {
         const int arrows = 2 * (dip_flow_button_width(flow, "<") + flow->gap);
-        first = first_path(flow, paths, playing, flow->body.width - arrows);
-        if (dip_flow_button(flow, ID_PATHS - 2, "<", DIP_UI_PLAIN,
-                            "The path before (Left arrow).")) {
-            act(flow, DIP_ACTION_NEXT_PATH, 0, true);
+        first = first_choice(flow, choices, room - arrows);
+        if (dip_flow_button(flow, choices->id - 2, "<", DIP_UI_PLAIN, choices->tip_before)) {
+            pressed = PRESSED_BEFORE;
         }
-        action_button(flow, ID_PATHS - 1, ">", DIP_UI_PLAIN, "The next path (P, or Right arrow).",
-                      DIP_ACTION_NEXT_PATH, 0);
+        if (dip_flow_button(flow, choices->id - 1, ">", DIP_UI_PLAIN, choices->tip_next)) {
+            pressed = PRESSED_NEXT;
+        }
     }
     const int row = flow->y;
-    for (int i = first; i < count && flow->y == row; ++i) {
+    for (int i = first; i < choices->count && flow->y == row; ++i) {
         char tip[160];
-        if (flow->x + path_width(flow, paths[i]) > dip_rect_right(flow->body) && i > first) {
+        if (flow->x + dip_flow_button_width(flow, choices->texts[i]) > dip_rect_right(flow->body) &&
+            i > first) {
             break;
         }
-        snprintf(tip, sizeof tip, "The camera follows the path %s.",
-                 dip_preview_path_name(state, paths[i]));
-        action_button(flow, ID_PATHS + (unsigned)paths[i], dip_preview_path_title(state, paths[i]),
-                      i == playing && !state->manual ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip,
-                      DIP_ACTION_PATH, paths[i]);
+        snprintf(tip, sizeof tip, "%s %.120s.", choices->tip, choices->names[i]);
+        if (dip_flow_choice(flow, choices->id + (unsigned)i, choices->texts[i],
+                            i == choices->playing && choices->chosen, tip)) {
+            pressed = i;
+        }
+    }
+    return pressed;
+}
+
+// Declares one row of paths.
+static void declare_paths(DipFlow *flow) {
+    const DipPreviewState *state = flow->window->state;
+    const char *texts[DIP_CAMTRACK_CATEGORIES], *names[DIP_CAMTRACK_CATEGORIES];
+    int paths[DIP_CAMTRACK_CATEGORIES];
+    Choices choices = {.texts = texts,
+                       .count = list_paths(state, paths),
+                       .chosen = !state->manual,
+                       .id = ID_PATHS,
+                       .tip = "The camera follows the path",
+                       .names = names,
+                       .tip_before = "The path before (Left arrow).",
+                       .tip_next = "The next path (P, or Right arrow)."};
+    if (choices.count < 2 || state->shows_gallery) {
+        return;
+    }
+    for (int i = 0; i < choices.count; ++i) {
+        texts[i] = dip_preview_path_title(state, paths[i]);
+        names[i] = dip_preview_path_name(state, paths[i]);
+        choices.playing = paths[i] == state->track->active ? i : choices.playing;
+    }
+    const int pressed = declare_choices(flow, &choices);
+    if (pressed >= 0) {
+        act(flow, DIP_ACTION_PATH, paths[pressed], false);
+    } else if (pressed != PRESSED_NOTHING) {
+        act(flow, DIP_ACTION_NEXT_PATH, 0, pressed == PRESSED_BEFORE);
+    }
+}
+
+// --- the animation that plays --------------------------------------------------------------------
+
+// Begins a new row unless the rest of this one has room for some animations.
+static void make_room(DipFlow *flow) {
+    flow->x += 2 * flow->gap;
+    if (flow->x + 4 * dip_flow_button_width(flow, "No animation") > dip_rect_right(flow->body)) {
+        dip_flow_next_row(flow);
+    }
+}
+
+// Declares the animations of the models, in the rest of the row if that is long enough.
+static void declare_animations(DipFlow *flow) {
+    const DipPreviewState *state = flow->window->state;
+    const DipSessionAnimations *animations = state->animations;
+    if (!animations || state->shows_gallery) {
+        return;
+    }
+    make_room(flow);
+    dip_flow_text(flow, dip_style_dim,
+                  animations->count ? "Animation:" : "Animation: the models have none.");
+    if (animations->count == 0) {
+        return;
+    }
+    const bool waits = state->wants_animation || state->opens_animation;
+    const int now = waits ? state->wanted_animation : animations->playing;
+    if (dip_flow_choice(flow, ID_ANIMATIONS - 3, flow->narrow ? "No animation" : "None", now < 0,
+                        "The models stand still, in the shape of their files.")) {
+        act(flow, DIP_ACTION_ANIMATION, -1, false);
+    }
+    const char *const *names = (const char *const *)animations->names;
+    const Choices choices = {.texts = names,
+                             .count = animations->count,
+                             .playing = now,
+                             .chosen = true,
+                             .id = ID_ANIMATIONS,
+                             .tip = "The models play the animation",
+                             .names = names,
+                             .tip_before = "The animation before.",
+                             .tip_next = "The next animation."};
+    const int pressed = declare_choices(flow, &choices);
+    if (pressed >= 0) {
+        act(flow, DIP_ACTION_ANIMATION, pressed, false);
+    } else if (pressed != PRESSED_NOTHING) {
+        const int by = pressed == PRESSED_NEXT ? 1 : -1;
+        const int from = now < 0 && by < 0 ? 0 : now;
+        act(flow, DIP_ACTION_ANIMATION, (from + by + animations->count) % animations->count, false);
     }
 }
 
@@ -254,6 +352,7 @@ void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
         dip_flow_next_group(&flow);
     }
     declare_ends(&flow);
+    declare_animations(&flow);
     dip_flow_next_group(&flow);
     declare_camera(&flow);
     declare_steps(&flow);

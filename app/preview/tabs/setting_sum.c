@@ -434,7 +434,8 @@ static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPriceSum sum = dip_pane_sum(window, DIP_PANE_REQUESTED);
     const bool doubtful = dip_price_sum_trust(&sum) == DIP_PRICE_TRUST_DOUBTFUL;
-    const DipPriceSum shown = doubtful ? (DipPriceSum){.ms = 0.0} : sum;
+    const DipPriceSum none = {.ms = 0.0};
+    const DipPriceSum shown = doubtful ? none : sum;
     const Parts parts = parts_of(&shown);
     const int note = dip_ui_line_height(ui, NOTE_SIZE), thin = dip_ui_px(ui, 3);
     DipRect rest = rect;

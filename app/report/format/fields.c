@@ -41,7 +41,7 @@ static const DipField *field_of(const DipRecord *record, const char *name, size_
             return field;
         }
     }
-    DIP_ASSERT(false && "no such field");
+    DIP_ASSERT(false); // There is no such field.
     return record->fields;
 }
 

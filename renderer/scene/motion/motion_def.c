@@ -120,6 +120,14 @@ static bool are_joints_fine(const DipMotionRig *rig, const DipMovingMesh *mesh) 
     return fine;
 }
 
+static bool is_box_fine(const float *box) {
+    bool fine = !box || are_finite(box, 6);
+    for (int axis = 0; box && fine && axis < 3; axis++) {
+        fine = box[axis] <= box[3 + axis];
+    }
+    return fine;
+}
+
 static bool check_mesh(const DipSceneDef *scene, int index, DipError *err) {
     const DipMovingMesh *mesh = &scene->motion->meshes[index];
     if ((index > 0 && mesh->mesh <= mesh[-1].mesh) || !is_index(mesh->mesh, scene->mesh_count) ||
@@ -136,7 +144,7 @@ static bool check_mesh(const DipSceneDef *scene, int index, DipError *err) {
                       are_finite(mesh->positions, floats) &&
                       (mesh->normals ? are_finite(mesh->normals, floats)
                                      : !def->normals || has_own_vertices(def)) &&
-                      are_joints_fine(rig, mesh);
+                      are_joints_fine(rig, mesh) && is_box_fine(mesh->box);
     return fine || refuse(err, "moving mesh", index);
 }
 
@@ -211,6 +219,7 @@ static bool copy_mesh(DipMovingMesh *mesh) {
     bool made = COPY(mesh->positions, floats);
     made = COPY(mesh->normals, floats) && made;
     made = COPY(mesh->joints, 4 * vertices) && made;
+    made = COPY(mesh->box, 6) && made;
     return COPY(mesh->joint_weights, 4 * vertices) && made;
 }
 
@@ -272,6 +281,7 @@ void dip_motion_free(DipMotionDef **motion) {
         free((void *)mesh->normals);
         free((void *)mesh->joints);
         free((void *)mesh->joint_weights);
+        free((void *)mesh->box);
     }
     free((void *)(*motion)->rigs);
     free((void *)(*motion)->objects);

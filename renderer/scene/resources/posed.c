@@ -27,8 +27,6 @@ struct DipPosedScene {
     int moving_count;
     Part *parts;
     int part_count;
-    bool is_posed;
-    int64_t time_ns;
 };
 
 int dip_moving_mesh(const DipMotionDef *motion, int mesh) {
@@ -184,19 +182,8 @@ static void follow_pose(DipPosedScene *posed, DipPool *pool) {
     place_objects(posed);
 }
 
-const DipScene *dip_posed_scene_at_share(DipPosedScene *posed, double share, DipPool *pool) {
-    dip_motion_pose_set_share(posed->pose, share);
-    follow_pose(posed, pool);
-    posed->is_posed = false;
-    return &posed->scene;
-}
-
 const DipScene *dip_posed_scene_at(DipPosedScene *posed, int64_t time_ns, DipPool *pool) {
-    if (!posed->is_posed || posed->time_ns != time_ns) {
-        dip_motion_pose_set(posed->pose, time_ns);
-        follow_pose(posed, pool);
-        posed->is_posed = true;
-        posed->time_ns = time_ns;
-    }
+    dip_motion_pose_set(posed->pose, time_ns);
+    follow_pose(posed, pool);
     return &posed->scene;
 }

@@ -21,10 +21,8 @@ DipPosedScene *dip_posed_scene_create(const DipScene *scene, DipError *err);
 void dip_posed_scene_destroy(DipPosedScene **posed);
 
 // Returns the scene at a time. It belongs to the posed scene and changes with the next call. The
-// vertices are computed on the pool, unless the scene is at this time already. Allocates nothing.
+// vertices are computed on the pool, even if the scene is at this time already, so that a frame
+// costs the same whatever was drawn before it. Allocates nothing.
 const DipScene *dip_posed_scene_at(DipPosedScene *posed, int64_t time_ns, DipPool *pool);
-
-// The same at a share of every clip's duration, 0 up to 1.
-const DipScene *dip_posed_scene_at_share(DipPosedScene *posed, double share, DipPool *pool);
 
 #endif

@@ -157,6 +157,38 @@ static void times_follow_from_work(void **state) {
     dip_cost_report_free(&report);
 }
 
+// All settings pose the same vertices, so their price takes in whatever else geometry costs in
+// every frame. It must not be less than the vertices cost.
+static void posed_vertices_have_a_price(void **state) {
+    (void)state;
+    const double vertices = 4e4, ms_per_vertex = 2e-5;
+    DipCostMisses times, errors;
+    DipCostReport report;
+    int rows[COMBINATIONS];
+    make_report(&report, courtyard_flip, 0.0, 1);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        DipCostRow *row = &report.rows[i];
+        rows[i] = i;
+        row->counters[DIP_COST_COUNTER_vertices_posed] = vertices;
+        report.predicted.list[i].counters[DIP_COST_COUNTER_vertices_posed] = vertices;
+        row->stage_ms[DIP_COST_STAGE_geometry] += ms_per_vertex * vertices;
+        row->time.mean_ms.value += ms_per_vertex * vertices;
+        row->time.p95_ms = dip_estimate_unknown(1.3 * row->time.mean_ms.value);
+    }
+    train(&report, &times, &errors);
+    assert_true(times.p90 < 1e-6);
+    const DipCostModel model = dip_cost_model_fit(&report, DIP_COST_TIME, rows, COMBINATIONS);
+    double counters[DIP_COST_COUNTER_COUNT];
+    memcpy(counters, report.rows[0].counters, sizeof counters);
+    const double before_ms = dip_cost_model_value(&model, counters, &report.rows[0].quality);
+    counters[DIP_COST_COUNTER_vertices_posed] += vertices;
+    const double more_ms =
+        dip_cost_model_value(&model, counters, &report.rows[0].quality) - before_ms;
+    assert_true(more_ms >= 0.999 * ms_per_vertex * vertices);
+    assert_true(more_ms <= 1.001 * report.rows[0].stage_ms[DIP_COST_STAGE_geometry]);
+    dip_cost_report_free(&report);
+}
+
 static void flip_follows_from_settings(void **state) {
     (void)state;
     const double *const scenes[] = {courtyard_flip, city_flip};
@@ -554,7 +586,7 @@ static const double *find_counted(const void *context, const DipQuality *quality
 // work for every combination: the true one.
 static void composed_work_is_one(void **state) {
     (void)state;
-    static DipQuality list[1 << 17];
+    static DipQuality list[1 << 18];
     const unsigned few = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_SHADOWS;
     // Filters of the finished picture add work of their own, which no other setting changes.
     const unsigned all = ((1u << DIP_SETTING_MIPDEBUG) - 1) &
@@ -562,10 +594,10 @@ static void composed_work_is_one(void **state) {
                            1u << DIP_SETTING_SHARPEN | 1u << DIP_SETTING_SHADOWS);
     Counted groups = {.base = dip_quality_default(), .most_groups = 1};
     Counted parts = {.base = groups.base, .most_groups = 1, .has_filtering = true};
-    int count = dip_cost_list_combinations(&groups.base, all, list, 1 << 17);
-    assert_int_equal(count, 111456);
-    count += dip_cost_list_combinations(&groups.base, few, list + count, (1 << 17) - count);
-    assert_int_equal(count, 111456 + 5 * 5 * 4);
+    int count = dip_cost_list_combinations(&groups.base, all, list, 1 << 18);
+    assert_int_equal(count, 168480);
+    count += dip_cost_list_combinations(&groups.base, few, list + count, (1 << 18) - count);
+    assert_int_equal(count, 168480 + 5 * 5 * 4);
     for (int i = 0; i < count; i++) {
         double truth[DIP_COST_COUNTER_COUNT], first[DIP_COST_COUNTER_COUNT],
             second[DIP_COST_COUNTER_COUNT];
@@ -590,10 +622,11 @@ static void composed_work_is_one(void **state) {
 static void count_filtered(double *counters, const DipQuality *quality) {
     static const double drawn[] = {1.0 / 4.0, 100.0 / 289.0, 4.0 / 9.0, 100.0 / 169.0};
     const bool below = quality->step[DIP_SETTING_SCALE] < DIP_SCALE_1;
+    const double part = below ? drawn[quality->step[DIP_SETTING_SCALE]] : 1.0;
     counters[DIP_COST_COUNTER_pixels_filtered] =
-        (quality->step[DIP_SETTING_POST] ? below ? drawn[quality->step[DIP_SETTING_SCALE]] : 1.0
-                                         : 0.0) +
-        below + (quality->step[DIP_SETTING_SHARPEN] != 0);
+        (quality->step[DIP_SETTING_TAA] == DIP_TAA_HISTORY ? part : 0.0) +
+        (quality->step[DIP_SETTING_POST] ? part : 0.0) + below +
+        (quality->step[DIP_SETTING_SHARPEN] != 0);
 }
 
 // Combinations that differ from a base in one group of settings.
@@ -610,15 +643,16 @@ static const double *find_alone(const void *context, const DipQuality *quality) 
     return dip_work_count_groups(&alone->base, quality) <= 1 ? counters : NULL;
 }
 
-// Post-process AA filters the picture that is drawn, the other filters the frame.
+// A history and post-process AA filter the picture that is drawn, the other filters the frame.
 static void composed_filters_write_the_pixels_of_their_pictures(void **state) {
     (void)state;
-    static DipQuality list[512];
-    const unsigned all = 1u << DIP_SETTING_SCALE | 1u << DIP_SETTING_UPSCALE |
-                         1u << DIP_SETTING_POST | 1u << DIP_SETTING_SHARPEN;
+    static DipQuality list[1024];
+    const unsigned all = 1u << DIP_SETTING_TAA | 1u << DIP_SETTING_SCALE |
+                         1u << DIP_SETTING_UPSCALE | 1u << DIP_SETTING_POST |
+                         1u << DIP_SETTING_SHARPEN;
     const DipQuality base = dip_quality_default();
-    const int count = dip_cost_list_combinations(&base, all, list, 512);
-    assert_int_equal(count, (4 + 4 * 3) * 3 * 4);
+    const int count = dip_cost_list_combinations(&base, all, list, 1024);
+    assert_int_equal(count, 2 * (4 + 4 * 3) * 3 * 4);
     for (int i = 0; i < count; i++) {
         for (int b = 0; b < count; b += 7) {
             double truth[DIP_COST_COUNTER_COUNT] = {0.0}, found[DIP_COST_COUNTER_COUNT];
@@ -637,6 +671,7 @@ int main(void) {
         cmocka_unit_test(composed_work_is_one),
         cmocka_unit_test(composed_filters_write_the_pixels_of_their_pictures),
         cmocka_unit_test(times_follow_from_work),
+        cmocka_unit_test(posed_vertices_have_a_price),
         cmocka_unit_test(flip_follows_from_settings),
         cmocka_unit_test(leaving_one_out_does_not_promise_too_much),
         cmocka_unit_test(the_front_is_found),

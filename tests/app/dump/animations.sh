@@ -1,5 +1,5 @@
 #!/bin/sh
-# Tests --animation and --animation-time of the program.
+# Tests --animation and --animation-time of the program, and ANIMATION of the ini.
 # Usage: animations.sh DIPTYCH SOURCE_FOLDER
 . "$(dirname "$0")/../program.sh"
 model=$2/tests/assets/data/motion.gltf
@@ -33,5 +33,31 @@ check "an unknown animation is refused" grep -q \
     "'dance' is not an animation of the models, accepted none, \"all\", \"still\"" err.txt
 hashes --animation-time -1 >out.txt
 check "a time before 0 is refused" grep -q 'a time from 0 to 1,000,000 seconds' err.txt
+
+# The key frames of MD2 files play as well.
+model=$2/assets/gallery/crab.md2
+hashes --frames 0:40 >stand.txt
+check "the first run of key frames plays: $(cat err.txt)" test "$(sort -u stand.txt | wc -l)" -gt 20
+check "its 10 frames last a second" test "$(sed -n 8p stand.txt)" = "$(sed -n 38p stand.txt)"
+check "frame 39 alone is frame 39 after 39 others" \
+    test "$(hashes --frames 39:40 --threads 1)" = "$(tail -n 1 stand.txt)"
+hashes --frames 7:8 --animation wave >wave.txt
+check "a named run plays" test "$(cat wave.txt)" != "$(sed -n 8p stand.txt)"
+hashes --frames 0:40:8 --animation none | sort -u >none.txt
+check "and none stands still" test "$(wc -l <none.txt)" = 1
+hashes --animation dance >out.txt
+check "the message lists the runs" grep -q 'accepted none, "stand", "walk", "wave"' err.txt
+
+# of_ini VALUE: the hash of frame 7 with this value of ANIMATION.
+of_ini() {
+    printf 'RES: 96x72\nXFILE: %s\nANIMATION: %s\n' "$model" "$1" >scene.ini
+    "$diptych" dump --config scene.ini --pose '0 0 90 0 0 0 1' --fov 45 --hash --frames 7:8 2>err.txt |
+        awk '$2 == "current" { print $3 }'
+}
+check "the ini chooses among the runs" test "$(of_ini wave)" != "$(of_ini walk)"
+check "and may choose none" test "$(of_ini none)" != "$(of_ini stand)"
+of_ini dance >out.txt
+check "a mistake names the line of the ini" grep -q \
+    "scene.ini:3: .*ANIMATION.*'dance' is not an animation of the models, accepted none, \"stand\"" err.txt
 
 finish

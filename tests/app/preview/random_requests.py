@@ -2,7 +2,7 @@
 import json
 
 TOPICS = ["times", "errors", "settings", "picks", "notices", "polls", "prices"]
-PARTS = ["state", "settings", "times", "errors", "paths", "scenes", "steps", "prices"]
+PARTS = ["state", "settings", "times", "errors", "paths", "animations", "scenes", "steps", "prices"]
 
 # Requests without their id; each breaks one rule.
 BAD = [
@@ -42,7 +42,7 @@ class Requests:
         """Returns a request, and True if the preview must accept it, else None."""
         kind = random.choice(["set"] * 6 + ["get"] * 3 + ["pick"] * 3 + ["seek"] * 2 +
                              ["topics"] * 2 + ["play"] * 2 +
-                             ["pause", "apply", "path", "scene", "size", "shot"])
+                             ["pause", "apply", "path", "animation", "scene", "size", "shot"])
         if kind in ("play", "pause", "apply"):
             return {"request": kind}, True
         return getattr(self, f"make_{kind}")(random)
@@ -70,6 +70,9 @@ class Requests:
     def make_path(self, random):
         category = random.choice(["DEFAULT", "AA", "AF", "WATER"])
         return {"request": "path", "category": category}, None
+
+    def make_animation(self, random):
+        return {"request": "animation", "name": random.choice(["none", "run"])}, None
 
     def make_scene(self, random):
         # The models more often than one of twelve scenes: the files belong to them.

@@ -220,8 +220,8 @@ static void time_and_path_follow_requests(void **state) {
     assert_ok("{\"request\":\"seek\",\"time_s\":3.25}");
     assert_non_null(strstr(ask("{\"request\":\"get\",\"what\":\"state\"}"),
                            "{\"paused\":true,\"time_s\":3.25,\"category\":\"DEFAULT\","
-                           "\"free_camera\":false,\"scene\":\"models\",\"width\":64,"
-                           "\"height\":100}"));
+                           "\"free_camera\":false,\"scene\":\"models\",\"animation\":"
+                           "\"none\",\"width\":64,\"height\":100}"));
     assert_ok("{\"request\":\"seek\",\"time_s\":23.5}"); // The path lasts 10 seconds.
     assert_non_null(strstr(ask("{\"request\":\"get\",\"what\":\"state\"}"), "\"time_s\":3.5,"));
     assert_ok("{\"request\":\"path\",\"category\":\"AF\"}");
@@ -315,6 +315,17 @@ static void lists_name_what_is_accepted(void **state) {
     assert_non_null(strstr(reply, "\"steps\":[\"none\",\"2\",\"4\",\"8\",\"16\"],\"default\":"
                                   "\"none\",\"category\":\"AF\"}"));
     assert_null(strstr(reply, "\"state\""));
+}
+
+static void a_scene_without_animations_plays_none(void **state) {
+    (void)state;
+    assert_non_null(
+        strstr(ask("{\"request\":\"get\",\"what\":\"animations\"}"), "\"animations\":[]"));
+    assert_non_null(strstr(ask("{\"request\":\"get\"}"), "\"animation\":\"none\""));
+    assert_ok("{\"request\":\"animation\",\"name\":\"none\"}");
+    assert_refused("{\"request\":\"animation\",\"name\":\"run\"}",
+                   "'run' is no animation of the models, accepted none");
+    assert_refused("{\"request\":\"animation\"}", "\"field\":\"name\"");
 }
 
 static void quit_ends_the_preview_with_a_reply(void **state) {
@@ -555,6 +566,7 @@ int main(void) {
         CONTROL_TEST(picks_tell_the_colours_that_show),
         CONTROL_TEST(screenshots_are_written_to_the_named_file),
         CONTROL_TEST(lists_name_what_is_accepted),
+        CONTROL_TEST(a_scene_without_animations_plays_none),
         CONTROL_TEST(quit_ends_the_preview_with_a_reply),
         CONTROL_TEST(subscribers_hear_of_every_change),
         CONTROL_TEST(times_come_while_the_camera_moves),

@@ -6,6 +6,7 @@
 #include "app/preview/state/poses.h"
 #include "app/preview/loop/reload.h"
 #include "app/preview/loop/view.h"
+#include "renderer/scene/motion.h"
 #include "tests/app/preview/png_parts.h"
 
 #include <setjmp.h>
@@ -23,7 +24,8 @@
 // Size of the panes with their gap; the window also has the dock's bar.
 enum { WIDTH = 402, HEIGHT = 150, BAR_HEIGHT = 32, MAX_TURNS = 120000 };
 
-static char home[1024]; // The working folder before the tests.
+static const char *sources; // The root of the source tree.
+static char home[1024];     // The working folder before the tests.
 static char folder[] = "/tmp/test_preview_files.XXXXXX";
 static DipSessionOptions options;
 static DipSession session;
@@ -528,7 +530,61 @@ static void errors_follow_the_new_scene(void **state) {
     assert_true(dip_preview_state(preview)->panel);
 }
 
-int main(void) {
+// --- animations ----------------------------------------------------------------------------------
+
+static void choose_animation(int index) {
+    DipPreviewState *state = (DipPreviewState *)dip_preview_state(preview);
+    dip_preview_act(state, DIP_ACTION_ANIMATION, index, false, 0);
+    turn();
+}
+
+static void assert_playing(int index, const char *clip) {
+    const DipMotionDef *motion = session.model ? session.scene_def.motion : NULL;
+    assert_int_equal(session.animations.playing, index);
+    assert_int_equal(dip_scene_moves(session.scene), index >= 0);
+    if (motion) {
+        assert_string_equal(motion->rigs[0].clip, clip);
+    }
+}
+
+static void the_user_chooses_an_animation_or_none(void **state) {
+    (void)state;
+    char crab[1200];
+    turn();
+    assert_int_equal(session.animations.count, 0);
+    choose_animation(0);
+    assert_notice("The models have no such animation");
+    snprintf(crab, sizeof crab, "%s/assets/gallery/crab.md2", sources);
+    drop(crab);
+    wait_for("Opened crab.md2");
+    assert_int_equal(session.animations.count, 3);
+    assert_string_equal(session.animations.names[1], "walk");
+    assert_playing(0, "stand");
+    const int64_t before_ns = dip_preview_state(preview)->play_ns;
+    choose_animation(1);
+    assert_true(dip_preview_state(preview)->opens_animation);
+    wait_for("Animation: walk");
+    assert_playing(1, "walk");
+    assert_true(dip_preview_state(preview)->play_ns >= before_ns);
+    choose_animation(2);
+    choose_animation(-1); // Of several choices the last one counts.
+    for (int i = 0; i < MAX_TURNS && session.animations.playing != -1; ++i) {
+        const struct timespec millisecond = {0, 1000000};
+        nanosleep(&millisecond, NULL);
+        turn();
+    }
+    assert_playing(-1, NULL);
+    assert_false(dip_preview_state(preview)->opens_animation);
+    assert_string_equal(session.options->animation, "none");
+    // Another model has other animations, so the choice does not stay.
+    drop("triangle.obj");
+    wait_for("Opened triangle.obj");
+    assert_int_equal(session.animations.count, 0);
+    assert_null(session.options->animation);
+}
+
+int main(int argc, char **argv) {
+    sources = argc > 1 ? argv[1] : ".";
 #define FILES_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         FILES_TEST(a_screenshot_tells_how_it_was_made),
@@ -546,6 +602,7 @@ int main(void) {
         FILES_TEST(drops_are_opened_in_their_order),
         FILES_TEST(a_flood_of_drops_is_refused),
         FILES_TEST(errors_follow_the_new_scene),
+        FILES_TEST(the_user_chooses_an_animation_or_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,12 +9,14 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 // The last sub-blocks of rows and columns reach past the picture's edges.
 enum { WIDTH = 201, HEIGHT = 150, VIEWS = 3 };
+static int views = VIEWS; // Viewpoints from which each pair is drawn. --views gives fewer.
 
 // Two panes' settings, and whether they shade alike.
 typedef struct Pair {
@@ -168,7 +170,7 @@ static void draw_all_pairs(Panes *panes, const DipTestScene *scene) {
     for (int i = 0; i < PAIRS; i++) {
         uint64_t copied = 0;
         set_pair(panes, &pairs[i]);
-        for (int view = 0; view < VIEWS; view++) {
+        for (int view = 0; view < views; view++) {
             panes->pose = view_of(scene, view);
             copied += draw_pair(panes, (uint64_t)view, view % 2);
         }
@@ -244,7 +246,10 @@ static void nothing_is_copied_where_the_work_of_a_pane_is_wanted(void **state) {
     dip_test_scene_free(&scene);
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+    if (argc == 3 && strcmp(argv[1], "--views") == 0) {
+        views = atoi(argv[2]);
+    }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_that_copy_pixels_equal_frames_drawn_alone),
         cmocka_unit_test(any_threads_and_instruction_set_copy_the_same_pixels),
