@@ -354,7 +354,7 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
 
 // Adds to the notice what became of the file that was dropped together with this one.
 static void tell_passed(const DipReload *reload, DipReloadNews *news) {
-    const char *passed = reload->passed;
+    const char *passed = reload->opening.file ? reload->passed : NULL;
     if (passed && reload->passed_failed) {
         add(news, "; %.60s could not be opened", base_name(passed));
     } else if (passed && (is_path(passed) || !is_path(reload->opening.file))) {
@@ -412,6 +412,7 @@ static bool open_costs(DipReload *reload, DipPrices *prices, const char *file,
     char scene[DIP_COST_TEXT];
     DipError err;
     dip_cost_scene_name(reload->session, scene);
+    reload->passed = NULL;
     news->dropped = true;
     DipCostReport *costs = dip_costs_load(prices, file, scene, &err);
     if (!costs) {
