@@ -6,6 +6,7 @@
 #include "app/cli/machine.h"
 #include "renderer/base/hash.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,11 +26,36 @@ static const DipCategory categories[DIP_SETTING_COUNT] = {
 static const DipCamCategory *slot_of_path(const DipCostReport *report, const DipSession *session,
                                           int path) {
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
-        if (strcmp(dip_session_category(c), report->paths[path]) == 0) {
-            return &session->track.categories[c];
+        const DipCamCategory *slot = &session->track.categories[c];
+        if (slot->path && strcmp(dip_session_category(c), report->paths[path]) == 0) {
+            return slot;
         }
     }
     return &session->track.categories[0];
+}
+
+// Names the path of a category as the user names it: by the camera or the file of --path, without
+// the file's folder and ending, otherwise by the category. A report's names have only letters,
+// digits, '_' and '-'; other characters become '_'.
+static void name_path(const DipSession *session, int category, char name[DIP_COST_PATH_NAME]) {
+    const char *own = session->options->path;
+    if (category != 0 || !own) {
+        snprintf(name, DIP_COST_PATH_NAME, "%s", dip_session_category(category));
+        return;
+    }
+    const bool is_camera = session->track.categories[0].name != NULL;
+    const char *slash = is_camera ? NULL : strrchr(own, '/');
+    snprintf(name, DIP_COST_PATH_NAME, "%s", slash ? slash + 1 : own);
+    char *ending = is_camera ? NULL : strrchr(name, '.');
+    if (ending && ending > name) {
+        *ending = '\0';
+    }
+    for (char *c = name; *c; c++) {
+        *c = isalnum((unsigned char)*c) || *c == '-' ? *c : '_';
+    }
+    if (!name[0]) {
+        snprintf(name, DIP_COST_PATH_NAME, "%s", dip_session_category(0));
+    }
 }
 
 // Adds the camera path of a category, or of the first category if it has none, and returns its
@@ -44,8 +70,7 @@ static int add_path(DipCostReport *report, const DipSession *session, int catego
             return p;
         }
     }
-    snprintf(report->paths[report->path_count], sizeof report->paths[0], "%s",
-             dip_session_category(own));
+    name_path(session, own, report->paths[report->path_count]);
     return report->path_count++;
 }
 

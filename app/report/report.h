@@ -41,6 +41,7 @@ extern const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT];
 
 enum {
     DIP_COST_MAX_PATHS = 16,
+    DIP_COST_PATH_NAME = 16, // Bytes of a path's name.
     DIP_COST_MAX_SWEEPS = 24,
     DIP_COST_MAX_SWEEP_ROWS = 8,
     DIP_COST_MAX_REFUSED = 24,
@@ -178,7 +179,7 @@ typedef struct DipCostReport {
     int width;  // Pixels.
     int height; // Pixels.
     DipCostOptions options;
-    char paths[DIP_COST_MAX_PATHS][16]; // Names: "DEFAULT", "AA", ...
+    char paths[DIP_COST_MAX_PATHS][DIP_COST_PATH_NAME]; // Names: "DEFAULT", "AA", "FOLIAGE", ...
     // Hashes of the poses that are drawn on each path, since a path may be edited and keep its
     // name.
     char path_hashes[DIP_COST_MAX_PATHS][33];

@@ -432,8 +432,7 @@ static bool follow_mirrored(DipRenderer *renderer, const DipScene *scene, DipErr
 static bool follow_shadows(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     DipShadows *shadows = &renderer->shadows;
     DipMirror *mirror = &renderer->mirror;
-    const bool possible = scene->lighting && scene->lighting->shadow_light >= 0 && scene->has_lit &&
-                          scene->has_caster && !renderer->plain_surfaces;
+    const bool possible = dip_scene_has_shadows(scene) && !renderer->plain_surfaces;
     const int size = possible ? dip_quality_shadow_size(&renderer->quality) : 0;
     if (size == (shadows->depth ? dip_depth_width(shadows->depth) : 0)) {
         return true;

@@ -461,6 +461,11 @@ bool dip_scene_water_level(const DipScene *scene, double *level_m) {
     return scene->has_water;
 }
 
+bool dip_scene_has_shadows(const DipScene *scene) {
+    return scene->lighting && scene->lighting->shadow_light >= 0 && scene->has_lit &&
+           scene->has_caster;
+}
+
 uint64_t dip_scene_triangle_count(const DipScene *scene) {
     return scene->triangle_count;
 }

@@ -196,6 +196,10 @@ DIP_API void dip_scene_bounds(const DipScene *scene, float min_world[3], float m
 // Height (world y) of the scene's lowest water. Returns false if the scene has no water.
 DIP_API bool dip_scene_water_level(const DipScene *scene, double *level_m);
 
+// Returns whether the setting `shadows` can change a picture of the scene: it has a directional
+// light and surfaces that this light lights and that cast shadows.
+DIP_API bool dip_scene_has_shadows(const DipScene *scene);
+
 // Triangles of all objects: a mesh counts once for each object that uses it.
 DIP_API uint64_t dip_scene_triangle_count(const DipScene *scene);
 

@@ -17,6 +17,7 @@
 #include "app/measure/timing/child.h"
 #include "app/measure/timing/driver.h"
 #include "app/report/verdict.h"
+#include "app/session/session.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -396,7 +397,13 @@ static DipCostDiffArguments options_of_report(const DipCostDiffArguments *argume
         session->isa = known ? isa : dip_isa_best();
     }
     if (!session->path && !session->model_count && !session->category) {
-        session->category = report->paths[0];
+        session->path = report->paths[0]; // A camera of the scene, unless it is a category.
+        for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+            if (strcmp(dip_session_category(c), report->paths[0]) == 0) {
+                session->category = report->paths[0];
+                session->path = NULL;
+            }
+        }
     }
     return all;
 }

@@ -114,9 +114,10 @@ DipViewInput dip_loop_view_input(DipPreview *preview, int64_t now_ns) {
 }
 
 void dip_loop_report(DipPreview *preview, const DipError *err, int64_t now_ns) {
-    char line[512];
-    dip_error_format(err, line, sizeof line);
-    dip_preview_notice(&preview->state, now_ns, "%.120s", line);
+    char text[DIP_NOTICE_SIZE];
+    dip_preview_error_text(err, text);
+    dip_preview_notice(&preview->state, now_ns, "%s", text);
+    dip_preview_keep_notice(&preview->state, now_ns);
 }
 
 // --- events --------------------------------------------------------------------------------------
@@ -349,8 +350,10 @@ static void follow_motion(DipPreview *preview) {
     if (path != preview->judged_path || session->scene != preview->judged_scene) {
         preview->judged_path = path;
         preview->judged_scene = session->scene;
-        preview->state.stands = !session->shows_gallery && session->scene &&
-                                !dip_scene_moves(session->scene) &&
+        preview->state.scene_moves =
+            session->shows_gallery || (session->scene && dip_scene_moves(session->scene));
+        preview->state.lacks_shadows = session->scene && !dip_scene_has_shadows(session->scene);
+        preview->state.stands = session->scene && !preview->state.scene_moves &&
                                 dip_preview_path_stands(&preview->state);
     }
 }

@@ -157,5 +157,8 @@ void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns) {
         preview->state.advised_ms = 0.0;
     }
     dip_preview_notice(&preview->state, now_ns, "%s", news.notice);
+    if (news.kind == DIP_RELOAD_FAULT || news.warns) {
+        dip_preview_keep_notice(&preview->state, now_ns);
+    }
     preview->redraw = true;
 }

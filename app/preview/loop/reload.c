@@ -8,6 +8,7 @@
 #include "renderer/base/clock.h"
 
 #include <pthread.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +24,7 @@ typedef struct Opening {
     pthread_t thread;
     bool running;
     atomic_bool done;
-    bool dropped;                   // A file was dropped.
+    const char *file;               // The dropped file; NULL if none was dropped.
     bool animated;                  // Another animation was chosen.
     char name[DIP_WATCH_NAME_SIZE]; // Name, without folder, of the dropped or changed file, or of
                                     // the chosen animation.
@@ -44,6 +45,8 @@ struct DipReload {
     const char *animation;        // Animation that waits to be opened, or NULL.
     const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first.
     int drop_count;
+    const char *passed; // Dropped file that was opened just before; the next one follows at once.
+    bool passed_failed; // It could not be opened.
     // Names of all files dropped and animations chosen so far, each once; options point to them.
     char **names;
     int name_count;
@@ -190,12 +193,16 @@ static bool ends_with(const char *file, const char *ending) {
     return length >= tail && strcasecmp(file + length - tail, ending) == 0;
 }
 
+static bool is_path(const char *file) {
+    return ends_with(file, ".pth") || ends_with(file, ".bth");
+}
+
 // Changes the options as if the command line named the file.
 static void aim(DipSessionOptions *options, const char *file) {
     options->category = NULL;
     options->has_pose = false;
     options->path = NULL;
-    if (ends_with(file, ".pth") || ends_with(file, ".bth")) {
+    if (is_path(file)) {
         options->path = file;
         return;
     }
@@ -241,15 +248,14 @@ static bool tell(DipReloadNews *news, DipReloadKind kind, const char *what, cons
 }
 
 static bool tell_fault(DipReloadNews *news, const DipErrorList *faults) {
-    char line[512] = "out of memory";
+    news->kind = DIP_RELOAD_FAULT;
+    snprintf(news->notice, sizeof news->notice, "out of memory");
     for (size_t i = 0; i < faults->count; ++i) {
         if (faults->items[i].severity == DIP_SEVERITY_ERROR || faults->error_count == 0) {
-            dip_error_format(&faults->items[i], line, sizeof line);
+            dip_preview_error_text(&faults->items[i], news->notice);
             break;
         }
     }
-    news->kind = DIP_RELOAD_FAULT;
-    snprintf(news->notice, sizeof news->notice, "%.150s", line);
     return true;
 }
 
@@ -277,7 +283,7 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
     Opening *opening = &reload->opening;
     opening->options = reload->options;
     opening->importer = reload->session->importer;
-    opening->dropped = file != NULL;
+    opening->file = file;
     opening->animated = !file && reload->animation;
     opening->opened = false;
     snprintf(opening->name, sizeof opening->name, "%.255s", name);
@@ -287,7 +293,7 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
         opening->options.animation = reload->animation;
         reload->animation = NULL;
     }
-    news->dropped = opening->dropped;
+    news->dropped = file != NULL;
     news->animated = opening->animated;
     if (is_no_file(opening->options.config)) {
         DipError err;
@@ -305,7 +311,7 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
 // unreadable picture is such a file: the session opens with a warning, but lacks its texture.
 static bool lacks_changed_file(const Opening *opening) {
     const char *sign = opening->name[0] ? opening->name : "is missing";
-    const bool changed = !opening->dropped && !opening->animated;
+    const bool changed = !opening->file && !opening->animated;
     for (size_t i = 0; changed && i < opening->faults.count; ++i) {
         const DipError *fault = &opening->faults.items[i];
         if (strstr(fault->message, sign) || strstr(fault->file, sign)) {
@@ -315,19 +321,70 @@ static bool lacks_changed_file(const Opening *opening) {
     return false;
 }
 
+static void add(DipReloadNews *news, const char *format, ...) {
+    const size_t length = strlen(news->notice);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(news->notice + length, sizeof news->notice - length, format, arguments);
+    va_end(arguments);
+}
+
+// Adds to the notice how many pictures are missing, and the first of the other warnings.
+static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
+    const DipError *first = NULL;
+    int pictures = 0;
+    for (size_t i = faults->count; i-- > 0;) {
+        const DipError *fault = &faults->items[i];
+        const bool missing = strncmp(fault->message, "the picture ", 12) == 0 &&
+                             strstr(fault->message, " is missing");
+        pictures += missing;
+        first = missing ? first : fault;
+    }
+    const int others = (int)faults->count - pictures;
+    news->warns = faults->count > 0;
+    if (pictures > 0) {
+        add(news, ", %d picture%s missing", pictures, pictures > 1 ? "s" : "");
+    }
+    if (others > 1) {
+        add(news, ", with %d warnings: %s", others, first->message);
+    } else if (others > 0) {
+        add(news, ", with a warning: %s", first->message);
+    }
+}
+
+// Adds to the notice what became of the file that was dropped together with this one.
+static void tell_passed(const DipReload *reload, DipReloadNews *news) {
+    const char *passed = reload->opening.file ? reload->passed : NULL;
+    if (passed && reload->passed_failed) {
+        add(news, "; %.60s could not be opened", base_name(passed));
+    } else if (passed && (is_path(passed) || !is_path(reload->opening.file))) {
+        add(news, " in place of %.60s", base_name(passed));
+    }
+}
+
 // Takes the result of the thread that opened a session. The thread has ended.
 static bool finish(DipReload *reload, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     join(opening);
     dip_log_errors(&opening->faults);
-    news->dropped = opening->dropped;
+    news->dropped = opening->file != NULL;
     news->animated = opening->animated && !reload->animation;
-    if (opening->opened && !lacks_changed_file(opening)) {
-        return tell(news, DIP_RELOAD_SESSION,
-                    opening->animated  ? "Animation: "
-                    : opening->dropped ? "Opened "
-                                       : "Reloaded ",
-                    opening->name[0] ? opening->name : "the scene");
+    const bool good = opening->opened && !lacks_changed_file(opening);
+    if (good) {
+        tell(news, DIP_RELOAD_SESSION,
+             opening->animated ? "Animation: "
+             : opening->file   ? "Opened "
+                               : "Reloaded ",
+             opening->name[0] ? opening->name : "the scene");
+        tell_passed(reload, news);
+    }
+    if (good && !opening->animated) {
+        tell_warnings(news, &opening->faults);
+    }
+    reload->passed = opening->file && reload->drop_count > 0 ? opening->file : NULL;
+    reload->passed_failed = !good;
+    if (good) {
+        return true;
     }
     tell_fault(news, &opening->faults);
     watch_session(reload, &opening->faults);
@@ -355,6 +412,7 @@ static bool open_costs(DipReload *reload, DipPrices *prices, const char *file,
     char scene[DIP_COST_TEXT];
     DipError err;
     dip_cost_scene_name(reload->session, scene);
+    reload->passed = NULL;
     news->dropped = true;
     DipCostReport *costs = dip_costs_load(prices, file, scene, &err);
     if (!costs) {

@@ -45,6 +45,7 @@ typedef struct DipReloadNews {
     DipReloadKind kind;
     bool dropped;                 // The user dropped a file.
     bool animated;                // The user chose another animation, and no further one waits.
+    bool warns;                   // With SESSION: the notice names what does not show.
     char notice[DIP_NOTICE_SIZE]; // What to tell the user.
     const DipCostReport *costs;   // With COSTS, the report. Valid until the next one is loaded.
 } DipReloadNews;

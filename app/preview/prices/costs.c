@@ -15,6 +15,19 @@ static double flip_of(const DipCostReport *report, int row) {
     return places > 0 ? dip_metrics_of(&sums, 0).flip : NAN;
 }
 
+// Returns whether a step's time is doubtful by the rule for prices (dip_price_trust).
+static bool is_doubtful(const DipCostReport *report, const DipCostSweep *sweep, int index) {
+    const DipEstimate *ratio = &sweep->ratios[index];
+    const double base_ms = dip_cost_ms(report, sweep->base);
+    const DipPrice price = {.state = DIP_PRICE_MEASURED,
+                            .ms = base_ms * (ratio->value - 1.0),
+                            .ms_low = base_ms * (ratio->low - 1.0),
+                            .ms_high = base_ms * (ratio->high - 1.0),
+                            .without_ms = base_ms,
+                            .doubtful = report->verdict == DIP_COST_RED};
+    return dip_price_trust(&price) == DIP_PRICE_TRUST_DOUBTFUL;
+}
+
 static void make_step(DipCostsStep *step, const DipCostReport *report, const DipCostSweep *sweep,
                       int index) {
     const int row = sweep->rows[index];
@@ -27,7 +40,9 @@ static void make_step(DipCostsStep *step, const DipCostReport *report, const Dip
     if (is_base) {
         snprintf(step->time, sizeof step->time, "1x");
     } else if (dip_cost_is_timed(report, row) && dip_cost_is_timed(report, sweep->base)) {
-        snprintf(step->time, sizeof step->time, "%.2fx", sweep->ratios[index].value);
+        const bool doubtful = is_doubtful(report, sweep, index);
+        snprintf(step->time, sizeof step->time, "%.*fx%s", doubtful ? 1 : 2,
+                 sweep->ratios[index].value, doubtful ? "?" : "");
     }
     const double shown = is_base ? base_flip : step->flip_change;
     if (!isnan(shown)) {

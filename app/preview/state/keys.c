@@ -44,8 +44,11 @@ const DipKeyRow dip_key_rows[] = {
     CTRL(DIP_KEYCODE_ENTER, APPLY, 0, false, NULL, NULL),
     CTRL('z', UNDO, 0, false, NULL, NULL),
     CTRL('y', UNDO, 0, true, NULL, NULL),
+    HELP(DOCK, "Ctrl+Z  Y", "Undo or redo a change of settings"),
+    HELP(DOCK, "Ctrl+C  V", "Copy or paste the requested settings"),
     KEY('y', 0, DOCK, 0, "Y", "Open or fold the panel"),
     HELP(DOCK, "Tab  Arrows", "Controls of the panel"),
+    HELP(DOCK, "Ctrl+=  Ctrl+-", "Size of the panel"),
     KEY(DIP_KEYCODE_SPACE, 0, PAUSE, 0, "Space", "Pause or play"),
     HELD('.', STEP, 0, false, ".  ,", "Step one frame"),
     HELD(',', STEP_BACK, 0, false, NULL, NULL),
@@ -100,8 +103,8 @@ const DipKeyRow dip_key_rows[] = {
     KEY(DIP_KEYCODE_F12, 0, SCREENSHOT, 0, "F12", "Screenshot (with Shift: panes only)"),
     CTRL('s', SAVE_POSE, 0, false, "Ctrl+S", "Save the camera's pose to poses.pth"),
     HELP(CAMERA, "Controller", "Sticks fly; Y frees, A presses, X applies"),
-    KEY(DIP_KEYCODE_ESCAPE, 0, QUIT, 0, "Esc  Ctrl+Q", "Quit"),
-    CTRL('q', QUIT, 0, false, NULL, NULL),
+    KEY(DIP_KEYCODE_ESCAPE, 0, QUIT, 0, "Esc", "Close a tool or full screen, then quit"),
+    CTRL('q', QUIT, 0, false, "Ctrl+Q", "Quit"),
 };
 
 const int dip_key_row_count = (int)DIP_ARRAY_COUNT(dip_key_rows);

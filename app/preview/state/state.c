@@ -37,6 +37,23 @@ void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *form
     state->notice_end_ns = now_ns + dip_state_notice_ns;
 }
 
+void dip_preview_error_text(const DipError *err, char text[DIP_NOTICE_SIZE]) {
+    const char *slash = strrchr(err->file, '/');
+    const char *name = slash && slash[1] ? slash + 1 : err->file;
+    char place[96] = "";
+    if (name[0] && err->line > 0) {
+        snprintf(place, sizeof place, " (%.64s:%d)", name, err->line);
+    } else if (name[0]) {
+        snprintf(place, sizeof place, " (%.80s)", name);
+    }
+    snprintf(text, DIP_NOTICE_SIZE, "%s%.40s%s%.160s%s", err->key[0] ? "[" : "", err->key,
+             err->key[0] ? "] " : "", err->message, place);
+}
+
+void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns) {
+    state->notice_end_ns = now_ns + 4 * dip_state_notice_ns;
+}
+
 // --- the dock and the tools ----------------------------------------------------------------------
 
 // Opens the dock with a tab, or folds it if the tab shows already.
@@ -395,12 +412,16 @@ void dip_preview_seek(DipPreviewState *state, int64_t play_ns) {
     ++state->scene_changes;
 }
 
+bool dip_preview_time_runs(const DipPreviewState *state) {
+    return !state->paused && (state->manual ? state->scene_moves : !state->stands);
+}
+
 bool dip_preview_rests(const DipPreviewState *state, bool flying) {
-    return state->manual ? !flying : state->paused || state->stands;
+    return !dip_preview_time_runs(state) && !(state->manual && flying);
 }
 
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns) {
-    if (!state->paused && !state->manual && !state->stands) {
+    if (dip_preview_time_runs(state)) {
         state->play_ns += elapsed_ns;
         ++state->scene_changes;
     }

@@ -58,7 +58,7 @@ typedef enum DipAction {
     DIP_ACTION_QUIT
 } DipAction;
 
-enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32, DIP_HELP_WORDS = 32 };
+enum { DIP_NOTICE_SIZE = 320, DIP_UNDO_DEPTH = 32, DIP_HELP_WORDS = 32 };
 
 // Settings that a user can ask for by name.
 typedef enum DipPreset {
@@ -105,10 +105,12 @@ typedef struct DipPreviewState {
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
     bool stands;           // Neither the camera nor the scene moves although time may run.
+    bool scene_moves;      // The scene moves, so that time runs although the camera is free.
+    bool lacks_shadows;    // Nothing in the scene casts a shadow that `shadows` could draw.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
-    bool manual;        // The user flies the camera; the time on the path stands still.
+    bool manual;        // The user flies the camera; a scene that does not move stands still.
     bool shows_gallery; // The panes show a scene of the gallery.
     int scene_step;     // Scenes to go forward (below 0: back), as the user asked.
     const DipSessionAnimations
@@ -224,11 +226,15 @@ const DipCamPath *dip_preview_playing_path(const DipPreviewState *state);
 // Returns whether all poses of the playing path are the same.
 bool dip_preview_path_stands(const DipPreviewState *state);
 
+// Returns whether the picture changes with time: it is not paused, and the camera or the scene
+// moves.
+bool dip_preview_time_runs(const DipPreviewState *state);
+
 // Returns whether camera and scene stand still. `flying` means that the user moves the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);
 
-// Lets time pass. Moves on along the path unless the preview is paused or the user flies the
-// camera. Removes a notice that has ended.
+// Lets time pass. Moves on along the path if time runs (dip_preview_time_runs). Removes a notice
+// that has ended.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
 
 // The first function returns the time on the active camera path, from 0 to the path's length. The
@@ -243,6 +249,13 @@ void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns);
 // Shows a notice for a few seconds.
 void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+// Writes an error for a notice: what is wrong, then the name of the file without its folder.
+void dip_preview_error_text(const DipError *err, char text[DIP_NOTICE_SIZE]);
+
+// Lets the notice that shows stay for 10 seconds, or until the next one. For errors and warnings,
+// which take longer to read than what a key has just done.
+void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns);
 
 // Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
 const char *dip_preview_category_name(int category);

@@ -126,7 +126,7 @@ static void write_why_not(DipUi *ui, const DipWindow *window, DipRect *room) {
 static void declare_try(DipUi *ui, DipWindow *window, const DipCandidate *advised, DipRect rect) {
     DipPreviewState *state = window->state;
     const bool waits = state->choice->live && state->choice->state != DIP_CHOICE_KNOWN;
-    if (waits && !state->paused && !state->manual) {
+    if (waits && dip_preview_time_runs(state)) {
         if (dip_ui_button(ui, id_of(ID_TRY), rect, "Pause to measure", DIP_UI_PRIMARY,
                           "Pauses, so that the prices can be measured (Space).")) {
             dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, dip_ui_now_ns(ui));
@@ -459,6 +459,9 @@ void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body) {
             write_how_to(ui, window, rest);
         }
         return;
+    }
+    if (choice->candidates.count == 0) {
+        return; // There is nothing to plot and no step to try.
     }
     if (rest.width >= right + gap + dip_ui_px(ui, 200)) {
         declare_steps(ui, window, dip_cut_right(&rest, right));

@@ -31,7 +31,7 @@ typedef enum BarControl {
 static const char *const tab_names[DIP_TAB_COUNT] = {"Settings", "Loupe", "Compare", "Maps",
                                                      "Advice",   "Times", "Path"};
 static const char *const tab_tips[DIP_TAB_COUNT] = {
-    "Settings: what each costs and gains (Y)",
+    "Settings: what each costs and gains",
     "Loupe: pixels enlarged, with their samples and values (Z)",
     "Compare: wipe, blink, difference, one picture alone, the converged picture (J)",
     "Maps: where error and work are (N)",
@@ -190,18 +190,47 @@ static Bar measure(const DipUi *ui, const DipWindow *window) {
 
 // --- controls ------------------------------------------------------------------------------------
 
+// Returns whether the tool of a tab changes what the panes show, whichever tab is open.
+static bool is_tool_on(const DipToolState *tools, DipTab tab) {
+    switch (tab) {
+    case DIP_TAB_LOUPE:
+        return tools->loupe;
+    case DIP_TAB_COMPARE:
+        return tools->comparison != DIP_COMPARE_SIDE_BY_SIDE;
+    case DIP_TAB_MAPS:
+        return tools->map != DIP_MAP_NONE;
+    default:
+        return false;
+    }
+}
+
 static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
     const DipToolState *tools = &window->state->tools;
     DipRect rest = bar->rect;
     for (int t = 0; t < DIP_TAB_COUNT; ++t) {
         const DipRect rect = dip_cut_left(&rest, bar->tab_width[t]);
-        const DipUiInput input =
-            declare_button(ui, window, BAR_TABS + t, rect, DIP_ACTION_TAB, t, tab_tips[t]);
-        const bool chosen = tools->open && (int)tools->tab == t;
+        char tip[240];
+        bool chosen = tools->open && (int)tools->tab == t;
+        const bool tool_shows = !chosen && is_tool_on(tools, (DipTab)t);
+        snprintf(tip, sizeof tip, "%s%s", tab_tips[t],
+                 chosen       ? "\nY folds the panel"
+                 : tool_shows ? "\nIt shows over the panes now; Esc takes it away"
+                              : "");
+        const DipUiInput input = dip_ui_control(
+            ui, &(DipUiControl){.id = bar_id(BAR_TABS + t), .rect = rect, .tip = tip});
+        draw_ring(ui, rect, &input);
+        if (input.pressed && !chosen) { // A second click must not fold what the first one opened.
+            dip_preview_act(window->state, DIP_ACTION_TAB, t, false, dip_ui_now_ns(ui));
+            chosen = true;
+        }
         if (chosen) {
             DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
             dip_ui_fill(ui, rect, dip_style_dock);
             dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_white);
+        }
+        if (tool_shows && !chosen) {
+            DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
+            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_accent);
         }
         if (bar->words) {
             dip_ui_label(ui, TAB_SIZE, colour_of(&input, chosen), DIP_ALIGN_CENTRE, rect,

@@ -100,10 +100,14 @@ static void say_count(Part *part) {
     const bool temporal = dip_quality_alternates(&part->window->state->quality[part->pane]);
     char longest[96];
     char text[64] = "1 sample, at the centre";
-    char brief[32] = "1 sample";
+    char brief[64] = "1 sample";
     if (count > 1 && part->samples) {
         const DipSampleCount found = dip_loupe_count(part->samples, count);
-        if (found.patches == 1) {
+        if (found.patches == 1 && found.colours > 1) {
+            snprintf(text, sizeof text, "%d samples on one surface, in %d colours", count,
+                     found.colours);
+            snprintf(brief, sizeof brief, "%d on one surface, %d colours", count, found.colours);
+        } else if (found.patches == 1) {
             snprintf(text, sizeof text, "%d samples, all on one surface", count);
             snprintf(brief, sizeof brief, "%d on one surface", count);
         } else {

@@ -224,8 +224,10 @@ static void mip_legend(const Tab *tab, DipRect area) {
 
 static void samples_legend(const Tab *tab, DipRect area) {
     put(tab, TEXT, dip_style_white, area, 0, "Samples of a pixel, per pixel");
-    draw_key(tab, area, ROW, colour_of(DIP_MAP_SAMPLES, 1.0f), "They show more than one surface.");
-    draw_key(tab, area, 2 * ROW, colour_of(DIP_MAP_SAMPLES, 0.0f), "They all show one.");
+    draw_key(tab, area, ROW, colour_of(DIP_MAP_SAMPLES, 1.0f),
+             "Several surfaces, or one that is shaded several times.");
+    draw_key(tab, area, 2 * ROW, colour_of(DIP_MAP_SAMPLES, 0.0f),
+             "One surface, which is shaded once.");
     put(tab, NOTE, dip_style_soft, area, 3 * ROW + 4,
         "Without antialiasing a pixel has one sample, so none differ.");
 }
@@ -385,7 +387,7 @@ static void put_swatch(const Tab *tab, int pane, DipRect area, DipColour colour,
     const int edge = px(tab, 1), inner = side - px(tab, 2);
     dip_ui_fill(tab->ui, (DipRect){square.x + edge, square.y + edge, inner, inner}, colour);
     dip_cut_left(&area, gap);
-    area.width = px(tab, 120);
+    area.width = px(tab, 160);
     area.x += put(tab, 15, own, area, 2, value) + gap;
     area.width = px(tab, 100);
     put(tab, NOTE, dip_style_soft, area, 5, pane ? "requested" : "current");

@@ -19,7 +19,8 @@ static const char *const map_tips[DIP_MAP_COUNT] = {
     [DIP_MAP_FRAGMENTS] = "How often a pixel is shaded, as a mean of each tile of 64x64 pixels.",
     [DIP_MAP_PROBES] = "How many bilinear texture reads a pixel takes,\n"
                        "as a mean of each tile of 64x64 pixels.",
-    [DIP_MAP_SAMPLES] = "The pixels whose samples show more than one surface.\n"
+    [DIP_MAP_SAMPLES] = "The pixels whose samples show several surfaces,\n"
+                        "or one surface that is shaded several times.\n"
                         "Only these gain from antialiasing.",
     [DIP_MAP_MIPS] = "Which mip level each surface reads.",
 };

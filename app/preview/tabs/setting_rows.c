@@ -37,12 +37,18 @@ static int step_of(const DipPreviewState *state, int pane, DipSetting setting) {
     return state->quality[pane].step[setting];
 }
 
-// Returns whether the setting has no effect beside the other settings of the pane that is edited.
-static bool is_dimmed(const DipPreviewState *state, DipSetting setting) {
-    return dip_quality_needs(&state->quality[edited_pane(state)], setting) != NULL;
+// Returns what the setting needs to have an effect in this scene, beside the other settings of the
+// pane that is edited. Returns NULL if it has an effect.
+static const char *needs_of(const DipPreviewState *state, DipSetting setting) {
+    return setting == DIP_SETTING_SHADOWS && state->lacks_shadows
+               ? "needs a directional light"
+               : dip_quality_needs(&state->quality[edited_pane(state)], setting);
 }
 
 static DipPrice price_of(const DipWindow *window, DipSetting setting, int step) {
+    if (setting == DIP_SETTING_SHADOWS && window->state->lacks_shadows) {
+        return (DipPrice){.needs_company = true, .needs = "a directional light"};
+    }
     return dip_prices_step(window->prices, setting, step,
                            &window->state->quality[DIP_PANE_REQUESTED]);
 }
@@ -263,7 +269,7 @@ static Slider make_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipR
     slider.cell_width = dip_max(1, (rect.width - indent) / slider.count);
     slider.cells =
         (DipRect){rect.x + indent, rect.y, slider.cell_width * slider.count, rect.height};
-    slider.dimmed = is_dimmed(window->state, setting);
+    slider.dimmed = needs_of(window->state, setting) != NULL;
     const int under = (dip_ui_pointer_x(ui) - slider.cells.x) / slider.cell_width;
     slider.pointed = dip_max(0, dip_min(slider.count - 1, under));
     return slider;
@@ -274,7 +280,7 @@ static Slider make_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipR
 // Draws the setting's name, its key and what it needs, and its steps in both panes.
 static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting setting, DipRect head) {
     const DipSettingInfo *info = dip_setting_info(setting);
-    const char *needs = dip_quality_needs(&state->quality[edited_pane(state)], setting);
+    const char *needs = needs_of(state, setting);
     const int gap = dip_ui_px(ui, 8);
     dip_ui_word(ui, NAME_SIZE, dip_style_white, &head, gap,
                 setting == DIP_SETTING_ASD ? "Samples per adaptive group" : info->title);
@@ -297,6 +303,18 @@ static void add_drawn_size(const DipPreviewState *state, int step, char note[DIP
     }
 }
 
+// Writes what a step of the open setting does, what it costs, and why it cannot be chosen.
+static void write_note(const DipWindow *window, DipSetting setting, int step,
+                       char note[DIP_STEP_TEXT_BYTES]) {
+    const DipPrice price = price_of(window, setting, step);
+    char why[256];
+    is_valid(window->state, setting, step, why);
+    dip_step_tip(setting, step, &price, why, note);
+    if (setting == DIP_SETTING_SCALE) {
+        add_drawn_size(window->state, step, note);
+    }
+}
+
 void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPreviewState *state = window->state;
     const DipSetting setting = state->open_setting;
@@ -309,9 +327,12 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipRect head = dip_cut_top(&rest, dip_ui_px(ui, NAME_HEIGHT));
     dip_cut_top(&rest, dip_ui_px(ui, has_note ? 6 : 2));
     Slider slider = make_slider(ui, window, setting, dip_cut_top(&rest, steps_height));
+    char note[DIP_STEP_TEXT_BYTES];
+    write_note(window, setting, dip_setting_step_at(setting, slider.pointed), note);
     slider.input =
         dip_ui_control(ui, &(DipUiControl){.id = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_EDITOR),
                                            .rect = slider.cells,
+                                           .tip = has_note ? NULL : note,
                                            .skips_focus = true,
                                            .takes_wheel = true});
     change_by(ui, window, setting, &slider.input, slider.pointed);
@@ -322,14 +343,8 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     draw_head(ui, state, setting, head);
     draw_steps(ui, state, &slider);
     if (has_note) { // About the step under the pointer, or the one that is requested.
-        const int step = slider.input.hovered ? dip_setting_step_at(setting, slider.pointed)
-                                              : step_of(state, DIP_PANE_REQUESTED, setting);
-        const DipPrice price = price_of(window, setting, step);
-        char why[256], note[DIP_STEP_TEXT_BYTES];
-        is_valid(state, setting, step, why);
-        dip_step_tip(setting, step, &price, why, note);
-        if (setting == DIP_SETTING_SCALE) {
-            add_drawn_size(state, step, note);
+        if (!slider.input.hovered) {
+            write_note(window, setting, step_of(state, DIP_PANE_REQUESTED, setting), note);
         }
         dip_cut_top(&rest, dip_ui_px(ui, 5));
         dip_ui_fill(ui, dip_cut_top(&rest, 1), dip_style_line);
@@ -343,7 +358,7 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
 void dip_setting_entry_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect) {
     DipPreviewState *state = window->state;
     const int requested = step_of(state, DIP_PANE_REQUESTED, setting);
-    const char *needs = dip_quality_needs(&state->quality[edited_pane(state)], setting);
+    const char *needs = needs_of(state, setting);
     DipUiInput input = dip_ui_stepper(ui, id_of(setting), rect, NULL);
     if (input.began || input.focused) {
         state->open_setting = setting;

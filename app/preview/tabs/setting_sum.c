@@ -357,8 +357,8 @@ static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum
     DipPreviewState *state = window->state;
     const DipPrices *prices = window->prices;
     char source[400];
-    if (sum->state == DIP_PRICE_UNKNOWN && dip_prices_are_rough(prices) && !state->paused &&
-        !state->manual) {
+    if (sum->state == DIP_PRICE_UNKNOWN && dip_prices_are_rough(prices) &&
+        dip_preview_time_runs(state)) {
         const int room = line->width;
         if (end_button(ui, DIP_ID_PAUSE, line, "Pause to measure",
                        "The tags show what each step costs and gains once the picture rests. The "

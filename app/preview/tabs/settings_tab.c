@@ -12,7 +12,7 @@ enum {
     MARGIN = 10,
     GAP = 12,
     LIST_WIDTH = 580,
-    GROUP_WIDTH = 88,
+    GROUP_WIDTH = 94,
     EDITOR_WIDTH = 376,
     SUM_WIDTH = 282,
     WIDE = 1180,  // Narrowest dock with the list, the editor and the sum side by side.

@@ -15,11 +15,11 @@ enum {
     EDGE_PX = 8, // Part of the window's width and height that the list of keys leaves free.
     MAX_HELP_ROWS = 56,
     MAX_HELP_GROUPS = 3, // The keys stand in up to three groups beside each other.
-    MAX_COLUMNS = 1 + 2 * DIP_COST_MAX_SWEEP_ROWS
+    MAX_COLUMNS = 1 + 3 * DIP_COST_MAX_SWEEP_ROWS
 };
 
 static const char costs_note[] =
-    "1x: the baseline and its FLIP. Other steps: relative time and change of FLIP";
+    "1x: the baseline and its FLIP. Other steps: relative time (?: doubtful) and change of FLIP";
 static const char help_note[] =
     "While time runs, a change of a setting also chooses the path that shows it best";
 
@@ -28,6 +28,7 @@ static const char help_note[] =
 typedef struct Cell {
     const char *text; // NULL if the row ends before this column.
     DipColour colour;
+    bool is_number; // Stands at the right side of its column.
 } Cell;
 
 // Rows of texts between a title and a note. Each column is as wide as its widest text.
@@ -88,8 +89,10 @@ static DipRect draw_table(DipDrawList *list, const Table *table) {
     for (int r = 0; r < table->rows; ++r, y += table->line) {
         int x = room.x;
         for (int c = 0; c < table->columns && table->cells[r][c].text; ++c) {
-            dip_draw_list_text(list, table->size, table->cells[r][c].colour, DIP_ALIGN_LEFT, x, y,
-                               table->widths[c], table->cells[r][c].text);
+            const Cell *cell = &table->cells[r][c];
+            dip_draw_list_text(
+                list, table->size, cell->colour, cell->is_number ? DIP_ALIGN_RIGHT : DIP_ALIGN_LEFT,
+                cell->is_number ? x + table->widths[c] : x, y, table->widths[c], cell->text);
             x += table->widths[c] + gap_behind(table, c);
         }
     }
@@ -125,16 +128,17 @@ static Table make_costs(const DipCosts *costs, const DipQuality *quality) {
     Table table = {.rows = costs->row_count, .columns = 1, .note = costs_note, .half_gaps = {2}};
     for (int r = 0; r < costs->row_count; ++r) {
         const DipCostsRow *row = &costs->rows[r];
-        table.cells[r][0] = (Cell){row->title, dip_style_white};
+        table.cells[r][0] = (Cell){row->title, dip_style_white, false};
         for (int s = 0; s < row->step_count; ++s) {
             const bool at = dip_costs_is_at(row, s, quality);
-            table.cells[r][1 + 2 * s] =
-                (Cell){row->steps[s].name, at ? dip_style_accent : dip_style_white};
-            table.cells[r][2 + 2 * s] =
-                (Cell){row->steps[s].figures, at ? dip_style_accent : dip_style_soft};
-            table.half_gaps[1 + 2 * s] = 1;
-            table.half_gaps[2 + 2 * s] = 2;
-            table.columns = dip_max(table.columns, 3 + 2 * s);
+            const DipColour soft = at ? dip_style_accent : dip_style_soft;
+            Cell *cells = &table.cells[r][1 + 3 * s];
+            cells[0] = (Cell){row->steps[s].name, at ? dip_style_accent : dip_style_white, false};
+            cells[1] = (Cell){row->steps[s].time, soft, true};
+            cells[2] = (Cell){row->steps[s].flip, soft, true};
+            table.half_gaps[1 + 3 * s] = table.half_gaps[2 + 3 * s] = 1;
+            table.half_gaps[3 + 3 * s] = 2;
+            table.columns = dip_max(table.columns, 4 + 3 * s);
         }
     }
     return table;
@@ -194,8 +198,8 @@ static int list_keys(Table *table, const char *words) {
         if (key->label && (holds(key->label, words) || holds(text, words)) &&
             count < MAX_HELP_ROWS) {
             Cell *cells = &table->cells[count % table->rows][count / table->rows * 2];
-            cells[0] = (Cell){key->label, dip_style_accent};
-            cells[1] = (Cell){text, dip_style_white};
+            cells[0] = (Cell){key->label, dip_style_accent, false};
+            cells[1] = (Cell){text, dip_style_white, false};
             ++count;
         }
     }

@@ -108,11 +108,14 @@ DipSampleCount dip_loupe_count(const DipSampleValue *samples, int count) {
     DipSampleCount result = {.samples = count};
     const uint32_t front = samples[nearest_sample(samples, count)].patch;
     for (int s = 0; s < count; ++s) {
-        bool seen = false;
+        bool seen = false, coloured = false;
         for (int before = 0; before < s; ++before) {
             seen = seen || samples[before].patch == samples[s].patch;
+            coloured = coloured || memcmp(samples[before].linear16, samples[s].linear16,
+                                          sizeof samples[s].linear16) == 0;
         }
         result.patches += !seen;
+        result.colours += !coloured;
         result.front += samples[s].patch == front;
     }
     return result;

@@ -57,6 +57,7 @@ typedef struct DipSampleCount {
     int samples; // Number of samples.
     int front;   // Number of samples that show the patch nearest to the eye.
     int patches; // Number of distinct patches. The background counts as one.
+    int colours; // Number of distinct colours. Samples that were shaded together have one colour.
 } DipSampleCount;
 
 // Counts the samples of a pixel. samples: `count` entries of a readback.

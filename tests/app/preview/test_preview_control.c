@@ -457,7 +457,7 @@ static void prices_read_a_broken_scene_file_only_once(void **state) {
         line_client_take(&client, &line);
     }
     assert_int_equal(scene_reads, 1);
-    assert_non_null(strstr(state_now()->notice, "scene.obj: the importer crashed"));
+    assert_non_null(strstr(state_now()->notice, "the importer crashed"));
     for (int i = 0; i < 200; ++i) {
         const char *line;
         turn();
