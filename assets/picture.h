@@ -7,7 +7,7 @@
 //     DipTexture *texture = dip_texture_create_from_levels(levels, count, err); // levels of a DDS
 //     DipTexture *filtered = dip_texture_create(&levels[0], err); // Diptych's own mip chain
 //
-// Linear light of an HDR file is cut off at 1 and encoded as sRGB.
+// Linear light of an HDR file is cut off at 1 and encoded as sRGB, except in an environment.
 //
 // Every function that fills a DipPicture gives the caller ownership of its texels, which
 // dip_picture_free frees. On failure it returns false, leaves rgba8 NULL and fills *err (may be
@@ -20,6 +20,7 @@
 #include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/texture.h"
+#include "renderer/scene/lights.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -79,6 +80,14 @@ DIP_API bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture
 
 // Frees the texels and zeroes the picture. Accepts a zeroed picture.
 DIP_API void dip_picture_free(DipPicture *picture);
+
+// Decodes the bytes of an HDR file, or reads such a file, as the surroundings of a scene. Light
+// above DIP_MAX_ENVIRONMENT_LIN is cut off. The caller frees the environment, texels included, with
+// free(). Return NULL and fill *err (may be NULL) on failure, with the codes of dip_picture_decode
+// and dip_picture_read_file; RANGE also if the width is not twice the height.
+DIP_API DipEnvironmentDef *dip_environment_decode(const uint8_t *bytes, size_t size_bytes,
+                                                  const char *name, DipError *err);
+DIP_API DipEnvironmentDef *dip_environment_read_file(const char *path, DipError *err);
 
 #ifdef __cplusplus
 }

@@ -124,6 +124,8 @@
     KEY(LIGHT_SCALE, light_scale, SCALE, "auto", 0, 1e6,                                           \
         "factor of the models' lights; 0 ignores them; auto: their light is 1 at the models' "     \
         "centre")                                                                                  \
+    KEY(ENVIRONMENT, environment, FILE, "", 0, 0,                                                  \
+        "Radiance HDR picture (equirectangular) that metallic-roughness surfaces reflect")         \
     KEY(LOG, log, FILE, "", 0, 0, "file that receives a copy of all warnings and errors")          \
     KEY(SCENE, scene, NAME, "", 0, 0,                                                              \
         "scene of the gallery that is shown instead of the models, or `tour` (docs/gallery.md)")

@@ -17,7 +17,7 @@ import subprocess
 import sys
 
 PLACES = ("WIRES", "FOLIAGE", "SPECULAR", "TEXT", "WATER")
-ERRORS = "--errors-only --places 1 --samples 16 --combine none --pictures none".split()
+ERRORS = "--errors-only --places 1 --samples 16 --combine taa --pictures none".split()
 TIMES = "--places 1 --samples 1 --combine none --pictures none --threads 1".split()
 DEFAULTS = ("aa=none taa=off aaa=off asd=1 af=none aaf=off opt=off miplod=high-quality scale=1 "
             "upscale=bilinear post=off sharpen=off shadows=off gi=on mipdebug=off").split()
@@ -54,7 +54,7 @@ def step_table(diptych, folder, options, column, digits):
                         *options], check=True, stdout=subprocess.DEVNULL)
         with open(report / "cost.csv", newline="") as file:
             for row in csv.DictReader(file):
-                if row["kind"] == "step" and row[column]:
+                if row["kind"] in ("step", "combination") and row[column]:
                     table.setdefault(changed(row["settings"]), {})[place] = float(row[column])
     print("| settings |" + "".join(f" `{place}` |" for place in PLACES))
     print("|---|" + "---|" * len(PLACES))

@@ -33,7 +33,7 @@ typedef struct Drawer {
     DipGallery *gallery; // NULL unless the session shows the gallery
     DipPainter *painter;
     DipPost *enlarger; // NULL if the render scale is 1
-    uint8_t *enlarged; // its picture
+    uint8_t *enlarged; // the enlarged picture, rgba8
     const View *view;
 } Drawer;
 
@@ -106,7 +106,7 @@ static DipPool *pool_of(Context *bench, int threads_index, DipError *err) {
     return bench->pools[threads_index];
 }
 
-// Makes what enlarges the picture that the painter draws.
+// Makes the filter that enlarges the picture that the painter draws.
 static bool make_enlarger(Drawer *drawer, const DipBenchValues *v, const DipRendererDef *def,
                           DipError *err) {
     const DipPostDef post = {

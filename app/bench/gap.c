@@ -1,4 +1,4 @@
-// Prints the gap between the stages' times and their floors.
+// Prints the gap between the stages' times and their floors (gap.h).
 #include "app/bench/gap.h"
 
 #include "renderer/base/assert.h"

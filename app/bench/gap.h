@@ -1,5 +1,5 @@
-// Shows how far a frame is from what the machine can do: the cycles that each stage takes per unit
-// of its work, beside a floor.
+// Shows how far a frame is from what the machine can do. Prints the cycles that each stage takes
+// per unit of its work, beside a floor: the fewest cycles in which a core can do this work.
 #ifndef DIP_APP_BENCH_GAP_H
 #define DIP_APP_BENCH_GAP_H
 
@@ -7,13 +7,13 @@
 
 #include <stdio.h>
 
-// The floors, in cycles of one core per unit. The first two are computed: what set-up writes for a
-// triangle (a DipTriangle of 96 bytes and planes of 96 bytes), 32 bytes in a cycle; what a tile
-// reads for a triangle (96 bytes), 64 bytes in a cycle. The others were measured: loops written by
-// hand for the same work on an Intel Xeon with AVX-512, whose data were in the first-level cache
-// (docs/performance.md, Kernels). A sub-block's floor is 16 times that of a pixel, for 1, 2, 4 and
-// 8 samples. A fragment's floor is a trilinear read. A probe's floor is the sixteenth part of a
-// read with 16 probes in each of two levels.
+// The floors, in cycles of one core per unit. The first two are computed. Set-up writes 192 bytes
+// for a triangle (a DipTriangle of 96 bytes and planes of 96 bytes), 32 bytes in a cycle. A tile
+// reads 96 bytes for a triangle, 64 bytes in a cycle. The others were measured with loops that were
+// written by hand for the same work, on an Intel Xeon with AVX-512 and with all data in the
+// first-level cache (docs/performance.md, Kernels). A sub-block's floor is 16 times that of a
+// pixel, for 1, 2, 4 and 8 samples. A fragment's floor is a trilinear read. A probe's floor is the
+// sixteenth part of a read with 16 probes in each of two levels.
 #define DIP_BENCH_FLOOR_TRIANGLE      6.0
 #define DIP_BENCH_FLOOR_TILE_TRIANGLE 1.5
 #define DIP_BENCH_FLOOR_SUB_BLOCK_1   (16 * 0.6)

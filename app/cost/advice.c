@@ -1,6 +1,6 @@
-// Makes the advice for each time budget surer (app/report/choice.h). Some combinations would be
-// better than the advised one, if they fit the budget. They are timed again until it is clear
-// whether they fit, but at most MOST_RACES times.
+// Checks the advice for each time budget (app/report/choice.h). Times those combinations again that
+// would be better than the advised one, but of which it is unclear whether they fit the budget.
+// Stops when this is clear for all, or after MOST_RACES times.
 #include "app/cost/steps.h"
 
 #include "app/cli/progress.h"

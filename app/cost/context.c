@@ -23,8 +23,8 @@ static bool prepare_textures(const DipCostContext *cost, DipError *err) {
            dip_scene_compress_textures(cost->session->scene, cost->session->pool, err);
 }
 
-// Opens the gallery if the session shows it. Otherwise, if there are truths (converged pictures),
-// opens the reference renderer, which draws the truths of models.
+// Opens the gallery if the session shows it. Otherwise, if `judges` is true, opens the reference
+// renderer, which draws the truths (converged pictures) of models.
 static bool open_source(DipCostContext *cost, bool judges, DipError *err) {
     const DipSession *session = cost->session;
     if (session->shows_gallery) {
@@ -83,21 +83,48 @@ static bool draw(DipCostContext *cost, const DipQuality *quality, int path, int6
            dip_painter_draw(renderer, cost->session->scene, &pose, time_ns, frame, err);
 }
 
+// Lets the history of a renderer begin anew. Returns whether the settings have one.
+static bool cut_history(const DipCostContext *cost, const DipQuality *quality) {
+    dip_painter_cut(cost->renderers[quality->step[DIP_SETTING_GI] != 0]);
+    return dip_quality_has_history(quality) && !cost->gallery;
+}
+
+// With a history, draws the frame before, so that the frame blends with it.
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err) {
-    const int64_t time_ns = dip_cost_path_duration_ns(cost->report, cost->session, path) /
-                            dip_cost_frame_count(cost->report) * index;
-    return draw(cost, quality, path, time_ns, index, frame, err);
+    const int64_t step_ns = dip_cost_path_duration_ns(cost->report, cost->session, path) /
+                            dip_cost_frame_count(cost->report);
+    if (cut_history(cost, quality) && index > 0 &&
+        !draw(cost, quality, path, step_ns * (index - 1), index - 1, frame, err)) {
+        return false;
+    }
+    return draw(cost, quality, path, step_ns * index, index, frame, err);
+}
+
+// Draws frame `index` of a burst. With a history, first draws the frames that led to the first one.
+static bool draw_burst_frame(DipCostContext *cost, const DipCostRow *row, int viewpoint, int index,
+                             DipFrame *frame, DipError *err) {
+    int first = index;
+    if (index == 0 && cut_history(cost, &row->quality)) {
+        first = -DIP_FRAMES_BEFORE;
+    }
+    for (int i = first; i <= index; i++) {
+        const int64_t time_ns =
+            dip_cost_viewpoint_time_ns(cost->report, cost->session, row->path, viewpoint, i);
+        if (time_ns >= 0 &&
+            !draw(cost, &row->quality, row->path, time_ns, i + DIP_FRAMES_BEFORE, frame, err)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int index,
                              uint8_t *rgba8, char hash[33], DipError *err) {
     const DipCostRow *drawn = &cost->report->rows[row];
     const size_t row_bytes = (size_t)cost->report->width * 4;
-    const int64_t time_ns =
-        dip_cost_viewpoint_time_ns(cost->report, cost->session, drawn->path, viewpoint, index);
     DipFrame frame;
-    if (!draw(cost, &drawn->quality, drawn->path, time_ns, index, &frame, err)) {
+    if (!draw_burst_frame(cost, drawn, viewpoint, index, &frame, err)) {
         return false;
     }
     for (int y = 0; y < frame.height; y++) {

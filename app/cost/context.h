@@ -47,8 +47,8 @@ bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int pa
 bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int index,
                              uint8_t *rgba8, char hash[33], DipError *err);
 
-// Returns the source of the pictures in the page, which draws them in the context. Borrows the
-// context.
+// Returns the source of the HTML page's pictures (report_pictures.h). The source borrows the
+// context and draws with its renderers.
 DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost);
 
 // Gets the truth of one frame of the burst at a viewpoint of a path. `progress` may be NULL; the

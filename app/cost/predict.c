@@ -53,12 +53,12 @@ static const double *find(const void *context, const DipQuality *quality) {
 
 // True if the combination's counters are composed from those of other combinations instead of
 // counted: if there are many combinations, and this one has neither the baseline's antialiasing nor
-// the baseline's filtering. The others may be missing from the list, because combinations with the
-// same pictures are listed once; then the combination is drawn.
+// the baseline's filtering. False if one of those other combinations is missing from the list,
+// because combinations with the same pictures are listed only once.
 static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
     const DipQuality *baseline = &report->options.baseline;
     const unsigned settings = dip_cost_sampling_settings();
-    double composed[DIP_COST_COUNTER_COUNT]; // only whether it can be composed matters here
+    double composed[DIP_COST_COUNTER_COUNT]; // Not used; only the result of composing matters.
     const DipQuality sampling = dip_cost_take_settings(&combination->quality, baseline, ~settings);
     const DipQuality filtering = dip_cost_take_settings(&combination->quality, baseline, settings);
     return report->predicted.count > DIP_COST_MOST_COUNTED &&

@@ -99,7 +99,7 @@ static void hash_rig(const DipMotionRig *rig, DipHash *hash) {
     }
 }
 
-// A scene without motion has the hash that it had before motions existed.
+// Adds nothing for a scene without motion, so that its hash is the same as in older reports.
 static void hash_motion(const DipMotionDef *motion, DipHash *hash) {
     for (int r = 0; motion && r < motion->rig_count; r++) {
         hash_rig(&motion->rigs[r], hash);
@@ -141,6 +141,15 @@ static void hash_sky(const DipSkyDef *sky, DipHash *hash) {
     dip_hash_bytes(hash, sky->tint_lin, sizeof sky->tint_lin);
 }
 
+// A scene without an environment has the hash that it had before environments existed.
+static void hash_environment(const DipEnvironmentDef *environment, DipHash *hash) {
+    if (environment) {
+        const size_t texels = (size_t)environment->width * (size_t)environment->height;
+        dip_hash_integer(hash, environment->width);
+        dip_hash_bytes(hash, environment->rgb_lin, 3 * texels * sizeof(float));
+    }
+}
+
 static void hash_reflection(const DipReflectionDef *reflection, DipHash *hash) {
     dip_hash_integer(hash, reflection->width);
     dip_hash_integer(hash, reflection->height);
@@ -156,6 +165,7 @@ void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflect
     hash_objects(def, &hash);
     hash_motion(def->motion, &hash);
     hash_sky(&def->sky, &hash);
+    hash_environment(def->environment, &hash);
     hash_reflection(reflection, &hash);
     dip_hash_hex(&hash, hex);
 }

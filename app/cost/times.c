@@ -200,10 +200,11 @@ static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     return true;
 }
 
+// Which process draws the frames, and where the times go.
 typedef enum Where {
-    KEPT,     // The report's processes draw; the journal and the report's log keep the times.
-    HERE,     // The report's processes draw; only the report's log keeps the times.
-    ELSEWHERE // This process draws; t->fit gets the times.
+    KEPT,     // The processes of --starts draw. The journal and the report's log get the times.
+    HERE,     // The processes of --starts draw. Only the report's log gets the times.
+    ELSEWHERE // This process draws. t->fit gets the times.
 } Where;
 
 // Times the subjects and counts their work.

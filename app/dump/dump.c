@@ -49,12 +49,38 @@ static bool write_pane(const DipSession *session, const DipDumpOptions *options,
     return !options->out || write_picture(session, options->out, drawn, pane, err);
 }
 
+// Returns how many frames are drawn before a frame. A history depends on the frames that led to it;
+// it begins anew for each frame, so that a frame is the same picture alone and after others.
+static int frames_before(const DipSession *session, int index) {
+    bool has_history = false;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipQuality quality = dip_painter_quality(session->renderers[p]);
+        has_history = has_history || dip_quality_has_history(&quality);
+    }
+    const int most = has_history && session->scene ? DIP_FRAMES_BEFORE : 0;
+    return index < most ? index : most;
+}
+
+static bool draw_frame(DipSession *session, const DipDumpOptions *options, DipDrawnFrame *drawn,
+                       DipError *err) {
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        dip_painter_cut(session->renderers[p]);
+    }
+    for (int i = drawn->index - frames_before(session, drawn->index); i <= drawn->index; i++) {
+        drawn->time_ns = dip_dump_time_ns(options, i);
+        if (!dip_session_draw(session, drawn->time_ns, (uint64_t)i, &drawn->pose, &drawn->frame,
+                              err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool dump_frame(DipSession *session, const DipDumpOptions *options, int index,
                        const Outputs *outputs, DipError *err) {
-    DipDrawnFrame drawn = {.index = index, .time_ns = dip_dump_time_ns(options, index)};
+    DipDrawnFrame drawn = {.index = index};
     session->shares_shading = options->share_shading;
-    if (!dip_session_draw(session, drawn.time_ns, (uint64_t)index, &drawn.pose, &drawn.frame,
-                          err)) {
+    if (!draw_frame(session, options, &drawn, err)) {
         return false;
     }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -193,7 +219,9 @@ const DipCommand dip_dump_command = {
             "The PNG files tell how they were made: they have texts with the program's version, "
             "scene, path, time, pose, settings, size and hash.\n\n"
             "A frame with the same settings is the same picture on every machine, with every "
-            "instruction set and any number of threads.",
+            "instruction set and any number of threads. With taa=history, the picture of a frame "
+            "depends on the frames before it: dump draws the 16 frames before each frame, or as "
+            "many as there are, so that a frame is the same picture alone and after others.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),
     .lists_settings = true,

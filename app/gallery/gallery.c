@@ -343,6 +343,7 @@ static void fill_frame(const DipGalleryPane *pane, const DipPipelineCounters *co
 #define SET_EFFECT(name, title) frame->effects.name = none;
     DIP_EFFECT_LIST(SET_EFFECT)
 #undef SET_EFFECT
+    frame->effects.history = (DipEffect){false, "gallery scenes have cameras of their own"};
     frame->effects.post = pane->quality.step[DIP_SETTING_POST]
                               ? (DipEffect){true, "the finished picture is searched for edges"}
                               : (DipEffect){false, "post is off"};
@@ -363,6 +364,9 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
     DipStageTimes times = {0};
     DipQuality quality = pane->quality;
     quality.step[DIP_SETTING_SCALE] = DIP_SCALE_1; // A gallery scene is drawn at its own size.
+    if (dip_quality_has_history(&quality)) {
+        quality.step[DIP_SETTING_TAA] = DIP_TAA_OFF; // Its cameras are its own.
+    }
     const DipFinishSize size = dip_finish_size(&quality, pane->target.width, pane->target.height);
     if (!check_pose(pose, err) || !open_scene(gallery, index, err) ||
         !dip_finish_follow(pane->finish, &quality, &size, err)) {
@@ -378,7 +382,7 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
         .turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS,
         .look = (gallery->look % looks + looks) % looks,
         .quality = &quality,
-        .pattern = dip_pattern_kind(quality.step[DIP_SETTING_TAA] != 0, pane->frame_index),
+        .pattern = dip_pattern_kind(dip_quality_alternates(&quality), pane->frame_index),
         .target = pane->target,
         .pipeline = pane->pipeline,
         .filter = filter_of(&quality),
@@ -390,6 +394,6 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
         return false;
     }
     fill_frame(pane, &counters, &times, frame);
-    dip_finish_frame(pane->finish, frame);
+    dip_finish_frame(pane->finish, NULL, frame);
     return true;
 }

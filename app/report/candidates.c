@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The least standard error of a time's logarithm. Two runs on a quiet machine differ by as much.
+// Standard error of a time's logarithm between two runs on a quiet machine. It is added to the
+// error of every time.
 static const double least_error = 0.002;
 
 // Returns a row's time of this kind. Its error leaves out time->level_error, which all rows share.

@@ -23,8 +23,9 @@ extern const char *const dip_time_kind_names[DIP_TIME_KIND_COUNT]; // "p95", "me
 typedef struct DipCandidate {
     DipQuality quality;
     DipEstimate time;    // Milliseconds per frame.
-    double common_error; // Standard error of the time's logarithm that all candidates share.
-    double loss;         // FLIP for ranking: at least the FLIP that the noise of the truth makes.
+    double common_error; // Standard error of the time's logarithm, shared by all candidates.
+    double loss;         // FLIP for ranking: at least the FLIP that the noise of the converged
+                         // picture makes.
     double flip;         // FLIP as it was measured.
     int row;             // Index by which the caller finds the combination again.
     int report;          // With several reports, index of the one that the time comes from.
@@ -41,7 +42,7 @@ typedef struct DipCandidates {
 // difference is not worth time.
 #define DIP_CLEARLY_BETTER 0.01
 
-// A candidate is advised if it keeps within the budget with this probability.
+// A candidate surely fits a budget if its time is within it with at least this probability.
 #define DIP_SURELY_FITS 0.95
 
 // Returns the probability that a candidate's time is within the budget; NAN if the error of its

@@ -87,26 +87,30 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
 
 double dip_cost_pixels_filtered(const DipQuality *quality) {
     const double scale = dip_quality_scale(quality);
-    // Antialiasing filters the picture that is drawn, before it is enlarged.
+    // A history and antialiasing filter the picture that is drawn, before it is enlarged.
     const double drawn = fmin(1.0, scale * scale);
-    return (quality->step[DIP_SETTING_POST] ? drawn : 0.0) +
+    return (dip_quality_has_history(quality) ? drawn : 0.0) +
+           (quality->step[DIP_SETTING_POST] ? drawn : 0.0) +
            (dip_quality_upscales(quality) ? 1.0 : 0.0) +
            (quality->step[DIP_SETTING_SHARPEN] ? 1.0 : 0.0);
 }
 
 // Multiplies each counter by the ratio of a combination's counter (`of`) to the base's counter.
 // Where the base's counter is 0, there is no ratio, and the combination's own counter is taken.
-// Filters of the finished picture are applied one after the other, so their pixels add up. Returns
-// false if the combination was not counted.
+// Returns false if the combination was not counted.
 static bool apply(const double *of, const double *base, double *counters) {
     for (int c = 0; of && c < DIP_COST_COUNTER_COUNT; c++) {
-        if (c == DIP_COST_COUNTER_pixels_filtered) {
-            counters[c] += of[c] - base[c];
-            continue;
-        }
         counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);
     }
     return of != NULL;
+}
+
+// Returns the pixels of a frame that follow from a combination's counters; 0 if it filters none or
+// was not counted. Filters of the finished picture are applied one after the other to pictures of
+// known sizes, so their pixels need not be composed.
+static double pixels_of_frame(const double *of, const DipQuality *quality) {
+    const double filtered = dip_cost_pixels_filtered(quality);
+    return of && filtered > 0.0 ? of[DIP_COST_COUNTER_pixels_filtered] / filtered : 0.0;
 }
 
 // Adds the work of shadows. The shadow map is drawn by itself, so its work does not depend on the
@@ -131,20 +135,20 @@ static bool compose_without_shadows(DipWorkFind *find, const void *context, cons
         return false;
     }
     const double *of_filtering = find(context, &filtering);
-    if (of_filtering) {
-        return apply(of_filtering, of_base, counters);
-    }
+    double pixels =
+        fmax(pixels_of_frame(of_base, base), pixels_of_frame(find(context, &sampling), &sampling));
     bool known = true;
-    double filtered = dip_cost_pixels_filtered(base);
-    for (int g = 1; known && g < GROUPS; g++) {
+    if (of_filtering) {
+        pixels = fmax(pixels, pixels_of_frame(of_filtering, &filtering));
+        known = apply(of_filtering, of_base, counters);
+    }
+    for (int g = 1; !of_filtering && known && g < GROUPS; g++) {
         const DipQuality alone = dip_cost_take_settings(base, quality, groups[g]);
-        filtered += dip_cost_pixels_filtered(&alone) - dip_cost_pixels_filtered(base);
-        known = apply(find(context, &alone), of_base, counters);
+        const double *of_alone = find(context, &alone);
+        pixels = fmax(pixels, pixels_of_frame(of_alone, &alone));
+        known = apply(of_alone, of_base, counters);
     }
-    // Post-process AA, counted at the base's scale, has fewer pixels to filter at a scale below 1.
-    if (filtered > 0.0) {
-        counters[DIP_COST_COUNTER_pixels_filtered] *= dip_cost_pixels_filtered(quality) / filtered;
-    }
+    counters[DIP_COST_COUNTER_pixels_filtered] = pixels * dip_cost_pixels_filtered(quality);
     return known;
 }
 

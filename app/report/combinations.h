@@ -28,8 +28,8 @@ enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE 
 // (antialiasing, temporal AA, adaptive AA and its groups), anisotropic filtering with advanced AF,
 // texture optimisation, mip detail, render scale with its upscaling filter, filters of the finished
 // picture, and instancing. A composed counter is the base combination's counter, times the factors
-// by which each group alone changes it; pixels that filters write are added instead, and so is the
-// work of shadows.
+// by which each group alone changes it. The pixels that filters write follow from the settings
+// instead, and the work of shadows is added.
 
 // Returns how many pixels all filters of the finished picture write, per pixel of the frame.
 double dip_cost_pixels_filtered(const DipQuality *quality);
@@ -42,11 +42,10 @@ unsigned dip_cost_sampling_settings(void);
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
-// Composes the counters of a combination. All groups but the settings of samples and shadows are
-// taken together if the base with only their settings was counted; otherwise each group is taken
-// alone. Returns
-// false if a combination that is needed was not counted, or if the combination differs from the
-// base in a setting that belongs to no group.
+// Composes the counters of a combination. Samples and shadows always count as groups of their own.
+// All other groups count as one group if the base with the settings of all of them was counted;
+// otherwise each counts alone. Returns false if a combination that is needed was not counted, or if
+// the combination differs from the base in a setting that belongs to no group.
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
                       const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]);
 

@@ -24,7 +24,7 @@
 enum {
     DIP_COST_PART_FLIP = DIP_COST_STAGE_COUNT,
     DIP_COST_PART_COUNT,
-    DIP_COST_MAX_TERMS = 49 // Greatest number of terms of one part.
+    DIP_COST_MAX_TERMS = 52 // Greatest number of terms of one part.
 };
 
 int dip_cost_term_count(int part);
@@ -80,7 +80,7 @@ DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, DipCostM
 // --- the fit of a whole report -------------------------------------------------------------------
 
 // DipCostFit is the model of the times of all rows of a report, as the report shows it.
-enum { DIP_COST_FIT_MAX_TERMS = DIP_COST_STAGE_COUNT * DIP_COST_MAX_TERMS };
+enum { DIP_COST_FIT_MAX_TERMS = (int)DIP_COST_STAGE_COUNT * (int)DIP_COST_MAX_TERMS };
 
 typedef struct DipCostFit {
     const char *stages[DIP_COST_FIT_MAX_TERMS]; // The stage of each term.

@@ -199,7 +199,8 @@ typedef struct DipCostReport {
     int refused_count;
     int rounds;               // Number of rounds timed; 0 if the report has no times.
     DipDriverMachine machine; // What the timing tells about the machine.
-    DipTimed *log; // Every timed frame; its `subject` is a row. Owned; NULL without times.
+    DipTimed *log; // Every timed frame; its `subject` is the index of its row. Owned; NULL without
+                   // times.
     int log_count;
     int starts;             // Number of processes that timed frames, each for rounds / starts
                             // rounds.

@@ -15,7 +15,7 @@ enum {
     DIP_COST_MAX_BUDGETS = 64
 };
 
-// The pictures in the page.
+// Which pictures the HTML page has.
 typedef enum DipCostPictureKind {
     DIP_COST_PICTURES_CROPS, // The part of each picture in which the rows differ most.
     DIP_COST_PICTURES_FULL,  // Whole frames, as many as fit, otherwise crops.
@@ -50,7 +50,7 @@ typedef struct DipCostOptions {
     DipTimeKind budget_of;
     bool require_quiet;          // Fail if the machine was too busy for the times to be believed.
     const char *cache;           // Folder of the cached truths; NULL for the user's cache folder.
-    DipCostPictureKind pictures; // The pictures in the page.
+    DipCostPictureKind pictures; // Which pictures the HTML page has.
     const char *truths;          // Folder to write the truths to, as PFM; NULL to write none.
 } DipCostOptions;
 

@@ -55,7 +55,8 @@ static void renumber(DipCostReport *report, const int *stands, const int *now) {
 bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
     const int first = report->combined_first;
     const int count = report->row_count - first;
-    int *stands = malloc(((size_t)count + 1) * sizeof *stands); // As in renumber.
+    // renumber explains the two arrays.
+    int *stands = malloc(((size_t)count + 1) * sizeof *stands);
     int *now = malloc(((size_t)count + 1) * sizeof *now);
     free(report->same);
     report->same = calloc((size_t)count + 1, sizeof *report->same);

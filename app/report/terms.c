@@ -30,7 +30,8 @@ typedef struct Work {
     double drawn_part;  // Pixels that are drawn per pixel of a frame, if scale is below 1; else 1.
     double enlarged[3]; // 1 with a scale below 1 and upscale=bilinear (the first value), =bicubic
                         // (the second) and =easu (the third).
-    double temporal;    // 1 with temporal AA.
+    double temporal;    // 1 with taa=alternate.
+    double history;     // 1 with taa=history.
     double coloured;    // 1 if mip levels are shown as colours.
     double fxaa;        // 1 with post=fxaa.
     double smaa;        // 1 with post=smaa.
@@ -106,6 +107,7 @@ typedef struct Work {
     X("frame", 1.0)                                                                                \
     X("pass", C(passes))                                                                           \
     X("tile", C(tiles_drawn))                                                                      \
+    X("pixel of a history", C(pixels_filtered) / w->filters * w->drawn_part * w->history)          \
     X("pixel filtered by FXAA", C(pixels_filtered) / w->filters * w->drawn_part * w->fxaa)         \
     X("pixel filtered by SMAA", C(pixels_filtered) / w->filters * w->drawn_part * w->smaa)         \
     X("pixel enlarged, bilinear", C(pixels_filtered) / w->filters * w->enlarged[0])                \
@@ -146,6 +148,9 @@ typedef struct Work {
     X("scale below 1, bicubic", w->enlarged[1] * (1.0 / w->scale - 1.0))                           \
     X("scale below 1, EASU", w->enlarged[2] * (1.0 / w->scale - 1.0))                              \
     X("temporal AA", w->temporal)                                                                  \
+    X("taa=history", w->history)                                                                   \
+    X("taa=history, several samples", w->history * w->several)                                     \
+    X("taa=history, per probe", w->history / w->probes)                                            \
     X("post=fxaa", w->fxaa)                                                                        \
     X("post=smaa", w->smaa)                                                                        \
     X("post=fxaa, several samples", w->fxaa * w->several)                                          \
@@ -236,7 +241,8 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .enlarged = {enlarges && upscale == DIP_UPSCALE_BILINEAR,
                      enlarges && upscale == DIP_UPSCALE_BICUBIC,
                      enlarges && upscale == DIP_UPSCALE_EASU},
-        .temporal = quality->step[DIP_SETTING_TAA] != 0,
+        .temporal = dip_quality_alternates(quality),
+        .history = dip_quality_has_history(quality),
         .coloured = quality->step[DIP_SETTING_MIPDEBUG] != 0,
         .fxaa = post == DIP_POST_STEP_FXAA,
         .smaa = post == DIP_POST_STEP_SMAA,

@@ -45,7 +45,7 @@ static DipSurface surface_of(const DipSceneDef *def, const DipObjectDef *object)
     return def->materials[def->meshes[object->mesh].material].surface;
 }
 
-// Calls a function for each triangle of the scene that is not sky.
+// A function that is called for each triangle of the scene that is not sky.
 typedef void (*Visit)(void *context, const Point corners[3]);
 
 static void visit_triangles(const DipSceneDef *def, Visit visit, void *context) {
@@ -98,12 +98,13 @@ static void extend(void *context, const Point corners[3]) {
     }
 }
 
-// A scene in which a moving mesh is the corners of its box, so that only objects move.
+// A copy of a scene in which the corners of a box stand for each moving mesh. The box holds the
+// mesh at all moments, so only objects move in the copy.
 typedef struct BoxedScene {
     DipSceneDef def;
     DipMotionDef motion;
     DipMeshDef *meshes;
-    float (*corners)[24]; // Those of all moving meshes.
+    float (*corners)[24]; // [moving mesh]: the eight corners of its box.
 } BoxedScene;
 
 static void box_mesh(const DipMovingMesh *moving, float corners[24], DipMeshDef *mesh) {
@@ -264,7 +265,7 @@ static double height_of(const DipExtent *extent) {
     return extent->high[1] - extent->low[1];
 }
 
-// The size by which lengths on the ground are measured.
+// Returns the size of the model. Lengths on the ground are multiples of it.
 static double size_of(const DipExtent *extent) {
     return fmax(width_of(extent), 0.7 * height_of(extent));
 }
@@ -300,7 +301,8 @@ bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent) {
             return false;
         }
     }
-    // A flat scene is a ground. A scene far from the origin leaves no room for the gap below it.
+    // A flat scene is a ground itself. Far from the origin, floats are too coarse for the gap
+    // between the scene and the ground.
     const double size = size_of(extent);
     const double far = fmax(fabs(extent->low[1]), fabs(extent->high[1]));
     return width_of(extent) > 0.0 && height_of(extent) > 0.05 * width_of(extent) &&
@@ -339,7 +341,8 @@ static void blur(float *values, float *scratch, int reach) {
     }
 }
 
-// 1 in the middle of the ground, falling to 0 before its border, so that the border is not seen.
+// Returns 1 in the middle of the ground, falling to 0 before its border, so that the border is not
+// seen.
 static double fading(int column, int row) {
     const double x = (column + 0.5) / GRID * 2.0 - 1.0;
     const double z = (row + 0.5) / GRID * 2.0 - 1.0;
@@ -395,7 +398,8 @@ static void *longer(const void *items, int count, size_t item_bytes) {
 
 static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
 
-// Fills in the last texture, material, mesh and object.
+// Appends the ground's texture, material, mesh and object to the arrays of the scene, which have
+// room for one more item.
 static void add_square(DipGround *ground, const Grid *grid, double level) {
     DipSceneDef *def = &ground->def;
     const double size = grid->cell * GRID;

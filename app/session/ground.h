@@ -1,5 +1,6 @@
-// A ground for models that stand in empty space: a plain square below the model, in the colour of
-// the background, with the soft shade that the model would leave where it touches the ground.
+// Adds a ground to models that stand in empty space. It is a plain square below the model, in the
+// colour of the background, with the soft shade that the model would leave where it touches the
+// ground.
 #ifndef DIP_APP_SESSION_GROUND_H
 #define DIP_APP_SESSION_GROUND_H
 
@@ -8,7 +9,8 @@
 
 #include <stdbool.h>
 
-// The extent of a scene's objects that are not sky, over all clips that play.
+// The extent of a scene's objects that are not sky, over all moments of the clips (animations) that
+// play.
 typedef struct DipExtent {
     double low[3]; // All 0 if the scene has no such object with a triangle.
     double high[3];
@@ -18,7 +20,8 @@ DipExtent dip_extent_of(const DipSceneDef *def);
 
 // The silhouette of a scene as an orbit about the middle of its extent sees it: the height is
 // divided into slices, and each slice has the greatest distance of its vertices from the vertical
-// axis through the middle, or -1 if it has no vertex. Where clips play, it is that of all moments.
+// axis through the middle, or -1 if it has no vertex. If clips play, it is the greatest distance at
+// any moment.
 enum { DIP_SILHOUETTE_SLICES = 64 };
 typedef struct DipSilhouette {
     double radius[DIP_SILHOUETTE_SLICES]; // From the lowest slice to the highest.
@@ -39,9 +42,8 @@ typedef struct DipGround {
     float uv[4][2];
 } DipGround;
 
-// Adds a ground to a scene. Its shade is that of the clips' start. Returns NULL and fills *err with
-// DIP_ERROR_MEMORY when memory runs out.
-// The scene must outlive the ground.
+// Adds a ground to a scene. The shade is that of the scene at the start of its clips. Returns NULL
+// and fills *err with DIP_ERROR_MEMORY when memory runs out. The scene must outlive the ground.
 DipGround *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err);
 // *ground may be NULL and becomes NULL.
 void dip_ground_destroy(DipGround **ground);

@@ -59,6 +59,12 @@ void dip_painter_set_frame_index(DipPainter *painter, uint64_t frame_index) {
     }
 }
 
+void dip_painter_cut(DipPainter *painter) {
+    if (painter->renderer) {
+        dip_renderer_cut(painter->renderer);
+    }
+}
+
 void dip_painter_copy_shading(DipPainter *painter, bool on) {
     if (painter->renderer) {
         dip_renderer_copy_shading(painter->renderer, on);

@@ -21,6 +21,8 @@ bool dip_painter_set_quality(DipPainter *painter, const DipQuality *quality, Dip
 bool dip_painter_resize(DipPainter *painter, int width, int height, DipError *err);
 DipQuality dip_painter_quality(const DipPainter *painter);
 void dip_painter_set_frame_index(DipPainter *painter, uint64_t frame_index);
+// Panes of the gallery have no history.
+void dip_painter_cut(DipPainter *painter);
 // Panes of the gallery copy nothing.
 void dip_painter_copy_shading(DipPainter *painter, bool on);
 

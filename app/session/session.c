@@ -285,6 +285,7 @@ void dip_session_close(DipSession *session) {
     dip_scene_destroy(&session->scene);
     dip_ground_destroy(&session->ground);
     dip_model_destroy(&session->model);
+    free(session->environment);
     dip_pool_destroy(&session->pool);
     dip_config_free(&session->config);
     *session = (DipSession){.isa = DIP_ISA_SCALAR};

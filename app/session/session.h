@@ -94,10 +94,11 @@ typedef struct DipSession {
     // --model is given or if the ini has no level.
     DipReflectionDef reflection;
     bool force_all_effects;
-    DipModel *model;       // NULL unless the session keeps it for the reference renderer.
-    DipGround *ground;     // The ground below that model; NULL if it has none.
+    DipModel *model;                // NULL unless the session keeps it for the reference renderer.
+    DipGround *ground;              // The ground below that model; NULL if it has none.
+    DipEnvironmentDef *environment; // What the models reflect, from the ini; NULL if it has none.
     DipSceneDef scene_def; // The model's scene with its background and sky, and with the ground.
-                           // Points into `model` and `ground`.
+                           // Points into `model`, `ground` and `environment`.
     DipSessionAnimations animations;
     // The extent and the silhouette of the models, without the ground. The silhouette is known only
     // if the camera orbits the models.

@@ -30,9 +30,9 @@ typedef struct DipSessionOptions {
     int look;                // Variant of the gallery's scene, counted from 0.
     // Scene of the gallery to show, "tour", a shipped scene, or "models" for the ini's models.
     const char *scene;
-    const char *animation; // Animation of the models that plays, or "none"; NULL: the first one.
+    const char *animation; // Animation of the models that plays, or "none". NULL plays the first.
     bool has_animation_time;
-    double animation_time_s; // Where the animation stands still.
+    double animation_time_s; // Time of the animation at which the models stand still.
     int import_seconds;      // Most seconds that importing the models may take; 0 for the default.
     bool force_all_effects;
     const char *path;     // File of a camera path that replaces the ini's.

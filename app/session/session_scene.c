@@ -2,6 +2,7 @@
 #include "app/session/session_private.h"
 
 #include "assets/model.h"
+#include "assets/picture.h"
 #include "renderer/base/srgb.h"
 
 #include <stdlib.h>
@@ -47,9 +48,10 @@ static bool has_sky(const DipSceneDef *def) {
 // and bright models stand out. It is the colour of their ground, too.
 static const DipConfigColor plain_background = {{172, 174, 178}};
 
-// Sets the background, the sky and the near plane. For the ini's models, all three come from the
-// ini. A model given with --model keeps its own near plane. If such a model has a sky, the colour
-// of the sky's horizon becomes the background, so that gaps beside the sky do not show.
+// Sets the background, the sky, the environment and the near plane. For the ini's models, all four
+// come from the ini. A model given with --model keeps its own near plane. If such a model has a
+// sky, the colour of the sky's horizon becomes the background, so that gaps beside the sky do not
+// show.
 static void set_surroundings(const DipSession *session, DipSceneDef *def) {
     if (session->options->model_count) {
         if (has_sky(def)) {
@@ -59,6 +61,7 @@ static void set_surroundings(const DipSession *session, DipSceneDef *def) {
         }
         return;
     }
+    def->environment = session->environment;
     set_colour(&session->config.background, 1.0, def->background_lin);
     def->near_m = (float)session->config.near_m;
     def->sky = sky_of(&session->config);
@@ -138,8 +141,8 @@ static void set_light(const DipSession *session, float ambient_lin[3], DipModelO
     }
 }
 
-// Returns the animation that shall play, or NULL for the first one of each model. The ini's choice
-// is about the ini's models.
+// Returns the animation that shall play, or NULL for the first one of each model. The ini chooses
+// the animation of its own models only, not of those that --model names.
 static const char *chosen_animation(const DipSession *session) {
     const char *of_ini = session->options->model_count ? "" : session->config.animation.text;
     return session->options->animation ? session->options->animation : of_ini[0] ? of_ini : NULL;
@@ -192,6 +195,18 @@ int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX
         files[i] = options->model_count ? options->models[i] : named->items[i].path;
     }
     return count;
+}
+
+// Reads the environment of the ini's models. If it cannot be read, the error has the line of the
+// ini that names it.
+static bool load_environment(DipSession *session, DipErrorList *faults) {
+    const DipConfigFile *file = &session->config.environment;
+    if (!file->path || session->options->model_count || session->environment) {
+        return true;
+    }
+    DipError err;
+    session->environment = dip_environment_read_file(file->path, &err);
+    return session->environment || dip_session_place_fault(session, file, faults, &err);
 }
 
 static DipModel *load_model(const DipSession *session, DipErrorList *faults, DipSceneDef *def,
@@ -266,6 +281,9 @@ bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *
     DipError err = {0};
     DipSceneDef def;
     DipGround *ground = NULL;
+    if (!load_environment(session, faults)) {
+        return false;
+    }
     DipModel *model = load_model(session, faults, &def, &err);
     if (model) {
         session->extent = dip_extent_of(&def);

@@ -62,8 +62,6 @@ static void *stb_copy(void *to, const void *from, size_t size_bytes) {
 #endif
 #undef memcpy
 
-static const size_t max_file_bytes = (size_t)512 << 20;
-
 // stb_image reads zeros beyond the end of TGA, BMP and JPEG data, so passed_end records whether
 // stb_image has read past the end.
 typedef struct Source {
@@ -231,7 +229,7 @@ bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err)
     *picture = (DipPicture){0};
     size_t size_bytes = 0;
     uint8_t *bytes;
-    if (!dip_file_read(path, "picture", max_file_bytes, &bytes, &size_bytes, err)) {
+    if (!dip_file_read(path, "picture", DIP_MAX_PICTURE_BYTES, &bytes, &size_bytes, err)) {
         return false;
     }
     const bool ok = dip_picture_decode(bytes, size_bytes, path, picture, err);

@@ -1,7 +1,10 @@
-// Reads Radiance HDR files (RGBE) and maps them to 8 bits: linear light above 1 becomes 1, and the
-// result is the nearest sRGB code. The file's exposure is ignored.
+// Reads Radiance HDR files (RGBE). A picture maps them to 8 bits: linear light above 1 becomes 1,
+// and the result is the nearest sRGB code. An environment keeps the light. The file's exposure is
+// ignored.
 #include "assets/picture/picture_private.h"
 
+#include "renderer/base/file.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/srgb.h"
 
 #include <math.h>
@@ -86,9 +89,13 @@ static bool read_header(Hdr *hdr) {
 
 // --- pixels --------------------------------------------------------------------------------------
 
+static double light_of(int mantissa, int exponent) {
+    return exponent ? ldexp(mantissa, exponent - 136) : 0.0;
+}
+
 // Returns the number of thresholds up to the value.
 static uint8_t code_of(const Hdr *hdr, int mantissa, int exponent) {
-    const double light = exponent ? ldexp(mantissa, exponent - 136) : 0.0;
+    const double light = light_of(mantissa, exponent);
     int low = 0;
     int high = 255;
     while (low < high) {
@@ -166,21 +173,39 @@ static bool read_flat(Hdr *hdr, uint8_t *line) {
     return true;
 }
 
-static bool read_lines(Hdr *hdr, uint8_t *line, DipPicture *picture) {
-    for (int y = 0; y < hdr->height; ++y) {
-        if (!(has_runs(hdr) ? read_runs(hdr, line) : read_flat(hdr, line))) {
-            return false;
+// Stores a line of pixels: three mantissas and an exponent each.
+typedef void StoreLine(const Hdr *hdr, const uint8_t *line, int y, void *to);
+
+static void store_codes(const Hdr *hdr, const uint8_t *line, int y, void *picture) {
+    uint8_t *to = ((DipPicture *)picture)->rgba8 + 4 * (size_t)y * (size_t)hdr->width;
+    for (int x = 0; x < hdr->width; ++x, to += 4) {
+        const uint8_t *from = line + 4 * (size_t)x;
+        for (int k = 0; k < 3; ++k) {
+            to[k] = code_of(hdr, from[k], from[3]);
         }
-        uint8_t *to = picture->rgba8 + 4 * (size_t)y * (size_t)hdr->width;
-        for (int x = 0; x < hdr->width; ++x, to += 4) {
-            const uint8_t *from = line + 4 * (size_t)x;
-            for (int k = 0; k < 3; ++k) {
-                to[k] = code_of(hdr, from[k], from[3]);
-            }
-            to[3] = 255;
+        to[3] = 255;
+    }
+}
+
+static void store_light(const Hdr *hdr, const uint8_t *line, int y, void *rgb_lin) {
+    float *to = (float *)rgb_lin + 3 * (size_t)y * (size_t)hdr->width;
+    for (size_t i = 0; i < 3 * (size_t)hdr->width; ++i) {
+        const uint8_t *from = line + i / 3 * 4;
+        to[i] = (float)fmin(light_of(from[i % 3], from[3]), (double)DIP_MAX_ENVIRONMENT_LIN);
+    }
+}
+
+static bool read_lines(Hdr *hdr, StoreLine *store, void *to) {
+    uint8_t *line = malloc(4 * (size_t)hdr->width);
+    bool read = line || dip_picture_out_of_memory(hdr->file);
+    for (int y = 0; read && y < hdr->height; ++y) {
+        read = has_runs(hdr) ? read_runs(hdr, line) : read_flat(hdr, line);
+        if (read) {
+            store(hdr, line, y, to);
         }
     }
-    return true;
+    free(line);
+    return read;
 }
 
 // Returns the least size of the pixels, so that a short file is refused before memory is allocated
@@ -206,8 +231,61 @@ bool dip_picture_read_hdr(const PictureFile *file, DipPicture *picture) {
     for (int code = 0; code < 255; ++code) {
         hdr.light[code] = dip_srgb_decode((code + 0.5) / 255.0);
     }
-    uint8_t *line = malloc(4 * (size_t)hdr.width);
-    const bool ok = line ? read_lines(&hdr, line, picture) : dip_picture_out_of_memory(file);
-    free(line);
-    return ok;
+    return read_lines(&hdr, store_codes, picture);
+}
+
+// --- environments --------------------------------------------------------------------------------
+
+static bool check_environment(const Hdr *hdr) {
+    if (hdr->width != 2 * hdr->height || hdr->width > DIP_MAX_ENVIRONMENT_WIDTH) {
+        return dip_error_set(hdr->file->err, DIP_ERROR_RANGE, hdr->file->name, 0, NULL,
+                             "the environment has %dx%d pixels, accepted 2x1..%dx%d, twice as wide "
+                             "as high",
+                             hdr->width, hdr->height, DIP_MAX_ENVIRONMENT_WIDTH,
+                             DIP_MAX_ENVIRONMENT_WIDTH / 2);
+    }
+    return true;
+}
+
+DipEnvironmentDef *dip_environment_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
+                                          DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    const PictureFile file = {bytes, size_bytes, name, err};
+    Hdr hdr = {.file = &file};
+    if (!dip_picture_is_hdr(&file)) {
+        dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL,
+                      "the file is not a picture of the format that is accepted: Radiance HDR");
+        return NULL;
+    }
+    if (!read_header(&hdr) || !check_environment(&hdr)) {
+        return NULL;
+    }
+    if (size_bytes - hdr.at < least_bytes(&hdr)) {
+        dip_picture_truncated(&file);
+        return NULL;
+    }
+    const size_t floats = 3 * (size_t)hdr.width * (size_t)hdr.height;
+    DipEnvironmentDef *environment = malloc(sizeof *environment + floats * sizeof(float));
+    if (!environment) {
+        dip_picture_out_of_memory(&file);
+        return NULL;
+    }
+    float *rgb_lin = (float *)(environment + 1);
+    *environment = (DipEnvironmentDef){rgb_lin, hdr.width, hdr.height};
+    if (!read_lines(&hdr, store_light, rgb_lin)) {
+        free(environment);
+        return NULL;
+    }
+    return environment;
+}
+
+DipEnvironmentDef *dip_environment_read_file(const char *path, DipError *err) {
+    size_t size_bytes = 0;
+    uint8_t *bytes;
+    if (!dip_file_read(path, "picture", DIP_MAX_PICTURE_BYTES, &bytes, &size_bytes, err)) {
+        return NULL;
+    }
+    DipEnvironmentDef *environment = dip_environment_decode(bytes, size_bytes, path, err);
+    free(bytes);
+    return environment;
 }

@@ -14,6 +14,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+enum { DIP_MAX_PICTURE_BYTES = 512 << 20 }; // Greatest size of a picture file.
+
 // The bytes of a picture file while it is read.
 typedef struct PictureFile {
     const uint8_t *bytes;

@@ -165,6 +165,9 @@ typedef struct DipPass {
     // blue and 65535, in 16-bit linear light, for each pixel of the target. Rows follow each other
     // without gaps. As a readback, only for passes that do not need merging.
     uint16_t *light16;
+    // Where the pass also stores the depth of sample 0 of each pixel of the target, z / w of the
+    // nearest surface; 0 is infinitely far. Rows follow each other without gaps. NULL: nowhere.
+    float *depths;
     // Where the pass writes what its samples show, or NULL. Pixels that the pass does not draw
     // because of `region` or `tile_regions` read as background. A pass with a readback must not
     // need merging (state.h): no ordered draws, attachments, viewport or scissor, and a target of

@@ -478,7 +478,7 @@ static bool draw_picture(const DipReference *reference, const DipQuality *qualit
         .reference = reference,
         .pattern = dip_sample_pattern_of(
             dip_quality_sample_count(quality),
-            dip_pattern_kind(quality->step[DIP_SETTING_TAA] != 0, reference->frame_index)),
+            dip_pattern_kind(dip_quality_alternates(quality), reference->frame_index)),
         .groups_shade_all = dip_quality_groups_shade_all(quality),
         .covers_by_alpha = dip_quality_covers_by_alpha(quality),
         .shot = {pose, width, height, aspect, .rounded = true,

@@ -133,8 +133,9 @@ static void read_lobe(const DipRefTriangle *triangle, Lobe *lobe) {
     lobe->b = interpolate(tables->b, lobe->roughness, facing_of(lobe));
 }
 
-// The radiance that a lobe sees in a channel.
-static double reflect(const Lobe *lobe, const DipLightingDef *lighting, int c) {
+// The radiance that a lobe sees. environment: NULL for the surroundings of the lighting.
+static void reflect(const Lobe *lobe, const DipLightingDef *lighting,
+                    const DipRefEnvironment *environment, double rgb[3]) {
     const double alpha = lobe->roughness * lobe->roughness;
     const double lean = (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha);
     double towards[3];
@@ -145,7 +146,26 @@ static double reflect(const Lobe *lobe, const DipLightingDef *lighting, int c) {
     normalise(towards);
     const double blur = fmin(1.0, 1.0083 - 0.6222 * alpha + 0.2566 * alpha * alpha +
                                       0.0316 * alpha * alpha * alpha);
-    return fmax(0.0, lighting->ambient_lin[c] + 1.5 * lighting->sky_lin[c] * blur * towards[1]);
+    if (environment) {
+        dip_reference_environment_see(environment, lobe->roughness, towards, rgb);
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        rgb[c] =
+            fmax(0.0, lighting->ambient_lin[c] + 1.5 * lighting->sky_lin[c] * blur * towards[1]);
+    }
+}
+
+// The light that falls on a white matt surface from its surroundings.
+static void soften(const Lobe *lobe, const DipLightingDef *lighting,
+                   const DipRefEnvironment *environment, double rgb[3]) {
+    if (environment) {
+        dip_reference_environment_soften(environment, lobe->normal, rgb);
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = lighting->ambient_lin[c] + lighting->sky_lin[c] * lobe->normal[1];
+    }
 }
 
 // What the lobe makes of a light of strength 1, without its colour, and (1 - v.h)^5.
@@ -190,7 +210,11 @@ static const DipLightingDef *lighting_of(const DipRefTriangle *triangle) {
                                          .sky_lin = {0.15f, 0.15f, 0.15f},
                                          .lights = &sun,
                                          .light_count = 1};
-    return triangle->lit.lighting ? triangle->lit.lighting : &fixed;
+    static const DipLightingDef nothing = {.light_count = 0};
+    if (triangle->lit.lighting) {
+        return triangle->lit.lighting;
+    }
+    return triangle->environment ? &nothing : &fixed;
 }
 
 // Whether the surface is seen from the side away from its normal.
@@ -255,15 +279,16 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
     const double f90 = rest * surface->f90 + surface->metallic;
     const double kept =
         1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * grazing);
+    double seen[3];
+    double soft[3];
+    reflect(lobe, surface->lighting, surface->triangle->environment, seen);
+    soften(lobe, surface->lighting, surface->triangle->environment, soft);
     for (int c = 0; c < 3; c++) {
         const double f0 =
             rest * surface->triangle->pbr->f0_lin[c] + surface->metallic * surface->base[c];
         const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
-        const double soft =
-            surface->lighting->ambient_lin[c] + surface->lighting->sky_lin[c] * lobe->normal[1];
-        rgb[c] = surface->occlusion *
-                 ((f0 * lobe->a + f90 * lobe->b) * gain * reflect(lobe, surface->lighting, c) +
-                  kept * rest * surface->base[c] * soft);
+        rgb[c] = surface->occlusion * ((f0 * lobe->a + f90 * lobe->b) * gain * seen[c] +
+                                       kept * rest * surface->base[c] * soft[c]);
     }
     for (int l = 0; l < surface->lighting->light_count; l++) {
         add_light(surface, lobe, l, rgb);
@@ -283,9 +308,11 @@ static void add_coat(const Surface *surface, const double normal[3], const doubl
     read_lobe(surface->triangle, &lobe);
     const double gain = 1.0 + 0.04 * (1.0 / (lobe.a + lobe.b) - 1.0);
     const double below = 1.0 - pbr->coat * (0.04 + 0.96 * pow(1.0 - facing_of(&lobe), 5.0));
+    double seen[3];
+    reflect(&lobe, surface->lighting, surface->triangle->environment, seen);
     for (int c = 0; c < 3; c++) {
-        rgb[c] = rgb[c] * below + pbr->coat * gain * surface->occlusion * (0.04 * lobe.a + lobe.b) *
-                                      reflect(&lobe, surface->lighting, c);
+        rgb[c] = rgb[c] * below +
+                 pbr->coat * gain * surface->occlusion * (0.04 * lobe.a + lobe.b) * seen[c];
     }
     for (int l = 0; l < surface->lighting->light_count; l++) {
         const DipLightDef *light = &surface->lighting->lights[l];

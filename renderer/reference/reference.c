@@ -114,7 +114,11 @@ static bool load_pbr(DipReference *reference, const DipPbrDef *pbr, DipError *er
     if (!reference->pbr_tables) {
         reference->pbr_tables = dip_reference_pbr_tables_create();
     }
-    if (!reference->pbr_tables) {
+    const DipEnvironmentDef *surroundings = reference->def->environment;
+    if (surroundings && !reference->environment) {
+        reference->environment = dip_reference_environment_create(surroundings);
+    }
+    if (!reference->pbr_tables || (surroundings && !reference->environment)) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
     }
     return load_texture(reference, pbr->metal_rough_map, err) &&
@@ -212,6 +216,7 @@ void dip_reference_destroy(DipReference **reference) {
     free((*reference)->patches);
     free((*reference)->textures);
     free((*reference)->pbr_tables);
+    dip_reference_environment_destroy(&(*reference)->environment);
     dip_reference_shadows_destroy(&(*reference)->shadows);
     dip_posed_def_destroy(&(*reference)->posed);
     free(*reference);

@@ -6,6 +6,15 @@
 #include "renderer/post/post.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+// The history, which comes before the filters.
+typedef struct Past {
+    DipHistory *history; // NULL if it is off
+    DipFinishSize size;
+    float *depths;  // of the current frame
+    uint8_t *rgba8; // its picture
+} Past;
 
 // The filters in the order in which they are applied.
 enum { ANTIALIASING, UPSCALING, SHARPENING, FILTERS };
@@ -20,6 +29,7 @@ typedef struct Filter {
 struct DipFinish {
     DipPool *pool;
     DipIsa isa;
+    Past past;
     Filter filters[FILTERS];
 };
 
@@ -40,7 +50,15 @@ static void free_filter(Filter *filter) {
     *filter = (Filter){0};
 }
 
+static void free_past(Past *past) {
+    dip_history_destroy(&past->history);
+    dip_lines_free(past->depths);
+    dip_lines_free(past->rgba8);
+    *past = (Past){0};
+}
+
 static void free_filters(DipFinish *finish) {
+    free_past(&finish->past);
     for (int i = 0; i < FILTERS; i++) {
         free_filter(&finish->filters[i]);
     }
@@ -61,6 +79,8 @@ DipFinishSize dip_finish_size(const DipQuality *quality, int width, int height) 
         .drawn_height = enlarges ? dip_quality_drawn_size(quality, height) : height,
         .width = width,
         .height = height,
+        .depths_width = dip_quality_drawn_size(quality, width),
+        .depths_height = dip_quality_drawn_size(quality, height),
     };
 }
 
@@ -119,8 +139,51 @@ static bool make_filter(Filter *filter, const DipPostDef *def, DipError *err) {
     return filter->post != NULL;
 }
 
+static size_t depths_bytes(const DipFinishSize *size) {
+    return (size_t)size->depths_width * (size_t)size->depths_height * sizeof(float);
+}
+
+static size_t picture_bytes(const DipFinishSize *size) {
+    return (size_t)size->drawn_width * (size_t)size->drawn_height * 4;
+}
+
+// Makes or frees the history.
+static bool follow_past(DipFinish *finish, const DipQuality *quality, const DipFinishSize *size,
+                        DipError *err) {
+    Past *past = &finish->past;
+    if (!dip_quality_has_history(quality)) {
+        free_past(past);
+        return true;
+    }
+    if (past->history && memcmp(&past->size, size, sizeof *size) == 0) {
+        return true;
+    }
+    const DipHistoryDef def = {size->drawn_width, size->drawn_height, finish->isa, finish->pool};
+    free_past(past);
+    past->size = *size;
+    past->history = dip_history_create(&def, err);
+    past->depths = dip_lines_alloc(depths_bytes(size));
+    past->rgba8 = dip_lines_alloc(picture_bytes(size));
+    if (past->history && past->depths && past->rgba8) {
+        memset(past->depths, 0, depths_bytes(size));
+        memset(past->rgba8, 0, picture_bytes(size));
+        return true;
+    }
+    free_past(past);
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "size", "no memory for %dx%d pixels",
+                         size->drawn_width, size->drawn_height);
+}
+
+float *dip_finish_depths(DipFinish *finish) {
+    return finish->past.depths;
+}
+
 bool dip_finish_follow(DipFinish *finish, const DipQuality *quality, const DipFinishSize *size,
                        DipError *err) {
+    if (!follow_past(finish, quality, size, err)) {
+        free_filters(finish);
+        return false;
+    }
     for (int i = 0; i < FILTERS; i++) {
         Filter *filter = &finish->filters[i];
         DipPostDef def;
@@ -135,9 +198,36 @@ bool dip_finish_follow(DipFinish *finish, const DipQuality *quality, const DipFi
     return true;
 }
 
-void dip_finish_frame(DipFinish *finish, DipFrame *frame) {
+// Blends the frame with its past.
+static void blend(const Past *past, const DipFinishMotion *motion, DipFrame *frame) {
+    DipHistoryPicture picture = {
+        .rgba8 = frame->rgba8,
+        .stride_bytes = frame->stride_bytes,
+        .depths = past->depths,
+        .depths_width = past->size.depths_width,
+        .depths_height = past->size.depths_height,
+        .step = motion ? motion->step : DIP_HISTORY_BEGIN,
+    };
+    if (motion) {
+        memcpy(picture.to_before, motion->to_before, sizeof picture.to_before);
+    }
+    const size_t stride_bytes = (size_t)past->size.drawn_width * 4;
+    const DipHistoryWork work = dip_history_add(past->history, &picture, past->rgba8, stride_bytes);
+    frame->rgba8 = past->rgba8;
+    frame->stride_bytes = stride_bytes;
+    frame->counters.pixels_filtered += work.pixels_filtered;
+    frame->counters.pixels_reprojected += work.pixels_reprojected;
+    frame->counters.history_bytes =
+        dip_history_bytes(past->history) + depths_bytes(&past->size) + picture_bytes(&past->size);
+}
+
+void dip_finish_frame(DipFinish *finish, const DipFinishMotion *motion, DipFrame *frame) {
     const int64_t begin_ns = dip_clock_ns();
     bool filtered = false;
+    if (finish->past.history) {
+        blend(&finish->past, motion, frame);
+        filtered = true;
+    }
     for (int i = 0; i < FILTERS; i++) {
         const Filter *filter = &finish->filters[i];
         if (filter->post) {

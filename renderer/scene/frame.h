@@ -40,6 +40,8 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(meshes, "meshes that the scene's objects are drawn from, in view or not")                    \
     X(geometry_bytes, "bytes of the vertices, indices and bounds of these meshes")                 \
     X(pixels_filtered, "pixels that filters of the finished picture wrote")                        \
+    X(pixels_reprojected, "pixels that a history blended with the frame before")                   \
+    X(history_bytes, "bytes of the history of temporal AA, with the depths of its frames")         \
     X(edges_found, "pixels at which post-process AA found an edge")
 
 // All counters of a frame: the counters of its render passes, then those of the scene.
@@ -70,6 +72,7 @@ typedef struct DipCounters {
     X(coat, "clear coats")                                                                         \
     X(blend, "blending")                                                                           \
     X(sky, "clouds")                                                                               \
+    X(history, "history")                                                                          \
     X(post, "post-process AA")                                                                     \
     X(upscale, "upscaling")                                                                        \
     X(sharpen, "sharpening")

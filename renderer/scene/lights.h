@@ -62,6 +62,21 @@ typedef struct DipLightingDef {
     DipShading shading;
 } DipLightingDef;
 
+enum { DIP_MAX_ENVIRONMENT_WIDTH = 4096 }; // greatest width of an environment, texels
+
+// Greatest light of an environment. Brighter texels must be cut off.
+#define DIP_MAX_ENVIRONMENT_LIN 65000.0f
+
+// The surroundings of a scene: an equirectangular picture of the light that comes from all
+// directions. Surfaces with `pbr` (scene.h) reflect it and are lit by it, in place of the ambient
+// light and the sky of DipLightingDef. The top row is up (+y). The middle of the picture lies
+// towards +x, and what is right of it towards +z.
+typedef struct DipEnvironmentDef {
+    const float *rgb_lin; // 0..DIP_MAX_ENVIRONMENT_LIN, row by row from the top, 3 for each texel
+    int width;            // even, 2..DIP_MAX_ENVIRONMENT_WIDTH
+    int height;           // width / 2
+} DipEnvironmentDef;
+
 // Returns the fixed light of sky and sun as lights of a scene, with Gouraud shading. Static
 // storage.
 DIP_API const DipLightingDef *dip_lighting_fixed(void);

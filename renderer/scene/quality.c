@@ -83,8 +83,12 @@ static bool parse_assignment(const char *text, DipQuality *quality, unsigned *se
                                  "is set twice, accepted once");
         }
         *seen |= 1u << s;
+        const char *step = equals + 1;
+        if (s == DIP_SETTING_TAA && strcmp(step, "on") == 0) {
+            step = infos[s].steps[DIP_TAA_ALTERNATE];
+        }
         for (int i = 0; i < infos[s].step_count; i++) {
-            if (strcmp(equals + 1, infos[s].steps[i]) == 0) {
+            if (strcmp(step, infos[s].steps[i]) == 0) {
                 quality->step[s] = (uint8_t)i;
                 return true;
             }
@@ -170,7 +174,8 @@ DipQuality dip_quality_effective(const DipQuality *quality) {
     DipQuality effective = *quality;
     uint8_t *step = effective.step;
     step[DIP_SETTING_AAF] = step[DIP_SETTING_AF] ? step[DIP_SETTING_AAF] : 0;
-    step[DIP_SETTING_TAA] = step[DIP_SETTING_AA] ? step[DIP_SETTING_TAA] : 0;
+    step[DIP_SETTING_TAA] =
+        step[DIP_SETTING_AA] || dip_quality_has_history(quality) ? step[DIP_SETTING_TAA] : 0;
     const bool works = step[DIP_SETTING_AAA] == DIP_AAA_COVERAGE
                            ? dip_quality_sample_count(&effective) > 1
                            : has_groups(&effective);
@@ -184,7 +189,7 @@ const char *dip_quality_needs(const DipQuality *quality, DipSetting setting) {
     const bool has_samples = dip_quality_sample_count(quality) > 1;
     switch (setting) {
     case DIP_SETTING_TAA:
-        return has_samples ? NULL : "needs AA";
+        return has_samples || quality->step[setting] != DIP_TAA_ALTERNATE ? NULL : "needs AA";
     case DIP_SETTING_AAA:
         return !has_samples                               ? "needs AA"
                : divides(quality) && !has_groups(quality) ? "needs smaller groups"
@@ -300,7 +305,16 @@ int32_t dip_quality_bias_lod8(const DipQuality *quality) {
     if (quality->step[DIP_SETTING_MIPDEBUG]) {
         return bias < 0 ? 0 : bias;
     }
-    return bias + scale_lod8[quality->step[DIP_SETTING_SCALE]];
+    const int32_t history_lod8 = dip_quality_has_history(quality) ? -256 : 0;
+    return bias + scale_lod8[quality->step[DIP_SETTING_SCALE]] + history_lod8;
+}
+
+bool dip_quality_alternates(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_TAA] == DIP_TAA_ALTERNATE;
+}
+
+bool dip_quality_has_history(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_TAA] == DIP_TAA_HISTORY;
 }
 
 DipQuality dip_quality_mirrored(const DipQuality *quality) {
@@ -310,6 +324,9 @@ DipQuality dip_quality_mirrored(const DipQuality *quality) {
     }
     if (dip_quality_upscales(quality)) {
         mirrored.step[DIP_SETTING_SCALE] = DIP_SCALE_1;
+    }
+    if (dip_quality_has_history(quality)) {
+        mirrored.step[DIP_SETTING_TAA] = DIP_TAA_OFF;
     }
     return mirrored;
 }

@@ -28,8 +28,10 @@ extern "C" {
     X(aa, AA, "Antialiasing", "Antialias.", 0, ("none", "2", "4", "6", "8"),                       \
       ("none", "2x", "4x", "6x", "8x"), ("none", "2x", "4x", "6x", "8x"),                          \
       "coverage and depth samples per pixel; a surface is still shaded once per pixel")            \
-    X(taa, TAA, "Temporal AA", "Temporal", 0, ("off", "on"), ("off", "on"), ("off", "on"),         \
-      "two sample patterns alternate from frame to frame")                                         \
+    X(taa, TAA, "Temporal AA", "Temporal", 0, ("off", "alternate", "history"),                     \
+      ("off", "alternate", "history"), ("off", "altern", "hist."),                                 \
+      "alternate (or on): two sample patterns alternate from frame to frame; history: each frame " \
+      "is blended with the frames before it, as the camera has moved them")                        \
     X(aaa, AAA, "Adaptive AA", "Adaptive", 0, ("off", "coverage", "on", "all"),                    \
       ("off", "coverage", "on", "all"), ("off", "cover", "on", "all"),                             \
       "coverage: the alpha of clipped surfaces decides how many samples they cover; on: they are " \
@@ -86,7 +88,8 @@ typedef enum DipSetting {
 
 enum { DIP_MAX_STEPS = 8 };
 
-// The steps of aaa, opt, miplod, scale, upscale and post, by name.
+// The steps of taa, aaa, opt, miplod, scale, upscale and post, by name.
+enum { DIP_TAA_OFF, DIP_TAA_ALTERNATE, DIP_TAA_HISTORY };
 enum { DIP_AAA_OFF, DIP_AAA_COVERAGE, DIP_AAA_ON, DIP_AAA_ALL };
 enum { DIP_OPT_OFF, DIP_OPT_STANDARD, DIP_OPT_ADVANCED };
 enum {
@@ -140,7 +143,8 @@ DIP_API int dip_setting_step_at(DipSetting setting, int position);
 
 DIP_API DipQuality dip_quality_default(void);
 
-// Reads settings from text; a setting that the text leaves out gets its default. err may be NULL.
+// Reads settings from text; a setting that the text leaves out gets its default. taa=on is another
+// way to write taa=alternate. err may be NULL.
 // Fails with DIP_ERROR_UNKNOWN (a setting or a step), MISSING (a setting without a step), OVERSIZED
 // (a part that is too long for key=step), CONFLICT (a setting given twice) or an error of
 // dip_quality_check. On failure *quality is unchanged. Thread-safe.
@@ -160,10 +164,10 @@ DIP_API int dip_quality_count_changes(const DipQuality *quality);
 
 DIP_API bool dip_quality_equal(const DipQuality *a, const DipQuality *b);
 
-// Returns the settings with every one turned off that has no effect beside the others: temporal AA
-// and adaptive AA without samples, adaptive AA with a single sample group, a group size without
-// adaptive AA, and advanced AF without AF. Both draw the same pictures in every scene, and take the
-// same time.
+// Returns the settings with every one turned off that has no effect beside the others: alternating
+// samples and adaptive AA without samples, adaptive AA with a single sample group, a group size
+// without adaptive AA, and advanced AF without AF. Both draw the same pictures in every scene, and
+// take the same time.
 DIP_API DipQuality dip_quality_effective(const DipQuality *quality);
 
 // Returns what a setting needs to have an effect beside the other settings, such as "needs AF", or
@@ -190,16 +194,23 @@ DIP_API bool dip_quality_upscales(const DipQuality *quality);
 // Returns the width and height of the shadow map, in texels; 0 without shadows.
 DIP_API int dip_quality_shadow_size(const DipQuality *quality);
 
-// Returns the bias of miplod and of a scale below 1, in 1/256 level. Greater values mean smaller
-// mip levels. A scale s below 1 has the bias log2 s, so that textures are read at the levels that
-// fit the frame, not the smaller picture. Where mip colours show the levels, neither the scale nor
-// the steps that are sharper than high-quality have a bias.
+// Returns true if two sample patterns alternate from frame to frame: taa=alternate.
+DIP_API bool dip_quality_alternates(const DipQuality *quality);
+
+// Returns true if frames are blended with the frames before them: taa=history.
+DIP_API bool dip_quality_has_history(const DipQuality *quality);
+
+// Returns the bias of miplod, of a scale below 1 and of a history, in 1/256 level. Greater values
+// mean smaller mip levels. A scale s below 1 has the bias log2 s, so that textures are read at the
+// levels that fit the frame, not the smaller picture. A history has the bias -1, because the mean
+// of its frames is smoother than each of them. Where mip colours show the levels, neither the
+// scale nor the history nor the steps that are sharper than high-quality have a bias.
 DIP_API int32_t dip_quality_bias_lod8(const DipQuality *quality);
 
 // Returns the settings with which the textures of the mirrored scene are read that water shows.
-// They are the frame's, except that miplod is at most high-quality, and that scale is 1 instead of
-// less: each texel of the mirrored picture may cover several pixels of the frame, so a level that
-// is too sharp would sparkle in whole blocks.
+// They are the frame's, except that miplod is at most high-quality, that scale is 1 instead of
+// less, and that there is no history: each texel of the mirrored picture may cover several pixels
+// of the frame, so a level that is too sharp would sparkle in whole blocks.
 DIP_API DipQuality dip_quality_mirrored(const DipQuality *quality);
 
 // Returns true if colour textures are drawn compressed. This is so with opt=standard and

@@ -202,6 +202,7 @@ bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *
         forget_scene(renderer); // the next frame creates a target of the new size
     }
     renderer->reflection = *reflection;
+    renderer->past.exists = false;
     return true;
 }
 
@@ -215,6 +216,10 @@ void dip_renderer_copy_shading(DipRenderer *renderer, bool on) {
 
 void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index) {
     renderer->frame_index = frame_index;
+}
+
+void dip_renderer_cut(DipRenderer *renderer) {
+    renderer->past.exists = false;
 }
 
 bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError *err) {
@@ -246,6 +251,7 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
     renderer->stride_bytes = stride_bytes;
     renderer->width = width;
     renderer->height = height;
+    renderer->past.exists = false;
     return true;
 }
 
@@ -310,6 +316,7 @@ bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
     }
     dip_texture_destroy(&renderer->mip_colours);
     renderer->mip_colours = colours;
+    renderer->past.exists = false;
     return true;
 }
 

@@ -63,9 +63,21 @@ DIP_API bool dip_renderer_record_tiles(DipRenderer *renderer, bool on, DipError 
 DIP_API DipQuality dip_renderer_quality(const DipRenderer *renderer);
 
 // Sets the number of the frame that is drawn next. The caller counts frames; the number is 0 at
-// first. Only temporal antialiasing uses it: even frames have one sample pattern, odd frames the
-// other.
+// first. Only temporal antialiasing uses it. With taa=alternate, even frames have one sample
+// pattern, odd frames the other. With taa=history, the number chooses the part of a pixel by which
+// the frame is shifted; the shifts repeat after 16 frames. A frame is blended with those before it
+// if its number follows theirs. The history begins anew with a frame of any other number, of an
+// earlier time, of another scene or another size, or after a change of the settings or the
+// reflection.
 DIP_API void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index);
+
+// Lets the history begin anew with the next frame, after a cut or a jump in time.
+DIP_API void dip_renderer_cut(DipRenderer *renderer);
+
+// Frames that the caller should draw before a frame that stands alone with taa=history, so that its
+// history is as long as it matters: the frames with the numbers before it, from the poses that led
+// to it.
+enum { DIP_FRAMES_BEFORE = 16 };
 
 // Replaces the flat colours of mip debugging by pictures. Picture 0 stands for mip levels of 1024
 // texels and more, picture 1 for 512 texels, and so on; picture 7 stands for 8 texels and fewer. A

@@ -4,6 +4,7 @@
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/cull.h"
+#include "renderer/scene/resources/blended_pieces.h"
 #include "renderer/scene/resources/placement.h"
 #include "renderer/scene/resources/posed.h"
 #include "renderer/scene/resources/repeats.h"
@@ -37,6 +38,7 @@ static void add_pbr_surface(const DipSceneDef *def, int index, DipScene *scene) 
     DipPbrUniforms *surface = &scene->pbr->surfaces[index];
     *surface = dip_pbr_surface(def, &def->meshes[index], &scene->pbr->tables, mesh->uv_varyings[0],
                                mesh->uv_varyings[1]);
+    surface->environment = scene->pbr->environment;
     mesh->full_layout.pbr = surface;
     scene->has_occlusion |= surface->occlusion_varying != DIP_ABSENT;
     scene->has_emission |= surface->emits;
@@ -371,23 +373,20 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
     return scene;
 }
 
-DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
-    DIP_FP_MODE_SCOPE();
-    if (!dip_scene_check(def, err)) {
-        return NULL;
-    }
+// Creates a scene from a valid description whose blended meshes are cut.
+static DipScene *create_scene(const DipSceneDef *def, DipPool *pool, DipError *err) {
     DipScene *scene = allocate_scene(def);
     if (!scene) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
         return NULL;
     }
-    if (!dip_scene_pbr_create(def, &scene->pbr, err)) {
+    const int64_t begin_ns = dip_clock_ns();
+    if (!dip_scene_pbr_create(def, pool, &scene->pbr, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }
     copy_materials(def, scene);
     mark_compressible(def, scene);
-    const int64_t begin_ns = dip_clock_ns();
     bool made = create_textures(def, scene, pool, err);
     const int64_t textured_ns = dip_clock_ns();
     for (int i = 0; made && i < def->mesh_count; i++) {
@@ -400,6 +399,17 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
     add_effect_bytes(scene);
     scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
                                    1e-6 * (double)(dip_clock_ns() - textured_ns)};
+    return scene;
+}
+
+DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    DipCutScene *cut;
+    if (!dip_scene_check(def, err) || !dip_blended_cut(def, &cut, err)) {
+        return NULL;
+    }
+    DipScene *scene = create_scene(cut ? dip_cut_scene_def(cut) : def, pool, err);
+    dip_cut_scene_destroy(&cut);
     return scene;
 }
 

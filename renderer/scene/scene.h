@@ -152,8 +152,11 @@ typedef struct DipSceneDef {
     float background_lin[3]; // colour of samples that no surface covers
     float
         near_m; // distance of the near plane, DIP_MIN_NEAR_M..DIP_MAX_NEAR_M; there is no far plane
-    DipSkyDef sky;                     // look of all DIP_SURFACE_SKY surfaces
-    const DipLightingDef *lighting;    // NULL: the fixed light of sky and sun
+    DipSkyDef sky;                  // look of all DIP_SURFACE_SKY surfaces
+    const DipLightingDef *lighting; // NULL: the fixed light of sky and sun
+    // What surfaces with `pbr` reflect. In a scene without lights, it also takes the place of the
+    // fixed sun on them. NULL: the surroundings that the lighting describes.
+    const DipEnvironmentDef *environment;
     const struct DipMotionDef *motion; // clips that move objects and meshes (motion.h); NULL: none
 } DipSceneDef;
 
@@ -175,7 +178,7 @@ DIP_API bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, D
 
 // Durations of the parts of dip_scene_create, in milliseconds.
 typedef struct DipSceneTimes {
-    double textures_ms; // packing the textures and building their mip chains
+    double textures_ms; // packing the textures, building their mip chains, blurring the environment
     double meshes_ms;
 } DipSceneTimes;
 DIP_API DipSceneTimes dip_scene_times(const DipScene *scene);

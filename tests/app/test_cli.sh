@@ -203,6 +203,14 @@ expect 0 '' "$diptych" $equal --json forced.json --force-all-effects
 check "drawing both panes gives the same pictures" cmp out.txt copied.txt
 check "the record says that no pane is copied" sh -c '! grep -q "\"copied\": true" forced.json'
 
+# --- a history: a frame does not depend on the frames that were drawn before it
+history="dump $small --hash --current taa=history --requested aa=4"
+expect 0 '' "$diptych" $history --frames 18:36:17
+cp out.txt jumps.txt
+expect 0 '' "$diptych" $history --frames 33:36
+check "a frame with a history is the same alone and after others" \
+    test "$(grep '^0035' out.txt)" = "$(grep '^0035' jumps.txt)"
+
 expect 0 '' "$diptych" dump $small --hash --fps 15 --frames 0:3
 check "frame 1 at 15 per second is frame 2 at 30" test \
     "$(sed -n '3s/.* //p' out.txt)" = "$(sed -n '3s/.* //p' hashes.txt)"

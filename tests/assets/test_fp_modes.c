@@ -206,6 +206,24 @@ static void call_pictures(DipHash *hash) {
     hash_picture(hash, &picture);
 }
 
+static void hash_environment(DipHash *hash, DipEnvironmentDef *environment) {
+    assert_non_null(environment);
+    dip_hash_bytes(hash, environment->rgb_lin,
+                   3 * (size_t)environment->width * (size_t)environment->height * sizeof(float));
+    free(environment);
+}
+
+// The light of the file is small enough for a mode that loses small numbers.
+static void call_environments(DipHash *hash) {
+    static const char bytes[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x11\x90\x33\x03"
+                                "\xa1\x22\xf3\x81";
+    const size_t size_bytes = sizeof bytes - 1;
+    hash_environment(hash, dip_environment_decode((const uint8_t *)bytes, size_bytes, "e", NULL));
+    FILE *file = fopen(fixture_path("mode.hdr"), "wb");
+    assert_true(file && fwrite(bytes, 1, size_bytes, file) == size_bytes && fclose(file) == 0);
+    hash_environment(hash, dip_environment_read_file(fixture_path("mode.hdr"), NULL));
+}
+
 // --- camera paths --------------------------------------------------------------------------------
 
 static const char path_text[] = "diptych-path 1\n"
@@ -343,6 +361,7 @@ static const struct {
     {"reading cameras", call_cameras},
     {"loading and posing models in motion", call_animation},
     {"decoding pictures", call_pictures},
+    {"decoding environments", call_environments},
     {"reading, sampling and writing camera paths", call_paths},
     {"reading a configuration", call_config},
 };

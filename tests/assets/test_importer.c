@@ -54,7 +54,7 @@ static void write_garbage(void) {
 }
 
 static void spin(void) {
-    for (volatile uint64_t i = 0;; ++i) {
+    for (volatile uint64_t i = 0; i < UINT64_MAX; ++i) {
     }
 }
 

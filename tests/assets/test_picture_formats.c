@@ -365,6 +365,44 @@ static void light_of_an_hdr_becomes_the_nearest_code(void **state) {
     assert_true(some_cut);
 }
 
+// An environment has the light that stb_image reads, cut off far above 1.
+static void an_environment_keeps_the_light(void **state) {
+    (void)state;
+    enum { ENV_WIDTH = 16, ENV_HEIGHT = 8 };
+    uint8_t bytes[64 + 4 * ENV_WIDTH * ENV_HEIGHT];
+    const int header = sprintf((char *)bytes, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n",
+                               ENV_HEIGHT, ENV_WIDTH);
+    for (int i = 0; i < ENV_WIDTH * ENV_HEIGHT; ++i) {
+        const uint8_t texel[4] = {(uint8_t)(9 + i), (uint8_t)(255 - i), (uint8_t)(i / 2),
+                                  (uint8_t)(i == 5 ? 200 : 120 + i % 24)};
+        memcpy(bytes + header + 4 * i, texel, 4);
+    }
+    const size_t size_bytes = (size_t)header + 4 * ENV_WIDTH * ENV_HEIGHT;
+    DipError err = {0};
+    DipEnvironmentDef *environment = dip_environment_decode(bytes, size_bytes, "sky.hdr", &err);
+    if (!environment) {
+        fail_msg("%s", err.message);
+    }
+    int width, height, channels;
+    float *light = stbi_loadf_from_memory(bytes, (int)size_bytes, &width, &height, &channels, 3);
+    assert_non_null(light);
+    assert_int_equal(environment->width, width);
+    assert_int_equal(environment->height, height);
+    assert_true(light[3 * 5] > DIP_MAX_ENVIRONMENT_LIN);
+    for (int i = 0; i < 3 * width * height; ++i) {
+        assert_true(environment->rgb_lin[i] == fminf(light[i], DIP_MAX_ENVIRONMENT_LIN));
+    }
+    stbi_image_free(light);
+    free(environment);
+    assert_null(dip_environment_decode(bytes, size_bytes - 1, "sky.hdr", &err));
+    assert_int_equal(err.code, DIP_ERROR_TRUNCATED);
+    bytes[header - 8] = '9'; // 9 rows of 16
+    assert_null(dip_environment_decode(bytes, size_bytes, "sky.hdr", &err));
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+    assert_null(dip_environment_decode((const uint8_t *)"P6", 2, "sky.hdr", &err));
+    assert_int_equal(err.code, DIP_ERROR_FORMAT);
+}
+
 // --- levels --------------------------------------------------------------------------------------
 
 static void levels_become_textures(void **state) {
@@ -422,6 +460,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(values_of_a_pgm_are_scaled_to_the_nearest),
         cmocka_unit_test(a_565_texel_is_scaled_to_the_nearest),
         cmocka_unit_test(light_of_an_hdr_becomes_the_nearest_code),
+        cmocka_unit_test(an_environment_keeps_the_light),
         cmocka_unit_test(levels_become_textures),
         cmocka_unit_test(the_importer_hands_over_every_level),
     };

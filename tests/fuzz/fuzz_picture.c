@@ -75,6 +75,20 @@ static void check_accepted(const DipPicture *picture) {
     dip_picture_free(&copy);
 }
 
+// The bytes of an HDR file may also be an environment. All its texels are in the range that a scene
+// accepts.
+static void check_environment(const uint8_t *bytes, size_t size_bytes) {
+    DipError err = {0};
+    DipEnvironmentDef *environment = dip_environment_decode(bytes, size_bytes, "fuzzed", &err);
+    FUZZ_CHECK(environment || (err.code != DIP_ERROR_NONE && err.message[0]));
+    const int texels = environment ? environment->width * environment->height : 0;
+    for (int i = 0; i < 3 * texels; i++) {
+        const float light = environment->rgb_lin[i];
+        FUZZ_CHECK(light >= 0.0f && light <= DIP_MAX_ENVIRONMENT_LIN);
+    }
+    free(environment);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     if (may_be_large(bytes, size_bytes)) {
         return -1;
@@ -88,6 +102,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
         FUZZ_CHECK(!picture.rgba8 && err.code != DIP_ERROR_NONE && err.message[0]);
     }
     dip_picture_free(&picture);
+    check_environment(copy, size_bytes);
     free(copy);
     return 0;
 }

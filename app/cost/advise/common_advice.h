@@ -27,10 +27,10 @@ typedef struct DipCostCommonAdvice {
 } DipCostCommonAdvice;
 
 // Reads reports: files, or folders that have a cost.json. Borrows the strings of `files` as names.
-// `budget_of` is the time that must be within the budget. Fails if a report cannot be read, has no
-// combinations with times and errors, comes from a machine that was too busy (DIP_ERROR_BUSY) or
-// from another build of the program, or if no combination is in all reports. Free *common even
-// after a failure.
+// `budget_of` is the kind of time that must be within the budget. Fails if a report cannot be read,
+// has no combinations with times and errors, comes from a machine that was too busy
+// (DIP_ERROR_BUSY) or from another build of the program, or if no combination is in all reports.
+// Free *common even after a failure.
 bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int count,
                           DipTimeKind budget_of, DipError *err);
 

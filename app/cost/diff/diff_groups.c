@@ -59,8 +59,8 @@ static void consider(Search *search, const Condition *condition) {
     }
 }
 
-// Considers a condition by itself. Then considers it with a term more: each step of each setting
-// after its last one. Goes on in the same way up to MOST_TERMS settings.
+// Considers a condition by itself. Then adds one more term to it: in turn each step of each setting
+// that comes after the condition's last setting. Goes on in the same way up to MOST_TERMS settings.
 static void consider_settings(Search *search, Condition condition) {
     consider(search, &condition);
     const int last = condition.count++;

@@ -54,7 +54,7 @@ typedef struct DipCostElsewherePrediction {
     // none.
     double factor;
     DipCostMisses timed_as_is; // How far as_is_ms misses the times to which prices are fitted.
-    // How far the fit misses each of these times when it is made without that one.
+    // How far predictions miss each of these times if prices are fitted without it.
     DipCostMisses timed_left_out;
     DipCostMisses checked_as_is;  // How far as_is_ms misses the times of checked combinations.
     DipCostMisses checked_fitted; // How far ms misses the times of checked combinations.

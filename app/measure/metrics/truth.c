@@ -43,7 +43,7 @@ struct DipTruthJob {
     DipPool *pool;
     bool live;
     Phase phase;
-    int level; // Index in dip_truth_level_samples; the last level has the samples of the def.
+    int level; // Index in dip_truth_level_samples; the last level has def.samples instead.
     DipSrgbEncodeTable encode;
     DipConvergence *convergence; // NULL if the def's function `draw` draws.
     Half halves[HALVES];
@@ -115,8 +115,8 @@ static void hash_contents(const unsigned char *bytes, size_t size, char hex[33])
     dip_hash_hex(&hash, hex);
 }
 
-// Reads the contents of a truth, whose key, size and arrays are set before. Returns false if there
-// is no such file or if the file is damaged.
+// Reads the contents of a truth. The caller has set its key, size and arrays. Returns false if
+// there is no such file or if the file is damaged.
 static bool load_file(DipTruth *truth, const char *cache) {
     char name[PATH_MAX], hex[33];
     unsigned char *bytes;

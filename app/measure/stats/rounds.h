@@ -40,11 +40,10 @@ enum { DIP_TIMED_PARTS = 4, DIP_TIMED_MOST_STARTS = 64 };
 // of the machine does not fall on one part of the path. `rounds` is the number of rounds of all
 // starts together; round r of start s has the index s * (rounds per start) + r. Writes the index of
 // a round to round_of[copy * frames + frame] for each copy from 0 to copies - 1 (copies <= rounds).
-// Copy 0 is the round in which every subject and its base draw the frame; in the rounds of the
-// other copies, only the base draws the frame, once more. The copies of a frame are in different
-// rounds. In each copy, a round has frames / rounds frames, rounded down or up: one of each stretch
-// of `rounds` successive frames. Diptych uses 3 copies. Fails with
-// DIP_ERROR_MEMORY.
+// In the round of copy 0, every subject and its base draw the frame. In the rounds of the other
+// copies, only the base draws the frame, once more. The copies of a frame are in different rounds.
+// In each copy, a round has frames / rounds frames, rounded down or up: one of each stretch of
+// `rounds` successive frames. Diptych uses 3 copies. Fails with DIP_ERROR_MEMORY.
 DIP_API bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *round_of,
                              DipError *err);
 

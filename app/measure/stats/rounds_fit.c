@@ -87,7 +87,7 @@ static int compare_pairs(const void *a, const void *b) {
 }
 
 // Lists the pairs of a subject and its base in path order. Leaves out pairs with a disturbed frame,
-// unless these are most.
+// unless most pairs have one.
 static void list_pairs(DipTimesWork *w, int subject, DipTimesSubject *to) {
     const DipTimes *times = w->times;
     for (int pass = 0; pass < 2; pass++) {

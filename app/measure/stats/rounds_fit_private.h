@@ -51,7 +51,7 @@ typedef struct DipTimesBase {
     double level_ms;      // Mean time of the base's frames.
     double level_error;   // Standard error of the logarithm of level_ms; NAN if it is not known.
     double level_degrees; // Degrees of freedom of level_error.
-    // Mean over the subjects of DipTimesSubject.variance.
+    // Mean of DipTimesSubject.variance over the subjects of the base.
     double pooled[DIP_TIMES_VALUE_COUNT];
     double pooled_degrees;                  // Degrees of freedom for which `pooled` counts.
     double variance[DIP_TIMES_VALUE_COUNT]; // Part of the variance that the base contributes.

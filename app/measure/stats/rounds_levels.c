@@ -128,8 +128,8 @@ static void trust_cells(DipTimesWork *w, int left_out, const double *level) {
     }
 }
 
-// Sets the levels of frames (is_level), or the speeds of moments, to weighted means: levels to
-// those of log ms - speed, and speeds to those of log ms - level. `other` holds the values that are
+// If is_level is true, sets the levels of frames to weighted means of log ms - speed. Otherwise
+// sets the speeds of moments to weighted means of log ms - level. `other` holds the values that are
 // subtracted. Leaves out the cells of the unit `left_out`.
 static void fit_side(DipTimesWork *w, int left_out, double *to, int count, const double *other,
                      bool is_level) {
@@ -166,8 +166,8 @@ void dip_times_fill_gaps(double *values, int count) {
     }
 }
 
-// Fits log ms = level(frame) + speed(moment) + rest, without the cells of the unit `left_out`; -1
-// leaves out none. Levels of frames that have no cell are NAN.
+// Fits log ms = level(frame) + speed(moment) + rest, without the cells of the unit `left_out`, or
+// with all cells if `left_out` is -1. Levels of frames that have no cell are NAN.
 static void fit_levels(DipTimesWork *w, int left_out, double *level) {
     const int frames = w->times->frames;
     memset(w->speed, 0, (size_t)w->moment_count * sizeof *w->speed);

@@ -17,8 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// Room for a line of the protocol: for each counter its name, '=', 20 digits and a blank, and for
-// all the rest.
+// Room for a line of the protocol: 1024 bytes, and for each counter its name, '=', 20 digits and a
+// blank.
 enum {
 #define ADD_COUNTER(name, text) +(int)sizeof #name + 22
     LINE_SIZE = 1024 DIP_COUNTER_LIST(ADD_COUNTER)

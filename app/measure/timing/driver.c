@@ -29,7 +29,7 @@ typedef struct Block {
     int base;
     int first;       // Index of its first subject in DipDriver.members.
     int count;       // Number of subjects besides the base.
-    int number;      // Unlike that of any other block of the round or of the round's repetition.
+    int number;      // No other block of the round or of its repetition has the same number.
     int nth_of_base; // Index of this block among those of its base in the round.
     int of_base;     // Number of blocks of this base in the round.
 } Block;
@@ -40,8 +40,8 @@ typedef enum Stage { PLAN, WARM_UP, SETTLE, DRAW, DONE, FAILED } Stage;
 struct DipDriver {
     DipDriverDef def; // `starts` and `rounds` change if starts take long (most_start).
     DipDriverCalls calls;
-    DipThreadWatch *watch; // NULL if the caller has a function for it, or if the machine does not
-                           // tell how long threads wait.
+    DipThreadWatch *watch; // NULL if the caller has a function `thread_use`, or if the machine does
+                           // not tell how long threads wait.
     int *base_of;          // Owned; the other arrays of int lie in the same memory.
     int *deal; // [copy * frames + frame]: the round that draws the frame (dip_rounds_deal); NULL if
                // every round draws all frames.
@@ -61,9 +61,10 @@ struct DipDriver {
     Block *blocks;    // Blocks of the round, in the order in which they are drawn.
     int *order;       // Scratch for shuffling.
     int *frames;      // First the frames that all subjects draw, then those that only bases draw.
-    int frame_count, all_frame_count; // Number of the first, and of both.
-    int *is_needed;                   // [subject]: 1 if the round draws the subject.
-    int *score; // [subject]: undisturbed frames less three times the disturbed ones.
+    // Number of the frames that all subjects draw, and number of all elements of `frames`.
+    int frame_count, all_frame_count;
+    int *is_needed; // [subject]: 1 if the round draws the subject.
+    int *score;     // [subject]: undisturbed frames less three times the disturbed ones.
 
     DipTimed *fresh; // Frames of the incomplete round.
     int fresh_count;
@@ -527,7 +528,7 @@ static bool begin_round(DipDriver *d, DipError *err) {
         if (!plan_round(d)) {
             return out_of_memory(err);
         }
-        d->round += d->plan_count == 0; // Nothing is disturbed in this round.
+        d->round += d->plan_count == 0; // No frame of this round has to be drawn again.
     } while (d->plan_count == 0);
     const int start = !repeats(d)     ? d->round / d->def.rounds
                       : d->start >= 0 ? d->start

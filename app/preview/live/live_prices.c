@@ -67,6 +67,8 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
         return false;
     }
     dip_painter_set_frame_index(painter, frame_index);
+    // A frame that begins a history takes as long as any that the camera has moved.
+    dip_painter_cut(painter);
     return dip_painter_set_quality(painter, quality, err) &&
            dip_painter_draw(painter, live->session->scene, &live->picture.pose,
                             live->picture.time_ns, frame, err);
@@ -205,11 +207,24 @@ static int find_unjudged(const DipLivePrices *live) {
     return -1;
 }
 
+// Draws the picture that a pane with these settings shows at rest.
+static bool draw_at_rest(DipLivePrices *live, const DipQuality *quality, DipFrame *frame) {
+    const bool has_history = dip_quality_has_history(quality) && live->session->scene;
+    bool drawn = draw(live, quality, 0, frame, NULL);
+    for (int i = 1; drawn && has_history && i < DIP_FRAMES_BEFORE; i++) {
+        DipPainter *painter = painter_for(live, quality, NULL);
+        dip_painter_set_frame_index(painter, (uint64_t)i);
+        drawn = dip_painter_draw(painter, live->session->scene, &live->picture.pose,
+                                 live->picture.time_ns, frame, NULL);
+    }
+    return drawn;
+}
+
 static void begin_errors(DipLivePrices *live) {
     DipFrame frame;
     live->judged = find_unjudged(live);
     live->measures_errors =
-        draw(live, &dip_prices_live(live->prices)->rows[live->judged].quality, 0, &frame, NULL) &&
+        draw_at_rest(live, &dip_prices_live(live->prices)->rows[live->judged].quality, &frame) &&
         begin_judging(live, &frame, &live->truth.picture);
     live->errors_failed = !live->measures_errors;
     live->errors_left = live->errors_failed ? 0 : live->errors_left;

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-// After a stall, the camera moves on by at most this time, so that it does not jump.
-static const int64_t longest_step_ns = 250000000;
 static const int64_t ns_per_ms = 1000000;
 enum { IDLE_WAIT_MS = 30 };
 
@@ -363,7 +361,8 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     DipPreviewState *state = &preview->state;
     const bool had_notice = state->notice[0] != '\0';
     const int64_t since_ns = now_ns - preview->turn_ns;
-    const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
+    const int64_t elapsed_ns =
+        since_ns < DIP_LOOP_LONGEST_STEP_NS ? since_ns : DIP_LOOP_LONGEST_STEP_NS;
     preview->turn_ns = now_ns;
     follow_motion(preview);
     follow_title(preview);
@@ -380,7 +379,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
         follow_refresh(preview);
     }
     const bool new_frame = state->scene_changes != preview->drawn_changes || preview->resized ||
-                           dip_loop_alternates(preview);
+                           dip_loop_alternates(preview) || dip_loop_settles(preview);
     if (new_frame && !dip_loop_draw_panes(preview, err)) {
         return false;
     }

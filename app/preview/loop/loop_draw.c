@@ -107,6 +107,28 @@ static bool take_back_settings(DipPreview *preview, DipError *err) {
     return draw_with_settings(preview, err);
 }
 
+static bool has_history(const DipPreview *preview) {
+    return preview->def.session->scene &&
+           (dip_quality_has_history(&preview->state.quality[DIP_PANE_CURRENT]) ||
+            dip_quality_has_history(&preview->state.quality[DIP_PANE_REQUESTED]));
+}
+
+bool dip_loop_settles(const DipPreview *preview) {
+    return has_history(preview) && preview->settling > 0;
+}
+
+// Lets the histories begin anew after a jump in time or to another path.
+static void cut_at_jumps(DipPreview *preview) {
+    const DipCamPath *path = dip_preview_playing_path(&preview->state);
+    const int64_t passed_ns = preview->state.play_ns - preview->drawn.play_ns;
+    if (path != preview->drawn_path || passed_ns < 0 || passed_ns > DIP_LOOP_LONGEST_STEP_NS) {
+        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+            dip_painter_cut(preview->def.session->renderers[p]);
+        }
+    }
+    preview->drawn_path = path;
+}
+
 bool dip_loop_draw_panes(DipPreview *preview, DipError *err) {
     DipSession *session = preview->def.session;
     const int64_t play_ns = preview->state.play_ns;
@@ -121,9 +143,12 @@ bool dip_loop_draw_panes(DipPreview *preview, DipError *err) {
     if (!preview->state.manual && !dip_camtrack_pose(&session->track, play_ns, &preview->pose)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
     }
+    cut_at_jumps(preview);
     if (!draw_with_settings(preview, err) && !take_back_settings(preview, err)) {
         return false;
     }
+    const bool changed = preview->state.scene_changes != preview->drawn_changes || preview->resized;
+    preview->settling = changed ? DIP_FRAMES_BEFORE : preview->settling - (preview->settling > 0);
     number_picture(preview);
     dip_scene_words(preview->def.session->options, preview->state.scene_words);
     preview->state.pane_width = preview->frame.panes[0].width;
@@ -142,7 +167,7 @@ bool dip_loop_draw_panes(DipPreview *preview, DipError *err) {
 // nothing moves.
 static bool pane_alternates(const DipPreview *preview, int pane) {
     const DipQuality *quality = &preview->state.quality[pane];
-    return quality->step[DIP_SETTING_TAA] != 0 && dip_quality_sample_count(quality) > 1;
+    return dip_quality_alternates(quality) && dip_quality_sample_count(quality) > 1;
 }
 
 bool dip_loop_alternates(const DipPreview *preview) {

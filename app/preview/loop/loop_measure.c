@@ -63,7 +63,7 @@ static int truth_limit(const DipPreview *preview) {
 
 static bool wants_errors(const DipPreview *preview) {
     return !preview->def.session->shows_gallery &&
-           dip_preview_rests(&preview->state, preview->flying) &&
+           dip_preview_rests(&preview->state, preview->flying) && !dip_loop_settles(preview) &&
            (shows_errors(preview) || prices_need_truth(preview));
 }
 

@@ -80,9 +80,14 @@ struct DipPreview {
     DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
     DipQuality first_quality[DIP_PANE_COUNT]; // Settings with which the session began.
     int drawn_look;
+    const DipCamPath *drawn_path; // The path that played in the last frame.
+    int settling;                 // Frames to draw at rest until the panes' histories are complete.
     Drawn drawn;
     unsigned picture_number; // Number of the panes' pictures; grows when `drawn` changes.
 };
+
+// After a stall, the camera moves on by at most this time, so that it does not jump.
+enum { DIP_LOOP_LONGEST_STEP_NS = 250000000 };
 
 // --- loop_draw.c ---------------------------------------------------------------------------------
 
@@ -91,6 +96,8 @@ struct DipPreview {
 bool dip_loop_draw_panes(DipPreview *preview, DipError *err);
 // Returns whether temporal antialiasing changes a pane's picture from frame to frame.
 bool dip_loop_alternates(const DipPreview *preview);
+// Returns whether frames at rest are still being added to a pane's history.
+bool dip_loop_settles(const DipPreview *preview);
 // Adds the pose of the last frame to the file of saved poses.
 void dip_loop_save_pose(DipPreview *preview, int64_t now_ns);
 // Draws the window and presents it. Saves a screenshot if the user asked for one.

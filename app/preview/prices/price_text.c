@@ -16,7 +16,10 @@ const char *dip_step_explanation(DipSetting setting, int step) {
                             "Eight samples per pixel for edges; surfaces are shaded once."},
         [DIP_SETTING_TAA] = {"Every frame uses the same sample pattern.",
                              "Two sample patterns alternate from frame to frame, so a moving "
-                             "picture shows twice as many samples."},
+                             "picture shows twice as many samples.",
+                             "Each frame is blended with the frames before it, as the camera has "
+                             "moved them (games call it TAA): smooth edges and less flicker, but "
+                             "thin wires vanish, and things that move by themselves smear."},
         [DIP_SETTING_AAA] = {"Leaves and fences have stair-stepped edges: their holes are cut once "
                              "per pixel.",
                              "Leaves and fences cover as many samples as their alpha says (alpha "

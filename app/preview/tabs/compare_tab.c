@@ -115,7 +115,7 @@ static void declare_difference(DipFlow *flow) {
     DipToolState *tools = &flow->window->state->tools;
     unsigned id = ID_OPTION;
     for (int gain = 1; gain <= DIP_COMPARE_MAX_GAIN; gain *= 2) {
-        char text[8];
+        char text[16];
         snprintf(text, sizeof text, "x%d", gain);
         if (dip_flow_choice(flow, id++, text, dip_max(1, tools->gain) == gain,
                             "Multiplies the difference. [ and ] change it as well.")) {

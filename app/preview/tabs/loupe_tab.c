@@ -97,7 +97,7 @@ static void say_fitting(Part *part, const char *const *texts, int count) {
 // Says how many samples the pixel has and what they show.
 static void say_count(Part *part) {
     const int count = part->pattern->count;
-    const bool temporal = part->window->state->quality[part->pane].step[DIP_SETTING_TAA] != 0;
+    const bool temporal = dip_quality_alternates(&part->window->state->quality[part->pane]);
     char longest[96];
     char text[64] = "1 sample, at the centre";
     char brief[32] = "1 sample";
@@ -364,7 +364,7 @@ static void declare_head(DipUi *ui, DipWindow *window, DipRect row) {
     const int padding = dip_ui_px(ui, row.width < dip_ui_px(ui, 300) ? 4 : 8);
     int id = ID_ZOOM;
     for (int zoom = DIP_LOUPE_MIN_ZOOM; zoom <= DIP_LOUPE_MAX_ZOOM; zoom *= 2) {
-        char text[8];
+        char text[16];
         snprintf(text, sizeof text, "%dx", zoom);
         if (row_button(ui, id++, &row, padding, text, tools->zoom == zoom,
                        "Shows each pixel of the panes this many times as large.")) {

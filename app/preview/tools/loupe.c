@@ -206,7 +206,7 @@ const DipSampleValue *dip_loupe_samples(const DipLoupe *loupe, int pane, uint64_
 }
 
 const DipSamplePattern *dip_loupe_pattern(const DipLoupe *loupe, const DipQuality *quality) {
-    const bool temporal = quality->step[DIP_SETTING_TAA] != 0;
+    const bool temporal = dip_quality_alternates(quality);
     return dip_sample_pattern_of(dip_quality_sample_count(quality),
                                  dip_pattern_kind(temporal, loupe->frame_index));
 }

@@ -73,8 +73,8 @@ typedef struct Region {
     DipMetrics metrics;
 } Region;
 
-// Derives the share that a class of pixels has in all pixels. The owner of the class is a Figures,
-// whose first region is the whole picture.
+// Derives the share that a class of pixels has in all pixels. The item is a region of a Figures
+// (below), whose first region is the whole picture.
 static const void *derive_share(const DipFieldAt *at, DipFieldScratch *scratch) {
     const Region *all = at->owner->item;
     scratch->numbers[0] = ((const Region *)at->item)->pixels / fmax(all->pixels, 1.0);

@@ -32,8 +32,8 @@ static void add_missing(cJSON *object, const char *name,
     }
 }
 
-// Replaces the ends of an interval by null if they are equal. In format 2, such an interval was not
-// known.
+// Replaces the ends of an interval by null if they are equal. Files of format 2 have equal ends
+// where an interval is not known.
 static void forget_no_interval(cJSON *object) {
     static const char *const names[] = {"ms_low", "ms_high"};
     const cJSON *low = cJSON_GetObjectItemCaseSensitive(object, "ms_low");
@@ -46,14 +46,14 @@ static void forget_no_interval(cJSON *object) {
     }
 }
 
-// Adds the counters that reports lacked before surfaces could be blended or reflect their
-// surroundings, panes could copy each other's pixels, pictures were filtered, models moved and
-// shadows fell. They count work that was not done then.
+// Adds the counters that files of older versions lack, with the value 0. They count work that
+// those versions did not do, such as blending, filters and shadows.
 static void add_counters(cJSON *counters) {
     static const char *const later[] = {
-        "fragments_pbr",     "fragments_occluded", "fragments_emitting", "fragments_coated",
-        "fragments_blended", "fragments_copied",   "pixels_filtered",    "edges_found",
-        "vertices_posed",    "fragments_shadowed", "shadow_texels",      "shadow_bytes"};
+        "fragments_pbr",      "fragments_occluded", "fragments_emitting", "fragments_coated",
+        "fragments_blended",  "fragments_copied",   "pixels_filtered",    "edges_found",
+        "vertices_posed",     "fragments_shadowed", "shadow_texels",      "shadow_bytes",
+        "pixels_reprojected", "history_bytes"};
     for (size_t i = 0; i < sizeof later / sizeof *later && cJSON_IsObject(counters); i++) {
         add_missing(counters, later[i], add_zero);
     }

@@ -41,7 +41,7 @@ enum {
     DIP_SHOW_CODE = 4     // It is code that people copy. Pages mark it as code.
 };
 
-// An item is a struct that has fields. This says of which item a field is wanted.
+// Names the item whose field is wanted. An item is a struct that has fields.
 typedef struct DipFieldAt {
     void *context;                  // What all items belong to, for example the report.
     const void *item;               // NULL if the item, and so each of its fields, is not known.

@@ -16,22 +16,27 @@ typedef struct DipCostLine {
     const DipCostPrediction *prediction; // NULL if there is none.
     int number;                          // Number on the Pareto front, from 1 on; 0 if not on it.
     const DipCandidate *candidate;       // NULL if the line is not on the front.
-    const DipCandidate *before;          // The previous candidate on the front; NULL if none is.
+    const DipCandidate *before;          // The previous candidate on the front, or NULL.
 } DipCostLine;
 
 extern const DipRecord dip_cost_line_record;
 
-// These functions list, in this order: the A/A row of each path (the baseline, timed as if it were
-// another setting); the base row of each path, for the noise floor of its truths; the steps of one
-// sweep; the steps of all sweeps; the Pareto front; and all measured combinations. They return the
-// number of lines.
+// These functions list rows or combinations, and return the number of lines.
+
+// Lists the A/A row of each path (the baseline, timed as if it were another setting).
 int dip_cost_same_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_PATHS]);
+// Lists the base row of each path, for a table of the noise floors of the paths' truths (converged
+// pictures).
 int dip_cost_floor_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_PATHS]);
+// Lists the steps of one sweep (all steps of one setting).
 int dip_cost_step_lines(const DipCostReport *report, int sweep,
                         DipCostLine lines[DIP_COST_MAX_SWEEP_ROWS]);
+// Lists the steps of all sweeps.
 int dip_cost_all_step_lines(const DipCostReport *report,
                             DipCostLine lines[DIP_COST_MAX_SWEEPS * DIP_COST_MAX_SWEEP_ROWS]);
+// Lists the combinations on the Pareto front of time and error.
 int dip_cost_front_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_ROWS]);
+// Lists all measured combinations.
 int dip_cost_combination_lines(const DipCostReport *report, DipCostLine lines[DIP_COST_MAX_ROWS]);
 
 // Returns the line of a prediction.

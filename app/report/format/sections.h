@@ -21,14 +21,16 @@ typedef struct DipCostTier {
 enum { DIP_COST_TIER_COUNT = 4 };
 void dip_section_tiers(DipForm *form, DipCostTier *tiers, int count);
 
-// Write facts about advice: the settings that are as good as the chosen ones, if there are any, and
-// the line that puts the chosen settings into an ini file.
+// Writes as a fact the settings that are as good as the chosen ones, if there are any.
 void dip_section_ties(DipForm *form, const DipCandidates *candidates, const DipAdvice *advice);
+
+// Writes as a fact the line that puts settings into an ini file.
 void dip_section_ini(DipForm *form, const DipQuality *quality);
 
-// Write the Pareto front of time and error, and the combinations that draw the same pictures as
-// others.
+// Writes the Pareto front of time and error.
 void dip_section_front(DipForm *form, const DipCostReport *report);
+
+// Writes the combinations that draw the same pictures as others.
 void dip_section_same(DipForm *form, const DipCostReport *report);
 
 // Writes what was measured and how, and the verdict on the machine (app/report/verdict.h).
@@ -41,12 +43,17 @@ void dip_section_predictions(DipForm *form, const DipCostReport *report);
 // Writes misses as a fact: their median and 90th percentile.
 void dip_section_misses(DipForm *form, const char *what, const DipCostMisses *misses);
 
-// Write, in this order: what pairs of settings do together; the steps of one sweep (all steps of
-// one setting); the prices of work (app/report/fit.h); and the noise of the truths, with the steps
-// that were left out of sweeps.
+// Writes how far two settings do more or less together than alone (app/report/analysis.h).
 void dip_section_interactions(DipForm *form, const DipCostReport *report);
+
+// Writes the steps of one sweep (all steps of one setting).
 void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep);
+
+// Writes the prices of work (app/report/fit.h).
 void dip_section_fit(DipForm *form, const DipCostReport *report);
+
+// Writes the noise floors of the truths (converged pictures), and the steps that were left out of
+// sweeps.
 void dip_section_truth(DipForm *form, const DipCostReport *report);
 
 #endif

@@ -7,7 +7,7 @@
 #include "app/files/whole_file.h"
 #include "app/files/put.h"
 
-// The policy forbids the page to read any other file.
+// The Content-Security-Policy of the page. It forbids the page to read any other file.
 static const char policy[] = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; "
                              "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
 

@@ -1,4 +1,4 @@
-// Predicts the time and the error of a combination from its composed work.
+// Predicts the time and the error of a combination from its composed work (combinations.h).
 #include "app/report/prices/view.h"
 
 #include "app/report/combinations.h"
@@ -13,8 +13,8 @@ enum {
 // The 90th percentile of the absolute value of a standard normal variable.
 static const double normal_p90 = 1.6449;
 
-// The least standard error of a predicted time's logarithm. The misses of a few rows may all happen
-// to be tiny.
+// The least standard error of a predicted time's logarithm. It is needed because the misses of a
+// few rows may all happen to be tiny.
 static const double least_error = 0.002;
 
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses) {

@@ -21,7 +21,7 @@
 
 typedef enum DipPriceState {
     DIP_PRICE_UNKNOWN,   // The time was not measured, at least not yet.
-    DIP_PRICE_BASE,      // The step is the base: ms and flip are its own time and error.
+    DIP_PRICE_BASE,      // The step is that of the base: ms and flip are the base's time and error.
     DIP_PRICE_MEASURED,  // Measured along a path.
     DIP_PRICE_PREDICTED, // Not timed, but predicted by a report's model (fit.h).
     DIP_PRICE_ROUGH      // Measured with a few frames of one picture, or the sum of prices.
@@ -48,7 +48,8 @@ typedef struct DipPrice {
     double without_ms;  // The whole time without the step; 0 for the base.
     bool has_flip;      // The error is known. (The preview has times before it has errors.)
     double flip;        // What the step adds to the base's FLIP; for the base itself, its FLIP.
-    bool flip_at_floor; // The error with the step cannot be told from the truth's own noise.
+    bool flip_at_floor; // The error with the step cannot be told from the noise of the converged
+                        // picture that it is measured against.
     bool needs_company; // The step has no effect with the settings of the pane. `needs` then says
                         // what it needs, such as "AF".
     char needs[24];
@@ -130,10 +131,10 @@ DipPricesKnown dip_price_candidates(const DipPriceView *view, const DipQuality *
                                     DipCandidates *candidates);
 
 // Lists the combinations that must be timed so that every step has a price, and so that the whole
-// times of both panes and of every combination one step away from the requested pane are known. The
-// base and the panes come first, then the combinations for the steps, ordered by their distance
-// from the requested pane's steps. Those for AF and advanced AF without antialiasing come last.
-// Writes at most `room` combinations; returns their number.
+// times of both panes and of every combination one step away from the pane `requested` are known.
+// The base and the panes come first, then the combinations for the steps, ordered by their distance
+// from the steps of `requested`. The combinations for AF and advanced AF without antialiasing come
+// last. Writes at most `room` combinations; returns their number.
 enum { DIP_PRICE_MAX_WANTED = 96 };
 int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
                           const DipQuality *requested, DipQuality *list, int room);

@@ -113,6 +113,9 @@ DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, 
     case DIP_SETTING_TAA:
         keep_company(&question, DIP_SETTING_AA, DIP_COST_COMPANY_AA, quality, "AA");
         ask_alone(&question, setting, step, 0);
+        if (step == DIP_TAA_HISTORY) {
+            question.needs[0] = '\0'; // Only alternating samples need AA.
+        }
         break;
     case DIP_SETTING_AAF:
         keep_company(&question, DIP_SETTING_AF, DIP_COST_COMPANY_AF, quality, "AF");

@@ -47,8 +47,8 @@ DipPriceTrust dip_price_sum_trust(const DipPriceSum *sum) {
 
 // --- where a price was measured ------------------------------------------------------------------
 
-// Finds the path on which a price was measured: path 0 if it has both rows, otherwise the first
-// path that has them. Returns -1 if there is none.
+// Finds the path on which a price was measured: the first path that has rows of both combinations
+// of the question. Returns -1 if there is none.
 static int find_path(const DipPriceView *view, const DipPriceQuestion *question) {
     for (int path = 0; path < view->report->path_count; path++) {
         const DipPriceEntry *with = dip_price_find(view, path, &question->with);
@@ -170,7 +170,7 @@ static DipPrice answer(const DipPriceView *view, DipSetting setting, const DipQu
 // --- companies -----------------------------------------------------------------------------------
 
 // The settings that are left out of the company. AF and advanced AF are priced with up to three
-// companies in turn: the pane's antialiasing, the same without adaptive AA, and no antialiasing.
+// companies in turn: the pane's antialiasing, its AA without adaptive AA, and no antialiasing.
 static const unsigned left_out[] = {0, 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
                                     DIP_PRICE_ANTIALIASING};
 enum { COMPANIES = sizeof left_out / sizeof *left_out };

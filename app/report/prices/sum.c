@@ -122,8 +122,8 @@ static const unsigned settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA |
                                  1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF |
                                  1u << DIP_SETTING_OPT | 1u << DIP_SETTING_MIPLOD;
 
-// Returns whether a choice needs the price of a step. Steps that reports of earlier versions lack
-// are chosen from if their prices are known.
+// Returns whether a choice must wait for the price of a step. Steps that reports of earlier
+// versions lack take part in the choice only if their prices are known.
 static bool is_required(DipSetting setting, int step) {
     return setting == DIP_SETTING_AAA      ? step == DIP_AAA_OFF || step == DIP_AAA_ON
            : setting == DIP_SETTING_MIPLOD ? step <= DIP_MIPLOD_HIGH_QUALITY

@@ -75,9 +75,10 @@ DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 // without.
 //
 // A setting that does nothing alone is priced beside its company: other settings, which both
-// combinations have. Temporal AA and adaptive AA are priced beside the AA of the pane, advanced AF
-// beside the AF of the pane, upscaling filters beside its scale. The group sizes of adaptive AA are
-// priced together with adaptive AA, against the same AA without it.
+// combinations have. They come from the pane (one of the preview's two pictures) for which the
+// price is asked. Temporal AA and adaptive AA are priced beside the AA of the pane, advanced AF
+// beside the AF of the pane, and upscaling filters beside the scale of the pane. A group size of
+// adaptive AA is priced together with adaptive AA, against the same AA without adaptive AA.
 //
 // AF and advanced AF also have the antialiasing of the pane as company. They cost more where
 // antialiasing shades more fragments, so their prices without it would not add up to the time of

@@ -278,6 +278,16 @@ static void store_depth_row(const DipTile *tile, int s, int y, int x0, int x1, f
     }
 }
 
+void dip_store_pass_depths(const DipPass *pass, const DipTile *tile) {
+    const DipTarget *target = &pass->target;
+    const int x1 = least(target->width - tile->x0, DIP_TILE - tile->right);
+    const int y1 = least(target->height - tile->y0, DIP_TILE - tile->bottom);
+    for (int y = greatest(tile->top, 0); y < y1; y++) {
+        float *row = pass->depths + (size_t)(tile->y0 + y) * (size_t)target->width;
+        store_depth_row(tile, 0, y, greatest(tile->left, 0), x1, row + tile->x0);
+    }
+}
+
 // Stores the depths of the tile's drawn blocks, row by row of the tile, because rows are whole in
 // the memory of a DipDepth.
 static void store_depths(const DipMergePass *pass, const DipTile *tile) {

@@ -88,6 +88,10 @@ void dip_load_depths(const DipMergePass *pass, DipTile *tile);
 void dip_load_stencil(const DipMergePass *pass, const DipTile *tile, uint8_t *stencil);
 void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile);
 
+// Stores the depths of the tile's drawn blocks in DipPass.depths, whether or not the pass is
+// merged.
+void dip_store_pass_depths(const DipPass *pass, const DipTile *tile);
+
 // Whether a block of a tile is drawn.
 static inline bool dip_block_is_drawn(const DipTile *tile, int block) {
     const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK;

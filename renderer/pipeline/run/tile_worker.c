@@ -286,6 +286,9 @@ void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {
     } else {
         draw_plain_tile(worker, index);
     }
+    if (worker->pass->pass->depths) {
+        dip_store_pass_depths(worker->pass->pass, &worker->tile);
+    }
     work->sub_blocks_tested = worker->tile.sub_blocks_tested;
     work->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
     work->fragments = worker->shading.fragments;

@@ -7,6 +7,7 @@
 
 #include "renderer/simd/kernel_table.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -103,6 +104,25 @@ typedef struct DipEasuRow {
     int width;
 } DipEasuRow;
 
+// A row that is added to a history (history.h). Colours are 16-bit linear light in YCoCg.
+typedef struct DipHistoryRow {
+    int y;
+    int width; // of the picture
+    int height;
+    const float *colours[3][3]; // channels of the row above, the row and the row below
+    const float *depths[3];     // depths of the same rows
+    const uint8_t *from;        // the pixels, for their alpha
+    uint8_t *to;                // NULL: the result is not shown
+    const uint8_t *srgb_code;   // `code` of a DipSrgbEncodeTable
+    float to_before[12];        // DipHistoryPicture.to_before
+    bool begins;                // the picture has no past
+    int summed;                 // pictures whose sum the past is; 0: it is a picture
+    float alpha;                // share of the new picture
+    const float *past[3];       // channels of pixel (0, 0) of the last result, in planes
+    int plane_stride;
+    float *result[3]; // the row's channels
+} DipHistoryRow;
+
 // X(result, name, parameters)
 #define DIP_POST_KERNEL_LIST(X)                                                                    \
     /* Codes of each channel, 0..1. */                                                             \
@@ -124,7 +144,14 @@ typedef struct DipEasuRow {
     X(void, dip_kernel_spread_row, (const DipSpreadRow *row))                                      \
     X(void, dip_kernel_blend_row, (const DipBlendRow *row))                                        \
     X(void, dip_kernel_easu_shape, (const DipEasuShape *shape))                                    \
-    X(void, dip_kernel_easu_row, (const DipEasuRow *row))
+    X(void, dip_kernel_easu_row, (const DipEasuRow *row))                                          \
+    /* Channels of a row in 16-bit linear light and YCoCg, with a table of 256 floats. */          \
+    X(void, dip_kernel_history_unpack,                                                             \
+      (const uint8_t *rgba8, int width, const float *table, float *const channels[3]))             \
+    /* Blends a row with its past, and returns the number of pixels that have one. */              \
+    X(unsigned, dip_kernel_history_move, (const DipHistoryRow *row))                               \
+    /* Adds a row to the sums of the row's result. */                                              \
+    X(void, dip_kernel_history_rest, (const DipHistoryRow *row))
 
 typedef struct DipPostKernels {
     DIP_POST_KERNEL_LIST(DIP_KERNEL_FIELD)

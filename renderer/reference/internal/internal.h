@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 // Tables of the light that metallic-roughness surfaces reflect.
+typedef struct DipRefEnvironment DipRefEnvironment;
 typedef struct DipRefPbrTables DipRefPbrTables;
 
 // The surfaces that cast shadows, and the light whose shadows they cast.
@@ -27,9 +28,10 @@ struct DipReference {
     // Textures, with the same indices as in the description. A texture that no surface shows has no
     // levels.
     DipRefTexture *textures;
-    DipRefPbrTables *pbr_tables; // owned; NULL if no material has a metallic-roughness surface
-    DipRefShadows *shadows;      // owned; NULL if the scene can have no shadows
-    bool lacks_shadows;          // no memory was left for the shadows of this time
+    DipRefPbrTables *pbr_tables;    // owned; NULL if no material has a metallic-roughness surface
+    DipRefEnvironment *environment; // owned; NULL if pbr_tables is, or without an environment
+    DipRefShadows *shadows;         // owned; NULL if the scene can have no shadows
+    bool lacks_shadows;             // no memory was left for the shadows of this time
 };
 
 // The varyings: values that a vertex carries besides its position. They are interpolated with
@@ -92,7 +94,8 @@ typedef struct DipRefTriangle {
     DipRefLit lit;
     const DipPbrDef *pbr; // NULL unless the surface is drawn by its metallic-roughness description
     DipRefPbrTables *pbr_tables;
-    const DipRefTexture *metal_rough; // maps of such a surface, or NULL
+    const DipRefEnvironment *environment; // NULL: the surroundings of the lighting
+    const DipRefTexture *metal_rough;     // maps of such a surface, or NULL
     const DipRefTexture *occlusion;
     const DipRefTexture *emission;
     const DipSkyDef *sky; // the clouds of a sky surface; NULL for other surfaces
@@ -234,6 +237,17 @@ void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filte
 
 // pbr.c: the tables, or NULL when memory runs out. The caller frees them with free().
 DipRefPbrTables *dip_reference_pbr_tables_create(void);
+
+// environment.c: makes what surfaces see of an environment, which is borrowed. Returns NULL if
+// memory runs out. *environment may be NULL and becomes NULL.
+DipRefEnvironment *dip_reference_environment_create(const DipEnvironmentDef *def);
+void dip_reference_environment_destroy(DipRefEnvironment **environment);
+// Computes the light that a lobe of some roughness, 0..1, sees around a direction (unit).
+void dip_reference_environment_see(const DipRefEnvironment *environment, double roughness,
+                                   const double towards[3], double rgb[3]);
+// Computes the light that falls on a white matt surface with a normal (unit).
+void dip_reference_environment_soften(const DipRefEnvironment *environment, const double normal[3],
+                                      double rgb[3]);
 
 // Shades a metallic-roughness surface, whose own colour is rgb. texel: its normal map's, or NULL.
 void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,

@@ -102,21 +102,27 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
 
 // --- objects -----------------------------------------------------------------------------------
 
-// Computes the view rays through the pixels of a target from the world-to-clip matrix. The first
-// three elements of the rows for x, y and w are orthogonal vectors. So a point relative to the eye
-// is a weighted sum of these vectors: the weight of a vector is its clip coordinate divided by the
-// vector's squared length.
-static DipViewRays view_rays(const double m[16], int width, int height) {
+// Computes the view rays through the pixels of a target. The rows of the view for clip x, y and w
+// are orthogonal vectors. So a point relative to the eye is a weighted sum of these vectors: the
+// weight of a vector is its clip coordinate divided by the vector's squared length. The shift of
+// the view adds multiples of w to x and y, which the vector of w takes away.
+static DipViewRays view_rays(const DipView *view, int width, int height) {
+    const double scale[3] = {view->scale[0], view->scale[1], -1.0};
     DipViewRays rays;
-    double inverse2[4];
-    for (int row = 0; row < 4; row++) {
-        const double *r = m + 4 * row;
-        inverse2[row] = row == 2 ? 0.0 : 1.0 / (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    double rows[3][3];
+    double inverse2[3];
+    for (int row = 0; row < 3; row++) {
+        double *r = rows[row];
+        for (int c = 0; c < 3; c++) {
+            r[c] = scale[row] * view->axis[row][c];
+        }
+        inverse2[row] = 1.0 / (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
     }
     for (int c = 0; c < 3; c++) {
-        const double right = m[c] * inverse2[0];
-        const double up = m[4 + c] * inverse2[1];
-        const double ahead = m[12 + c] * inverse2[3];
+        const double right = rows[0][c] * inverse2[0];
+        const double up = rows[1][c] * inverse2[1];
+        const double ahead =
+            rows[2][c] * inverse2[2] - right * view->shift[0] - up * view->shift[1];
         rays.origin[c] = (float)(ahead - right + up);
         rays.per_x[c] = (float)(2.0 * right / width);
         rays.per_y[c] = (float)(-2.0 * up / height);
@@ -170,7 +176,9 @@ static void set_lights(const DipDrawInput *input, const DipSceneObject *object,
 static void set_pbr(const DipMaterialKernels *kernels, const DipSceneMesh *mesh,
                     DipSurfaceUniforms *uniforms, DipDraw *draw) {
     draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
-    draw->fragment_shader = kernels->dip_kernel_pbr_fragment;
+    draw->fragment_shader = uniforms->pbr->environment
+                                ? kernels->dip_kernel_pbr_environment_fragment
+                                : kernels->dip_kernel_pbr_fragment;
     draw->varying_count = mesh->full_varying_count;
     // The plane of a triangle follows from the derivatives of the depth.
     const bool needs_plane = mesh->normal_mapped || uniforms->pbr->two_sided;
@@ -354,7 +362,7 @@ void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDraw
     int blended = 0;
     set->count = 0;
     set->culled = 0;
-    set->rays = view_rays(pass->view->world_to_clip, pass->width, pass->height);
+    set->rays = view_rays(pass->view, pass->width, pass->height);
     see_lights(scene, pass->view, set);
     if (pass->shadow) {
         set->shadow = *pass->shadow;

@@ -55,7 +55,7 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
     DipPass pass = {
         .sample_count = dip_quality_sample_count(&renderer->quality),
         .pattern =
-            dip_pattern_kind(renderer->quality.step[DIP_SETTING_TAA] != 0, renderer->frame_index),
+            dip_pattern_kind(dip_quality_alternates(&renderer->quality), renderer->frame_index),
         .samples_per_group = plan->samples_per_group,
         .groups_shade_all = dip_quality_groups_shade_all(&renderer->quality),
         .alpha_to_coverage = dip_quality_covers_by_alpha(&renderer->quality),
@@ -98,6 +98,7 @@ typedef struct FrameSetup {
     DipPipelineCounters counters;        // sums over all passes
     DipPipelineCounters shadow_counters; // of the shadow map alone
     uint64_t fragments_mirrored;
+    int64_t time_ns;
     double posing_ms;                  // how long it took to move the scene to the frame's time
     const DipSampleReadback *readback; // NULL unless samples are read
     // The frame, drawn at once, whose pixels this frame may copy; NULL if it shades them all.
@@ -167,6 +168,7 @@ static void make_scene_pass(FrameSetup *setup) {
     };
     setup->pass = begin_pass(renderer, setup->scene, &setup->plan);
     setup->pass.target = dip_renderer_target(renderer);
+    setup->pass.depths = setup->readback ? NULL : dip_finish_depths(renderer->finish);
     // A pass with blended surfaces is merged, and a merged pass stores no light.
     setup->pass.light16 = setup->scene->blended_count ? NULL : renderer->scaled.light16;
     if (setup->readback) {
@@ -174,6 +176,67 @@ static void make_scene_pass(FrameSetup *setup) {
         setup->pass.region = setup->readback->region;
     }
     set_draws(renderer, setup->scene, seen, &renderer->set, &setup->pass);
+}
+
+// --- the history ---------------------------------------------------------------------------------
+
+// Shifts the view of a frame with a history by a part of a pixel: so that the centre of each pixel
+// shows what one of sixteen samples of a pixel would. These are the samples of the two patterns
+// that alternate, which together have the pixel's centre as their mean. Opposite samples follow
+// each other.
+static void shift_view(FrameSetup *setup) {
+    const DipRenderer *renderer = setup->renderer;
+    const DipTarget target = dip_renderer_target(renderer);
+    const uint64_t turn = renderer->frame_index / DIP_MAX_SAMPLES;
+    const DipSamplePattern *pattern =
+        dip_sample_pattern_of(DIP_MAX_SAMPLES, dip_pattern_kind(true, turn));
+    const int sample = pattern->order[renderer->frame_index % DIP_MAX_SAMPLES];
+    const double shift[2] = {(128 - pattern->x[sample]) / (128.0 * target.width),
+                             (pattern->y[sample] - 128) / (128.0 * target.height)};
+    if (dip_quality_has_history(&renderer->quality)) {
+        dip_view_shift(&setup->view, shift);
+    }
+}
+
+// Whether a frame continues the history.
+static bool continues(const FrameSetup *setup) {
+    const DipRenderer *renderer = setup->renderer;
+    const DipPast *past = &renderer->past;
+    return past->exists && renderer->frame_index == past->frame_index + 1 &&
+           setup->time_ns >= past->time_ns && renderer->scene_serial == past->scene_serial &&
+           dip_quality_equal(&renderer->quality, &past->quality);
+}
+
+// Whether a frame shows the same as the one before it. Clips and clouds move with the time.
+static bool rests(const FrameSetup *setup) {
+    const DipView *now = &setup->view;
+    const DipView *before = &setup->renderer->past.view;
+    const bool moves = setup->scene->motion || setup->plan.effects.sky.run;
+    return memcmp(now->eye, before->eye, sizeof now->eye) == 0 &&
+           memcmp(now->axis, before->axis, sizeof now->axis) == 0 &&
+           memcmp(now->scale, before->scale, sizeof now->scale) == 0 &&
+           (!moves || setup->time_ns == setup->renderer->past.time_ns);
+}
+
+// Tells how a frame follows the one before it, and notes the frame for the next one.
+static DipFinishMotion follow_past(const FrameSetup *setup) {
+    DipRenderer *renderer = setup->renderer;
+    DipFinishMotion motion = {.step = DIP_HISTORY_BEGIN};
+    if (!dip_quality_has_history(&renderer->quality)) {
+        renderer->past.exists = false;
+        return motion;
+    }
+    if (continues(setup)) {
+        motion.step = rests(setup) ? DIP_HISTORY_REST : DIP_HISTORY_MOVE;
+        dip_view_motion(&setup->view, &renderer->past.view, motion.to_before);
+    }
+    renderer->past = (DipPast){.exists = true,
+                               .frame_index = renderer->frame_index,
+                               .time_ns = setup->time_ns,
+                               .scene_serial = renderer->scene_serial,
+                               .quality = renderer->quality,
+                               .view = setup->view};
+    return motion;
 }
 
 // Counts the memory of the textures that effects use, even of effects that this frame does not run.
@@ -226,11 +289,13 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
         !dip_renderer_follow_settings(renderer, of, err)) {
         return false;
     }
-    *setup = (FrameSetup){.renderer = renderer, .frame = frame, .readback = readback};
+    *setup = (FrameSetup){
+        .renderer = renderer, .frame = frame, .readback = readback, .time_ns = time_ns};
     pose_scene(setup, of, time_ns, first);
     const DipScene *scene = setup->scene;
     setup->view =
         dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
+    shift_view(setup);
     setup->mirrored = dip_view_mirror(&setup->view, renderer->reflection.level_m);
     setup->seen = dip_cull_view_planes(setup->view.world_to_clip);
     setup->seen_mirrored = dip_cull_view_planes(setup->mirrored.world_to_clip);
@@ -428,7 +493,8 @@ static void end_frame(const FrameSetup *setup) {
         dip_inset_draw(&picture, &renderer->mirror.target);
     }
     if (!setup->readback) {
-        dip_finish_frame(renderer->finish, frame);
+        const DipFinishMotion motion = follow_past(setup);
+        dip_finish_frame(renderer->finish, &motion, frame);
     }
 }
 
@@ -452,9 +518,12 @@ static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
     // Surfaces that are lit at their vertices have more varyings if they receive shadows.
     const bool same_varyings =
         !a->quality.step[DIP_SETTING_SHADOWS] == !b->quality.step[DIP_SETTING_SHADOWS];
-    return same_scale && same_varyings && a->isa == b->isa && a->width == b->width &&
-           a->height == b->height && a->plain_surfaces == b->plain_surfaces &&
-           a->force_all_effects == b->force_all_effects &&
+    // Each frame of a history is shifted.
+    const bool same_shift =
+        !dip_quality_has_history(&a->quality) && !dip_quality_has_history(&b->quality);
+    return (same_shift || a == b) && same_scale && same_varyings && a->isa == b->isa &&
+           a->width == b->width && a->height == b->height &&
+           a->plain_surfaces == b->plain_surfaces && a->force_all_effects == b->force_all_effects &&
            a->quality.step[DIP_SETTING_GI] == b->quality.step[DIP_SETTING_GI] &&
            r->width == s->width && r->height == s->height && r->level_m == s->level_m;
 }

@@ -7,6 +7,7 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/draws.h"
 #include "renderer/scene/draw/shadow_map.h"
+#include "renderer/scene/draw/view.h"
 #include "renderer/scene/finish.h"
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/instancing.h"
@@ -33,6 +34,16 @@ typedef struct DipScaled {
     DipSrgbEncodeTable *codes; // encodes the averaged light
 } DipScaled;
 
+// What the last frame of a renderer with a history showed.
+typedef struct DipPast {
+    bool exists;
+    uint64_t frame_index;
+    int64_t time_ns;
+    uint64_t scene_serial;
+    DipQuality quality;
+    DipView view; // with its shift
+} DipPast;
+
 struct DipRenderer {
     DipPool *pool;
     DipIsa isa;
@@ -51,7 +62,8 @@ struct DipRenderer {
     bool copies_shading;        // see dip_renderer_copy_shading
     DipTileRecording recording; // owned; its arrays are NULL unless tiles are recorded
     DipFinish *finish;          // the filters of the settings
-    DipSkyUniforms sky;         // the sky at the frame's time; set only if the frame shows clouds
+    DipPast past;
+    DipSkyUniforms sky; // the sky at the frame's time; set only if the frame shows clouds
 
     // Resources for the scene that was drawn last.
     uint64_t scene_serial; // DipScene.serial of that scene; 0: there is none

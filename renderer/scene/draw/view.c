@@ -21,6 +21,10 @@ static void set_matrix(DipView *view) {
         m[4 * row + 3] = scale[row] * shift;
     }
     m[11] = view->near_m; // clip z is constant: the distance of the near plane
+    for (int i = 0; i < 8; i++) {
+        const double shift = view->shift[i / 4];
+        m[i] += shift != 0.0 ? shift * m[12 + i % 4] : 0.0;
+    }
 }
 
 // Copies a quaternion that is not 0, scaled so that its greatest component is between 1 and 2.
@@ -56,6 +60,36 @@ DipView dip_view_make(const DipPose *pose, double near_m, double aspect) {
     return view;
 }
 
+void dip_view_shift(DipView *view, const double shift[2]) {
+    view->shift[0] = shift[0];
+    view->shift[1] = shift[1];
+    set_matrix(view);
+}
+
+static double dot(const double a[3], const double b[3]) {
+    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+// A point at clip x, y and w lies at eye + w ray, where the ray is x / w / scale[0] along the axis
+// x, y / w / scale[1] along the axis y, and -1 along the axis z. The rows of `before` are linear in
+// (ray + (eye - its eye) / w), and 1 / w is the depth over the distance of the near plane.
+void dip_view_motion(const DipView *now, const DipView *before, float to_before[12]) {
+    double moved[3];
+    for (int i = 0; i < 3; i++) {
+        moved[i] = (now->eye[i] - before->eye[i]) / now->near_m;
+    }
+    for (int row = 0; row < 3; row++) {
+        const double *axis = before->axis[row];
+        const double scale = row < 2 ? before->scale[row] : -1.0;
+        const double to[4] = {dot(axis, now->axis[0]) / now->scale[0],
+                              dot(axis, now->axis[1]) / now->scale[1], -dot(axis, now->axis[2]),
+                              dot(axis, moved)};
+        for (int i = 0; i < 4; i++) {
+            to_before[4 * row + i] = (float)(scale * to[i]);
+        }
+    }
+}
+
 DipView dip_view_mirror(const DipView *view, double level) {
     DipView mirrored = *view;
     mirrored.eye[1] = 2.0 * level - view->eye[1];
@@ -80,7 +114,7 @@ void dip_view_plane(const DipView *view, const double plane[4], double clip[4]) 
     clip[0] = along[0] / view->scale[0];
     clip[1] = along[1] / view->scale[1];
     clip[2] = at_eye / view->near_m;
-    clip[3] = -along[2];
+    clip[3] = -along[2] - (clip[0] * view->shift[0] + clip[1] * view->shift[1]);
 }
 
 // Rounds to a multiple of DIP_ORIGIN_CELL, halves up. Returns 0 if 64 bits cannot hold the factor.

@@ -10,12 +10,22 @@ typedef struct DipView {
     double axis[3][3];        // the camera's x, y, z axes in world space; left-handed if mirrored
     double scale[2];          // clip x = scale[0] * camera x, clip y = scale[1] * camera y
     double near_m;            // distance of the near plane; also the clip z of every point
-    double world_to_clip[16]; // row-major
+    double shift[2];          // clip x and y are shifted by these multiples of clip w
+    double world_to_clip[16]; // row-major; has the shift
 } DipView;
 
 // Computes the view from a pose, as docs/picture.md, Camera, defines it. aspect: width / height of
 // the picture.
 DipView dip_view_make(const DipPose *pose, double near_m, double aspect);
+
+// Shifts what the view shows by parts of the picture: a shift of 2 is its whole width or height, to
+// the right or up.
+void dip_view_shift(DipView *view, const double shift[2]);
+
+// Computes the matrix of three rows that takes a place in the picture of `now` and a depth to the
+// place of the same point in the picture of `before` (to_before of DipHistoryPicture). Both views
+// have the same near plane; their shifts do not matter.
+void dip_view_motion(const DipView *now, const DipView *before, float to_before[12]);
 
 // Computes the view of the world mirrored at y = level. It shows every point at the position at
 // which the eye would see the point's mirror image. The view reverses the winding of every

@@ -19,6 +19,8 @@
     X(void, dip_kernel_gouraud_fragment, (DipFragmentBatch * batch))                               \
     X(void, dip_kernel_phong_fragment, (DipFragmentBatch * batch))                                 \
     X(void, dip_kernel_pbr_fragment, (DipFragmentBatch * batch))                                   \
+    /* The same for surfaces that see an environment. */                                           \
+    X(void, dip_kernel_pbr_environment_fragment, (DipFragmentBatch * batch))                       \
     X(void, dip_kernel_blended_fragment, (DipFragmentBatch * batch))                               \
     X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))                                   \
     X(void, dip_kernel_water_fragment, (DipFragmentBatch * batch))

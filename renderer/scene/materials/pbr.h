@@ -18,6 +18,19 @@ typedef struct DipPbrTables {
     int32_t grazing[DIP_PBR_TABLE];
 } DipPbrTables;
 
+enum { DIP_PBR_SAMPLES = 256 };
+
+// A Hammersley point: its first coordinate, and the cosine and sine of the azimuth that the second
+// one gives.
+typedef struct DipPbrSample {
+    double u;
+    double cosine;
+    double sine;
+} DipPbrSample;
+
+// Makes the points by which the lobe is integrated, with + - * / and sqrt alone.
+void dip_pbr_samples_make(DipPbrSample samples[DIP_PBR_SAMPLES]);
+
 // Computes the tables with + - * / and sqrt alone, so that they are the same on every machine.
 void dip_pbr_tables_make(DipPbrTables *tables);
 
@@ -25,6 +38,7 @@ void dip_pbr_tables_make(DipPbrTables *tables);
 // DIP_ABSENT if the surface has no such map.
 typedef struct DipPbrUniforms {
     const DipPbrTables *tables;
+    const struct DipEnvironmentMap *environment; // NULL: the surroundings of the lighting
     float metallic;
     float roughness;
     float f0_lin[3];    // reflected share at normal incidence of what is not metal

@@ -1,6 +1,7 @@
 // The shader of metallic-roughness surfaces. Compiled once per instruction set. docs/picture.md,
 // Metal and gloss, defines the formulas.
 #include "renderer/scene/materials/arrival_simd.h"
+#include "renderer/scene/materials/environment_simd.h"
 #include "renderer/scene/materials/facing_simd.h"
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/shadow_simd.h"
@@ -34,6 +35,7 @@ typedef struct Lobe {
     Vf3 normal; // unit
     Vf facing;  // n.v
     Vf n_v;     // n.v, 0..1
+    Vf roughness;
     Vf alpha;   // width for the surroundings
     Vf alpha2;  // squared width for lights
     Vf a, b;    // shares of f0 and f90 that uniform light gives
@@ -91,6 +93,7 @@ VEC_INLINE void read_tables(const DipPbrTables *tables, Vf roughness, Lobe *lobe
 VEC_INLINE Lobe make_lobe(const DipPbrTables *tables, Vf3 normal, Vf3 to_eye, Vf roughness) {
     Lobe lobe = {.normal = normal, .facing = vf3_dot(normal, to_eye)};
     lobe.n_v = clamp01(lobe.facing);
+    lobe.roughness = roughness;
     lobe.alpha = roughness * roughness;
     const Vf least = vf_max(lobe.alpha, vf_splat(LEAST_ALPHA));
     lobe.alpha2 = least * least;
@@ -98,11 +101,17 @@ VEC_INLINE Lobe make_lobe(const DipPbrTables *tables, Vf3 normal, Vf3 to_eye, Vf
     return lobe;
 }
 
-// Returns the height (y) of the direction in which a lobe sees the surroundings, times the share
-// that blurring leaves of it. The direction leans from the mirrored one towards the normal.
-VEC_INLINE Vf reflected_height(const Lobe *lobe, Vf3 to_eye) {
+// Returns how far the direction in which a lobe sees the surroundings leans from the normal (0)
+// towards the mirrored direction (1).
+VEC_INLINE Vf lean_of(const Lobe *lobe) {
     const Vf smooth = 1.0f - lobe->alpha;
-    const Vf s = smooth * (vf_sqrt(smooth) + lobe->alpha);
+    return smooth * (vf_sqrt(smooth) + lobe->alpha);
+}
+
+// Returns the height (y) of the direction in which a lobe sees the surroundings, times the share
+// that blurring leaves of it.
+VEC_INLINE Vf reflected_height(const Lobe *lobe, Vf3 to_eye) {
+    const Vf s = lean_of(lobe);
     const Vf rest = 1.0f - s;
     const Vf mirrored = lobe->n_v * lobe->normal.y * 2.0f - to_eye.y;
     const Vf cosine = lobe->n_v * 2.0f - lobe->facing; // between the normal and the mirrored eye
@@ -217,6 +226,37 @@ VEC_INLINE Vf surroundings(const DipLightingUniforms *lighting, int c, Vf height
                   vf_splat(0.0f));
 }
 
+// Computes the light that a lobe sees. environment: NULL for the surroundings of the lighting.
+VEC_INLINE void see_surroundings(const DipLightingUniforms *lighting,
+                                 const DipEnvironmentMap *environment, const Lobe *lobe, Vf3 to_eye,
+                                 Vf seen[3]) {
+    if (environment) {
+        const Vf s = lean_of(lobe);
+        const Vf of_normal = (1.0f - s) + lobe->n_v * s * 2.0f;
+        const Vf3 towards = {lobe->normal.x * of_normal - to_eye.x * s,
+                             lobe->normal.y * of_normal - to_eye.y * s,
+                             lobe->normal.z * of_normal - to_eye.z * s};
+        read_environment(environment, towards, lobe->roughness, seen);
+        return;
+    }
+    const Vf height = reflected_height(lobe, to_eye);
+    for (int c = 0; c < 3; c++) {
+        seen[c] = surroundings(lighting, c, height);
+    }
+}
+
+// Computes the light that falls on a matt surface from its surroundings.
+VEC_INLINE void gather_soft_light(const DipLightingUniforms *lighting,
+                                  const DipEnvironmentMap *environment, Vf3 normal, Vf soft[3]) {
+    if (environment) {
+        soft_light_of(environment, normal.x, normal.y, normal.z, soft);
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        soft[c] = normal.y * lighting->sky_lin[c] + lighting->ambient_lin[c];
+    }
+}
+
 // Adds what a light gives to the surface.
 VEC_INLINE void add_light(const DipPbrUniforms *pbr, const Lobe *lobe, const PbrPoint *point,
                           const DipLightUniforms *light, Vf lit, const Channel channels[3], Vf f90,
@@ -235,12 +275,16 @@ VEC_INLINE void add_light(const DipPbrUniforms *pbr, const Lobe *lobe, const Pbr
     }
 }
 
-VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms, const Lobe *lobe,
+VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms,
+                              const DipEnvironmentMap *environment, const Lobe *lobe,
                               const PbrPoint *point, Vf sum[3]) {
     const DipPbrUniforms *pbr = uniforms->pbr;
     const DipLightingUniforms *lighting = uniforms->lighting;
     const Vf base[3] = {point->base.x, point->base.y, point->base.z};
-    const Vf height = reflected_height(lobe, point->to_eye);
+    Vf seen[3];
+    Vf soft[3];
+    see_surroundings(lighting, environment, lobe, point->to_eye, seen);
+    gather_soft_light(lighting, environment, lobe->normal, soft);
     const Vf lost = lost_light(lobe);
     const Vf f90 = (1.0f - point->metallic) * pbr->f90 + point->metallic;
     const Vf kept = (1.0f - pbr->f0_greatest) - lobe->grazing * (pbr->f90 - pbr->f0_greatest);
@@ -248,10 +292,7 @@ VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms, const Lobe *lo
     for (int c = 0; c < 3; c++) {
         channels[c] = channel_of(pbr, point, c, base[c], lost);
         const Vf mirrored = (channels[c].f0 * lobe->a + f90 * lobe->b) * channels[c].gain;
-        const Vf soft = lobe->normal.y * lighting->sky_lin[c] + lighting->ambient_lin[c];
-        sum[c] =
-            (mirrored * surroundings(lighting, c, height) + (kept * channels[c].diffuse) * soft) *
-            point->occlusion;
+        sum[c] = (mirrored * seen[c] + (kept * channels[c].diffuse) * soft[c]) * point->occlusion;
     }
     for (int l = 0; l < lighting->count; l++) {
         if (uniforms->lights >> l & 1) {
@@ -262,19 +303,20 @@ VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms, const Lobe *lo
 }
 
 // Covers a colour with the clear coat, which takes a share of what is below and adds its own lobe.
-VEC_INLINE void add_coat(const DipSurfaceUniforms *uniforms, Vf3 normal, const PbrPoint *point,
-                         Vf sum[3]) {
+VEC_INLINE void add_coat(const DipSurfaceUniforms *uniforms, const DipEnvironmentMap *environment,
+                         Vf3 normal, const PbrPoint *point, Vf sum[3]) {
     const DipPbrUniforms *pbr = uniforms->pbr;
     const DipLightingUniforms *lighting = uniforms->lighting;
     const Lobe lobe = make_lobe(pbr->tables, normal, point->to_eye, vf_splat(pbr->coat_roughness));
     const Vf rest = 1.0f - lobe.n_v;
     const Vf fresnel = (rest * rest) * (rest * rest) * rest * (1.0f - COAT_F0) + COAT_F0;
     const Vf left = 1.0f - fresnel * pbr->coat;
-    const Vf height = reflected_height(&lobe, point->to_eye);
+    Vf seen[3];
+    see_surroundings(lighting, environment, &lobe, point->to_eye, seen);
     const Vf gain = (lost_light(&lobe) * COAT_F0 + 1.0f) * pbr->coat;
     const Vf mirrored = (lobe.a * COAT_F0 + lobe.b) * gain * point->occlusion;
     for (int c = 0; c < 3; c++) {
-        sum[c] = sum[c] * left + mirrored * surroundings(lighting, c, height);
+        sum[c] = sum[c] * left + mirrored * seen[c];
     }
     for (int l = 0; l < lighting->count; l++) {
         if (uniforms->lights >> l & 1) {
@@ -313,7 +355,8 @@ VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Vf3 ray, co
     return point;
 }
 
-VEC_INLINE void shade_fragments(DipFragmentBatch *batch, int i, const Maps *maps) {
+VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
+                                int i, const Maps *maps) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const Vf3 ray = view_ray(uniforms->rays, batch, i);
@@ -321,13 +364,13 @@ VEC_INLINE void shade_fragments(DipFragmentBatch *batch, int i, const Maps *maps
     const Facing facing = face_eye(batch, i, ray, maps);
     const Lobe lobe = surface_lobe(pbr, i, &facing, point.to_eye, maps);
     Vf sum[3];
-    light_surface(uniforms, &lobe, &point, sum);
+    light_surface(uniforms, environment, &lobe, &point, sum);
     for (int c = 0; c < 3 && pbr->emits; c++) {
         const Vf share = maps->emission ? vf_load(maps->emission[c] + i) : vf_splat(1.0f);
         sum[c] = sum[c] + share * pbr->emission_lin[c];
     }
     if (pbr->coat > 0.0f) {
-        add_coat(uniforms, facing.mesh, &point, sum);
+        add_coat(uniforms, environment, facing.mesh, &point, sum);
     }
     for (int c = 0; c < 3; c++) {
         vf_store(batch->colour[c] + i, sum[c]);
@@ -372,7 +415,7 @@ VEC_INLINE void count_parts(DipFragmentBatch *batch, const Maps *maps) {
     batch->work.counts[DIP_SHADER_COUNT_COATED] += pbr->coat > 0.0f ? count : 0;
 }
 
-void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
+VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *environment) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float texture[3][DIP_FRAGMENT_BATCH];
     float normals[3][DIP_FRAGMENT_BATCH];
@@ -394,7 +437,16 @@ void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
         maps.lit = lit;
     }
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        shade_fragments(batch, i, &maps);
+        shade_fragments(batch, environment, i, &maps);
     }
     count_parts(batch, &maps);
+}
+
+void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
+    shade_batch(batch, NULL);
+}
+
+void DIP_KERNEL(dip_kernel_pbr_environment_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    shade_batch(batch, uniforms->pbr->environment);
 }

@@ -5,15 +5,7 @@
 
 #include <math.h>
 
-enum { SAMPLES = 256, SAMPLE_BITS = 8 };
-
-// A Hammersley point: its first coordinate, and the cosine and sine of the azimuth that the second
-// one gives.
-typedef struct Sample {
-    double u;
-    double cosine;
-    double sine;
-} Sample;
+enum { SAMPLES = DIP_PBR_SAMPLES, SAMPLE_BITS = 8 };
 
 static double larger(double a, double b) {
     return a > b ? a : b;
@@ -27,7 +19,7 @@ static int reversed_bits(int value) {
     return reversed;
 }
 
-static void make_samples(Sample samples[SAMPLES]) {
+void dip_pbr_samples_make(DipPbrSample samples[SAMPLES]) {
     // A quarter turn, halved until it is 1 / SAMPLES of a turn.
     double step_cosine = 0.0;
     double step_sine = 1.0;
@@ -39,7 +31,7 @@ static void make_samples(Sample samples[SAMPLES]) {
     double cosine = 1.0;
     double sine = 0.0;
     for (int turn = 0; turn < SAMPLES; turn++) {
-        Sample *sample = &samples[reversed_bits(turn)];
+        DipPbrSample *sample = &samples[reversed_bits(turn)];
         sample->cosine = cosine;
         sample->sine = sine;
         const double next = cosine * step_cosine - sine * step_sine;
@@ -65,7 +57,8 @@ static double fifth_power(double x) {
 // Finds a visible half vector for the view (x, 0, z) in tangent space: "Sampling the GGX
 // distribution of visible normals" (Heitz 2018). Its y component is not needed. half[0] is its x,
 // half[1] its z.
-static void find_half(double x, double z, double alpha, const Sample *sample, double half[2]) {
+static void find_half(double x, double z, double alpha, const DipPbrSample *sample,
+                      double half[2]) {
     const double stretched_x = alpha * x;
     const double inverse = 1.0 / sqrt(stretched_x * stretched_x + z * z);
     const double hx = stretched_x * inverse;
@@ -94,7 +87,7 @@ static int32_t pack(uint32_t low, uint32_t high) {
     return (int32_t)(low | high << 16);
 }
 
-static int32_t lobe_entry(const Sample samples[SAMPLES], double roughness, double z) {
+static int32_t lobe_entry(const DipPbrSample samples[SAMPLES], double roughness, double z) {
     const double alpha = larger(roughness * roughness, 1e-4);
     const double x = sqrt(1.0 - z * z);
     const double view = shadowing(z, alpha * alpha);
@@ -118,7 +111,7 @@ static int32_t lobe_entry(const Sample samples[SAMPLES], double roughness, doubl
 
 // The mean of (1 - v.h)^5 with the light's direction by the cosine. v.h is the cosine of half the
 // angle between view and light.
-static uint32_t grazing_entry(const Sample samples[SAMPLES], double z) {
+static uint32_t grazing_entry(const DipPbrSample samples[SAMPLES], double z) {
     const double x = sqrt(1.0 - z * z);
     double sum = 0.0;
     for (int i = 0; i < SAMPLES; i++) {
@@ -131,8 +124,8 @@ static uint32_t grazing_entry(const Sample samples[SAMPLES], double z) {
 }
 
 void dip_pbr_tables_make(DipPbrTables *tables) {
-    Sample samples[SAMPLES];
-    make_samples(samples);
+    DipPbrSample samples[SAMPLES];
+    dip_pbr_samples_make(samples);
     for (int r = 0; r < DIP_PBR_TABLE; r++) {
         for (int v = 0; v < DIP_PBR_TABLE; v++) {
             tables->lobe[r * DIP_PBR_TABLE + v] =

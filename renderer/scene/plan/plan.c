@@ -366,6 +366,13 @@ static DipEffect plan_sky(const DipPlanInput *input, DipFramePlan *plan) {
 }
 
 // Filters of the finished picture run wherever the settings ask for them.
+static DipEffect plan_history(const DipPlanInput *input, DipFramePlan *plan) {
+    (void)plan;
+    return dip_quality_has_history(input->quality)
+               ? run(input, "each frame is blended with the frames before it")
+               : skip("taa is not history");
+}
+
 static DipEffect plan_post(const DipPlanInput *input, DipFramePlan *plan) {
     (void)plan;
     return input->quality->step[DIP_SETTING_POST]
@@ -443,5 +450,7 @@ bool dip_plan_shades_alike(const DipQuality *a, const DipQuality *b) {
         a->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE &&
         b->step[DIP_SETTING_AAA] != DIP_AAA_COVERAGE && a->step[DIP_SETTING_AAA] != DIP_AAA_ALL &&
         b->step[DIP_SETTING_AAA] != DIP_AAA_ALL && a->step[DIP_SETTING_SCALE] <= DIP_SCALE_1;
-    return same_light && !a->step[DIP_SETTING_MIPDEBUG];
+    // Each frame of a history is shaded at a place of its own.
+    const bool shifted = dip_quality_has_history(a) || dip_quality_has_history(b);
+    return same_light && !shifted && !a->step[DIP_SETTING_MIPDEBUG];
 }

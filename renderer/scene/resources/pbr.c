@@ -25,17 +25,22 @@ static bool has_any(const DipSceneDef *def) {
     return false;
 }
 
-bool dip_scene_pbr_create(const DipSceneDef *def, DipScenePbr **out, DipError *err) {
+bool dip_scene_pbr_create(const DipSceneDef *def, DipPool *pool, DipScenePbr **out, DipError *err) {
+    // An environment lights surfaces by itself.
+    static const DipLightingDef nothing = {.light_count = 0};
     *out = NULL;
     if (!has_any(def)) {
         return true;
     }
     DipScenePbr *pbr = calloc(1, sizeof *pbr + (size_t)def->mesh_count * sizeof *pbr->surfaces);
     if (pbr && !def->lighting) {
-        pbr->fixed = dip_scene_lighting_create(dip_lighting_fixed());
+        pbr->fixed = dip_scene_lighting_create(def->environment ? &nothing : dip_lighting_fixed());
     }
-    if (!pbr || (!def->lighting && !pbr->fixed)) {
-        free(pbr);
+    if (pbr && def->environment) {
+        pbr->environment = dip_environment_map_create(def->environment, pool);
+    }
+    if (!pbr || (!def->lighting && !pbr->fixed) || (def->environment && !pbr->environment)) {
+        dip_scene_pbr_destroy(&pbr);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
     }
     dip_pbr_tables_make(&pbr->tables);
@@ -46,6 +51,7 @@ bool dip_scene_pbr_create(const DipSceneDef *def, DipScenePbr **out, DipError *e
 void dip_scene_pbr_destroy(DipScenePbr **pbr) {
     if (*pbr) {
         free((*pbr)->fixed);
+        free((*pbr)->environment);
     }
     free(*pbr);
     *pbr = NULL;

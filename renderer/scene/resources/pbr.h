@@ -3,6 +3,7 @@
 #define DIP_RENDERER_SCENE_RESOURCES_PBR_H
 
 #include "renderer/scene/materials/pbr.h"
+#include "renderer/scene/resources/environment.h"
 #include "renderer/scene/resources/lighting.h"
 #include "renderer/scene/scene.h"
 
@@ -11,16 +12,18 @@
 // Exists only in scenes that have a metallic-roughness surface.
 typedef struct DipScenePbr {
     DipPbrTables tables;
-    DipSceneLighting *fixed;   // the fixed light, in a scene without lights of its own; or NULL
-    DipPbrUniforms surfaces[]; // one per mesh; meshes without such a surface do not use theirs
+    DipSceneLighting *fixed; // the fixed light, in a scene without lights of its own; or NULL
+    DipEnvironmentMap *environment; // NULL: the surroundings of the lighting
+    DipPbrUniforms surfaces[];      // one per mesh; meshes without such a surface do not use theirs
 } DipScenePbr;
 
 // Returns whether the surface of a mesh is drawn by its metallic-roughness description: it must be
 // lit and have normals, and no light map. Water and sky are drawn without.
 bool dip_mesh_has_pbr(const DipSceneDef *def, const DipMeshDef *mesh);
 
-// Creates *pbr, or sets it to NULL if the scene has no such surface. Fails with DIP_ERROR_MEMORY.
-bool dip_scene_pbr_create(const DipSceneDef *def, DipScenePbr **pbr, DipError *err);
+// Creates *pbr on the pool, or sets it to NULL if the scene has no such surface. Fails with
+// DIP_ERROR_MEMORY.
+bool dip_scene_pbr_create(const DipSceneDef *def, DipPool *pool, DipScenePbr **pbr, DipError *err);
 void dip_scene_pbr_destroy(DipScenePbr **pbr);
 
 // Describes the surface of a mesh. uv0 and uv1: index of the first varying of each set of texture

@@ -137,6 +137,18 @@ static bool check_lighting(const DipLightingDef *lighting, DipError *err) {
     return good;
 }
 
+static bool check_environment(const DipEnvironmentDef *environment, DipError *err) {
+    const int width = environment->width;
+    const int height = environment->height;
+    if (width < 2 || width > DIP_MAX_ENVIRONMENT_WIDTH || width != 2 * height) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "environment",
+                             "%dx%d texels, accepted 2x1..%dx%d, twice as wide as high", width,
+                             height, DIP_MAX_ENVIRONMENT_WIDTH, DIP_MAX_ENVIRONMENT_WIDTH / 2);
+    }
+    return check_range(environment->rgb_lin, 3 * (size_t)width * (size_t)height, 0.0,
+                       (double)DIP_MAX_ENVIRONMENT_LIN, NULL, "environment", err);
+}
+
 static bool check_sky(const DipSkyDef *sky, DipError *err) {
     for (int i = 0; i < 2; i++) {
         const double speed = sky->layers[i].speed_per_min;
@@ -181,7 +193,8 @@ bool dip_scene_check(const DipSceneDef *def, DipError *err) {
     }
     bool good = check_sky(&def->sky, err) &&
                 check_floats(def->background_lin, 3, 3, NULL, "background_lin", err) &&
-                (!def->lighting || check_lighting(def->lighting, err));
+                (!def->lighting || check_lighting(def->lighting, err)) &&
+                (!def->environment || check_environment(def->environment, err));
     for (int i = 0; good && i < def->material_count; i++) {
         good = check_material(def, &def->materials[i], err);
     }

@@ -586,7 +586,7 @@ static const double *find_counted(const void *context, const DipQuality *quality
 // work for every combination: the true one.
 static void composed_work_is_one(void **state) {
     (void)state;
-    static DipQuality list[1 << 17];
+    static DipQuality list[1 << 18];
     const unsigned few = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_SHADOWS;
     // Filters of the finished picture add work of their own, which no other setting changes.
     const unsigned all = ((1u << DIP_SETTING_MIPDEBUG) - 1) &
@@ -594,10 +594,10 @@ static void composed_work_is_one(void **state) {
                            1u << DIP_SETTING_SHARPEN | 1u << DIP_SETTING_SHADOWS);
     Counted groups = {.base = dip_quality_default(), .most_groups = 1};
     Counted parts = {.base = groups.base, .most_groups = 1, .has_filtering = true};
-    int count = dip_cost_list_combinations(&groups.base, all, list, 1 << 17);
-    assert_int_equal(count, 111456);
-    count += dip_cost_list_combinations(&groups.base, few, list + count, (1 << 17) - count);
-    assert_int_equal(count, 111456 + 5 * 5 * 4);
+    int count = dip_cost_list_combinations(&groups.base, all, list, 1 << 18);
+    assert_int_equal(count, 168480);
+    count += dip_cost_list_combinations(&groups.base, few, list + count, (1 << 18) - count);
+    assert_int_equal(count, 168480 + 5 * 5 * 4);
     for (int i = 0; i < count; i++) {
         double truth[DIP_COST_COUNTER_COUNT], first[DIP_COST_COUNTER_COUNT],
             second[DIP_COST_COUNTER_COUNT];
@@ -622,10 +622,11 @@ static void composed_work_is_one(void **state) {
 static void count_filtered(double *counters, const DipQuality *quality) {
     static const double drawn[] = {1.0 / 4.0, 100.0 / 289.0, 4.0 / 9.0, 100.0 / 169.0};
     const bool below = quality->step[DIP_SETTING_SCALE] < DIP_SCALE_1;
+    const double part = below ? drawn[quality->step[DIP_SETTING_SCALE]] : 1.0;
     counters[DIP_COST_COUNTER_pixels_filtered] =
-        (quality->step[DIP_SETTING_POST] ? below ? drawn[quality->step[DIP_SETTING_SCALE]] : 1.0
-                                         : 0.0) +
-        below + (quality->step[DIP_SETTING_SHARPEN] != 0);
+        (quality->step[DIP_SETTING_TAA] == DIP_TAA_HISTORY ? part : 0.0) +
+        (quality->step[DIP_SETTING_POST] ? part : 0.0) + below +
+        (quality->step[DIP_SETTING_SHARPEN] != 0);
 }
 
 // Combinations that differ from a base in one group of settings.
@@ -642,15 +643,16 @@ static const double *find_alone(const void *context, const DipQuality *quality) 
     return dip_work_count_groups(&alone->base, quality) <= 1 ? counters : NULL;
 }
 
-// Post-process AA filters the picture that is drawn, the other filters the frame.
+// A history and post-process AA filter the picture that is drawn, the other filters the frame.
 static void composed_filters_write_the_pixels_of_their_pictures(void **state) {
     (void)state;
-    static DipQuality list[512];
-    const unsigned all = 1u << DIP_SETTING_SCALE | 1u << DIP_SETTING_UPSCALE |
-                         1u << DIP_SETTING_POST | 1u << DIP_SETTING_SHARPEN;
+    static DipQuality list[1024];
+    const unsigned all = 1u << DIP_SETTING_TAA | 1u << DIP_SETTING_SCALE |
+                         1u << DIP_SETTING_UPSCALE | 1u << DIP_SETTING_POST |
+                         1u << DIP_SETTING_SHARPEN;
     const DipQuality base = dip_quality_default();
-    const int count = dip_cost_list_combinations(&base, all, list, 512);
-    assert_int_equal(count, (4 + 4 * 3) * 3 * 4);
+    const int count = dip_cost_list_combinations(&base, all, list, 1024);
+    assert_int_equal(count, 2 * (4 + 4 * 3) * 3 * 4);
     for (int i = 0; i < count; i++) {
         for (int b = 0; b < count; b += 7) {
             double truth[DIP_COST_COUNTER_COUNT] = {0.0}, found[DIP_COST_COUNTER_COUNT];

@@ -106,7 +106,7 @@ def check_sums(report, printer, out):
 
 
 STEPS = {
-    "aa": ["none", "2", "4", "6", "8"], "taa": ["off", "on"], "aaa": ["off", "coverage", "on", "all"],
+    "aa": ["none", "2", "4", "6", "8"], "taa": ["off", "alternate", "history"], "aaa": ["off", "coverage", "on", "all"],
     "asd": ["1", "2", "3", "4"], "af": ["none", "2", "4", "8", "16"], "aaf": ["off", "on"],
     "opt": ["off", "standard", "advanced"],
     "miplod": ["high-performance", "performance", "quality", "high-quality", "sharp",

@@ -161,6 +161,50 @@ int author_add_quad(AuthorScene *scene, int material, const float p[3], const fl
     return scene->def.object_count - 1;
 }
 
+// Copies a mesh behind the vertices and indices that `out` has already.
+static void append(const DipMeshDef *from, const float transform[12], DipMeshDef *out) {
+    uint32_t *indices = (uint32_t *)(uintptr_t)out->indices + out->index_count;
+    for (uint32_t v = 0; v < from->vertex_count; v++) {
+        float position[3];
+        for (int i = 0; i < 3; i++) {
+            position[i] =
+                transform[5 * i] * from->positions[3 * v + (uint32_t)i] + transform[4 * i + 3];
+        }
+        set_vertex(out, out->vertex_count + v, position, from->normals + 3 * (size_t)v,
+                   from->uv0[2 * v], from->uv0[2 * v + 1]);
+    }
+    for (uint32_t i = 0; i < from->index_count; i++) {
+        indices[i] = out->vertex_count + from->indices[i];
+    }
+    out->vertex_count += from->vertex_count;
+    out->index_count += from->index_count;
+}
+
+int author_join(AuthorScene *scene, int first, int last, bool linked) {
+    uint32_t vertices = 0;
+    uint32_t indices = 0;
+    for (int i = first; i <= last; i++) {
+        vertices += scene->meshes[scene->objects[i].mesh].vertex_count;
+        indices += scene->meshes[scene->objects[i].mesh].index_count + 3;
+    }
+    const int material = scene->meshes[scene->objects[first].mesh].material;
+    DipMeshDef *out =
+        add_mesh(scene, material, vertices, indices, (const float[]){0.0f, 0.0f, 0.0f}, 1.0f);
+    out->vertex_count = out->index_count = 0;
+    for (int i = first; i <= last; i++) {
+        const uint32_t part = out->vertex_count;
+        append(&scene->meshes[scene->objects[i].mesh], scene->objects[i].transform, out);
+        if (linked && i < last) {
+            const uint32_t link[3] = {part, out->vertex_count, out->vertex_count};
+            memcpy((uint32_t *)(uintptr_t)out->indices + out->index_count, link, sizeof link);
+            out->index_count += 3;
+        }
+    }
+    scene->objects[first] = scene->objects[scene->def.object_count - 1];
+    scene->def.object_count = first + 1;
+    return first;
+}
+
 // --- whole scenes --------------------------------------------------------------------------------
 
 void author_ball(int row, int column, double centre[3], float *metallic, float *roughness) {

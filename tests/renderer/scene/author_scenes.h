@@ -41,6 +41,11 @@ int author_add_sphere(AuthorScene *scene, int material, const float centre[3], f
 int author_add_quad(AuthorScene *scene, int material, const float p[3], const float a[3],
                     const float b[3]);
 
+// Makes one mesh of the meshes of the objects first..last, which must be the last ones, in this
+// order. If `linked`, triangles without area connect each part with the next one. The new object
+// takes the place of the first one, whose index is returned.
+int author_join(AuthorScene *scene, int first, int last, bool linked);
+
 // --- whole scenes --------------------------------------------------------------------------------
 
 // 18 balls of radius 0.45: three rows of metallic 1, 0.5 and 0, six columns of roughness 0 to 1.

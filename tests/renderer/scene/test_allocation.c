@@ -42,6 +42,36 @@ static int64_t draw_everything(DipRenderer *const panes[2], const DipScene *scen
     return dip_allocation_count() - before;
 }
 
+static void frames_of_a_history_allocate_nothing(void **state) {
+    (void)state;
+    static DipTestScene scene;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_fence);
+    const int64_t at_first = dip_allocation_count();
+    DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
+    DipPool *pool = dip_pool_create(2, NULL);
+    DipRendererDef def = dip_renderer_default_def();
+    def.pool = pool;
+    def.width = 160;
+    def.height = 120;
+    assert_true(dip_quality_parse("taa=history", &def.quality, NULL));
+    DipRenderer *renderer = dip_renderer_create(&def, NULL);
+    DipFrame frame;
+    assert_true(dip_renderer_draw(renderer, fast, &scene.pose, 0, &frame, NULL));
+    const int64_t before = dip_allocation_count();
+    assert_true(before > at_first);
+    for (int i = 1; i < 40; i++) {
+        scene.pose.position_world[0] += i < 20 ? 0.05 : 0.0;
+        dip_renderer_set_frame_index(renderer, (uint64_t)i);
+        assert_true(dip_renderer_draw(renderer, fast, &scene.pose, 0, &frame, NULL));
+        assert_true(i > 19 || frame.counters.pixels_reprojected > 0);
+    }
+    assert_int_equal(before, dip_allocation_count());
+    dip_renderer_destroy(&renderer);
+    dip_scene_destroy(&fast);
+    dip_pool_destroy(&pool);
+    dip_test_scene_free(&scene);
+}
+
 static void frames_after_the_first_allocate_nothing(void **state) {
     (void)state;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
@@ -83,6 +113,9 @@ static void frames_after_the_first_allocate_nothing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(frames_after_the_first_allocate_nothing)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_after_the_first_allocate_nothing),
+        cmocka_unit_test(frames_of_a_history_allocate_nothing),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,9 @@
 
 #include "renderer/reference/reference.h"
 #include "renderer/scene/draw/blend_order.h"
+#include "renderer/scene/motion.h"
 #include "renderer/scene/renderer.h"
+#include "renderer/scene/resources/blended_pieces.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -237,11 +239,10 @@ static void depths_are_measured_along_the_view_axis(void **state) {
 
 // --- against the reference -----------------------------------------------------------------------
 
-static void compare(const char *name, const char *settings, const DipReflectionDef *reflection) {
+// Draws the picture of the reference. The caller frees it.
+static double *draw_reference(const Stage *stage, const DipReflectionDef *reflection) {
     DipError err = {0};
-    Stage stage = open_stage(settings, reflection);
-    const DipFrame frame = draw(&stage);
-    const DipQuality quality = dip_renderer_quality(stage.renderer);
+    const DipQuality quality = dip_renderer_quality(stage->renderer);
     DipReference *reference = dip_reference_create(&scene.def, &err);
     assert_non_null(reference);
     if (reflection) {
@@ -250,6 +251,14 @@ static void compare(const char *name, const char *settings, const DipReflectionD
     double *rgb_lin = malloc(WIDTH * HEIGHT * 3 * sizeof *rgb_lin);
     assert_non_null(rgb_lin);
     assert_true(dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, rgb_lin, &err));
+    dip_reference_destroy(&reference);
+    return rgb_lin;
+}
+
+static void compare(const char *name, const char *settings, const DipReflectionDef *reflection) {
+    Stage stage = open_stage(settings, reflection);
+    const DipFrame frame = draw(&stage);
+    double *rgb_lin = draw_reference(&stage, reflection);
     const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
     printf("%s %s: rms %.5f, max %.3f, %zu over 0.02, %.1f dB\n", name, settings, error.rms_lin,
            error.max_lin, error.over_count, error.psnr_db);
@@ -257,7 +266,6 @@ static void compare(const char *name, const char *settings, const DipReflectionD
         .rms_lin = 0.004, .pixel_lin = 0.02, .over_share = 0.003, .over_max_lin = 0.6};
     assert_true(dip_image_check(name, rgb_lin, &frame, &bounds));
     free(rgb_lin);
-    dip_reference_destroy(&reference);
     close_stage(&stage);
 }
 
@@ -268,6 +276,189 @@ static void panes_equal_the_reference(void **state) {
     compare("panes", "aa=4,af=8", NULL);
     compare("panes", "aa=8,aaa=on,asd=1", NULL);
     author_free(&scene);
+}
+
+// --- pieces --------------------------------------------------------------------------------------
+
+enum { SHELLS = 5 };
+
+// Makes one mesh of glass balls that stand before each other, the nearest first.
+static void make_shells(bool linked) {
+    author_begin(&scene);
+    const int glass = author_add_pbr(&scene, 0.0f, 0.3f);
+    scene.materials[glass].surface = DIP_SURFACE_BLENDED;
+    scene.materials[glass].opacity = 0.5f;
+    for (int i = 0; i < SHELLS; i++) {
+        const float along = (float)i;
+        author_add_sphere(&scene, glass,
+                          (const float[]){along * 0.5f - 1.0f, along * 0.3f - 0.6f, 2.0f - along},
+                          0.7f);
+    }
+    DipMeshDef *shells =
+        &scene.meshes[scene.objects[author_join(&scene, 0, SHELLS - 1, linked)].mesh];
+    float *colours = calloc(3 * (size_t)shells->vertex_count, sizeof *colours);
+    assert_non_null(colours);
+    const uint32_t shell = shells->vertex_count / SHELLS;
+    for (uint32_t v = 0; v < shells->vertex_count; v++) {
+        memcpy(colours + 3 * (size_t)v,
+               v / shell % 3 == 0   ? red
+               : v / shell % 3 == 1 ? green
+                                    : blue,
+               sizeof red);
+    }
+    shells->colours_lin = colours;
+}
+
+static void free_shells(void) {
+    free((void *)(uintptr_t)scene.meshes[scene.objects[0].mesh].colours_lin);
+    author_free(&scene);
+}
+
+// Returns the error of a picture of the shells against the reference, which sorts each sample.
+static double error_of_shells(bool linked, const char *settings) {
+    make_shells(linked);
+    Stage stage = open_stage(settings, NULL);
+    const DipFrame frame = draw(&stage);
+    double *rgb_lin = draw_reference(&stage, NULL);
+    const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
+    printf("shells %s, %s: rms %.5f, %zu pixels over 0.02\n", linked ? "linked" : "apart", settings,
+           error.rms_lin, error.over_count);
+    assert_int_equal(dip_scene_triangle_count(stage.scene),
+                     scene.meshes[scene.objects[0].mesh].index_count / 3);
+    free(rgb_lin);
+    close_stage(&stage);
+    free_shells();
+    return error.rms_lin;
+}
+
+// A mesh that is connected cannot be sorted, so the linked shells show the error of a mesh that is
+// not cut.
+static void the_pieces_of_a_mesh_are_sorted(void **state) {
+    (void)state;
+    static const char *const settings[] = {"aa=none", "aa=4,gi=off"};
+    for (int i = 0; i < 2; i++) {
+        const double linked = error_of_shells(true, settings[i]);
+        const double apart = error_of_shells(false, settings[i]);
+        assert_true(apart < 0.004);
+        assert_true(apart * 10.0 < linked);
+    }
+}
+
+// Makes one mesh of `count` triangles. Each has corners of its own, and shares a place with the
+// next one if they are `joined`.
+static void make_triangles(uint32_t count, bool joined) {
+    author_begin(&scene);
+    const int glass = author_add_pbr(&scene, 0.0f, 1.0f);
+    scene.materials[glass].surface = DIP_SURFACE_BLENDED;
+    float *positions = calloc((size_t)count * 9, sizeof *positions);
+    uint32_t *indices = calloc((size_t)count * 3, sizeof *indices);
+    assert_true(positions && indices);
+    for (uint32_t t = 0; t < count; t++) {
+        for (uint32_t i = 0; i < 3; i++) {
+            positions[9 * t + 3 * i] = (float)t + (i == 1 ? (joined ? 1.0f : 0.5f) : 0.0f);
+            positions[9 * t + 3 * i + 1] = i == 2 ? 1.0f : 0.0f;
+            indices[3 * t + i] = 3 * t + i;
+        }
+    }
+    scene.meshes[0] = (DipMeshDef){.name = "triangles",
+                                   .vertex_count = 3 * count,
+                                   .positions = positions,
+                                   .index_count = 3 * count,
+                                   .indices = indices,
+                                   .material = glass};
+    scene.objects[0] = (DipObjectDef){.transform = {[0] = 1.0f, [5] = 1.0f, [10] = 1.0f}};
+    scene.def.mesh_count = scene.def.object_count = 1;
+}
+
+static void free_triangles(void) {
+    free((void *)(uintptr_t)scene.meshes[0].positions);
+    free((void *)(uintptr_t)scene.meshes[0].indices);
+    author_free(&scene);
+}
+
+// All triangles stay, in their order, and each belongs to one piece.
+static void check_pieces(const DipSceneDef *cut, int pieces) {
+    float next = 0.0f;
+    assert_int_equal(cut->mesh_count, pieces);
+    for (int m = 0; m < cut->mesh_count; m++) {
+        const DipMeshDef *mesh = &cut->meshes[m];
+        assert_int_equal(mesh->vertex_count, mesh->index_count);
+        for (uint32_t i = 0; i < mesh->index_count; i += 3) {
+            assert_true(mesh->positions[3 * mesh->indices[i]] == next);
+            next += 1.0f;
+        }
+    }
+    assert_true(next == (float)(scene.meshes[0].index_count / 3));
+}
+
+static void the_number_of_pieces_is_bounded(void **state) {
+    (void)state;
+    static const struct {
+        uint32_t triangles;
+        int objects;
+        int pieces;
+    } cases[] = {{2, 1, 2},
+                 {256, 1, 256},
+                 {1000, 1, DIP_MOST_BLENDED_PIECES},
+                 {1000, 50, DIP_MOST_BLENDED_PIECE_OBJECTS / 50 + 1}};
+    static DipObjectDef objects[50];
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        make_triangles(cases[i].triangles, false);
+        for (int o = 0; o < cases[i].objects; o++) {
+            objects[o] = scene.objects[0];
+        }
+        scene.def.objects = objects;
+        scene.def.object_count = cases[i].objects;
+        DipCutScene *cut;
+        assert_true(dip_blended_cut(&scene.def, &cut, NULL));
+        assert_non_null(cut);
+        check_pieces(dip_cut_scene_def(cut), cases[i].pieces);
+        assert_int_equal(dip_cut_scene_def(cut)->object_count, cases[i].objects * cases[i].pieces);
+        dip_cut_scene_destroy(&cut);
+        free_triangles();
+    }
+}
+
+static void what_is_connected_or_not_blended_or_broken_is_not_cut(void **state) {
+    (void)state;
+    DipCutScene *cut;
+    make_triangles(100, true);
+    assert_true(dip_blended_cut(&scene.def, &cut, NULL));
+    assert_null(cut);
+    free_triangles();
+    make_triangles(100, false);
+    scene.materials[0].surface = DIP_SURFACE_OPAQUE;
+    assert_true(dip_blended_cut(&scene.def, &cut, NULL));
+    assert_null(cut);
+    scene.materials[0].surface = DIP_SURFACE_BLENDED;
+    ((uint32_t *)(uintptr_t)scene.meshes[0].indices)[5] = 300;
+    assert_true(dip_blended_cut(&scene.def, &cut, NULL));
+    assert_null(cut);
+    free_triangles();
+}
+
+// A piece moves as the object does that it was cut from.
+static void pieces_move_with_their_object(void **state) {
+    (void)state;
+    make_triangles(3, false);
+    scene.objects[1] = scene.objects[0];
+    scene.def.object_count = 2;
+    const DipMovingObject moving = {.object = 1, .node = 7, .offset = {[3] = 2.0}};
+    const DipMotionDef motion = {.objects = &moving, .object_count = 1};
+    scene.def.motion = &motion;
+    DipCutScene *cut;
+    assert_true(dip_blended_cut(&scene.def, &cut, NULL));
+    const DipMotionDef *moved = dip_cut_scene_def(cut)->motion;
+    assert_int_equal(moved->object_count, 3);
+    static const int expected[3] = {1, 4, 5};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(moved->objects[i].object, expected[i]);
+        assert_int_equal(moved->objects[i].node, 7);
+        assert_true(moved->objects[i].offset[3] == 2.0);
+    }
+    dip_cut_scene_destroy(&cut);
+    scene.def.motion = NULL;
+    free_triangles();
 }
 
 // The mirrored scene has its own order: what is far above the water is near below it.
@@ -323,6 +514,10 @@ int main(void) {
         cmocka_unit_test(the_order_is_from_far_to_near),
         cmocka_unit_test(depths_are_measured_along_the_view_axis),
         cmocka_unit_test(panes_equal_the_reference),
+        cmocka_unit_test(the_pieces_of_a_mesh_are_sorted),
+        cmocka_unit_test(the_number_of_pieces_is_bounded),
+        cmocka_unit_test(what_is_connected_or_not_blended_or_broken_is_not_cut),
+        cmocka_unit_test(pieces_move_with_their_object),
         cmocka_unit_test(water_mirrors_panes),
         cmocka_unit_test(the_converged_picture_sorts_each_sample),
     };

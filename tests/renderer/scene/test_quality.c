@@ -21,7 +21,7 @@ static void settings_have_their_documented_defaults(void **state) {
 
 static void formatting_gives_the_parsed_text_back(void **state) {
     (void)state;
-    static const char text[] = "aa=6,taa=on,aaa=on,asd=3,af=16,aaf=on,opt=off,"
+    static const char text[] = "aa=6,taa=alternate,aaa=on,asd=3,af=16,aaf=on,opt=off,"
                                "miplod=performance,scale=1/1.7,upscale=easu,post=smaa,sharpen=low,"
                                "shadows=2048,gi=on,mipdebug=on";
     DipQuality quality;
@@ -54,7 +54,7 @@ static void texts_of_earlier_versions_stay_valid(void **state) {
     assert_int_equal(quality.step[DIP_SETTING_AAA], DIP_AAA_ON);
     assert_int_equal(quality.step[DIP_SETTING_SCALE], DIP_SCALE_1);
     dip_quality_format_changes(&quality, back, sizeof back);
-    assert_string_equal(back, "aa=8,taa=on,aaa=on,asd=2,af=16,aaf=on,opt=advanced,"
+    assert_string_equal(back, "aa=8,taa=alternate,aaa=on,asd=2,af=16,aaf=on,opt=advanced,"
                               "miplod=high-performance,gi=off");
     static const char *const scales[] = {"scale=1.25", "scale=1.5", "scale=2"};
     for (int i = 0; i < 3; i++) { // Their steps had other numbers.
@@ -173,13 +173,14 @@ static void settings_without_effect_are_turned_off(void **state) {
     (void)state;
     static const char *const rows[][2] = {
         {"taa=on,aaa=on,aaf=on", "defaults"},
+        {"taa=history", "taa=history"},
         {"aa=2,asd=2,aaa=on", "aa=2"},
         {"aa=2,asd=2,aaa=all", "aa=2"},
         {"aa=2,asd=2,aaa=coverage", "aa=2,aaa=coverage"},
         {"aa=8,asd=4,aaa=all", "aa=8,aaa=all,asd=4"},
         {"aaa=coverage", "defaults"},
         {"aa=8,asd=4", "aa=8"},
-        {"aa=8,asd=4,aaa=on,taa=on", "aa=8,taa=on,aaa=on,asd=4"},
+        {"aa=8,asd=4,aaa=on,taa=on", "aa=8,taa=alternate,aaa=on,asd=4"},
         {"af=2,aaf=on", "af=2,aaf=on"},
         {"upscale=easu", "defaults"},
         {"scale=1.5,upscale=bicubic", "scale=1.5"},
@@ -205,7 +206,10 @@ static void needs_are_named_where_a_setting_has_no_effect(void **state) {
         DipSetting setting;
         const char *needs;
     } rows[] = {
-        {"", DIP_SETTING_TAA, "needs AA"},
+        {"", DIP_SETTING_TAA, NULL}, // taa=history needs no samples
+        {"taa=on", DIP_SETTING_TAA, "needs AA"},
+        {"taa=history", DIP_SETTING_TAA, NULL},
+        {"aa=2,taa=alternate", DIP_SETTING_TAA, NULL},
         {"", DIP_SETTING_AAA, "needs AA"},
         {"aa=2,asd=2", DIP_SETTING_AAA, NULL}, // aaa=coverage needs no groups
         {"aa=2,asd=2,aaa=on", DIP_SETTING_AAA, "needs smaller groups"},

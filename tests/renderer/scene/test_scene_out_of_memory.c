@@ -175,6 +175,52 @@ static void scene_is_made_whole_or_not_at_all(void **state) {
     }
 }
 
+// A blended mesh of two quads falls into two pieces.
+static void blended_meshes_are_cut_or_no_scene_is_made(void **state) {
+    (void)state;
+    static Fixture fixture;
+    begin(&fixture, DIP_TEST_SCENE_fence);
+    DipTestScene *made = &fixture.made;
+    DipMeshDef mesh = made->meshes[made->def.mesh_count - 1];
+    float positions[6 * 3];
+    const uint32_t indices[6] = {0, 1, 2, 3, 4, 5};
+    for (int i = 0; i < 18; i++) {
+        positions[i] = (float)(i / 9) + (i % 4 == 0 ? 1.0f : 0.0f);
+    }
+    mesh.vertex_count = mesh.index_count = 6;
+    mesh.positions = positions;
+    mesh.indices = indices;
+    mesh.normals = mesh.uv0 = mesh.uv1 = mesh.colours_lin = NULL;
+    made->materials[mesh.material].surface = DIP_SURFACE_BLENDED;
+    made->meshes[made->def.mesh_count - 1] = mesh;
+    draw_truth(&fixture, NULL, fixture.before);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a blended mesh that is cut",
+                                              .context = &fixture,
+                                              .run = make_scene,
+                                              .check = check_scene,
+                                              .finish = free_panes,
+                                              .needs_every_allocation = true});
+    end(&fixture);
+}
+
+static void environments_are_blurred_or_no_scene_is_made(void **state) {
+    (void)state;
+    static Fixture fixture;
+    static const float light[6] = {0.2f, 0.4f, 0.6f, 1.5f, 0.1f, 0.3f};
+    static const DipEnvironmentDef environment = {light, 2, 1};
+    begin(&fixture, DIP_TEST_SCENE_metal_gloss);
+    fixture.made.def.environment = &environment;
+    draw_truth(&fixture, NULL, fixture.before);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a scene with an environment",
+                                              .context = &fixture,
+                                              .run = make_scene,
+                                              .check = check_scene,
+                                              .finish = free_panes,
+                                              .needs_every_allocation = true,
+                                              .short_count = 12});
+    end(&fixture);
+}
+
 static void check_renderer(void *context, bool succeeded) {
     Fixture *fixture = context;
     assert_int_equal(fixture->panes[0] != NULL, succeeded);
@@ -518,6 +564,8 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pool_starts_all_threads_or_none),
         cmocka_unit_test(scene_is_made_whole_or_not_at_all),
+        cmocka_unit_test(blended_meshes_are_cut_or_no_scene_is_made),
+        cmocka_unit_test(environments_are_blurred_or_no_scene_is_made),
         cmocka_unit_test(renderer_is_made_whole_or_not_at_all),
         cmocka_unit_test(failed_frame_leaves_the_renderer_usable),
         cmocka_unit_test(failed_change_of_a_setting_can_be_taken_back),

@@ -1,0 +1,210 @@
+// Temporal antialiasing: finds the past of a row's pixels, limits it to the colours of the new
+// picture around them, and blends.
+#include "renderer/post/filters/pixels_simd.h"
+#include "renderer/post/filters/post_kernels.h"
+
+typedef struct Colour {
+    Vf channel[3]; // y, co, cg
+} Colour;
+
+VEC_INLINE Colour to_ycocg(Vf r, Vf g, Vf b) {
+    const Vf ends = (r + b) * 0.25f;
+    const Vf half = g * 0.5f;
+    return (Colour){{ends + half, (r - b) * 0.5f, half - ends}};
+}
+
+void DIP_KERNEL(dip_kernel_history_unpack)(const uint8_t *rgba8, int width, const float *table,
+                                           float *const channels[3]) {
+    for (int x = 0; x < width; x += DIP_LANES) {
+        const Vu pixels = vu_load_pixels(rgba8 + 4 * x, width - x);
+        const Colour colour = to_ycocg(vf_gather(table, vi_channel(pixels, 0)),
+                                       vf_gather(table, vi_channel(pixels, 1)),
+                                       vf_gather(table, vi_channel(pixels, 2)));
+        for (int c = 0; c < 3; c++) {
+            vf_store(channels[c] + x, colour.channel[c]);
+        }
+    }
+}
+
+// Writes colours to the row's pixels.
+VEC_INLINE void show(const DipHistoryRow *row, int x, const Vf rgb[3]) {
+    Vi codes[3];
+    for (int c = 0; c < 3; c++) {
+        codes[c] = (Vi)(vu_gather_bytes(row->srgb_code, vi_nearest(rgb[c])) & 0xffu);
+    }
+    const Vu from = vu_load_pixels(row->from + 4 * x, row->width - x);
+    vu_store_pixels(row->to + 4 * x, row->width - x, vu_pixels(codes, from));
+}
+
+// Converts to red, green and blue within 0..65535.
+VEC_INLINE void to_rgb(const Colour *colour, Vf rgb[3]) {
+    const Vf *c = colour->channel;
+    const Vf unbound[3] = {c[0] + c[1] - c[2], c[0] + c[2], c[0] - c[1] - c[2]};
+    for (int i = 0; i < 3; i++) {
+        rgb[i] = vf_min(vf_max(unbound[i], vf_splat(0.0f)), vf_splat(65535.0f));
+    }
+}
+
+VEC_INLINE Colour load(const float *const channels[3], int x) {
+    return (Colour){{vf_load(channels[0] + x), vf_load(channels[1] + x), vf_load(channels[2] + x)}};
+}
+
+void DIP_KERNEL(dip_kernel_history_rest)(const DipHistoryRow *row) {
+    const float count = (float)(row->summed + 1);
+    for (int x = 0; x < row->width; x += DIP_LANES) {
+        Colour sum = load(row->colours[1], x);
+        for (int c = 0; c < 3; c++) {
+            sum.channel[c] += row->summed ? vf_load(row->result[c] + x) : vf_splat(0.0f);
+            vf_store(row->result[c] + x, sum.channel[c]);
+        }
+        if (row->to) {
+            Vf rgb[3];
+            const Vf *c = sum.channel;
+            rgb[0] = (c[0] + c[1] - c[2]) / count;
+            rgb[1] = (c[0] + c[2]) / count;
+            rgb[2] = (c[0] - c[1] - c[2]) / count;
+            show(row, x, rgb);
+        }
+    }
+}
+
+// Where pixels were in the picture before: pixel (x, y) of it, and how far on towards the next one.
+typedef struct Place {
+    Mask exists;
+    Vi index; // of pixel (x, y) in the planes
+    Vf part_x, part_y;
+} Place;
+
+// The nearest surface of the 3x3 pixels around a pixel moves it, so that edges move with what is in
+// front.
+VEC_INLINE Place find_place(const DipHistoryRow *row, int x) {
+    const float *m = row->to_before;
+    const float width = (float)row->width;
+    const float height = (float)row->height;
+    Vf depth = vf_load(row->depths[1] + x);
+    Vf dx = vf_splat(0.0f);
+    Vf dy = vf_splat(0.0f);
+    for (int i = 0; i < 9; i++) {
+        const Vf other = vf_load(row->depths[i / 3] + x + i % 3 - 1);
+        const Mask nearer = vf_lt(depth, other);
+        depth = vf_select(nearer, other, depth);
+        dx = vf_select(nearer, vf_splat((float)(i % 3 - 1)), dx);
+        dy = vf_select(nearer, vf_splat((float)(i / 3 - 1)), dy);
+    }
+    const Vf at_x = vf_from_int(vi_iota() + x) + dx;
+    const Vf at_y = (float)row->y + dy;
+    const Vf ndc_x = (at_x + 0.5f) * (2.0f / width) - 1.0f;
+    const Vf ndc_y = 1.0f - (at_y + 0.5f) * (2.0f / height);
+    const Vf w = ((ndc_x * m[8] + ndc_y * m[9]) + m[10]) + depth * m[11];
+    const Vf before_x = ((ndc_x * m[0] + ndc_y * m[1]) + m[2]) + depth * m[3];
+    const Vf before_y = ((ndc_x * m[4] + ndc_y * m[5]) + m[6]) + depth * m[7];
+    const Vf inverse = 1.0f / w;
+    const Vf from_x = ((before_x * inverse + 1.0f) * (0.5f * width) - 0.5f) - dx;
+    const Vf from_y = ((1.0f - before_y * inverse) * (0.5f * height) - 0.5f) - dy;
+    const unsigned within = mask_bits(vf_lt(vf_splat(0.0f), w)) &
+                            mask_bits(vf_lt(vf_splat(-0.5f), from_x)) &
+                            mask_bits(vf_lt(vf_splat(-0.5f), from_y)) &
+                            mask_bits(vf_lt(from_x, vf_splat(width - 0.5f))) &
+                            mask_bits(vf_lt(from_y, vf_splat(height - 0.5f)));
+    Place place = {.exists = mask_from_bits(row->begins ? 0 : within)};
+    const Vf valid_x = vf_select(place.exists, from_x, vf_splat(0.0f));
+    const Vf valid_y = vf_select(place.exists, from_y, vf_splat(0.0f));
+    const Vf floor_x = vf_floor(valid_x);
+    const Vf floor_y = vf_floor(valid_y);
+    place.part_x = valid_x - floor_x;
+    place.part_y = valid_y - floor_y;
+    place.index = vi_from_float(floor_y) * row->plane_stride + vi_from_float(floor_x);
+    return place;
+}
+
+// The weights of Catmull-Rom for the pixels -1, 0, 1 and 2.
+VEC_INLINE void weights_of(Vf t, Vf weights[4]) {
+    weights[0] = t * (t * (1.0f - t * 0.5f) - 0.5f);
+    weights[1] = t * t * (t * 1.5f - 2.5f) + 1.0f;
+    weights[2] = t * (t * (2.0f - t * 1.5f) + 0.5f);
+    weights[3] = t * t * (t * 0.5f - 0.5f);
+}
+
+// Returns the past of the pixels at a place. in_line: their places follow each other in a row, as
+// they mostly do.
+VEC_INLINE Colour sample_at(const DipHistoryRow *row, const Place *place, bool in_line) {
+    const float scale = row->summed ? 1.0f / (float)row->summed : 1.0f;
+    const int first = place->index[0];
+    Colour past;
+    Vf weights_x[4];
+    Vf weights_y[4];
+    weights_of(place->part_x, weights_x);
+    weights_of(place->part_y, weights_y);
+    for (int c = 0; c < 3; c++) {
+        Vf sum = vf_splat(0.0f);
+        for (int j = 0; j < 4; j++) {
+            const float *from = row->past[c] + (ptrdiff_t)(j - 1) * row->plane_stride;
+            Vf line = vf_splat(0.0f);
+            for (int i = 0; i < 4; i++) {
+                const Vf value =
+                    in_line ? vf_load(from + first + i - 1) : vf_gather(from + i - 1, place->index);
+                line += value * weights_x[i];
+            }
+            sum += line * weights_y[j];
+        }
+        past.channel[c] = sum * scale;
+    }
+    return past;
+}
+
+VEC_INLINE Colour sample(const DipHistoryRow *row, const Place *place) {
+    const Mask follows = vi_eq(place->index - vi_iota(), vi_splat(place->index[0]));
+    return mask_bits(follows) == VEC_ALL_LANES ? sample_at(row, place, true)
+                                               : sample_at(row, place, false);
+}
+
+// Moves a colour towards the mean of the 3x3 new pixels until no channel is farther from it than
+// the channel's standard deviation.
+VEC_INLINE void limit(const DipHistoryRow *row, int x, const Colour *centre, Colour *past) {
+    Vf means[3];
+    Vf farthest = vf_splat(1.0f);
+    for (int c = 0; c < 3; c++) {
+        Vf sum = vf_splat(0.0f);
+        Vf squares = vf_splat(0.0f);
+        for (int i = 0; i < 9; i++) {
+            const Vf off = vf_load(row->colours[i / 3][c] + x + i % 3 - 1) - centre->channel[c];
+            sum += off;
+            squares += off * off;
+        }
+        const Vf mean = sum * (1.0f / 9.0f);
+        const Vf variance = squares * (1.0f / 9.0f) - mean * mean;
+        const Vf deviation = vf_sqrt(vf_max(variance, vf_splat(0.0f)));
+        means[c] = centre->channel[c] + mean;
+        const Vf distance = vf_abs(past->channel[c] - means[c]);
+        farthest = vf_max(farthest, distance / vf_max(deviation, vf_splat(0.0625f)));
+    }
+    const Vf share = 1.0f / farthest;
+    for (int c = 0; c < 3; c++) {
+        past->channel[c] = means[c] + (past->channel[c] - means[c]) * share;
+    }
+}
+
+unsigned DIP_KERNEL(dip_kernel_history_move)(const DipHistoryRow *row) {
+    unsigned reprojected = 0;
+    for (int x = 0; x < row->width; x += DIP_LANES) {
+        const Place place = find_place(row, x);
+        const Colour fresh = load(row->colours[1], x);
+        Colour past = sample(row, &place);
+        Colour result;
+        Vf rgb[3];
+        limit(row, x, &fresh, &past);
+        for (int c = 0; c < 3; c++) {
+            const Vf blended = past.channel[c] + (fresh.channel[c] - past.channel[c]) * row->alpha;
+            result.channel[c] = vf_select(place.exists, blended, fresh.channel[c]);
+        }
+        to_rgb(&result, rgb);
+        const Colour stored = to_ycocg(rgb[0], rgb[1], rgb[2]);
+        for (int c = 0; c < 3; c++) {
+            vf_store(row->result[c] + x, stored.channel[c]);
+        }
+        show(row, x, rgb);
+        reprojected +=
+            (unsigned)__builtin_popcount(mask_bits(place.exists) & lanes_within(row->width - x));
+    }
+    return reprojected;
+}
