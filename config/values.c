@@ -267,7 +267,7 @@ static bool add_material(const DipConfig *config, DipConfigKey key, const char *
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, dip_config_key_name(key),
                              "out of memory");
     }
-    memcpy(material.pattern, text, length);
+    snprintf(material.pattern, length + 1, "%s", text);
     if (picture[0] && !make_file(config, key, picture, line, &material.light_map, err)) {
         free_material(&material);
         return false;

@@ -13,6 +13,8 @@ finish() {
     cd / && rm -rf "$folder"
 }
 trap finish EXIT
+# SDL 3 looks for Wayland first, whose library prints a line if this is not set.
+export XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-$folder}"
 
 # fail TEXT: ends the test, and prints what the programs have written last.
 fail() {

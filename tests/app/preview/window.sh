@@ -14,7 +14,9 @@ shoot() {
 }
 
 differing() { # prints the number of pixels that differ between two pictures
-    compare -metric AE "$1" "$2" null: 2>&1
+    # `compare -metric AE` counts in newer versions of ImageMagick something else.
+    convert "$1" "$2" -compose difference -composite -separate -evaluate-sequence max \
+        -threshold 0 -format '%[fx:int(mean*w*h+0.5)]' info:
 }
 
 deviation() { # prints the spread of grey values; 0 for a picture of one colour
