@@ -324,9 +324,10 @@ bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
         if (entry->error.code == DIP_ERROR_MISSING) {
             const bool beside = is_beside(path, entry->name);
             dip_model_warn(model, path, NULL,
-                           "the picture %s is %s, so its surfaces are drawn in their base colour",
+                           "the picture %s is missing%s, so its surfaces are drawn in their base "
+                           "colour",
                            beside ? base_name(entry->name) : entry->name,
-                           beside ? "not beside the model" : "missing");
+                           beside ? " beside the model" : "");
         } else if (entry->error.origin == DIP_ORIGIN_RUNTIME) {
             return dip_model_out_of_memory(err, entry->name);
         } else if (entry->error.code != DIP_ERROR_NONE) {

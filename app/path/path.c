@@ -134,8 +134,7 @@ static const DipExample convert_examples[] = {
 
 const DipCommand dip_path_info_command = {
     .name = "path info",
-    .summary = "print the keys, duration, length and speeds of a camera path, or the animations of "
-               "a model",
+    .summary = "print what a camera path holds, or a model's animations",
     .usage = "FILE",
     .text = "Path info reads a camera path and prints its keys, its duration and length, the box "
             "that holds it and its greatest speeds. Of a model (.gltf, .glb, .md2) it lists the "

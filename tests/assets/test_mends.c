@@ -86,9 +86,10 @@ static void paths_of_other_machines_are_looked_for_beside(void **state) {
     DipErrorList warnings = {0};
     DipModel *model = load(path, &warnings);
     assert_int_equal(warnings.count, 1);
-    assert_string_equal(warnings.items[0].message,
-                        "the picture bark.tga is not beside the model, so its surfaces are drawn "
-                        "in their base colour");
+    assert_string_equal(
+        warnings.items[0].message,
+        "the picture bark.tga is missing beside the model, so its surfaces are drawn "
+        "in their base colour");
     dip_error_list_free(&warnings);
     dip_model_destroy(&model);
     assert_int_equal(mkdir(fixture_path("textures"), 0777), 0);

@@ -112,6 +112,7 @@ static void pngs_are_written_from_pixels(void **state) {
     for (int i = 0; i < STRIDE * HEIGHT; i++) {
         rgba8[i] = (uint8_t)(i * 11);
     }
+    remove(file); // An earlier run may have left it.
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         DipError err = {.code = DIP_ERROR_NONE};
         assert_false(dip_png_write_rgba8(file, bad[i].has_pixels ? rgba8 : NULL,

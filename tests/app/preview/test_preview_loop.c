@@ -409,7 +409,7 @@ static void a_broken_scene_file_leaves_the_running_scene(void **state) {
     press('r');
     scene_is_broken = false;
     assert_false(dip_preview_state(preview)->panel);
-    assert_non_null(strstr(dip_preview_state(preview)->notice, "scene.obj: the importer crashed"));
+    assert_non_null(strstr(dip_preview_state(preview)->notice, "the importer crashed"));
     for (int i = 0; i < 200; ++i) {
         turn();
     }

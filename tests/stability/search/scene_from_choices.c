@@ -35,6 +35,11 @@ static void choose_settings(SearchMaker *maker) {
             s == DIP_SETTING_SHADOWS) {
             continue;
         }
+        // Nor is a history, which blends frames.
+        if (s == DIP_SETTING_TAA) {
+            quality->step[s] = (uint8_t)choices_draw(maker->choices, DIP_TAA_HISTORY);
+            continue;
+        }
         if (s == DIP_SETTING_SCALE) {
             quality->step[s] = (uint8_t)(DIP_SCALE_1 + choices_draw(maker->choices, 4));
             continue;

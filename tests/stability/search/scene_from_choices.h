@@ -13,7 +13,7 @@
 typedef struct SearchScene {
     DipTestScene scene;
     DipQuality quality;
-    char settings[160]; // the same as `quality`, as text
+    char settings[256]; // the same as `quality`, as text
     int width;          // pixels
     int height;         // pixels
     int64_t time_ns;
