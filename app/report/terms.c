@@ -44,9 +44,9 @@ typedef struct Work {
 
 #define C(name) (w->counters[DIP_COST_COUNTER_##name])
 
-// All combinations of a scene pose the same number of vertices, so the price of a vertex could not
-// be told from that of a frame. In scenes that move, the price of a vertex includes that of the
-// frame, which is below 0.001 ms.
+// All combinations of a scene pose the same number of vertices. So a fit cannot separate the time
+// of posing them from the constant time of a frame. In scenes that move there is no term for the
+// frame: its time, which is below 0.001 ms, is part of the time of the vertices.
 #define GEOMETRY_TERMS(X)                                                                          \
     X("frame", C(vertices_posed) > 0.0 ? 0.0 : 1.0)                                                \
     X("vertex posed", C(vertices_posed))                                                           \
