@@ -1,6 +1,6 @@
 // Encodes pictures as PNG and JPEG with the library stb_image_write, and as PFM without it. The
-// library's JPEG encoder shifts bits out of a signed int, so the build turns off the sanitizer of
-// shifts for this file.
+// library's JPEG encoder shifts bits out of a signed int, so the build turns off UBSan's check of
+// shifts in this file.
 #include "app/files/pictures.h"
 
 #include "app/files/whole_file.h"
@@ -209,7 +209,7 @@ bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int 
 
 // --- texts ---------------------------------------------------------------------------------------
 
-// Returns the greatest size of a text's chunk.
+// Returns the most bytes that the chunk of a text may take.
 static size_t most_chunk_bytes(const DipPngText *text) {
     return PNG_CHUNK_FRAME + strlen(text->keyword) + PNG_TEXT_FIELDS + strlen(text->text);
 }
@@ -258,7 +258,7 @@ static bool add_texts(unsigned char **bytes, size_t *size_bytes, const DipPngTex
 
 // --- files ---------------------------------------------------------------------------------------
 
-// Checks that there is a row of pixels in each stride.
+// Checks that the picture has pixels, and that stride_bytes is enough for a row of them.
 static bool check_pixels(const char *file, const DipFrame *frame, DipError *err) {
     if (!frame->rgba8) {
         return dip_error_set(err, DIP_ERROR_MISSING, file, 0, "rgba8", "NULL, accepted a pointer");

@@ -10,8 +10,8 @@
 
 enum { SPEC_ROOM = 32, PADDED_ROOM = 1024 };
 
-// Wraps a va_list, so that a pointer to it can be passed on. A va_list itself may be an array, and
-// a parameter of array type is a pointer.
+// Wraps a va_list, so that a pointer to it can be passed on. On some systems va_list is an array
+// type. A va_list parameter is then a pointer, so its address would have another type.
 typedef struct Arguments {
     va_list list;
 } Arguments;

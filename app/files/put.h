@@ -2,8 +2,8 @@
 // so that a name from a file, for example, is shown and never acts as markup or code.
 //
 // A `format` is that of printf, with the conversions d, lld, u, zu, f, g, e, c and s. It must be a
-// literal of the program, since it is written unchanged; only the texts that it inserts are
-// escaped. Control characters and malformed UTF-8 in these texts become '?'.
+// string literal, since it is written unchanged; only the texts that it inserts are escaped.
+// Control characters and malformed UTF-8 in these texts become '?'.
 #ifndef DIP_APP_FILES_PUT_H
 #define DIP_APP_FILES_PUT_H
 
@@ -14,7 +14,8 @@
 // Writes HTML or SVG. Texts may be inserted between tags and into quoted attributes.
 void dip_put_html(FILE *out, const char *format, ...) DIP_PRINTF(2, 3);
 
-// Writes markup, style or script unchanged. It must be part of the program.
+// Writes markup, style or script unchanged. `markup` must be a text of the program itself, not one
+// from a file or a user.
 void dip_put_markup(FILE *out, const char *markup);
 
 // Writes a text as a string of JavaScript or JSON, with quotes. The string may stand within a
