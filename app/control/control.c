@@ -23,10 +23,10 @@ typedef struct Client {
     DipWire wire;
     bool ended;       // The client has closed its side; no further input comes.
     bool broken;      // The client does not read any more, so its output is thrown away.
-    bool skips;       // The line is too long, and its rest is skipped.
+    bool skips;       // The current line is too long, and its rest is skipped.
     unsigned topics;  // Subscriptions, as bits 1 << DipControlTopic.
     uint64_t dropped; // Events that were dropped since the last event that was sent.
-    int attempt;      // How often the owner has put off the first line's request.
+    int attempt;      // How often the owner has put off the request in the first waiting line.
     size_t in_first;  // Index in `in` of the first byte that is not used yet.
     size_t in_bytes;  // Number of bytes in `in` that are not used yet.
     size_t out_bytes;
@@ -41,8 +41,8 @@ struct DipControl {
     unsigned subscriptions;
 };
 
-// Diptych sends the first text instead of a reply when memory runs out. It sends the second text to
-// a client when too many are connected already.
+// Diptych sends no_memory instead of a reply when memory runs out. It sends too_many to a client
+// that connects when DIP_CONTROL_MAX_CLIENTS are connected already.
 static const char no_memory[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"MEMORY\","
                                 "\"field\":\"\",\"message\":\"out of memory\"}}";
 static const char too_many[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"BUSY\","
@@ -85,7 +85,7 @@ typedef enum Line {
     LONG_LINE // A line was too long. It has been removed, and is reported once.
 } Line;
 
-// Finds the first line. Its text is not terminated, and is valid until remove_line.
+// Finds the first line. Its text is not terminated, and is valid until remove_line is called.
 static Line find_line(Client *client, const char **line, size_t *length) {
     if (client->skips && !skip(client)) {
         return NO_LINE;
@@ -279,7 +279,8 @@ static void refuse_long_line(Client *client) {
     send_error(client, &no_id, &err);
 }
 
-// Answers the lines that have arrived, until the client has too much left to read.
+// Answers the lines that have arrived. Stops early if the client has not read the earlier replies
+// and the output buffer is full.
 static void answer_lines(DipControl *control, Client *client) {
     const char *line;
     size_t length;

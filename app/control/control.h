@@ -16,7 +16,7 @@ enum { DIP_CONTROL_MAX_CLIENTS = 8 }; // Clients that can be connected at once.
 typedef enum DipControlAnswer {
     DIP_CONTROL_DONE,
     DIP_CONTROL_REFUSED, // Nothing has changed; the error says why.
-    DIP_CONTROL_LATER    // The function wants to see the request again at the next poll.
+    DIP_CONTROL_LATER    // carry_out wants to get the request again at the next poll.
 } DipControlAnswer;
 
 typedef struct DipControlDef {
@@ -53,7 +53,8 @@ unsigned dip_control_subscriptions(const DipControl *control);
 
 // Sends an event to the clients that have subscribed to its topic. A client that reads too slowly
 // misses the event; the next event that reaches it says how many it has missed. Takes ownership of
-// `fields`, an object with the event's fields. It is NULL if memory ran out.
+// `fields`, an object with the event's fields. `fields` may be NULL, which means that memory ran
+// out.
 void dip_control_send(DipControl *control, DipControlTopic topic, struct cJSON *fields);
 
 #endif

@@ -456,8 +456,9 @@ static bool names_key(const char *text, const char *key) {
     return false;
 }
 
-// Joins the old values of the settings that the change does not name with the change itself, and
-// parses the result, so that dip_quality_parse finds every mistake in the change.
+// Writes all settings as one text: the old values of the settings that the change does not name,
+// then the change. Parses this text with dip_quality_parse, which finds every mistake in the
+// change.
 bool dip_control_change_settings(const DipQuality *from, const char *change, DipQuality *to,
                                  DipError *err) {
     char text[DIP_CONTROL_TEXT_SIZE + 256];

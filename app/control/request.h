@@ -98,7 +98,7 @@ enum { DIP_CONTROL_PANE_CURRENT = 1, DIP_CONTROL_PANE_REQUESTED = 2 };
 // The bits that stand for the words "on" and "off" in a request.
 enum { DIP_CONTROL_ON = 1, DIP_CONTROL_OFF = 2 };
 
-// The id that a client gives a request, and that the reply repeats.
+// The type of the id that a client gives a request. The reply repeats the id.
 typedef enum DipControlIdKind {
     DIP_CONTROL_ID_NONE, // The reply's id is null.
     DIP_CONTROL_ID_NUMBER,
@@ -121,7 +121,8 @@ typedef struct DipControlRequest {
     // (dip_control_change_settings).
     char settings[DIP_CONTROL_TEXT_SIZE];
     char change[DIP_CONTROL_TEXT_SIZE];
-    unsigned notices;                     // SET: with DIP_CONTROL_OFF, no notice names the change.
+    unsigned notices;                     // SET: with DIP_CONTROL_OFF, the status line says nothing
+                                          // about the change.
     unsigned show;                        // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF.
     char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
     char name[DIP_CONTROL_NAME_SIZE];     // SCENE, ANIMATION: name of a scene or animation.
