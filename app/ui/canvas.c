@@ -90,9 +90,9 @@ static void blend_pixel(uint8_t *pixel, DipColour colour, unsigned alpha) {
 
 enum { BLOCK_BYTES = 16 };
 
-// Blends blocks of four pixels. Each byte becomes (byte * rest + share) / 255. `rest` is 255 minus
-// the colour's alpha. `share` is the colour's byte times its alpha, plus 128 for rounding. No sum
-// is greater than 65407, so compilers can turn the loop into 16-bit vector code.
+// Blends blocks of four pixels. Each byte becomes (byte * rest + share) / 255, where `rest` is 255
+// minus the colour's alpha. `share` is the colour's byte times its alpha, plus 128 for rounding. No
+// sum is greater than 65407, so compilers can turn the loop into 16-bit vector code.
 static void blend_blocks(uint8_t *restrict bytes, size_t block_count,
                          const uint16_t share[BLOCK_BYTES], uint16_t rest) {
     for (size_t i = 0; i < block_count; ++i) {

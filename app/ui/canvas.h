@@ -31,9 +31,9 @@ DipPixels dip_canvas_pixels(const DipCanvas *canvas);
 // Blends a colour over a rectangle by the colour's alpha.
 void dip_canvas_fill(DipCanvas *canvas, DipRect rect, DipColour colour);
 
-// Blends a colour over a rectangle with rounded corners, whose edge is smoothed. radius: in pixels;
-// at most half of the shorter side counts. ring: width of an outline within the rectangle, or 0 to
-// fill it.
+// Blends a colour over a rectangle with rounded corners and a smoothed edge. `radius` is in pixels
+// and is limited to half of the shorter side. `ring` is the width of an outline inside the
+// rectangle, or 0 to fill it.
 void dip_canvas_round(DipCanvas *canvas, DipRect rect, int radius, int ring, DipColour colour);
 
 // Copies a picture into a rectangle; the picture's alpha is ignored. If the sizes differ, the

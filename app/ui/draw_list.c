@@ -217,9 +217,9 @@ static bool same_command(const Frame *a, const Frame *b, size_t index) {
            (p->kind != COMMAND_TEXT || strcmp(a->texts + p->text, b->texts + q->text) == 0);
 }
 
-// Finds the damage, the rectangles to repaint: the boxes of all commands that differ from the
-// command with the same index in the other list. Outside these boxes, both lists draw the same
-// commands in the same order.
+// Finds the rectangles to repaint. They are the boxes of all commands that differ from the command
+// with the same index in the other list. Outside these boxes, both lists draw the same commands in
+// the same order.
 static void find_damage(const Frame *before, const Frame *now, DipDamage *damage) {
     const DipRect whole = {0, 0, now->width, now->height};
     const size_t count = before->count > now->count ? before->count : now->count;

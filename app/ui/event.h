@@ -129,7 +129,7 @@ typedef struct DipEvent {
     const char *file; // DROP: the file's name. Borrowed until next_event is called again.
 
     // CONTROLLER events.
-    int controller;                        // Names the controller until it is removed.
+    int controller;                        // Identifies the controller until it is removed.
     DipControllerButton controller_button; // CONTROLLER_DOWN and CONTROLLER_UP.
     DipControllerAxis axis;                // CONTROLLER_AXIS.
     double axis_value;                     // CONTROLLER_AXIS: see DipControllerAxis.

@@ -195,7 +195,8 @@ static const Glyph *find_glyph(DipFont *font, int size, uint32_t code_point) {
         forget_glyphs(font);
         return find_glyph(font, size, code_point);
     }
-    // A glyph without its mask does not get its key, so that the next line draws it anew.
+    // If there is no memory for the mask, the slot stays empty, so that the glyph is drawn anew
+    // next time.
     *glyph = (Glyph){0};
     if (draw_glyph(font, size, code_point, glyph)) {
         ++font->glyph_count;

@@ -19,15 +19,15 @@ static inline int dip_rect_bottom(DipRect rect) {
     return rect.y + rect.height;
 }
 
-// Each function cuts a piece from one side of *rest and returns the piece. If the piece is longer
-// than *rest, *rest becomes empty with a length below 0.
+// Each function cuts a piece from one side of *rest and returns the piece. If the piece is larger
+// than *rest, the width or height of *rest becomes negative, which makes it empty.
 DipRect dip_cut_top(DipRect *rest, int height);
 DipRect dip_cut_bottom(DipRect *rest, int height);
 DipRect dip_cut_left(DipRect *rest, int width);
 DipRect dip_cut_right(DipRect *rest, int width);
 
-// Returns a rectangle without `x` pixels at its left and right side, and `y` pixels at its top and
-// bottom.
+// Returns a rectangle that is `x` pixels smaller at the left and at the right, and `y` pixels
+// smaller at the top and at the bottom.
 DipRect dip_rect_inset(DipRect rect, int x, int y);
 
 // Returns a rectangle of the given size in the middle of another one.
@@ -38,8 +38,8 @@ DipRect dip_rect_middle(DipRect room, int width, int height);
 // rows.
 DipRect dip_rect_cell(DipRect room, int columns, int height, int gap_x, int gap_y, int index);
 
-// Shows a line of text in a rectangle: halfway between its top and bottom, and at its left side,
-// its right side or in its middle. A line that is too wide ends in an ellipsis.
+// Shows a line of text in a rectangle, centred vertically. `align` puts it at the left side, at the
+// right side or in the middle. A line that is too wide ends in an ellipsis.
 void dip_ui_label(DipUi *ui, int size, DipColour colour, DipAlign align, DipRect rect,
                   const char *text);
 

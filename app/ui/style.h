@@ -7,7 +7,8 @@
 static const DipColour dip_style_background = {10, 11, 14, 255};
 static const DipColour dip_style_white = {255, 255, 255, 255}; // Text: titles and values.
 static const DipColour dip_style_soft = {196, 202, 210, 255};  // Text: names and notes.
-static const DipColour dip_style_accent = {255, 190, 92, 255}; // Highlights and the edited pane.
+static const DipColour dip_style_accent = {255, 190, 92, 255}; // Highlights; marks of the pane
+                                                               // being edited.
 static const DipColour dip_style_sheet = {14, 16, 21, 252};    // Background of the sheets.
 static const DipColour dip_style_shade = {0, 0, 0, 90};        // Darkens the window around a sheet.
 
@@ -20,15 +21,15 @@ static const DipColour dip_style_line = {51, 58, 68, 255};     // Lines and outl
 static const DipColour dip_style_well = {12, 14, 17, 255};     // Background of plots.
 static const DipColour dip_style_glass = {10, 12, 15, 199};    // Background of labels on pictures.
 static const DipColour dip_style_dim = {152, 162, 174, 255};   // Notes on the dock.
-static const DipColour dip_style_off = {139, 149, 162, 255};   // Disabled words.
+static const DipColour dip_style_off = {139, 149, 162, 255};   // Words that are disabled.
 static const DipColour dip_style_switch = {64, 72, 84, 255};   // A switch that is off.
 static const DipColour dip_style_over = {74, 42, 42, 255};     // In plots: what exceeds a budget.
-static const DipColour dip_style_gain = {95, 214, 189, 255};   // Less error.
-static const DipColour dip_style_worse = {255, 154, 139, 255}; // More error.
+static const DipColour dip_style_gain = {95, 214, 189, 255};   // A figure with less error.
+static const DipColour dip_style_worse = {255, 154, 139, 255}; // A figure with more error.
 static const DipColour dip_style_focus = {109, 184, 255, 255}; // Ring of the control with focus.
 static const DipColour dip_style_dark = {0, 0, 0, 255};        // Borders of marks over pictures.
 static const DipColour dip_style_shadow = {10, 12, 15, 255};   // Edges of letters over pictures.
-static const DipColour dip_style_on_accent = {26, 18, 6, 255}; // Text on the accent.
+static const DipColour dip_style_on_accent = {26, 18, 6, 255}; // Text on the accent colour.
 
 // Returns the colour of a pane's figures and marks, for places where both panes' figures stand
 // beside each other.

@@ -25,8 +25,8 @@ static bool is_mouse(const DipEvent *event) {
            event->kind == DIP_EVENT_MOUSE_UP || event->kind == DIP_EVENT_MOUSE_WHEEL;
 }
 
-// Returns the topmost control of the last pass under the pointer. Later controls lie above earlier
-// ones.
+// Returns the topmost control under the pointer, as the controls lay in the last pass. Later
+// controls lie above earlier ones.
 static DipUiId find_under(const DipUi *ui) {
     for (int i = ui->before_count - 1; ui->pointer_inside && i >= 0; --i) {
         if (dip_rect_holds(ui->before[i].rect, ui->pointer_x, ui->pointer_y)) {

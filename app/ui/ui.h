@@ -63,8 +63,8 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
 // above everything else, and returns false.
 bool dip_ui_end(DipUi *ui);
 
-// Returns the time at which a tip appears, so that the window must be drawn again without an event.
-// Returns INT64_MAX if no tip is due.
+// Returns the time at which a tip is due to appear. The caller must draw the window again at that
+// time, even without an event. Returns INT64_MAX if no tip is due.
 int64_t dip_ui_wakes_ns(const DipUi *ui);
 
 // Takes the focus from all controls, so that keys act on the preview again.
@@ -152,8 +152,8 @@ int dip_ui_px(const DipUi *ui, int length);
 
 void dip_ui_fill(DipUi *ui, DipRect rect, DipColour colour);
 
-// Fills a rectangle with rounded corners. radius: in pixels; at most half of the shorter side
-// counts.
+// Fills a rectangle with rounded corners. `radius` is in pixels and is limited to half of the
+// shorter side.
 void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour);
 
 // Draws the outline of a rectangle with rounded corners, `width` pixels wide, inside the rectangle.
