@@ -1,6 +1,7 @@
-// Makes the ground below a model. Its shade is a texture: the model's lowest surfaces are drawn
-// into a grid of heights, and from the heights follows how much light from above is kept from the
-// ground. Computes with + - * / alone, so that the texture has the same bits on every machine.
+// Makes the ground below a model, and a texture of the shade that the model leaves on the ground.
+// The model's lowest surfaces are drawn into a grid of heights. The heights tell how much light
+// from above the model keeps from each texel. Computes with + - * / alone, so that the texture has
+// the same bits on every machine.
 #include "app/session/ground.h"
 
 #include "renderer/scene/motion.h"
@@ -11,13 +12,13 @@
 
 enum { GRID = 256 }; // Texels of the shade, and cells of the grid of heights, along each side.
 
-// The ground lies this share of the model's size below the model, so that both do not lie in one
-// plane.
+// Distance from the model down to the ground, as a share of the model's size. It keeps the model's
+// underside and the ground from lying in one plane.
 static const double gap = 5e-4;
 
-// How far light is kept away. A surface at a height of less than `reach` times the model's size
-// darkens the ground around it by up to `strength`, less the higher it is. Near surfaces leave a
-// small dark shade and high ones a wide faint one.
+// The shade is the product of these layers. In a layer, a surface that is lower than `reach` times
+// the model's size darkens the ground around it by up to `strength`; the higher it is, the less it
+// darkens. So low surfaces leave a small dark shade, and high surfaces a wide faint one.
 static const struct {
     double reach;
     double strength;
@@ -65,8 +66,8 @@ static void visit_triangles(const DipSceneDef *def, Visit visit, void *context) 
     }
 }
 
-// Calls the function for each triangle at each of several moments of the scene's clips. Without
-// memory for the moved scene, visits the scene at rest.
+// Calls the function for each triangle at each of several moments of the scene's clips. If there is
+// no memory for the moved scene, visits the scene at rest.
 static void visit_moments(const DipSceneDef *def, int moments, Visit visit, void *context) {
     DipPosedDef *posed = def->motion ? dip_posed_def_create(def, NULL) : NULL;
     for (int k = 0; posed && k < moments; k++) {
@@ -98,8 +99,8 @@ static void extend(void *context, const Point corners[3]) {
     }
 }
 
-// A copy of a scene in which the corners of a box stand for each moving mesh. The box holds the
-// mesh at all moments, so only objects move in the copy.
+// A copy of a scene in which each moving mesh is replaced by the corners of a box. The box holds
+// the mesh at all moments, so only objects move in the copy.
 typedef struct BoxedScene {
     DipSceneDef def;
     DipMotionDef motion;
@@ -119,8 +120,8 @@ static void box_mesh(const DipMovingMesh *moving, float corners[24], DipMeshDef 
     mesh->index_count = 9;
 }
 
-// Makes the boxed scene. Without motion, without memory or for a mesh without a box, it is the
-// scene itself.
+// Makes the boxed scene. It is the scene itself if no mesh moves, if a moving mesh has no box, or
+// if memory runs out.
 static void make_boxed(const DipSceneDef *def, BoxedScene *boxed) {
     const DipMotionDef *motion = def->motion;
     const size_t moving = motion ? (size_t)motion->mesh_count : 0;
@@ -185,13 +186,13 @@ DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent)
 
 // --- a grid of heights ---------------------------------------------------------------------------
 
-// Square cells in the plane of the ground. Along z, the rows go from the least z on.
+// Square cells in the plane of the ground. Row 0 has the least z.
 typedef struct Grid {
     double low[2];             // Least x and z.
     double cell;               // Size of a cell.
     double floor;              // The height that counts as 0.
     double most;               // Surfaces that lie higher are left out.
-    bool facing_up;            // Only surfaces that face up by their winding count.
+    bool facing_up;            // Leaves out surfaces whose winding faces down.
     float height[GRID * GRID]; // Height of each cell's lowest surface; more than `most` if none.
 } Grid;
 
@@ -207,8 +208,8 @@ static void lower(Grid *grid, int column, int row, double height) {
     }
 }
 
-// Lowers the cells whose centres lie below a triangle, and the cells of its corners, so that no
-// triangle is too small to count.
+// Lowers the heights of the cells whose centres lie below a triangle. Does the same for the cells
+// of its corners, so that no triangle is too small to count.
 static void draw_triangle(void *context, const Point p[3]) {
     Grid *grid = context;
     const double x1 = p[1].at[0] - p[0].at[0], z1 = p[1].at[2] - p[0].at[2];
@@ -275,7 +276,7 @@ static double size_of(const DipExtent *extent) {
 static bool has_ground(const DipSceneDef *def, const DipExtent *extent) {
     Grid *grid = malloc(sizeof *grid);
     if (!grid) {
-        return true; // A model without a ground is better than none.
+        return true; // Without memory, the model is shown without a ground.
     }
     const double lowest = 0.04 * size_of(extent);
     *grid = (Grid){.low = {extent->low[0], extent->low[2]},
@@ -311,8 +312,8 @@ bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent) {
 
 // --- shade ---------------------------------------------------------------------------------------
 
-// Replaces each value of a line by the mean of those up to `reach` places away. Beyond the ends,
-// values are 0.
+// Replaces each value of a line by the mean of the values up to `reach` places away. Beyond the
+// ends, values are 0.
 static void blur_line(const float *from, float *to, size_t step, int reach) {
     double sum = 0.0;
     for (int i = 0; i < reach && i < GRID; i++) {
@@ -329,7 +330,7 @@ static void blur_line(const float *from, float *to, size_t step, int reach) {
     }
 }
 
-// Blurs a square along both axes. Three means along an axis come near to a Gaussian.
+// Blurs a square along both axes. Three means in succession along an axis come near to a Gaussian.
 static void blur(float *values, float *scratch, int reach) {
     for (int pass = 0; pass < 3; pass++) {
         for (size_t row = 0; row < GRID; row++) {
@@ -341,8 +342,8 @@ static void blur(float *values, float *scratch, int reach) {
     }
 }
 
-// Returns 1 in the middle of the ground, falling to 0 before its border, so that the border is not
-// seen.
+// Returns the weight of the shade at a texel. It is 1 in the middle of the ground and falls to 0
+// before the border, so that the border is not seen.
 static double fading(int column, int row) {
     const double x = (column + 0.5) / GRID * 2.0 - 1.0;
     const double z = (row + 0.5) / GRID * 2.0 - 1.0;
@@ -398,8 +399,8 @@ static void *longer(const void *items, int count, size_t item_bytes) {
 
 static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
 
-// Appends the ground's texture, material, mesh and object to the arrays of the scene, which have
-// room for one more item.
+// Appends the ground's texture, material, mesh and object to the arrays of the scene, each of which
+// has room for one more item.
 static void add_square(DipGround *ground, const Grid *grid, double level) {
     DipSceneDef *def = &ground->def;
     const double size = grid->cell * GRID;

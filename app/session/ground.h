@@ -18,10 +18,10 @@ typedef struct DipExtent {
 
 DipExtent dip_extent_of(const DipSceneDef *def);
 
-// The silhouette of a scene as an orbit about the middle of its extent sees it: the height is
-// divided into slices, and each slice has the greatest distance of its vertices from the vertical
-// axis through the middle, or -1 if it has no vertex. If clips play, it is the greatest distance at
-// any moment.
+// The silhouette that a camera sees on an orbit about the middle of a scene's extent. The scene's
+// height is divided into slices. A slice holds the greatest distance of its vertices from the
+// vertical axis through that middle, over all moments of the clips that play, or -1 if the slice
+// has no vertex.
 enum { DIP_SILHOUETTE_SLICES = 64 };
 typedef struct DipSilhouette {
     double radius[DIP_SILHOUETTE_SLICES]; // From the lowest slice to the highest.
@@ -29,12 +29,13 @@ typedef struct DipSilhouette {
 
 DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent);
 
-// Returns whether a ground would help: the scene has a size, but neither sky nor water, is not flat
-// itself, and has no surface of its own that faces up and covers most of what lies below it.
+// Returns whether the scene needs a ground. It needs none if it has no size, if it has a sky or
+// water, if it is flat itself, or if surfaces of its own near its lowest point face up and cover
+// most of the rectangle below it.
 bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent);
 
-// A scene with a ground. Owns the ground and the arrays of the def; everything else in them belongs
-// to the scene without the ground.
+// A scene with a ground. Owns the ground and the arrays of `def`. What else these arrays point to
+// belongs to the scene without the ground.
 typedef struct DipGround {
     DipSceneDef def;
     uint8_t *shade_rgba8;

@@ -20,7 +20,7 @@
 
 enum { DIP_PICTURE_MAX_TEXTS = 16, DIP_PICTURE_TEXT_BYTES = 8192 };
 
-// The texts point into the struct, so a copy of the struct is of no use.
+// The texts point into the struct, so the struct must not be copied.
 typedef struct DipPictureTexts {
     DipPngText items[DIP_PICTURE_MAX_TEXTS];
     int count;

@@ -306,8 +306,8 @@ static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_n
 }
 
 // Chooses the pane that copies from the other one in the next frame. The panes take turns, so that
-// the time of each is its own in every other frame. A turn has two frames, since temporal
-// antialiasing alternates between two sample patterns.
+// each pane is often drawn without copying and its own time can be measured then. A turn lasts two
+// frames, since temporal antialiasing alternates between two sample patterns.
 static void choose_copying_pane(DipSession *session) {
     const int turn = (int)(session->shared_frames / 2 % DIP_PANE_COUNT);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {

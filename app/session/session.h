@@ -34,7 +34,7 @@ extern const char *const dip_pane_names[DIP_PANE_COUNT]; // "current", "requeste
     X(first_frame, "from the loaded session to the first complete frame")                          \
     X(total, "from the start of the program to the first frame")
 
-// The durations of the parts, in milliseconds, and three times by dip_clock_ns. The duration of a
+// The durations of the parts, in milliseconds, and three moments by dip_clock_ns. The duration of a
 // part that did not run is 0.
 typedef struct DipStartTimes {
 #define DIP_START_TIME_FIELD(name, text) double name##_ms;
@@ -96,7 +96,8 @@ typedef struct DipSession {
     bool force_all_effects;
     DipModel *model;                // NULL unless the session keeps it for the reference renderer.
     DipGround *ground;              // The ground below that model; NULL if it has none.
-    DipEnvironmentDef *environment; // What the models reflect, from the ini; NULL if it has none.
+    DipEnvironmentDef *environment; // What the models reflect, from the ini; NULL if the ini names
+                                    // none.
     DipSceneDef scene_def; // The model's scene with its background and sky, and with the ground.
                            // Points into `model`, `ground` and `environment`.
     DipSessionAnimations animations;
@@ -114,9 +115,11 @@ typedef struct DipSession {
     int camera_count;
     DipPainter *renderers[DIP_PANE_COUNT]; // NULL unless the def asks for renderers.
     // The panes of the next frames may copy each other's pixels (dip_renderer_copy_shading). Set it
-    // for frames that are drawn to be seen, and clear it where each pane's time or work is wanted.
+    // for frames that are drawn to be seen. Clear it where each pane's own time or work is
+    // measured.
     bool shares_shading;
-    unsigned shared_frames; // Number of frames drawn so; the panes take turns at copying.
+    unsigned shared_frames; // Number of frames drawn with shares_shading, which tells whose turn it
+                            // is to copy.
     // The session shows a scene of the gallery. If it was opened with one, `scene` is NULL, because
     // no models are loaded.
     bool shows_gallery;
@@ -152,12 +155,12 @@ DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, D
 // settings and the size of the panes stay. If opening the scene fails, nothing changes.
 bool dip_session_step_scene(DipSession *session, int step, DipError *err);
 
-// Returns the title of the gallery scene that the session shows at a time, such as "Blend modes",
-// or "Models".
+// Returns the title of the gallery scene that the session shows at the time play_ns, such as "Blend
+// modes". Returns "Models" if it shows models.
 const char *dip_session_scene_title(const DipSession *session, int64_t play_ns);
 
-// Returns the name of a variant of the gallery scene that the session shows at a time. `look` may
-// be any number: after the last variant comes the first one again.
+// Returns the name of a variant of the gallery scene that the session shows at the time play_ns.
+// `look` may be any number: after the last variant comes the first one again.
 const char *dip_session_scene_look(const DipSession *session, int look, int64_t play_ns);
 
 // Returns the field of view of --fov, or fov_y_deg if the option is not given.

@@ -85,7 +85,8 @@ static bool read_pose(void *fields, const DipOptionRow *row, const char *value, 
     }
     memcpy(options->pose.position_world, numbers, sizeof options->pose.position_world);
     memcpy(options->pose.orientation, numbers + 3, sizeof options->pose.orientation);
-    // Makes a path of this one key, because a pose must follow the same rules as a key of a path.
+    // Checks the pose by making a path of it, because a pose must follow the same rules as a key of
+    // a path.
     if (!dip_campath_create(&options->pose, 1, DIP_CAMPATH_MIN_PERIOD_NS, &path, &failure)) {
         return dip_error_set(err, failure.code, NULL, 0, row->name, "%s: %s", failure.key,
                              failure.message);
@@ -125,7 +126,7 @@ static const DipOptionRow scene_rows[] = {
      .names = dip_model_shading_names, .most = DIP_MODEL_SHADING_COUNT,
      .accepted = "a shading; give one of auto|flat|gouraud|phong",
      .text = "Where the light of surfaces without a light map is computed." SHADINGS
-             " Without lights, flat, gouraud and phong shade the fixed light of sky and sun. "
+             " Without lights, flat, gouraud and phong compute a fixed light of sky and sun. "
              "Without the option, the ini's SHADING decides; with --model, it is auto "
              "(docs/models.md)."},
     {"--animation", "NAME", DIP_OPTION_TEXT, FIELD(animation),
@@ -137,8 +138,9 @@ static const DipOptionRow scene_rows[] = {
     {"--animation-time", "S", DIP_OPTION_NUMBER, FIELD(animation_time_s),
      .given = FIELD(has_animation_time), .least = 0.0, .most = 1e6,
      .accepted = "a time from 0 to 1,000,000 seconds",
-     .text = "Let the animation stand still at S seconds, in every frame. It repeats, as it does "
-             "while it plays."},
+     .text = "Show the animation at S seconds in every frame. A time after the animation's end "
+             "counts on "
+             "from its beginning, as it does when the animation plays."},
     {"--import-seconds", "N", DIP_OPTION_INTEGER, FIELD(import_seconds), .least = 1,
      .most = DIP_IMPORT_MAX_WALL_S,
      .text = "Refuse the models if reading them takes more than N seconds. The default is 120."},

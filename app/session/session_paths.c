@@ -69,7 +69,8 @@ static bool add_cameras(DipSession *session, const DipModelCameras *found, DipEr
 }
 
 // Reads the cameras of a model that has been loaded. If they cannot be read, adds only a warning,
-// because the model can be drawn without them. A fault of the machine is an error.
+// because the model can be drawn without them. A fault that is not the file's, such as memory that
+// runs out, is an error.
 static bool load_cameras_of(DipSession *session, const char *file, DipErrorList *faults) {
     DipError err = {0};
     DipModelCameras *found = dip_model_cameras_load(file, session->options->up, faults, &err);
@@ -99,14 +100,14 @@ static bool load_cameras(DipSession *session, DipErrorList *faults) {
     return loaded;
 }
 
-// Whether something that is no folder has this name.
+// Returns whether a file with this name exists that is no folder.
 static bool is_there(const char *file) {
     struct stat status;
     return stat(file, &status) == 0 && !S_ISDIR(status.st_mode);
 }
 
 // Returns the camera with this name, or NULL if there is none or if `file` exists. The value of
-// --path and of an ini key may be either, and a file has precedence.
+// --path or of an ini key may name a file or a camera, and a file has precedence.
 static const DipSessionCamera *camera_of(const DipSession *session, const char *file,
                                          const char *name) {
     for (int i = 0; !is_there(file) && i < session->camera_count; i++) {
@@ -141,8 +142,8 @@ static bool refuse_path(const DipSession *session, DipErrorList *faults) {
 
 // --- paths ---------------------------------------------------------------------------------------
 
-// Gives a category of the track this path. `name` is the name of the camera of the models that the
-// path comes from, or NULL if it comes from none. Returns true.
+// Sets the path of a category of the track. If the path is that of a model's camera, `name` is the
+// camera's name, otherwise NULL. Returns true.
 static bool play(DipSession *session, int category, const DipCamPath *path, double fov_y_deg,
                  const char *name) {
     dip_camtrack_set_named(&session->track, category, path, dip_session_fov(session, fov_y_deg),

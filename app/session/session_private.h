@@ -12,13 +12,13 @@ bool dip_session_add_fault(DipErrorList *faults, const DipError *err);
 bool dip_session_refuse(DipErrorList *faults, DipErrorCode code, const char *file, int line,
                         const char *key, const char *format, ...) DIP_PRINTF(6, 7);
 
-// Adds the error, and tells in it the line of the ini that names the file at fault. Returns false.
+// Adds the error with the line of the ini that names the file at fault. Returns false.
 bool dip_session_place_fault(const DipSession *session, const DipConfigFile *file,
                              DipErrorList *faults, const DipError *err);
 
 // Finds the file or folder `name` that comes with Diptych, and writes its path to `file`. Looks in
-// the source tree of a program in a build folder, and in the share folder of an installed program.
-// Returns false if it cannot be read there.
+// the source tree if the program runs from a build folder, and in the share folder if it is
+// installed. Returns false if it cannot be read there.
 bool dip_session_find_shipped(const char *name, char *file, size_t size_bytes);
 
 // Creates the painters of both panes, which draw the gallery, or models if `gallery` is NULL. Even

@@ -44,7 +44,7 @@ static bool has_sky(const DipSceneDef *def) {
     return found;
 }
 
-// The background of models that have no surroundings of their own: a light grey, before which dark
+// The background of models that have no surroundings of their own: a light grey, against which dark
 // and bright models stand out. It is the colour of their ground, too.
 static const DipConfigColor plain_background = {{172, 174, 178}};
 
@@ -232,8 +232,8 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
     return model;
 }
 
-// Adds a ground to the scene if the models need one and it is wanted. Fails only if memory runs
-// out.
+// Adds a ground to the scene if the models need one and --no-ground is not given. Fails only if
+// memory runs out.
 static bool add_ground(const DipSession *session, const DipExtent *extent, DipSceneDef *def,
                        DipGround **ground, DipError *err) {
     const bool wanted =
