@@ -26,8 +26,8 @@ typedef struct DipDisplay {
 
     // Shows a picture. Only the pixels inside the damage rectangles differ from the picture shown
     // before; after a RESIZE or EXPOSE event the damage must cover the whole picture. The picture
-    // should have the display's size; if the sizes differ, only the part that fits both shows. The
-    // display keeps no pointer to the picture. Fails with RUNTIME.
+    // should have the display's size; if the sizes differ, only the part that lies within both is
+    // shown. The display keeps no pointer to the picture. Fails with RUNTIME.
     bool (*present)(void *context, const DipPixels *picture, const DipRect *damage, int count,
                     DipError *err);
 

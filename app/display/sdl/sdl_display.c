@@ -108,9 +108,10 @@ static bool open_in_host(SdlDisplay *sdl, unsigned long window_id, DipError *err
            sdl_failed(err);
 }
 
-// Returns whether SDL can destroy its window. SDL hides a visible window first, and waits until the
-// X server has done so: for ever, if the host has closed its window meanwhile. The child is
-// therefore hidden here; if SDL does not hear of that, there is no child any more.
+// Returns whether SDL can destroy its window without waiting for ever. SDL first hides a visible
+// window and waits for the X server to confirm that. If the host has closed its window meanwhile,
+// the confirmation never comes. This function therefore hides the child itself. If SDL does not
+// learn that its window is hidden, the child no longer exists.
 static bool can_quit(SdlDisplay *sdl) {
     if (sdl->host && sdl->window) {
         dip_sdl_host_hide_child(sdl->host);
@@ -131,7 +132,8 @@ static void close_display(void *context) {
     if (sdl->sdl_open && quits) {
         SDL_Quit();
     }
-    dip_sdl_x_errors_end(); // Errors of the last requests arrive until the connection is closed.
+    dip_sdl_x_errors_end(); // Not earlier: until SDL has closed its connection, errors of its last
+                            // requests may arrive.
     dip_sdl_host_close(&sdl->host);
     free(sdl);
 }

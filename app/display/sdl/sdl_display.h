@@ -1,4 +1,4 @@
-// The display of a desktop: a window that SDL 2 opens.
+// Opens the display of a desktop, which is a window of SDL 2.
 #ifndef DIP_APP_DISPLAY_SDL_SDL_DISPLAY_H
 #define DIP_APP_DISPLAY_SDL_SDL_DISPLAY_H
 

@@ -1,8 +1,8 @@
 // Translates events of SDL: keys, the mouse, the window, dropped files and game controllers.
 #include "app/display/sdl/sdl_private.h"
 
-// Buttons and axes of controllers have the same order in SDL. The buttons of a mouse have it, too,
-// but begin with 1.
+// SDL numbers buttons and axes of controllers as Diptych does. Its mouse buttons have Diptych's
+// order, too, but their numbers begin with 1.
 _Static_assert((int)DIP_CONTROLLER_A == (int)SDL_CONTROLLER_BUTTON_A, "first button");
 _Static_assert((int)DIP_CONTROLLER_START == (int)SDL_CONTROLLER_BUTTON_START, "buttons");
 _Static_assert((int)DIP_CONTROLLER_RIGHT == (int)SDL_CONTROLLER_BUTTON_DPAD_RIGHT, "last button");
@@ -116,7 +116,8 @@ void dip_sdl_controller_init(void) {
 }
 
 static DipEvent added_event(const SDL_ControllerDeviceEvent *sdl) {
-    SDL_GameController *controller = SDL_GameControllerOpen(sdl->which); // An index, not an id.
+    // Here, `which` is an index and not an id.
+    SDL_GameController *controller = SDL_GameControllerOpen(sdl->which);
     if (!controller) {
         return (DipEvent){.kind = DIP_EVENT_NONE};
     }
@@ -138,7 +139,7 @@ static DipEvent removed_event(const SDL_ControllerDeviceEvent *sdl) {
     return (DipEvent){.kind = DIP_EVENT_CONTROLLER_REMOVED, .controller = sdl->which};
 }
 
-// SDL may know buttons and axes that no event names.
+// SDL may send buttons and axes that have no name in event.h.
 static DipEvent controller_button_event(const SDL_ControllerButtonEvent *sdl) {
     const bool down = sdl->type == SDL_CONTROLLERBUTTONDOWN;
     return (DipEvent){

@@ -42,14 +42,16 @@ static bool make_child(DipSdlHost *host, DipError *err) {
                              DisplayString(host->display));
     }
     XSetWindowAttributes attributes = {.background_pixel = 0, .bit_gravity = NorthWestGravity};
-    // Events of the size are selected before the child is made, so that no change is missed.
+    // The events that report the window's size are selected before the child is made, so that no
+    // change is missed.
     XSelectInput(host->display, host->window, StructureNotifyMask);
     host->child = XCreateWindow(host->display, host->window, 0, 0, (unsigned)host->width,
                                 (unsigned)host->height, 0, CopyFromParent, InputOutput,
                                 CopyFromParent, CWBackPixel | CWBitGravity, &attributes);
     XStoreName(host->display, host->child, "Diptych");
     XMapWindow(host->display, host->child);
-    XSync(host->display, False); // SDL's connection must find the child.
+    XSync(host->display, False); // The child must exist before SDL looks it up on its own
+                                 // connection.
     return true;
 }
 
@@ -94,7 +96,7 @@ unsigned long dip_sdl_host_child(const DipSdlHost *host) {
 bool dip_sdl_host_select(SDL_Window *window) {
     SDL_SysWMinfo info;
     SDL_VERSION(&info.version);
-    XSetErrorHandler(ignore_error); // SDL may have set its own.
+    XSetErrorHandler(ignore_error); // Replaces a handler that SDL may have set.
     if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) {
         return false;
     }
@@ -135,7 +137,8 @@ bool dip_sdl_host_follow(DipSdlHost *host) {
 void dip_sdl_host_hide_child(const DipSdlHost *host) {
     XSetErrorHandler(ignore_error);
     XUnmapWindow(host->display, host->child);
-    XSync(host->display, False); // SDL's connection has now been told, too.
+    XSync(host->display, False); // After this, the event that the child is hidden waits on SDL's
+                                 // connection.
 }
 
 // No event tells that a window around the host's window was unmapped, so the X server is asked.
@@ -160,10 +163,10 @@ bool dip_sdl_host_take_focus(const DipSdlHost *host) {
 
 // --- errors of the X server ----------------------------------------------------------------------
 
-// Xlib passes no context to a handler.
-static Window own_window; // None: no window is watched.
+// These variables are global, because Xlib passes no context to an error handler.
+static Window own_window; // The window to watch, or None.
 static XErrorHandler previous_handler;
-static bool closes; // The own window is being closed.
+static bool closes; // own_window is being closed.
 
 static int handle_error(Display *display, XErrorEvent *event) {
     if (event->error_code == BadWindow && (closes || event->resourceid != own_window)) {
@@ -181,9 +184,9 @@ void dip_sdl_x_errors_watch(SDL_Window *own) {
     }
 }
 
-// After an event that ended a wait, SDL sends the window an event by a second connection. Each
-// round trip on the first one gives the X server the time to take it before the window is
-// destroyed.
+// SDL uses a second connection to send the window the event that ends a wait for events. The X
+// server should handle that event before the window is destroyed, so this function waits: it makes
+// several round trips on the first connection.
 void dip_sdl_x_errors_close(SDL_Window *own) {
     SDL_SysWMinfo info;
     SDL_VERSION(&info.version);

@@ -23,7 +23,8 @@ enum {
     MAX_ROWS = 500
 };
 
-// More pictures a second would keep terminals busy that need several milliseconds for one.
+// Some terminals need several milliseconds to show a picture, and a higher rate would keep them
+// busy.
 static const double frames_per_second = 20.0;
 
 static const int64_t ns_per_ms = 1000000;
@@ -51,7 +52,7 @@ typedef struct Terminal {
     int text_columns;
     int text_rows;
 
-    uint8_t bytes[INPUT_BYTES]; // What the terminal sent and no event has taken yet.
+    uint8_t bytes[INPUT_BYTES]; // Bytes from the terminal that have not become events yet.
     int byte_count;
     int64_t byte_ns; // When the last bytes came.
     DipEvent queue[MAX_QUEUED];
@@ -104,7 +105,7 @@ static void queue_release(Terminal *terminal, HeldKey *held) {
 }
 
 // Returns the entry of a key. If the key is not held, returns a free entry. If there is none,
-// releases the key that has not come for the longest time, and returns its entry.
+// releases the key that was seen the longest time ago, and returns its entry.
 static HeldKey *find_held(Terminal *terminal, DipKeycode key) {
     HeldKey *free_entry = NULL, *oldest = &terminal->held[0];
     for (int i = 0; i < MAX_HELD; ++i) {
@@ -218,7 +219,7 @@ static void queue_signals(Terminal *terminal) {
 // Returns the earliest of these times:
 // - until_ns,
 // - the time at which a held key counts as released,
-// - the time at which the bytes so far count as a sequence that broke off.
+// - the time at which an unfinished escape sequence counts as broken off.
 static int64_t next_deadline_ns(const Terminal *terminal, int64_t until_ns) {
     if (terminal->byte_count > 0 && terminal->byte_ns + escape_wait_ns < until_ns) {
         until_ns = terminal->byte_ns + escape_wait_ns;

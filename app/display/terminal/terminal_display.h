@@ -1,4 +1,5 @@
-// The display of a terminal: half blocks in the terminal's colours, and characters over them.
+// Opens the display of a terminal. It shows pictures as half blocks in the terminal's colours, with
+// characters over them.
 #ifndef DIP_APP_DISPLAY_TERMINAL_TERMINAL_DISPLAY_H
 #define DIP_APP_DISPLAY_TERMINAL_TERMINAL_DISPLAY_H
 
@@ -15,11 +16,11 @@ typedef enum DipTerminalColours {
 // Returns whether standard output is a terminal that can show pictures. A "dumb" terminal cannot.
 bool dip_terminal_is_there(void);
 
-// Puts the terminal of standard output into the mode for pictures: its alternate screen, without
-// the cursor, with the mouse. Keys come from standard input if that is a terminal, otherwise from
-// the controlling terminal. The display restores the terminal when it closes, when the process
-// exits or crashes, and while the user suspends the process. SIGINT, SIGTERM and SIGHUP become
-// DIP_EVENT_QUIT; a second one of them ends the process at once.
+// Puts the terminal of standard output into the mode for pictures: it shows its alternate screen,
+// hides the cursor and reports the mouse. Keys come from standard input if that is a terminal,
+// otherwise from the controlling terminal. The display restores the terminal when it closes, when
+// the process exits or crashes, and while the user suspends the process. SIGINT, SIGTERM and SIGHUP
+// become DIP_EVENT_QUIT; a second one of them ends the process at once.
 //
 // A process may have one such display at a time. Fails with RUNTIME if standard output is no
 // terminal or the terminal cannot be controlled. The caller closes the display.

@@ -81,7 +81,8 @@ static DipEvent character_event(int character, unsigned modifiers) {
     return key_event(character, modifiers);
 }
 
-// xterm sends 1 plus a sum of bits: 1 Shift, 2 Alt, 4 Ctrl, 8 Super.
+// Reads the modifiers of a sequence. xterm sends 1 plus a sum of bits: 1 Shift, 2 Alt, 4 Ctrl, 8
+// Super.
 static unsigned modifiers_of(int parameter) {
     const unsigned bits = parameter > 1 ? (unsigned)parameter - 1 : 0;
     return (bits & 1 ? DIP_MODIFIER_SHIFT : 0u) | (bits & 2 ? DIP_MODIFIER_ALT : 0u) |

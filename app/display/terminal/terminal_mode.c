@@ -14,8 +14,8 @@
 
 enum { SIGNAL_STACK_BYTES = 65536, WRITE_WAIT_MS = 100 };
 
-// The alternate screen, cleared, without the cursor and without wrapping at the right margin; the
-// mouse's buttons and drags as decimal reports.
+// Switches to the alternate screen, hides the cursor, turns off wrapping at the right margin,
+// clears the screen, and asks for decimal reports of the mouse's buttons and drags.
 static const char enter_sequence[] = "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[0m\x1b[2J\x1b[H"
                                      "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 // Undoes enter_sequence. It begins by ending an update that was cut off in the middle.
@@ -78,7 +78,7 @@ static void write_briefly(const char *bytes, size_t count) {
     }
 }
 
-// when: as for tcsetattr.
+// `when` is the argument of tcsetattr that says when the change takes effect.
 static void restore(int when) {
     if (!active || getpid() != mode.owner) {
         return;
@@ -175,7 +175,8 @@ unsigned dip_terminal_mode_take_signals(void) {
     unsigned asked = quits ? DIP_TERMINAL_QUIT : 0;
     for (int i = 0; i < SIGNAL_COUNT; ++i) {
         if (came[i]) {
-            // A signal that comes right now is a second one of its kind: the caller acts on both.
+            // If the same signal comes again just before this line, it is not lost: the caller acts
+            // once on both.
             came[i] = 0;
             asked |= signals[i].asks;
         }

@@ -1,4 +1,4 @@
-// Judges a terminal by its environment, and encodes frames for it.
+// Finds out from the environment what a terminal can show, and encodes frames for it.
 #include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
@@ -121,8 +121,8 @@ void dip_terminal_writer_forget(DipTerminalWriter *writer) {
 
 // --- colours -----------------------------------------------------------------------------------
 
-// Rounds a channel to 64 values. The rounding moves a channel by 2 of 255 at most, and many cells
-// of a picture that moves slowly then stay the same.
+// Rounds a channel to 64 values. The rounding changes a channel by at most 2 of 255. In a picture
+// that moves slowly, many cells then stay the same and need not be sent.
 static uint32_t true_channel(int value) {
     const int step = (value * TRUE_STEPS + 127) / 255;
     return (uint32_t)((step * 255 + TRUE_STEPS / 2) / TRUE_STEPS);
