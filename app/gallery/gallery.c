@@ -36,7 +36,7 @@ struct DipGalleryPane {
     uint64_t frame_index;
     DipPipeline *pipeline;
     DipTarget target;
-    DipFinish *finish; // the filters of the settings
+    DipFinish *finish; // The filters that the settings ask for.
 };
 
 // --- the list ------------------------------------------------------------------------------------
@@ -365,7 +365,7 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
     DipQuality quality = pane->quality;
     quality.step[DIP_SETTING_SCALE] = DIP_SCALE_1; // A gallery scene is drawn at its own size.
     if (dip_quality_has_history(&quality)) {
-        quality.step[DIP_SETTING_TAA] = DIP_TAA_OFF; // Its cameras are its own.
+        quality.step[DIP_SETTING_TAA] = DIP_TAA_OFF; // A gallery scene has no history.
     }
     const DipFinishSize size = dip_finish_size(&quality, pane->target.width, pane->target.height);
     if (!check_pose(pose, err) || !open_scene(gallery, index, err) ||

@@ -57,7 +57,7 @@ int dip_gallery_scene_at(int scene, int64_t time_ns);
 // Returns how long `scene` or the tour lasts before it starts again.
 int64_t dip_gallery_duration_ns(int scene);
 
-// Writes the pose of the camera that the scene defines, at a time.
+// Writes the pose that the scene's own camera has at a time.
 void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose);
 
 // --- galleries -----------------------------------------------------------------------------------

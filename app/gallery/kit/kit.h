@@ -1,5 +1,5 @@
-// Declares the scene: what a scene of the gallery consists of, and what it gets to draw a frame.
-// Also declares the kit, which is the code that several scenes share. It makes meshes and textures,
+// Declares what a scene of the gallery consists of, and what it is given to draw a frame. Also
+// declares the kit, which is the code that several scenes share. It makes meshes and textures,
 // turns a pose into matrices, turns image-quality settings into a pass and samplers, and has the
 // vertex shader that most scenes use.
 #ifndef DIP_APP_GALLERY_KIT_KIT_H
@@ -93,7 +93,7 @@ typedef struct DipGalleryView {
     const DipPose *pose;
     double time_s;             // Time since the scene began, 0..DIP_GALLERY_SECONDS.
     float turns;               // The same time divided by DIP_GALLERY_SECONDS, 0..1.
-    double turn;               // The same time as an angle that makes a full turn in it, 0..2 pi.
+    double turn;               // The same time as an angle, 0..2 pi.
     int look;                  // Index of the look (DipGalleryInfo), 0..look_count - 1.
     const DipQuality *quality; // The pane's settings.
     DipPatternKind pattern;
@@ -119,7 +119,8 @@ typedef struct DipGalleryScene {
     size_t content_bytes; // Size of the scene's own data, which is zeroed when the scene opens.
     // Returns the camera at a time, given as an angle of 0..2 pi. 0 and 2 pi give the same camera.
     DipGalleryCamera (*camera)(double turn);
-    // Makes the other meshes and textures of the stock, and the scene's own data. May be NULL.
+    // Makes the scene's own data, and those meshes and textures that the gallery does not make. May
+    // be NULL.
     bool (*create)(DipGalleryRoom *room, DipError *err);
     // Frees what the scene's own data owns, even if `create` has failed. May be NULL.
     void (*destroy)(void *content);
@@ -177,8 +178,8 @@ typedef struct DipKitCamera {
 bool dip_kit_camera(DipKitCamera *camera, const DipGalleryView *view, double near_distance,
                     DipError *err);
 
-// Makes the matrices of a camera at from->eye that looks at from->target. It may also stand for a
-// light.
+// Makes the matrices of a camera at from->eye that looks at from->target. The camera may also stand
+// for a light.
 bool dip_kit_look_at(DipKitCamera *camera, const DipGalleryCamera *from, const DipPerspective *lens,
                      DipError *err);
 
@@ -233,7 +234,7 @@ enum { DIP_KIT_MAX_DRAWS = 32, DIP_KIT_UNIFORM_DOUBLES = 64 };
 // uniforms, so a list with draws must not be copied.
 typedef struct DipKitList {
     const DipGalleryView *view;
-    DipKitCamera seen; // The camera.
+    DipKitCamera seen; // The camera that sees the draws.
     DipDraw draws[DIP_KIT_MAX_DRAWS];
     double uniforms[DIP_KIT_MAX_DRAWS][DIP_KIT_UNIFORM_DOUBLES]; // [draw]
     int count;

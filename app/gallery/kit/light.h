@@ -62,7 +62,8 @@ void dip_kit_light_all(const float ambient[3], const DipKitLight *lights, int li
 DipKitPoints dip_kit_fragment_points(const DipFragmentBatch *batch,
                                      float (*normals)[DIP_FRAGMENT_BATCH]);
 
-// Does what dip_kit_light_all does, for the fragments of a batch as dip_kit_fragment_points takes.
+// Does what dip_kit_light_all does, for the fragments of a batch. The batch must be one that
+// dip_kit_fragment_points accepts.
 void dip_kit_light_fragments(const DipFragmentBatch *batch, const float ambient[3],
                              const DipKitLight *lights, int light_count,
                              const DipKitMaterial *material, float (*out)[DIP_FRAGMENT_BATCH]);

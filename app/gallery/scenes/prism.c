@@ -105,8 +105,8 @@ static bool prepare_mesh(const DipGalleryView *view, DipError *err) {
 
 // --- shaders -------------------------------------------------------------------------------------
 
-// Shades the prism, its wireframe and the floor. Around the prism's axis, red grows and blue falls,
-// as in seed 001.
+// Shades the prism, its wireframe and the floor. With the angle around the prism's axis, red grows
+// and blue falls, as in seed 001.
 static void shade(DipFragmentBatch *batch) {
     static const DipKitLight lights[2] = {{.kind = DIP_KIT_DIRECTIONAL,
                                            .direction = {-0.36f, -0.48f, -0.80f},

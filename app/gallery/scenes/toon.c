@@ -207,7 +207,8 @@ static bool draw(const DipGalleryView *view, DipError *err) {
             DipDraw *outline = dip_kit_add(&list, mesh, &uniforms, &model, shade_outline);
             outline->vertex_shader = outline_vertex;
             outline->varying_count = outline->value_only_varying_count = 0;
-            outline->bounds_to_clip = NULL; // The vertices leave the mesh's box.
+            outline->bounds_to_clip = NULL; // The moved vertices leave the mesh's box, so the draw
+                                            // is not culled by it.
             outline->cull = DIP_CULL_FRONT;
         }
     }
