@@ -8,7 +8,8 @@ bool dip_drive(DipDriver *driver, const char *things, const char *command, const
     DipDriverProgress now = dip_driver_progress(driver);
     DipProgress progress = dip_progress_begin(things, now.total);
     DipDriverStep step = DIP_DRIVER_WORKING;
-    bool searches = false; // The driver looks for disturbed frames. A second display shows this.
+    bool searches = false; // The driver looks for disturbed frames. A second line of progress shows
+                           // this.
     while (step < DIP_DRIVER_DONE && !dip_interrupted()) {
         step = dip_driver_step(driver, err);
         now = dip_driver_progress(driver);
@@ -22,7 +23,7 @@ bool dip_drive(DipDriver *driver, const char *things, const char *command, const
         dip_progress_show(&progress, searches ? now.searched : now.drawn);
     }
     dip_progress_end(&progress, searches ? now.searched : now.drawn);
-    // Ctrl-C also ends child processes, so a frame that fails after it is not an error.
+    // Ctrl-C also ends child processes, so a frame that fails after Ctrl-C is not an error.
     return dip_interrupted()
                ? dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, command, "%s", interrupted)
                : step == DIP_DRIVER_DONE;

@@ -11,7 +11,7 @@
 static const DipOptionRow rows[] = {
     {"--rounds", "N", DIP_OPTION_INTEGER, FIELD(rounds), .least = 1,
      .most = DIP_MEASURE_MOST_ROUNDS,
-     .text = "Time in this many rounds; with --starts, in this many of each start. A round draws "
+     .text = "Time in this many rounds; with --starts, in this many for each start. A round draws "
              "everything that is compared once, in a new random order. The default is 4 for cost, "
              "10 for bench, and 8 for cost diff (1 if it compares a program with a report)."},
     {"--seed", "N", DIP_OPTION_INTEGER, FIELD(seed), .given = FIELD(has_seed), .most = INT32_MAX,
@@ -21,7 +21,7 @@ static const DipOptionRow rows[] = {
 static const DipOptionRow start_rows[] = {
     {"--starts", "N", DIP_OPTION_INTEGER, FIELD(starts), .least = 1,
      .most = DIP_MEASURE_MOST_STARTS,
-     .text = "Start the programs that draw anew this many times, because each start has luck of "
+     .text = "Start the drawing programs this many times, because each start has luck of "
              "its own. The default is 4 for cost, or 2 if a start takes long, and 6 for cost "
              "diff. With 1, cost draws in its own process."},
 };
