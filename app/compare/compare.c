@@ -142,8 +142,8 @@ static bool measure(const CompareOptions *options, const DipPicture *a, const Di
     }
     float *test_lin = linear_light(a, &meter.flip);
     float *standard_lin = linear_light(b, &meter.flip);
-    // Without a scene, nothing is known about what a pixel shows. Only the region of the whole
-    // picture is printed.
+    // Without a scene, nothing is known about what a pixel shows, so all pixels have class 0. Only
+    // the result for the whole picture is printed.
     uint8_t *classes = calloc((size_t)a->width * (size_t)a->height, 1);
     standard.rgb_lin = standard_lin;
     standard.classes = classes;
