@@ -49,8 +49,9 @@ static bool write_pane(const DipSession *session, const DipDumpOptions *options,
     return !options->out || write_picture(session, options->out, drawn, pane, err);
 }
 
-// Returns how many frames are drawn before a frame. A history depends on the frames that led to it;
-// it begins anew for each frame, so that a frame is the same picture alone and after others.
+// Returns how many frames are drawn before a frame, to make the history that the frame depends on.
+// The history begins anew for each frame, so that a frame is the same picture alone and after
+// others.
 static int frames_before(const DipSession *session, int index) {
     bool has_history = false;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
