@@ -79,7 +79,7 @@ static void declare_budgets(DipUi *ui, DipWindow *window, DipRect *room) {
 }
 
 // Writes the figures of the advised settings, the settings themselves, and a warning if the report
-// is of another size than the panes.
+// was measured at another size than the panes'.
 static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate *advised,
                           DipRect *room) {
     const DipPreviewChoice *choice = window->state->choice;

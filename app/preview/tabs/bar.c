@@ -154,7 +154,7 @@ static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, 
     room -= bar->play * bar->button;
     bar->place_width = room >= place_width ? place_width : 0;
     room -= bar->place_width;
-    // The free camera shows no time line but keeps the room for it.
+    // While the camera is free, the time line does not show, but its room stays empty.
     const bool has_line = dip_preview_path_length_ns(state) > 0;
     bar->line =
         has_line && room >= dip_ui_px(ui, LEAST_LINE) ? dip_min(room, dip_ui_px(ui, MOST_LINE)) : 0;

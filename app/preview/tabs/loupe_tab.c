@@ -282,7 +282,7 @@ static void handle_crop(Part *part, const DipLoupeCrop *crop) {
 }
 
 // Tells the loupe which samples the crops need: those of all pixels if the crops mark them,
-// otherwise those of the one pixel.
+// otherwise those of the looked-at pixel.
 static void want_samples(const Part *part, const DipLoupeCrop *crop) {
     const DipToolState *tools = &part->window->state->tools;
     const DipRect *source = &crop->source;

@@ -53,7 +53,7 @@ static double chart_height(const Tab *tab, double count, double most) {
     return tab->tools->map == DIP_MAP_FLIP ? log(count + 1.0) / log(most + 1.0) : count / most;
 }
 
-// Draws the outline of one pane's distribution; the requested pane's is dashed.
+// Draws the outline of one pane's distribution. The outline of the requested pane is dashed.
 static void draw_outline(const Tab *tab, DipRect area, int pane, const double counts[CHART_BINS],
                          double most) {
     const int thick = px(tab, 2), dash = px(tab, 5), hole = px(tab, 3);

@@ -56,15 +56,15 @@ static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEG
 
 // --- rows of alternatives ------------------------------------------------------------------------
 
-// One of these plays.
+// A row of alternatives (paths or animations), of which one plays.
 typedef struct Choices {
     const char *const *texts;
     int count;
     int playing;     // Index of the one that plays, or -1 for none.
-    bool chosen;     // The one that plays shows as chosen.
+    bool chosen;     // The button of the one that plays looks chosen.
     unsigned id;     // Id of the first button. The arrows have the two ids before it.
-    const char *tip; // What the button of an alternative does, before the alternative's name.
-    const char *const *names; // These names.
+    const char *tip; // Tip of an alternative's button: these words, then the alternative's name.
+    const char *const *names; // The names for the tips.
     const char *tip_before;   // Tips of the arrows.
     const char *tip_next;
 } Choices;
@@ -72,8 +72,8 @@ typedef struct Choices {
 // What was pressed, if it is not the index of an alternative.
 enum { PRESSED_NOTHING = -1, PRESSED_BEFORE = -2, PRESSED_NEXT = -3 };
 
-// Returns the index of the first alternative to show, so that the one that plays is among the shown
-// ones in a row of the given width.
+// Returns the index of the first alternative that shows in a row of the given width. The one that
+// plays must be among those that show.
 static int first_choice(const DipFlow *flow, const Choices *choices, int width) {
     int first = dip_max(choices->playing, 0);
     int used = dip_flow_button_width(flow, choices->texts[first]);

@@ -37,8 +37,8 @@ static int step_of(const DipPreviewState *state, int pane, DipSetting setting) {
     return state->quality[pane].step[setting];
 }
 
-// Returns what the setting needs to have an effect in this scene, beside the other settings of the
-// pane that is edited. Returns NULL if it has an effect.
+// Returns what the setting lacks to have an effect: something in the scene, or another setting of
+// the edited pane. Returns NULL if it has an effect.
 static const char *needs_of(const DipPreviewState *state, DipSetting setting) {
     return setting == DIP_SETTING_SHADOWS && state->lacks_shadows
                ? "needs a directional light"
@@ -142,7 +142,7 @@ typedef struct Slider {
     double most_ms;                 // The greatest time of a price, which has the longest bar.
     double most_flip;               // The greatest change of FLIP.
     bool rough;  // Some prices come from a few frames only. The word "ms" then gets a mark.
-    bool dimmed; // The setting has no effect beside the pane's other settings.
+    bool dimmed; // The setting has no effect with the pane's other settings.
 } Slider;
 
 // Draws a bar at the foot of a price. The length of the bar is proportional to `value`, and the
@@ -411,7 +411,8 @@ void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, 
     dip_step_tip(setting, requested, &price, "", tip);
     DipUiInput input = dip_ui_stepper(ui, id_of(setting), rect, tip);
     const int title_end = rect.x + dip_ui_px(ui, 10) + dip_ui_text_width(ui, LINE_SIZE, title);
-    // A click in the left half of the room right of the title goes one step back.
+    // Between the title's end and the line's right end, a click in the left half goes one step
+    // back.
     if (input.pressed) {
         const bool back = input.hovered && input.x >= title_end &&
                           input.x < (title_end + dip_rect_right(rect)) / 2;

@@ -121,7 +121,7 @@ void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect) {
 static DipUiInput declare_field(DipUi *ui, int id, DipRect *rest, int width, const char *text,
                                 const char *word, double *typed) {
     static const char tip[] =
-        "The target: settings are advised that draw this many frames a second, each of them within "
+        "The target: the advised settings draw this many frames a second, each frame within "
         "this time. Type a number and press Enter, or step by the wheel or the arrow keys. A right "
         "click takes the display's refresh.";
     const DipRect field = dip_cut_left(rest, dip_ui_px(ui, width));
@@ -291,8 +291,9 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 
 // --- the sum -------------------------------------------------------------------------------------
 
-// Writes the note beside the sum. It says that the sum is doubtful, how far it exceeds the budget,
-// or its 95 % interval. The last two also say if the sum holds for a path.
+// Writes the note beside the sum. The note says one of three things: that the sum is doubtful, how
+// far it exceeds the budget, or what its 95 % interval is. The last two notes also say so if the
+// sum holds for a path.
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
     char along[48] = "";
     note[0] = '\0';
@@ -333,7 +334,8 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     dip_ui_word(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, &rect, dip_ui_px(ui, 9),
                 text);
     dip_cut_bottom(&rect, dip_ui_px(ui, 4));
-    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // A note is shown whole or not.
+    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // A note is shown whole or not at
+                                                                // all.
         dip_ui_line(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft,
                     &(DipRect){rect.x, dip_rect_bottom(rect) - dip_ui_line_height(ui, NOTE_SIZE),
                                rect.width, 0},
@@ -447,7 +449,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
         ui,
         &(DipUiControl){.id = id_of(DIP_ID_FLIP),
                         .rect = line,
-                        .tip = "Times of the current and errors of both panes. FLIP is the error "
+                        .tip = "The current pane's time, and both panes' errors. FLIP is the error "
                                "that people see when they change between a picture and the "
                                "converged one: 0 is no difference, 1 the greatest. Less is "
                                "better.",
