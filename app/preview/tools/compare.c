@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int64_t blink_ns = 500000000; // How long BLINK shows each pane by turns.
+static const int64_t blink_ns = 500000000; // How long BLINK shows one pane before it changes to the
+                                           // other.
 enum { DIVIDER_STEPS = 64 };               // Steps of the divider across the picture.
 
 const char *dip_compare_name(DipComparison comparison) {

@@ -91,7 +91,8 @@ const char *dip_compare_name(DipComparison comparison); // "Side by side"
 typedef struct DipComparer {
     DipCanvas difference;
     DipDifference found;
-    bool known;                  // The members below say what `difference` shows.
+    bool known;                  // `difference` is known; the members below say what it was
+                                 // computed from.
     uint64_t of[DIP_PANE_COUNT]; // Versions of the two compared pictures.
     int gain;
     uint64_t version; // Version of `difference`.

@@ -153,7 +153,7 @@ static void draw_divider(DipUi *ui, const DipWindow *window) {
     draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_style_accent);
 }
 
-// Writes of which two pictures the difference is. A text that is wider than the picture is broken
+// Names the two pictures whose difference shows. A text that is wider than the picture is broken
 // into lines.
 static void label_difference(DipUi *ui, const DipWindow *window) {
     const DipPreviewState *state = window->state;

@@ -79,7 +79,7 @@ typedef struct DipKeptPicture {
 // by byte, so a key is set to 0 before its members are set.
 typedef struct DipCropKey {
     uint64_t frame_version;
-    unsigned generation; // DipLoupe.generation at that time.
+    unsigned generation; // DipLoupe.generation when they were drawn.
     DipLoupeCrop crop;
 } DipCropKey;
 

@@ -67,7 +67,7 @@ static void draw_tiles(DipMapPicture *picture, const DipMapWork *work, const Dip
     }
 }
 
-// Gives every pixel whose samples differ the scale's last colour, and darkens all others.
+// Draws the pixels whose samples differ in the scale's last colour, and darkens all other pixels.
 static void draw_mixed(DipMapPicture *picture, const DipMapWork *work, const DipPixels *frame) {
     uint8_t first[3], last[3];
     dip_cividis(0.0f, first);

@@ -207,7 +207,7 @@ static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
         return work->mips ? 0 : 1;
     }
     if (maps->key.quality[pane].step[DIP_SETTING_SCALE] != DIP_SCALE_1) {
-        return 0; // The tiles that are drawn are not those of the frame.
+        return 0; // With a render scale, the tiles that are drawn are not those of the frame.
     }
     return wanted_draws - work->draws;
 }

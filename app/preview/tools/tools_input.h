@@ -19,8 +19,8 @@ typedef struct DipToolsInput {
 } DipToolsInput;
 
 // The versions of the tools' pictures begin at these numbers. Equal versions mean equal pixels
-// (draw_list.h). The versions of frames begin at 0 and never grow up to these ranges. Each tool
-// counts in a range of its own.
+// (draw_list.h). The versions of frames begin at 0 and never reach these ranges. Each tool counts
+// in a range of its own.
 #define DIP_LOUPE_VERSION       (UINT64_C(1) << 62)
 #define DIP_MAP_TRUTH_VERSION   (UINT64_C(0x4d) << 56)
 #define DIP_MAP_PICTURE_VERSION (UINT64_C(0x4e) << 56)
