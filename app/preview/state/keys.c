@@ -165,9 +165,9 @@ static bool leave_tool(DipPreviewState *state) {
     return shows;
 }
 
-// While the help shows in a window, the help shows only rows with the words that the user types.
-// The first Escape removes the words, and the second one closes the help. Returns whether the key
-// was used for this.
+// Lets the user type words while the help shows in a window; the help then shows only rows that
+// contain them. The first Escape removes the words, and the second one closes the help. Returns
+// whether the key was used for this.
 static bool type_words(DipPreviewState *state, const DipEvent *event) {
     const size_t length = strlen(state->help_words);
     if (!state->help || state->in_terminal) {

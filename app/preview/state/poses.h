@@ -1,7 +1,7 @@
 // Helps to save files from the window: finds a free name, words the notice that names a saved file,
 // and appends poses to a file.
 //
-// The file of poses is a camera path in the text format (campaths/campath.h), with a second from
+// The file of poses is a camera path in the text format (campaths/campath.h), with one second from
 // key to key. `--path poses.pth` flies from pose to pose, and the seven numbers of a line are what
 // --pose takes.
 #ifndef DIP_APP_PREVIEW_STATE_POSES_H
@@ -20,8 +20,8 @@
 // camera path in the text format, or cannot be written, fails and leaves the file as it is.
 bool dip_poses_append(const char *file, const DipPose *pose, size_t *count, DipError *err);
 
-// Writes a notice that names a file in the working folder and the folder: "Saved diptych-0001.png
-// in /home/me". A long folder loses its beginning.
+// Writes a notice that names a saved file and the working folder, in which it lies: "Saved
+// diptych-0001.png in /home/me". If the folder's path is long, its beginning is cut off.
 void dip_saved_describe(const char *what, const char *file, char *text, size_t size_bytes);
 
 // Finds a name that no file in the working folder has: "NAME-0001.ENDING", or the next number.

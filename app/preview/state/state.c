@@ -152,7 +152,7 @@ static bool act_on_tools(DipPreviewState *state, DipAction action, int argument,
     case DIP_ACTION_MAP:
         tools->map = (DipMap)next_of(state, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT, reverse);
         if (tools->map != DIP_MAP_NONE) {
-            tools->comparison = DIP_COMPARE_SIDE_BY_SIDE; // Maps show side by side.
+            tools->comparison = DIP_COMPARE_SIDE_BY_SIDE; // A map needs both panes side by side.
         }
         return true;
     case DIP_ACTION_ADJUST:

@@ -78,8 +78,8 @@ typedef struct DipFlight {
     bool reset;                // The user wants the pose of the camera path. Cleared when done.
     int speed_steps;           // Steps of the wheel, which change the speed (pilot.h).
     double base_speed_m_per_s; // Speed at 0 steps. Set by the loop.
-    // What the mouse has done since the last turn of the loop. Dragging to the right and upwards
-    // counts in heights of a pane. The wheel counts in steps away from the user.
+    // What the mouse has done since the last turn of the loop. `drag_right` and `drag_up` are in
+    // heights of a pane. `zoom_steps` counts the wheel's steps away from the user.
     double drag_right;
     double drag_up;
     int zoom_steps;
@@ -104,20 +104,22 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
-    bool stands;           // Neither the camera nor the scene moves although time may run.
-    bool scene_moves;      // The scene moves, so that time runs although the camera is free.
+    bool stands;           // Neither the path nor the scene moves the picture, even while time
+                           // runs.
+    bool scene_moves;      // The scene moves.
     bool lacks_shadows;    // Nothing in the scene casts a shadow that `shadows` could draw.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
-    bool manual;        // The user flies the camera; a scene that does not move stands still.
+    bool manual;        // The user flies the camera. Time then runs only if the scene moves.
     bool shows_gallery; // The panes show a scene of the gallery.
     int scene_step;     // Scenes to go forward (below 0: back), as the user asked.
     const DipSessionAnimations
         *animations;         // Those of the models. Borrowed; NULL if there are none.
     bool wants_animation;    // The user asked for an animation. Cleared when it begins to open.
     int wanted_animation;    // Its index, or -1 for none.
-    bool opens_animation;    // An animation is being opened; until then, the one before plays.
+    bool opens_animation;    // An animation is being opened. Until it is open, the previous one
+                             // plays.
     int look;                // The scene's variant; numbers past the last variant wrap around.
     const char *scene_title; // Title of the gallery's scene; NULL if the panes show models.
     const char *scene_look;  // Name of the scene's variant; NULL if the panes show models.
@@ -166,7 +168,7 @@ typedef struct DipPreviewState {
 DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                        DipCamTrack *track);
 
-// Returns whether only a window shows what the action does, and a terminal does not.
+// Returns whether the action needs a window, because a terminal cannot show what it does.
 bool dip_preview_needs_window(DipAction action);
 
 // Carries out an action. `reverse` means that Shift is held, so that steps and paths go backwards.
@@ -260,9 +262,9 @@ void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns);
 // Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
 const char *dip_preview_category_name(int category);
 
-// These functions return the name and the title of a path of the state's track. The name is that of
-// the path's category or, past the last category, that of the model's camera whose motion the path
-// is. The title is the name of this camera or, for other paths, the title of the category.
+// These functions return the name and the title of a path of the state's track: those of the path's
+// category. The paths past the last category are the motions of the models' cameras. Their name and
+// their title are the name of the camera.
 const char *dip_preview_path_name(const DipPreviewState *state, int category);
 const char *dip_preview_path_title(const DipPreviewState *state, int category);
 

@@ -52,7 +52,7 @@ typedef struct DipToolState {
     bool loupe;       // The loupe follows the pointer or shows the pinned pixel.
     int zoom;         // 2, 4, 8, 16 or 32.
     bool pinned;
-    int x; // The loupe's pixel, in pixels of a pane's picture; below 0 it is the middle.
+    int x; // The loupe's pixel, in pixels of a pane's picture; below 0 stands for the middle.
     int y;
     DipComparison comparison;
     double divider;     // WIPE: 0 is the pane's left edge, 1 its right edge.
