@@ -407,7 +407,8 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
 static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
         const bool busy = dip_live_prices_are_working(preview->live_prices) &&
-                          dip_prices_progress(preview->prices)[0] != '\0'; // Empty while paused.
+                          // This text is empty while measuring is paused.
+                          dip_prices_progress(preview->prices)[0] != '\0';
         take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;
     }

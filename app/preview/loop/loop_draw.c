@@ -38,7 +38,7 @@ static bool resize_panes(DipPreview *preview, int width, int height, DipError *e
 }
 
 // If memory has run out for a new size, goes back to the size of the last frame, which the view
-// scales to the panes. Returns false after another error, or if there was no frame.
+// scales to the panes. Returns false after any other error, or if there was no frame.
 static bool keep_size(DipPreview *preview, DipError *err) {
     if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0) {
         return false;
@@ -83,7 +83,8 @@ static void number_picture(DipPreview *preview) {
 }
 
 // The panes share shading while frames follow each other and the time of each pane's settings is
-// known. A single frame, and the first frame with new settings, thus give the times of both panes.
+// known. They do not share it in a single frame or in the first frame with new settings, so these
+// frames give the times of both panes.
 static bool draw_with_settings(DipPreview *preview, DipError *err) {
     if (!follow_settings(preview, err)) {
         return false;
@@ -95,7 +96,7 @@ static bool draw_with_settings(DipPreview *preview, DipError *err) {
 }
 
 // If memory has run out for new settings, draws with the settings of the last frame. Returns false
-// after another error, or if the settings were not new.
+// after any other error, or if the settings were not new.
 static bool take_back_settings(DipPreview *preview, DipError *err) {
     const size_t size_bytes = sizeof preview->drawn.quality;
     if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0 ||

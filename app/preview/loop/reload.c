@@ -45,8 +45,9 @@ struct DipReload {
     const char *animation;        // Animation that waits to be opened, or NULL.
     const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first.
     int drop_count;
-    const char *passed; // Dropped file that was opened just before; the next one follows at once.
-    bool passed_failed; // It could not be opened.
+    const char *passed; // The dropped file that was opened last, if another one waited behind it;
+                        // otherwise NULL.
+    bool passed_failed; // `passed` could not be opened.
     // Names of all files dropped and animations chosen so far, each once; options point to them.
     char **names;
     int name_count;
@@ -400,7 +401,8 @@ void dip_reload_take(DipReload *reload) {
     opening->opened = false;
     reload->options = opening->options;
     reload->session->options = &reload->options;
-    reload->session->times = times; // --timing reports the program's start.
+    reload->session->times = times; // Keeps the times of the program's start, which --timing
+                                    // reports.
     watch_session(reload, &opening->faults);
     dip_error_list_free(&opening->faults);
 }
