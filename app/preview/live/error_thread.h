@@ -49,8 +49,8 @@ typedef struct DipErrorReading {
     bool waits;       // The thread waits for a processor most of the time.
 } DipErrorReading;
 
-// Reads the status and the result for the last still. Returns whether they are new since the
-// previous call; the members after `result` may change even if they are not.
+// Reads the status and the result for the last still. Returns whether the status or the result has
+// changed since the previous call. The members after `result` may change at any call.
 bool dip_error_thread_read(DipErrorThread *thread, DipErrorReading *reading);
 
 // Number of bins, from FLIP 0 to FLIP 1, in which pixels are counted.

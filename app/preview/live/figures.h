@@ -61,10 +61,10 @@ typedef struct DipTaaSpeed {
 DipTaaSpeed dip_taa_pace_update(DipTaaPace *pace, bool on, const DipTiming *presented,
                                 int64_t refresh_ns, int64_t now_ns);
 
-// Returns when the next frame is due: one refresh after `due_ns`, when the previous frame was due,
-// so that the mean rate is exactly the display's. If that moment has passed already, or lies
-// further ahead than one refresh, the frame is due one refresh after `turn_ns`, when this turn
-// began.
+// Returns when the next frame is due. `due_ns` is when the previous frame was due, and `turn_ns` is
+// when this turn began. The next frame is due one refresh after `due_ns`, so that the mean rate is
+// exactly the display's. If that moment has passed already, or lies further ahead than one refresh,
+// it is due one refresh after `turn_ns`.
 int64_t dip_taa_pace_next_ns(int64_t due_ns, int64_t turn_ns, int64_t refresh_ns, int64_t now_ns);
 
 // --- figures -------------------------------------------------------------------------------------
@@ -87,8 +87,9 @@ typedef struct DipPaneFigures {
     bool copied; // The pane shows the other pane's picture, since the settings are the same.
     DipErrorReading errors;
     const DipTiming *times; // The newest frames' times; NULL if there are none. Borrowed.
-    int dropped; // Refreshes that showed no new picture of a movement, in the last 5 seconds.
-    DipTaaSpeed taa_speed; // `too_slow` only if the pane uses temporal antialiasing.
+    int dropped; // Refreshes of the last 5 seconds that showed no new picture although the picture
+                 // moved.
+    DipTaaSpeed taa_speed; // `too_slow` is true only if the pane uses temporal antialiasing.
     bool mip_colours;      // The pane shows mip colours, which have no error.
     bool no_errors;        // The scene has no reference pictures, so the panel leaves errors out.
 } DipPaneFigures;
@@ -98,7 +99,7 @@ typedef struct DipFigures {
     DipTiming total[DIP_PANE_COUNT];
     DipTiming stages[DIP_PANE_COUNT][DIP_STAGE_COUNT];
     DipTiming presented;  // When pictures were presented; `ms` is 0.
-    DipTiming dropped;    // When refreshes had no new picture; `ms` holds how many they were.
+    DipTiming dropped;    // When refreshes had no new picture; `ms` holds their number.
     int64_t presented_ns; // When the last picture was presented; 0 if nothing moved then.
     int64_t updated_ns;   // When the shown times were updated.
     bool outdated;        // Settings have changed since the shown times were measured.
@@ -108,7 +109,7 @@ typedef struct DipFigures {
 // Forgets a pane's times. Call it when the pane's settings change.
 void dip_figures_forget(DipFigures *figures, int pane);
 
-// Whether each pane has at least one time since its settings changed.
+// Returns whether each pane has at least one time since its settings changed.
 bool dip_figures_have_times(const DipFigures *figures);
 
 // Adds a frame. The frame's effects and counters show at once; its times show after

@@ -67,7 +67,7 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
         return false;
     }
     dip_painter_set_frame_index(painter, frame_index);
-    // A frame that begins a history takes as long as any that the camera has moved.
+    // A frame with which a history begins takes as long as a frame during a movement of the camera.
     dip_painter_cut(painter);
     return dip_painter_set_quality(painter, quality, err) &&
            dip_painter_draw(painter, live->session->scene, &live->picture.pose,

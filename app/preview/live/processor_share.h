@@ -12,7 +12,8 @@ typedef struct DipProcessorShare {
     int64_t from_used_ns; // The thread's processor time at that moment.
     int64_t worked_ns;    // Time that pieces of work took since `low` was set last.
     int64_t used_ns;      // Processor time of these pieces of work.
-    bool low; // In the last half second of work, it had a processor for less than half the time.
+    bool low; // In the last half second of work, the thread had a processor for less than half the
+              // time.
 } DipProcessorShare;
 
 // Notes that the thread begins to work.
