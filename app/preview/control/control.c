@@ -22,7 +22,7 @@ struct DipRemote {
     unsigned subscriptions;
     uint64_t told[DIP_CONTROL_TOPIC_COUNT];   // Hash of each topic's last event.
     int64_t told_ns[DIP_CONTROL_TOPIC_COUNT]; // When this event was sent.
-    int64_t told_notice_ns;                   // When the newest known notice ends.
+    int64_t told_notice_ns;                   // When the notice that was sent last ends.
 };
 
 // --- settings, paths and time --------------------------------------------------------------------
@@ -188,7 +188,8 @@ static bool resize(const DipPreviewMoment *moment, const DipControlRequest *requ
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request",
                              "the host's window decides about the size");
     }
-    for (int i = 0; i < 4; ++i) { // The scale depends on the height, and the height on the scale.
+    for (int i = 0; i < 4; ++i) { // Repeats, because the scale depends on the height, and the
+                                  // height on the scale.
         const double scale = dip_layout_scale(display_scale, tools, height);
         dip_layout_window_size(request->width, request->height, scale, tools->open, tools->bare,
                                &width, &height);
@@ -388,7 +389,8 @@ static void send_events(DipRemote *remote) {
     const unsigned topics = dip_control_topics(remote->control);
     const unsigned subscriptions = dip_control_subscriptions(remote->control);
     const bool always = subscriptions != remote->subscriptions;
-    if (topics != remote->topics) { // After a failure, only a new subscription measures again.
+    if (topics != remote->topics) { // wants_errors is not set in every turn, because it is cleared
+                                    // when errors cannot be measured.
         remote->moment->state->wants_errors = (topics >> DIP_CONTROL_TOPIC_ERRORS & 1) != 0;
     }
     remote->moment->state->wants_prices = (topics >> DIP_CONTROL_TOPIC_PRICES & 1) != 0;
