@@ -121,7 +121,8 @@ static int step_lines(DipSetting setting) {
     return (dip_setting_info(setting)->step_count + MAX_LINE_STEPS - 1) / MAX_LINE_STEPS;
 }
 
-// The title, and below it each line of steps with its figures. The last row of a block is blank.
+// Returns the number of rows of a block: the title, each line of steps with its figures, and a
+// blank row at the end.
 static int block_rows(DipSetting setting, bool has_costs) {
     return is_switch(setting) ? 1 : 2 + step_lines(setting) * (has_costs ? 3 : 1);
 }

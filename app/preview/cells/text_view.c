@@ -5,8 +5,10 @@
 #include <string.h>
 
 enum {
-    MIN_PANE_ROWS = 8,    // Least rows of the panes beside all rows that the user asked for.
-    ROOMY_PANE_ROWS = 14, // Least rows of the panes beside settings that show unasked.
+    MIN_PANE_ROWS = 8,    // Least height of the panes above settings, times or costs that the user
+                          // opened.
+    ROOMY_PANE_ROWS = 14, // Least height of the panes above settings that show without being asked
+                          // for.
     LEAST_ROWS = 6        // A screen with fewer rows shows the panes and their labels only.
 };
 
