@@ -40,8 +40,8 @@ static void take_candidates(DipPreviewChoice *choice, const DipPrices *prices) {
     }
 }
 
-// Lists the Pareto front of the candidates. Without memory for it, the advice is still computed,
-// and all presets are the advised settings.
+// Lists the Pareto front of the candidates. If there is no memory for the front, the advice is
+// still computed, and all presets are the advised settings.
 static void list_front(DipPreviewChoice *choice) {
     const int count = choice->candidates.count;
     free(choice->front);

@@ -22,7 +22,7 @@ enum { DIP_MEASURED_PRESETS = 4 };
 // Zero-initialise.
 typedef struct DipPreviewChoice {
     DipChoiceState state;
-    bool live;                // The times come from live prices: they are means of this view.
+    bool live;                // The times come from live prices: they are mean times of this view.
     DipCandidates candidates; // Measured by the report, or priced from one picture.
     int *front;               // The Pareto front (dip_front): indices of candidates. Owned.
     int front_count;

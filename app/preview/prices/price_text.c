@@ -65,9 +65,9 @@ const char *dip_step_explanation(DipSetting setting, int step) {
              "make one: edges and textures gain, and a frame takes about three "
              "times as long."},
         [DIP_SETTING_UPSCALE] =
-            {"Each pixel is blended from the four nearest of the smaller picture: "
+            {"Each pixel is blended from the four nearest pixels of the smaller one: "
              "soft, and the fastest.",
-             "Each pixel is a sum of sixteen of the smaller picture: crisper.",
+             "Each pixel is a sum of sixteen pixels of the smaller picture: crisper.",
              "Pixels are blended along edges (FSR 1): smooth edges, but it "
              "takes the longest."},
         [DIP_SETTING_POST] = {"The picture stays as it is drawn.",

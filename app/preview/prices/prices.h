@@ -81,7 +81,7 @@ enum { DIP_PRICE_PROGRESS = 96 };
 bool dip_prices_set_progress(DipPrices *prices, const char *text);
 const char *dip_prices_progress(const DipPrices *prices);
 
-// Return dip_price_step and dip_price_sum for the report that the prices come from now.
+// Return what dip_price_step and dip_price_sum return for the report that the prices come from now.
 DipPrice dip_prices_step(const DipPrices *prices, DipSetting setting, int step,
                          const DipQuality *quality);
 DipPriceSum dip_prices_sum(const DipPrices *prices, const DipQuality *quality);
