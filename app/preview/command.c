@@ -50,7 +50,7 @@ static const DipOptionRow rows[] = {
          "The camera, the time and the settings stay. If a file is bad, the window says so and "
          "keeps what it shows."},
     {"--ui-scale", "F", DIP_OPTION_NUMBER, FIELD(ui_scale), .least = 0.75, .most = 4,
-     .text = "Enlarge text and controls by F, from 0.75 to 4. The display's own scale counts, too. "
+     .text = "Enlarge text and controls by F, from 0.75 to 4, on top of the display's own scale. "
              "Ctrl+= and Ctrl+- change it in the window."},
     {"--panel", "on|off", DIP_OPTION_CHOICE, FIELD(hides_panel), .names = panels,
      .most = DIP_ARRAY_COUNT(panels), .accepted = "a state of the panel; give on or off",

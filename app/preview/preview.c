@@ -25,7 +25,9 @@ static bool open_window(DipDisplay *display, const DipSession *session,
                                 .fixed_scale = options->ui_scale > 0.0};
     const int pane_height = session->pane_size.height;
     int height = pane_height;
-    for (int i = 0; i < 4 && !options->hides_panel; ++i) { // The scale depends on the height.
+    for (int i = 0; i < 4 && !options->hides_panel; ++i) { // Repeats, because the scale depends on
+                                                           // the height, and the height on the
+                                                           // scale.
         const double scale = dip_layout_scale(1.0, &tools, height);
         height = pane_height + (int)(scale * dip_layout_dock_height() + 0.5);
     }
