@@ -69,21 +69,33 @@ void dip_make_one_line(char *text) {
     }
 }
 
-void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...) {
+static void warn(DipModel *model, DipErrorCode code, const char *file, const char *key,
+                 const char *format, va_list arguments) {
+    char text[256];
+    DipError warning;
     if (!model->warnings) {
         return;
     }
-    char text[256];
-    va_list arguments;
-    va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    DipError warning;
     dip_make_one_line(text);
-    dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, file, 0, key, "%s", text);
+    dip_error_set(&warning, code, file, 0, key, "%s", text);
     dip_make_one_line(warning.key);
     warning.severity = DIP_SEVERITY_WARNING;
     dip_error_list_add(model->warnings, &warning);
+}
+
+void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    warn(model, DIP_ERROR_UNSUPPORTED, file, key, format, arguments);
+    va_end(arguments);
+}
+
+void dip_model_warn_of_picture(DipModel *model, const char *file, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    warn(model, DIP_ERROR_MISSING, file, NULL, format, arguments);
+    va_end(arguments);
 }
 
 bool dip_model_out_of_memory(DipError *err, const char *file) {

@@ -59,7 +59,8 @@ enum { DIP_MAX_MODEL_FILES = 256, DIP_MAX_MATERIAL_RULES = 256, DIP_MAX_LIGHT_SC
 // malformed), UNSUPPORTED (a required glTF extension, or a packed model whose library this build
 // lacks), RANGE (an index out of range; a position or transform that is not finite; a picture of
 // more than 8192 pixels in a direction), OVERSIZED (a picture file), RUNTIME, MEMORY. A broken
-// picture only adds a warning.
+// picture only adds a warning. The code of a warning is MISSING if a picture is missing, otherwise
+// UNSUPPORTED.
 //
 // Threads: different models may be loaded at the same time on different threads.
 //

@@ -204,9 +204,13 @@ char *dip_model_copy_text(DipModel *model, const char *text);
 // model.c: replaces control characters by spaces, because messages must stay on one line.
 void dip_make_one_line(char *text);
 
-// Adds a warning, unless the caller wants no warnings. key may be NULL.
+// Adds a warning with the code UNSUPPORTED, unless the caller wants no warnings. key may be NULL.
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+// Does the same for a picture that is missing. Its code is MISSING (model.h).
+void dip_model_warn_of_picture(DipModel *model, const char *file, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 // Fills *err with DIP_ERROR_MEMORY and returns false.
 bool dip_model_out_of_memory(DipError *err, const char *file);

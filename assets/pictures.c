@@ -216,12 +216,13 @@ static int skin(DipModel *model, int file, const char *path) {
         model->lost_picture |= index < 0;
     } else {
         const bool is_named = strcmp(path, none) != 0;
-        dip_model_warn(model, model_path, NULL,
-                       "%s%s%s, and there is no %.*s with the ending .pcx, .png, .bmp, .jpg or "
-                       ".tga, so its surfaces are drawn in their base colour",
-                       is_named ? "its skin " : "the file names no skin",
-                       is_named ? base_name(path) : "", is_named ? " is not beside the model" : "",
-                       (int)(strrchr(model_name, '.') - model_name), model_name);
+        dip_model_warn_of_picture(
+            model, model_path,
+            "%s%s%s, and there is no %.*s with the ending .pcx, .png, .bmp, .jpg or "
+            ".tga, so its surfaces are drawn in their base colour",
+            is_named ? "its skin " : "the file names no skin", is_named ? base_name(path) : "",
+            is_named ? " is not beside the model" : "",
+            (int)(strrchr(model_name, '.') - model_name), model_name);
     }
     free(found);
     return index;
@@ -323,11 +324,11 @@ bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
         const char *path = model->files[entry->file].path;
         if (entry->error.code == DIP_ERROR_MISSING) {
             const bool beside = is_beside(path, entry->name);
-            dip_model_warn(model, path, NULL,
-                           "the picture %s is missing%s, so its surfaces are drawn in their base "
-                           "colour",
-                           beside ? base_name(entry->name) : entry->name,
-                           beside ? " beside the model" : "");
+            dip_model_warn_of_picture(model, path,
+                                      "the picture %s is missing%s, so its surfaces are drawn in "
+                                      "their base colour",
+                                      beside ? base_name(entry->name) : entry->name,
+                                      beside ? " beside the model" : "");
         } else if (entry->error.origin == DIP_ORIGIN_RUNTIME) {
             return dip_model_out_of_memory(err, entry->name);
         } else if (entry->error.code != DIP_ERROR_NONE) {

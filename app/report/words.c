@@ -15,6 +15,33 @@ void dip_number_text(double value, int decimals, bool change, const char *minus,
     snprintf(text, DIP_NUMBER_BYTES, "%.4s%.19s", sign, digits);
 }
 
+// Returns whether a rounded value lies on the same side of a limit as the value itself.
+static bool keeps_side(double rounded, double value, double limit) {
+    return (rounded > limit) == (value > limit);
+}
+
+static double round_to(double value, int decimals) {
+    const double unit = pow(10.0, -decimals);
+    return copysign(unit * round(fabs(value) / unit), value);
+}
+
+void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
+                   char text[DIP_NUMBER_BYTES]) {
+    enum { MOST_DECIMALS = 3 };
+    const double size = fabs(ms);
+    int decimals = 1; // If negative, this many digits before the point are rounded to 0.
+    if (doubtful) {
+        decimals = size < 0.05 ? 0 : -(int)floor(log10(fmin(fmax(size, 0.1), 1e9)));
+    }
+    while (decimals < MOST_DECIMALS && !keeps_side(round_to(ms, decimals), ms, limit_ms)) {
+        decimals++;
+    }
+    dip_number_text(round_to(ms, decimals), decimals > 0 ? decimals : 0, false, minus, text);
+    if (doubtful) {
+        strcat(text, "?");
+    }
+}
+
 void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_NUMBER_BYTES]) {
     dip_number_text(flip, 4, change, minus, text);
     char *zero = strstr(text, "0.");

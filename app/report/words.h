@@ -13,6 +13,14 @@ enum { DIP_NUMBER_BYTES = 24, DIP_BUDGET_BYTES = 64 };
 void dip_number_text(double value, int decimals, bool change, const char *minus,
                      char text[DIP_NUMBER_BYTES]);
 
+// Writes a time as it is shown beside a limit, such as the budget of a frame: "8.4", or with one
+// digit and a question mark if it is doubtful: "8?", "70?". Rounding never carries the time over
+// the limit: if fewer digits would, more are written ("15?" rather than "10?" beside a limit of 12,
+// "16.66" rather than "16.7" beside 16.667). A limit of INFINITY is none. The text has no plus
+// sign.
+void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
+                   char text[DIP_NUMBER_BYTES]);
+
 // Writes a FLIP error, or a change of FLIP, with four decimals and without the zero before the
 // point: ".0354", "+.0010".
 void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_NUMBER_BYTES]);

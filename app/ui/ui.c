@@ -44,6 +44,7 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass) {
     ui->placed_count = 0;
     ui->tip[0] = '\0';
     ui->tip_off = (DipRect){0};
+    ui->tip_asked = false;
     if (pass->event && is_mouse(pass->event)) {
         ui->pointer_x = pass->event->x;
         ui->pointer_y = pass->event->y;
@@ -167,7 +168,8 @@ DipUiInput dip_ui_control(DipUi *ui, const DipUiControl *control) {
     }
     input.modifiers = ui->pass.event->modifiers;
     if (control->disabled) {
-        ui->taken = ui->taken || (over && ui->pass.event->kind == DIP_EVENT_MOUSE_DOWN);
+        ui->tip_asked |= over && ui->pass.event->kind == DIP_EVENT_MOUSE_DOWN;
+        ui->taken |= ui->tip_asked;
     } else if (is_mouse(ui->pass.event) && !ui->taken) {
         take_mouse(ui, control, &input);
     } else {

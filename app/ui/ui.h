@@ -78,11 +78,12 @@ DipUiId dip_ui_focus(const DipUi *ui);
 
 typedef struct DipUiControl {
     DipUiId id;
-    DipRect rect;      // Where the control takes the mouse.
-    const char *tip;   // Text that explains the control while the pointer rests on it; may be NULL.
-                       // Copied. Several lines are separated by '\n'.
-    bool disabled;     // The control takes no input. It still shows its tip, which says why.
-    bool skips_focus;  // Tab passes the control over.
+    DipRect rect;     // Where the control takes the mouse.
+    const char *tip;  // Text that explains the control while the pointer rests on it; may be NULL.
+                      // Copied. Several lines are separated by '\n'.
+    bool disabled;    // The control takes no input. It still shows its tip, which says why; a click
+                      // shows it at once.
+    bool skips_focus; // Tab passes the control over.
     bool takes_arrows; // Left and Right change the control while it has the focus.
     bool takes_wheel;
     bool takes_digits; // Digits, '.' and Backspace go to the control while it has the focus.

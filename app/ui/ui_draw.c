@@ -299,7 +299,10 @@ bool dip_ui_end(DipUi *ui) {
         shows_tip(ui)) {
         ui->tip_hidden = ui->taken = true;
     }
-    ui->tip_hidden |= event && event->kind == DIP_EVENT_MOUSE_DOWN;
+    if (event && event->kind == DIP_EVENT_MOUSE_DOWN) {
+        ui->tip_hidden = !ui->tip_asked;
+        ui->hovered_ns = ui->tip_asked ? ui->pass.now_ns - tip_delay_ns : ui->hovered_ns;
+    }
     if (ui->pass.list && shows_tip(ui)) {
         draw_tip(ui);
         ui->tip_seen = true;

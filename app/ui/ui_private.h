@@ -38,6 +38,7 @@ struct DipUi {
     bool taken;       // A control took the event of this pass.
     bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
     bool tip_seen;    // The tip has been drawn.
+    bool tip_asked;   // A disabled control was clicked, so its tip, which says why, shows at once.
     DipRect tip_rect; // Rectangle of the control whose tip may show.
     DipRect tip_off;  // The rectangle of dip_ui_keep_tips_off.
     char tip[DIP_UI_TIP_BYTES];

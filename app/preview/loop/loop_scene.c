@@ -154,7 +154,6 @@ void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns) {
         use_new_session(preview, news.dropped);
     } else if (news.kind == DIP_RELOAD_COSTS) {
         preview->state.costs = news.costs;
-        preview->state.advised_ms = 0.0;
     }
     dip_preview_notice(&preview->state, now_ns, "%s", news.notice);
     if (news.kind == DIP_RELOAD_FAULT || news.warns) {

@@ -308,14 +308,23 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
                             : tell(news, DIP_RELOAD_FAULT, "No thread could start for ", name);
 }
 
+// Returns whether a fault says that a picture is missing (assets/model.h).
+static bool is_missing_picture(const DipError *fault) {
+    return fault->severity == DIP_SEVERITY_WARNING && fault->code == DIP_ERROR_MISSING;
+}
+
+static bool names_file(const DipError *fault, const char *name) {
+    return strstr(fault->message, name) || strstr(fault->file, name);
+}
+
 // Returns whether a file that has changed, or has disappeared, was left out of the new session. An
 // unreadable picture is such a file: the session opens with a warning, but lacks its texture.
 static bool lacks_changed_file(const Opening *opening) {
-    const char *sign = opening->name[0] ? opening->name : "is missing";
+    const char *name = opening->name; // Empty if the file has disappeared.
     const bool changed = !opening->file && !opening->animated;
     for (size_t i = 0; changed && i < opening->faults.count; ++i) {
         const DipError *fault = &opening->faults.items[i];
-        if (strstr(fault->message, sign) || strstr(fault->file, sign)) {
+        if (name[0] ? names_file(fault, name) : is_missing_picture(fault)) {
             return true;
         }
     }
@@ -336,8 +345,7 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
     int pictures = 0;
     for (size_t i = faults->count; i-- > 0;) {
         const DipError *fault = &faults->items[i];
-        const bool missing = strncmp(fault->message, "the picture ", 12) == 0 &&
-                             strstr(fault->message, " is missing");
+        const bool missing = is_missing_picture(fault);
         pictures += missing;
         first = missing ? first : fault;
     }

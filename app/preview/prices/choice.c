@@ -134,19 +134,23 @@ void dip_preview_choice_why(const DipPreviewChoice *choice, const char *progress
 void dip_preview_choice_describe(const DipPreviewChoice *choice, char *text, size_t size_bytes) {
     const DipCandidate *advised = dip_preview_advised(choice);
     char ms[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES], flip[DIP_STEP_NAME_BYTES], base[96] = "";
+    char time[DIP_STEP_NAME_BYTES];
     if (!advised) {
         dip_preview_choice_why(choice, "", text, size_bytes);
         return;
     }
-    dip_budget_ms_text(choice->advice.budget_ms, ms);
+    const double budget_ms = choice->advice.budget_ms;
+    dip_budget_ms_text(budget_ms, ms);
     dip_fits_text(choice->advice.fits, fits);
     if (choice->base >= 0) {
         const DipCandidate *from = &choice->candidates.list[choice->base];
         dip_flip_text(from->flip, false, flip);
-        snprintf(base, sizeof base, "; baseline %.1f ms, %s", from->time.value, flip);
+        dip_ms_text(from->time.value, DIP_PRICE_TRUST_KNOWN, budget_ms, time);
+        snprintf(base, sizeof base, "; baseline %s ms, %s", time, flip);
     }
     dip_flip_text(advised->flip, false, flip);
-    snprintf(text, size_bytes, "Within %s ms: %s%.1f ms %s, FLIP %s, fits with %s%s", ms,
-             choice->live ? DIP_ROUGH_MARK : "", advised->time.value,
-             dip_time_kind_names[choice->candidates.kind], flip, fits, base);
+    dip_ms_text(advised->time.value, DIP_PRICE_TRUST_KNOWN, budget_ms, time);
+    snprintf(text, size_bytes, "Within %s ms: %s%s ms %s, FLIP %s, fits with %s%s", ms,
+             choice->live ? DIP_ROUGH_MARK : "", time, dip_time_kind_names[choice->candidates.kind],
+             flip, fits, base);
 }

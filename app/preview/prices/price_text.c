@@ -7,108 +7,97 @@
 #include <stdio.h>
 #include <string.h>
 
+// What each step of each setting does.
+static const char *const explanations[DIP_SETTING_COUNT][DIP_MAX_STEPS] = {
+    [DIP_SETTING_AA] = {"One sample per pixel, so edges are stair-stepped.",
+                        "Two samples per pixel for edges; surfaces are shaded once.",
+                        "Four samples per pixel for edges; surfaces are shaded once.",
+                        "Six samples per pixel for edges; surfaces are shaded once.",
+                        "Eight samples per pixel for edges; surfaces are shaded once."},
+    [DIP_SETTING_TAA] = {"Every frame uses the same sample pattern.",
+                         "Two sample patterns alternate from frame to frame, so a moving "
+                         "picture shows twice as many samples.",
+                         "Each frame is blended with the frames before it, as the camera has "
+                         "moved them (games call it TAA): smooth edges and less flicker, but "
+                         "thin wires vanish, and things that move by themselves smear."},
+    [DIP_SETTING_AAA] = {"Leaves and fences have stair-stepped edges: their holes are cut once "
+                         "per pixel.",
+                         "Leaves and fences cover as many samples as their alpha says (alpha "
+                         "to coverage): nearly as smooth, for little time.",
+                         "The holes of leaves and fences are cut and shaded once per group of "
+                         "samples.",
+                         "Every surface is shaded once per group of samples (supersampling): "
+                         "the sharpest picture, which takes the longest."},
+    [DIP_SETTING_ASD] = {"Each sample is a group of its own: the smoothest holes.",
+                         "Two samples share a group.", "Three samples share a group.",
+                         "Four samples share a group: the fastest."},
+    [DIP_SETTING_AF] = {"Trilinear: surfaces seen at a low angle are blurred.",
+                        "Up to 2 texture probes along the long axis of a footprint.",
+                        "Up to 4 texture probes along the long axis of a footprint.",
+                        "Up to 8 texture probes along the long axis of a footprint.",
+                        "Up to 16 texture probes along the long axis of a footprint."},
+    [DIP_SETTING_AAF] = {"Footprints are estimated, so sharpness depends on a surface's angle.",
+                         "Footprints are exact ellipses, so sharpness does not depend on a "
+                         "surface's angle."},
+    [DIP_SETTING_OPT] = {"Textures are drawn as they are.",
+                         "Colour textures are compressed with BC1.",
+                         "Colour textures are compressed and filtered with fewer probes."},
+    [DIP_SETTING_MIPLOD] = {"Much smaller mip levels, and the largest ones are dropped.",
+                            "Smaller mip levels: textures are blurred.",
+                            "Slightly smaller mip levels.", "The mip level that fits each pixel.",
+                            "Half a mip level sharper than the texture's size asks for.",
+                            "A mip level sharper than the texture's size asks for: fine "
+                            "patterns may shimmer when the camera moves."},
+    [DIP_SETTING_SCALE] = {"A picture half as wide and high is drawn and enlarged; games call it "
+                           "performance.",
+                           "A picture 1.7 times smaller each way is drawn and enlarged; games "
+                           "call it balanced.",
+                           "A picture 1.5 times smaller each way is drawn and enlarged; games "
+                           "call it quality.",
+                           "A picture 1.3 times smaller each way is drawn and enlarged; games "
+                           "call it ultra quality.",
+                           "The picture is drawn in its own size.",
+                           "A picture 1.25 times as wide and high is drawn and averaged.",
+                           "A picture 1.5 times as wide and high is drawn and averaged.",
+                           "A picture twice as wide and high is drawn, and four of its pixels "
+                           "make one: edges and textures gain, and a frame takes about three "
+                           "times as long."},
+    [DIP_SETTING_UPSCALE] =
+        {"Each pixel is blended from the four nearest pixels of the smaller one: "
+         "soft, and the fastest.",
+         "Each pixel is a sum of sixteen pixels of the smaller picture: crisper.",
+         "Pixels are blended along edges (FSR 1): smooth edges, but it "
+         "takes the longest."},
+    [DIP_SETTING_POST] = {"The picture stays as it is drawn.",
+                          "FXAA finds edges in the finished picture and blurs along them; "
+                          "textures and text get softer, too.",
+                          "SMAA finds edges in the finished picture and replaces their stairs "
+                          "by lines; thin wires stay broken."},
+    [DIP_SETTING_SHARPEN] = {"The picture stays as it is drawn.",
+                             "A quarter of the strongest sharpening. The error rises.",
+                             "Half of the strongest sharpening. The error rises.",
+                             "The strongest sharpening that does not overshoot. The error "
+                             "rises."},
+    [DIP_SETTING_SHADOWS] = {"Nothing casts a shadow.",
+                             "The strongest directional light casts shadows from a map of "
+                             "512x512 texels: their edges are wide and soft.",
+                             "A map of 1024x1024 texels: the edges are half as wide.",
+                             "A map of 2048x2048 texels: the edges are a quarter as wide."},
+    [DIP_SETTING_GI] = {"Each repeated object has a copy of its mesh; the picture is the same.",
+                        "Repeated objects share one mesh; the picture is the same."},
+    [DIP_SETTING_MIPDEBUG] = {"Textures show their own colours.",
+                              "Each mip level of a colour texture shows as a flat colour."},
+};
+
 const char *dip_step_explanation(DipSetting setting, int step) {
-    static const char *const texts[DIP_SETTING_COUNT][DIP_MAX_STEPS] = {
-        [DIP_SETTING_AA] = {"One sample per pixel, so edges are stair-stepped.",
-                            "Two samples per pixel for edges; surfaces are shaded once.",
-                            "Four samples per pixel for edges; surfaces are shaded once.",
-                            "Six samples per pixel for edges; surfaces are shaded once.",
-                            "Eight samples per pixel for edges; surfaces are shaded once."},
-        [DIP_SETTING_TAA] = {"Every frame uses the same sample pattern.",
-                             "Two sample patterns alternate from frame to frame, so a moving "
-                             "picture shows twice as many samples.",
-                             "Each frame is blended with the frames before it, as the camera has "
-                             "moved them (games call it TAA): smooth edges and less flicker, but "
-                             "thin wires vanish, and things that move by themselves smear."},
-        [DIP_SETTING_AAA] = {"Leaves and fences have stair-stepped edges: their holes are cut once "
-                             "per pixel.",
-                             "Leaves and fences cover as many samples as their alpha says (alpha "
-                             "to coverage): nearly as smooth, for little time.",
-                             "The holes of leaves and fences are cut and shaded once per group of "
-                             "samples.",
-                             "Every surface is shaded once per group of samples (supersampling): "
-                             "the sharpest picture, which takes the longest."},
-        [DIP_SETTING_ASD] = {"Each sample is a group of its own: the smoothest holes.",
-                             "Two samples share a group.", "Three samples share a group.",
-                             "Four samples share a group: the fastest."},
-        [DIP_SETTING_AF] = {"Trilinear: surfaces seen at a low angle are blurred.",
-                            "Up to 2 texture probes along the long axis of a footprint.",
-                            "Up to 4 texture probes along the long axis of a footprint.",
-                            "Up to 8 texture probes along the long axis of a footprint.",
-                            "Up to 16 texture probes along the long axis of a footprint."},
-        [DIP_SETTING_AAF] = {"Footprints are estimated, so sharpness depends on a surface's angle.",
-                             "Footprints are exact ellipses, so sharpness does not depend on a "
-                             "surface's angle."},
-        [DIP_SETTING_OPT] = {"Textures are drawn as they are.",
-                             "Colour textures are compressed with BC1.",
-                             "Colour textures are compressed and filtered with fewer probes."},
-        [DIP_SETTING_MIPLOD] = {"Much smaller mip levels, and the largest ones are dropped.",
-                                "Smaller mip levels: textures are blurred.",
-                                "Slightly smaller mip levels.",
-                                "The mip level that fits each pixel.",
-                                "Half a mip level sharper than the texture's size asks for.",
-                                "A mip level sharper than the texture's size asks for: fine "
-                                "patterns may shimmer when the camera moves."},
-        [DIP_SETTING_SCALE] =
-            {"A picture half as wide and high is drawn and enlarged; games call it "
-             "performance.",
-             "A picture 1.7 times smaller each way is drawn and enlarged; games "
-             "call it balanced.",
-             "A picture 1.5 times smaller each way is drawn and enlarged; games "
-             "call it quality.",
-             "A picture 1.3 times smaller each way is drawn and enlarged; games "
-             "call it ultra quality.",
-             "The picture is drawn in its own size.",
-             "A picture 1.25 times as wide and high is drawn and averaged.",
-             "A picture 1.5 times as wide and high is drawn and averaged.",
-             "A picture twice as wide and high is drawn, and four of its pixels "
-             "make one: edges and textures gain, and a frame takes about three "
-             "times as long."},
-        [DIP_SETTING_UPSCALE] =
-            {"Each pixel is blended from the four nearest pixels of the smaller one: "
-             "soft, and the fastest.",
-             "Each pixel is a sum of sixteen pixels of the smaller picture: crisper.",
-             "Pixels are blended along edges (FSR 1): smooth edges, but it "
-             "takes the longest."},
-        [DIP_SETTING_POST] = {"The picture stays as it is drawn.",
-                              "FXAA finds edges in the finished picture and blurs along them; "
-                              "textures and text get softer, too.",
-                              "SMAA finds edges in the finished picture and replaces their stairs "
-                              "by lines; thin wires stay broken."},
-        [DIP_SETTING_SHARPEN] = {"The picture stays as it is drawn.",
-                                 "A quarter of the strongest sharpening. The error rises.",
-                                 "Half of the strongest sharpening. The error rises.",
-                                 "The strongest sharpening that does not overshoot. The error "
-                                 "rises."},
-        [DIP_SETTING_SHADOWS] = {"Nothing casts a shadow.",
-                                 "The strongest directional light casts shadows from a map of "
-                                 "512x512 texels: their edges are wide and soft.",
-                                 "A map of 1024x1024 texels: the edges are half as wide.",
-                                 "A map of 2048x2048 texels: the edges are a quarter as wide."},
-        [DIP_SETTING_GI] = {"Each repeated object has a copy of its mesh; the picture is the same.",
-                            "Repeated objects share one mesh; the picture is the same."},
-        [DIP_SETTING_MIPDEBUG] = {"Textures show their own colours.",
-                                  "Each mip level of a colour texture shows as a flat colour."},
-    };
-    return texts[setting][step];
+    return explanations[setting][step];
 }
 
-void dip_ms_text(double ms, DipPriceTrust trust, char text[DIP_STEP_NAME_BYTES]) {
-    if (trust != DIP_PRICE_TRUST_DOUBTFUL) {
-        snprintf(text, DIP_STEP_NAME_BYTES, "%.1f", ms);
-        return;
-    }
-    const double size = fmin(fabs(ms), 1e9);
-    if (size < 0.05) {
-        snprintf(text, DIP_STEP_NAME_BYTES, "0?");
-        return;
-    }
-    const double unit = size >= 0.1 ? pow(10.0, floor(log10(size))) : 0.1;
-    snprintf(text, DIP_STEP_NAME_BYTES, "%s%.*f?", ms < 0.0 ? "\u2212" : "", unit < 1.0,
-             unit * round(size / unit));
+void dip_ms_text(double ms, DipPriceTrust trust, double budget_ms, char text[DIP_STEP_NAME_BYTES]) {
+    dip_ms_number(ms, trust == DIP_PRICE_TRUST_DOUBTFUL, budget_ms, "\u2212", text);
 }
 
-void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
+void dip_price_ms_text(const DipPrice *price, double budget_ms, char text[DIP_STEP_NAME_BYTES]) {
     const DipPriceTrust trust = dip_price_trust(price);
     char digits[DIP_STEP_NAME_BYTES];
     if (trust == DIP_PRICE_TRUST_UNKNOWN) {
@@ -123,9 +112,9 @@ void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
                            : price->state == DIP_PRICE_ROUGH     ? DIP_ROUGH_MARK
                            : price->state == DIP_PRICE_PREDICTED ? "~"
                                                                  : "";
-        const char *sign = fabs(price->ms) < 0.05 ? "" : price->ms < 0.0 ? "\u2212" : "+";
-        dip_ms_text(fabs(price->ms), trust, digits);
-        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.16s", mark, sign, digits);
+        dip_ms_text(price->ms, trust, budget_ms - price->without_ms, digits);
+        const bool has_plus = price->ms > 0.0 && digits[strspn(digits, "0.")] != '?';
+        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.16s", mark, has_plus ? "+" : "", digits);
     }
 }
 
@@ -156,7 +145,7 @@ static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
     }
 }
 
-static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
+static void format_price(const DipPrice *price, double budget_ms, char *text, size_t size_bytes) {
     char digits[DIP_STEP_NAME_BYTES], flip[DIP_STEP_NAME_BYTES] = "", beside[64] = "",
                                       where[80] = "";
     text[0] = '\0';
@@ -171,7 +160,7 @@ static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
     }
     switch (price->state) {
     case DIP_PRICE_BASE:
-        dip_ms_text(price->ms, dip_price_trust(price), digits);
+        dip_ms_text(price->ms, dip_price_trust(price), budget_ms, digits);
         snprintf(text, size_bytes, "\nThe base of all prices%s: %s ms%s%s.", where, digits,
                  flip[0] ? ", FLIP " : "", flip);
         break;
@@ -197,10 +186,10 @@ static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
     }
 }
 
-void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const char *why,
-                  char text[DIP_STEP_TEXT_BYTES]) {
+void dip_step_tip(DipSetting setting, int step, const DipPrice *price, double budget_ms,
+                  const char *why, char text[DIP_STEP_TEXT_BYTES]) {
     char cost[240];
-    format_price(price, cost, sizeof cost);
+    format_price(price, budget_ms, cost, sizeof cost);
     snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s",
              dip_setting_info(setting)->labels[step], dip_step_explanation(setting, step),
              why[0] ? "\n" : "", why, setting == DIP_SETTING_MIPDEBUG ? "" : cost,

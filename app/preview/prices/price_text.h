@@ -16,14 +16,15 @@ enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
 // Returns a sentence about what a step does.
 const char *dip_step_explanation(DipSetting setting, int step);
 
-// Writes a time without its unit: "8.4", or its first digit and a question mark if it is doubtful:
-// "8?", "70?".
-void dip_ms_text(double ms, DipPriceTrust trust, char text[DIP_STEP_NAME_BYTES]);
+// Writes a time without its unit as dip_ms_number does (app/report/words.h): "8.4", or "8?" if it
+// is doubtful. Rounding never carries the time over the budget.
+void dip_ms_text(double ms, DipPriceTrust trust, double budget_ms, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a price's time without its unit, by its trust: "+1.2", "≈ +1.2" if it is rough, "~+1.2" if
 // a model predicts it, "+1?" if it is doubtful, "≈ 0", or "base". If it is unknown, writes dots, or
-// a dash if the setting has no effect without another setting.
-void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
+// a dash if the setting has no effect without another setting. Rounding never carries the whole
+// time with the step over the budget.
+void dip_price_ms_text(const DipPrice *price, double budget_ms, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.
 void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]);
@@ -33,8 +34,8 @@ void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]);
 void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes the tip of a step: what the step does, and its price. why: why the step cannot be chosen,
-// or "" if it can.
-void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const char *why,
-                  char text[DIP_STEP_TEXT_BYTES]);
+// or "" if it can. budget_ms: as in dip_price_ms_text.
+void dip_step_tip(DipSetting setting, int step, const DipPrice *price, double budget_ms,
+                  const char *why, char text[DIP_STEP_TEXT_BYTES]);
 
 #endif

@@ -97,7 +97,7 @@ const DipKeyRow dip_key_rows[] = {
     EDIT(DIP_KEYCODE_DOWN, FASTER, NULL, NULL),
     KEY('r', 0, PANEL, 0, "R", "Times, errors and work"),
     KEY('u', 0, COSTS, 0, "U", "What each setting costs"),
-    KEY('k', 0, ADVICE, 0, "K", "Best settings for a time budget"),
+    KEY('k', 0, ADVICE, 0, "K", "Best settings in the budget (Shift: next budget)"),
     KEY(DIP_KEYCODE_F1, 'h', HELP, 0, "F1  H", "This help"),
     KEY(DIP_KEYCODE_F11, 0, FULL_SCREEN, 0, "F11  Double click", "Full screen"),
     KEY(DIP_KEYCODE_F12, 0, SCREENSHOT, 0, "F12", "Screenshot (with Shift: panes only)"),

@@ -63,7 +63,7 @@ void dip_pilot_enter(DipFlight *flight, const DipSession *session) {
 
 // --- actions -------------------------------------------------------------------------------------
 
-static void change_speed(DipPreviewState *state, int steps, int64_t now_ns) {
+void dip_pilot_change_speed(DipPreviewState *state, int steps, int64_t now_ns) {
     DipFlight *flight = &state->flight;
     const int wanted = flight->speed_steps + steps;
     flight->speed_steps = wanted > MOST_STEPS    ? MOST_STEPS
@@ -87,7 +87,7 @@ void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns) {
     }
 }
 
-static void choose_end(DipPreviewState *state, int step, int64_t now_ns) {
+void dip_pilot_choose_end(DipPreviewState *state, int step, int64_t now_ns) {
     static const char *const texts[DIP_CAMPATH_END_COUNT] = {[DIP_CAMPATH_END_loop] = "loop",
                                                              [DIP_CAMPATH_END_once] = "play once",
                                                              [DIP_CAMPATH_END_back] =
@@ -101,7 +101,7 @@ static void choose_end(DipPreviewState *state, int step, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-static void edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) {
+void dip_pilot_edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) {
     if (!state->editor) {
         return;
     }
@@ -127,34 +127,19 @@ void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_
     state->flight.forward_steps += forward;
 }
 
-void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
-                   int64_t now_ns) {
-    switch (action) {
-    case DIP_ACTION_CAMERA_BACK:
-        state->flight.reset = state->manual;
-        dip_preview_notice(state, now_ns,
-                           state->manual
-                               ? "The free camera has the pose of its path; C follows the path"
-                               : "The camera follows its path");
-        break;
-    case DIP_ACTION_ORBIT:
-        state->flight.orbits = state->manual ? !state->flight.orbits : state->flight.orbits;
-        dip_pilot_make_free(state, now_ns);
-        state->flight.knows_centre = false;
-        say_camera(state, now_ns);
-        break;
-    case DIP_ACTION_SPEED:
-        change_speed(state, reverse ? -argument : argument, now_ns);
-        break;
-    case DIP_ACTION_PATH_END:
-        choose_end(state, reverse ? -argument : argument, now_ns);
-        break;
-    case DIP_ACTION_PATH_EDIT:
-        edit_path(state, (DipPathEdit)argument, now_ns);
-        break;
-    default:
-        break;
-    }
+void dip_pilot_reset(DipPreviewState *state, int64_t now_ns) {
+    state->flight.reset = state->manual;
+    dip_preview_notice(state, now_ns,
+                       state->manual
+                           ? "The free camera has the pose of its path; C follows the path"
+                           : "The camera follows its path");
+}
+
+void dip_pilot_orbit(DipPreviewState *state, int64_t now_ns) {
+    state->flight.orbits = state->manual ? !state->flight.orbits : state->flight.orbits;
+    dip_pilot_make_free(state, now_ns);
+    state->flight.knows_centre = false;
+    say_camera(state, now_ns);
 }
 
 // --- the loop's turn -----------------------------------------------------------------------------

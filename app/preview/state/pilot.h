@@ -6,9 +6,21 @@
 #include "app/preview/state/controller.h"
 #include "app/preview/state/state.h"
 
-// Carries out an action of the camera or of the path editor. Does nothing for other actions.
-void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
-                   int64_t now_ns);
+// Gives the free camera the pose of its path.
+void dip_pilot_reset(DipPreviewState *state, int64_t now_ns);
+
+// Makes the camera free or, if it is free, chooses whether dragging turns it about a point or about
+// itself.
+void dip_pilot_orbit(DipPreviewState *state, int64_t now_ns);
+
+// Makes the free camera faster by `steps`; dip_flight_speed says what a step is.
+void dip_pilot_change_speed(DipPreviewState *state, int steps, int64_t now_ns);
+
+// Chooses what paths do at their end: goes on by `step` in the ring of DipCamPathEnd.
+void dip_pilot_choose_end(DipPreviewState *state, int step, int64_t now_ns);
+
+// Edits a path. Does nothing without an editor.
+void dip_pilot_edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns);
 
 // Chooses a key (a pose on the edited path, path_editor.h), and moves the free camera there.
 void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns);

@@ -1,14 +1,11 @@
-// Carries out the user's actions, and lets time pass.
+// Makes the state, names camera paths, moves the time, and shows notices.
 #include "app/preview/state/state_private.h"
-
-#include "app/preview/state/pilot.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 static const int64_t default_step_ns = 33333333; // A thirtieth of a second.
-static const int64_t ns_per_ms = 1000000;
 
 DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                        DipCamTrack *track) {
@@ -52,123 +49,6 @@ void dip_preview_error_text(const DipError *err, char text[DIP_NOTICE_SIZE]) {
 
 void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns) {
     state->notice_end_ns = now_ns + 4 * dip_state_notice_ns;
-}
-
-// --- the dock and the tools ----------------------------------------------------------------------
-
-// Opens the dock with a tab, or folds it if the tab shows already.
-static void open_tab(DipPreviewState *state, DipTab tab) {
-    DipToolState *tools = &state->tools;
-    tools->open = !(tools->open && tools->tab == tab);
-    tools->bare = false;
-    tools->tab = tab;
-}
-
-// Returns a tool's next value in a ring of `count` values, and opens the tool's tab.
-static int next_of(DipPreviewState *state, DipTab tab, int value, int count, bool reverse) {
-    state->tools.tab = tab;
-    state->tools.open = true;
-    state->tools.bare = false;
-    return (value + (reverse ? count - 1 : 1)) % count;
-}
-
-static void zoom(DipPreviewState *state, bool out) {
-    const int zoom = out ? state->tools.zoom / 2 : state->tools.zoom * 2;
-    if (zoom >= DIP_LOUPE_MIN_ZOOM && zoom <= DIP_LOUPE_MAX_ZOOM) {
-        state->tools.zoom = zoom;
-    }
-}
-
-// Changes what shows: doubles or halves the brightness of a map or the gain of the difference, or
-// moves the wipe's divider by 5 %.
-static void adjust(DipPreviewState *state, bool down) {
-    enum { MAX_GAIN = 64 };
-    DipToolState *tools = &state->tools;
-    if (tools->map != DIP_MAP_NONE) {
-        const double brightness = tools->brightness * (down ? 0.5 : 2.0);
-        tools->brightness = brightness < 0.125 ? 0.125 : brightness > 64.0 ? 64.0 : brightness;
-    } else if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
-        const int gain = down ? tools->gain / 2 : tools->gain * 2;
-        tools->gain = gain < 1 ? 1 : gain > MAX_GAIN ? MAX_GAIN : gain;
-    } else {
-        const double divider = tools->divider + (down ? -0.05 : 0.05);
-        tools->divider = divider < 0.0 ? 0.0 : divider > 1.0 ? 1.0 : divider;
-    }
-}
-
-void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns) {
-    const double scale = state->tools.ui_scale + by;
-    state->tools.ui_scale = scale < 0.75 ? 0.75 : scale > 4.0 ? 4.0 : scale;
-    dip_preview_notice(state, now_ns, "Size of the panel: %.0f %%", 100.0 * state->tools.ui_scale);
-}
-
-bool dip_preview_needs_window(DipAction action) {
-    switch (action) {
-    case DIP_ACTION_TAB:
-    case DIP_ACTION_DOCK:
-    case DIP_ACTION_BARE:
-    case DIP_ACTION_LOUPE:
-    case DIP_ACTION_ZOOM:
-    case DIP_ACTION_COMPARISON:
-    case DIP_ACTION_MAP:
-    case DIP_ACTION_ADJUST:
-    case DIP_ACTION_BLINK:
-    case DIP_ACTION_PATH_EDIT:
-    case DIP_ACTION_FULL_SCREEN:
-        return true;
-    default:
-        return false;
-    }
-}
-
-// Carries out an action of the dock or of a tool. Returns false if the action is none of these.
-static bool act_on_tools(DipPreviewState *state, DipAction action, int argument, bool reverse,
-                         int64_t now_ns) {
-    DipToolState *tools = &state->tools;
-    switch (action) {
-    case DIP_ACTION_TAB:
-        open_tab(state, (DipTab)argument);
-        return true;
-    case DIP_ACTION_DOCK:
-        tools->open = !tools->open;
-        tools->bare = false;
-        return true;
-    case DIP_ACTION_BARE:
-        tools->bare = !tools->bare;
-        dip_preview_notice(state, now_ns, tools->bare ? "Panes only" : "Panes with the panel");
-        return true;
-    case DIP_ACTION_LOUPE:
-        tools->loupe = !tools->loupe;
-        tools->open = tools->loupe || tools->open;
-        tools->tab = tools->loupe ? DIP_TAB_LOUPE : DIP_TAB_SETTINGS;
-        return true;
-    case DIP_ACTION_ZOOM:
-        zoom(state, reverse);
-        return true;
-    case DIP_ACTION_COMPARISON:
-        tools->comparison = (DipComparison)next_of(state, DIP_TAB_COMPARE, (int)tools->comparison,
-                                                   DIP_COMPARISON_COUNT, reverse);
-        return true;
-    case DIP_ACTION_MAP:
-        tools->map = (DipMap)next_of(state, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT, reverse);
-        if (tools->map != DIP_MAP_NONE) {
-            tools->comparison = DIP_COMPARE_SIDE_BY_SIDE; // A map needs both panes side by side.
-        }
-        return true;
-    case DIP_ACTION_ADJUST:
-        adjust(state, reverse);
-        return true;
-    case DIP_ACTION_BLINK:
-        tools->blinked = !tools->blinked;
-        return true;
-    default:
-        return false;
-    }
-}
-
-void dip_preview_follow_dock(DipPreviewState *state) {
-    const DipToolState *tools = &state->tools;
-    state->panel = tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
 }
 
 // --- camera paths --------------------------------------------------------------------------------
@@ -221,45 +101,6 @@ bool dip_preview_path_stands(const DipPreviewState *state) {
     return stands;
 }
 
-static bool has_path(const DipPreviewState *state, int category) {
-    return state->track->categories[category].path != NULL;
-}
-
-// Plays the path of a category, or says that it has none.
-static void choose_path(DipPreviewState *state, int category, int64_t now_ns) {
-    if (category < 0 || category >= DIP_CAMTRACK_CATEGORIES || !has_path(state, category)) {
-        dip_preview_notice(state, now_ns, "%s has no path: the ini names no CAMPATH_%s",
-                           dip_preview_category_title(category),
-                           dip_preview_category_name(category));
-        return;
-    }
-    dip_camtrack_switch(state->track, category, state->play_ns);
-    state->manual = false;
-    dip_preview_notice(state, now_ns, "Path: %s", dip_preview_path_title(state, category));
-    ++state->scene_changes;
-}
-
-// Chooses the next category, in the given direction, whose path is not the current one. Several
-// categories may share a path.
-static void choose_next_path(DipPreviewState *state, int direction, int64_t now_ns) {
-    if (state->shows_gallery) { // Each scene has one path, so the next scene shows.
-        state->scene_step = direction;
-        ++state->scene_changes;
-        return;
-    }
-    const int from = state->track->active;
-    const DipCamPath *playing = state->track->categories[from].path;
-    const int count = DIP_CAMTRACK_CATEGORIES; // Includes the cameras of the models.
-    for (int i = 1; i < count; ++i) {
-        const int category = (from + direction * i + count * i) % count;
-        if (has_path(state, category) && state->track->categories[category].path != playing) {
-            choose_path(state, category, now_ns);
-            return;
-        }
-    }
-    dip_preview_notice(state, now_ns, "There is only one path");
-}
-
 int64_t dip_preview_path_length_ns(const DipPreviewState *state) {
     const DipCamPath *path = dip_preview_playing_path(state);
     if (!path) {
@@ -286,126 +127,7 @@ void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
     ++state->scene_changes;
 }
 
-// --- animations ----------------------------------------------------------------------------------
-
-// Asks for an animation of the models, or for none if index is -1.
-static void choose_animation(DipPreviewState *state, int index, int64_t now_ns) {
-    const DipSessionAnimations *animations = state->animations;
-    if (!animations || animations->count == 0 || index < -1 || index >= animations->count) {
-        dip_preview_notice(state, now_ns, "The models have no such animation");
-    } else if (index != animations->playing || state->opens_animation) {
-        state->wants_animation = true;
-        state->wanted_animation = index;
-    }
-}
-
-// --- all actions ---------------------------------------------------------------------------------
-
-static void change_look(DipPreviewState *state, bool reverse, int64_t now_ns) {
-    if (!state->shows_gallery) {
-        dip_preview_notice(state, now_ns, "Only scenes of the gallery have variants");
-        return;
-    }
-    state->look += reverse ? -1 : 1;
-    ++state->scene_changes;
-}
-
-void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
-                     int64_t now_ns) {
-    if (state->in_terminal && dip_preview_needs_window(action)) {
-        dip_preview_notice(state, now_ns, "This key acts in a window, not in a terminal");
-        return;
-    }
-    if (act_on_tools(state, action, argument, reverse, now_ns)) {
-        dip_preview_follow_dock(state);
-        return;
-    }
-    switch (action) {
-    case DIP_ACTION_UNDO:
-        dip_state_undo(state, reverse, now_ns);
-        break;
-    case DIP_ACTION_PRESET:
-        dip_state_choose_preset(state, (DipPreset)argument, now_ns);
-        break;
-    case DIP_ACTION_SETTING:
-        dip_state_change_setting(state, (DipSetting)argument, reverse, now_ns);
-        break;
-    case DIP_ACTION_NEXT_PANE:
-        dip_state_choose_pane(state, now_ns);
-        break;
-    case DIP_ACTION_APPLY:
-        dip_state_apply(state, now_ns);
-        break;
-    case DIP_ACTION_PAUSE:
-        state->paused = !state->paused;
-        dip_preview_notice(state, now_ns, state->paused ? "Paused" : "Playing");
-        break;
-    case DIP_ACTION_STEP:
-    case DIP_ACTION_STEP_BACK:
-        state->paused = true;
-        dip_preview_seek(state,
-                         state->play_ns + (action == DIP_ACTION_STEP ? 1 : -1) * state->step_ns);
-        dip_preview_notice(state, now_ns, "Paused");
-        break;
-    case DIP_ACTION_SEEK:
-        dip_preview_seek(state, state->play_ns + (reverse ? -argument : argument) * ns_per_ms);
-        break;
-    case DIP_ACTION_NEXT_PATH:
-    case DIP_ACTION_PREVIOUS_PATH:
-        choose_next_path(state, reverse || action == DIP_ACTION_PREVIOUS_PATH ? -1 : 1, now_ns);
-        break;
-    case DIP_ACTION_PATH:
-        choose_path(state, argument, now_ns);
-        break;
-    case DIP_ACTION_ANIMATION:
-        choose_animation(state, argument, now_ns);
-        break;
-    case DIP_ACTION_NEXT_SCENE:
-        state->scene_step = reverse ? -1 : 1;
-        ++state->scene_changes;
-        break;
-    case DIP_ACTION_LOOK:
-        change_look(state, reverse, now_ns);
-        break;
-    case DIP_ACTION_CAMERA:
-        state->manual = !state->manual;
-        dip_preview_notice(state, now_ns,
-                           state->manual ? "Free camera: W A S D Q E move it, dragging turns it"
-                                         : "The camera follows its path");
-        ++state->scene_changes;
-        break;
-    case DIP_ACTION_HELP:
-        state->help = !state->help;
-        state->help_words[0] = '\0';
-        break;
-    case DIP_ACTION_PANEL:
-        open_tab(state, DIP_TAB_TIMES);
-        dip_preview_follow_dock(state);
-        break;
-    case DIP_ACTION_COSTS:
-        state->show_costs = !state->show_costs;
-        break;
-    case DIP_ACTION_ADVICE:
-        dip_state_take_advice(state, reverse, now_ns);
-        break;
-    case DIP_ACTION_SCREENSHOT:
-        state->screenshot = true;
-        state->plain_screenshot = reverse;
-        break;
-    case DIP_ACTION_SAVE_POSE:
-        state->save_pose = true;
-        break;
-    case DIP_ACTION_FULL_SCREEN:
-        state->full_screen = !state->full_screen;
-        break;
-    case DIP_ACTION_QUIT:
-        state->quit = true;
-        break;
-    default:
-        dip_pilot_act(state, action, argument, reverse, now_ns);
-        break;
-    }
-}
+// --- time ---------------------------------------------------------------------------------------
 
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns) {
     state->play_ns = play_ns > 0 ? play_ns : 0;

@@ -39,7 +39,7 @@ typedef enum DipAction {
     DIP_ACTION_HELP,
     DIP_ACTION_PANEL,
     DIP_ACTION_COSTS,
-    DIP_ACTION_ADVICE,
+    DIP_ACTION_ADVICE, // Takes the advice for the budget; reversed, for the next budget.
     DIP_ACTION_TAB,    // Opens the dock at the tab `argument`; folds it if that tab shows already.
     DIP_ACTION_DOCK,   // Folds or opens the dock.
     DIP_ACTION_BARE,   // Shows nothing but the panes, or shows everything again.
@@ -55,7 +55,8 @@ typedef enum DipAction {
     DIP_ACTION_SCREENSHOT,
     DIP_ACTION_SAVE_POSE,
     DIP_ACTION_FULL_SCREEN,
-    DIP_ACTION_QUIT
+    DIP_ACTION_QUIT,
+    DIP_ACTION_COUNT
 } DipAction;
 
 enum { DIP_NOTICE_SIZE = 320, DIP_UNDO_DEPTH = 32, DIP_HELP_WORDS = 32 };
@@ -134,7 +135,6 @@ typedef struct DipPreviewState {
     double budget_ms;
     bool has_budget;    // The user has chosen budget_ms.
     double refresh_ms;  // Time of one refresh of the display.
-    double advised_ms;  // The budget for which the user took advice last, or 0.
     bool wants_errors;  // Another program has subscribed to the errors.
     bool wants_prices;  // Another program has subscribed to the prices.
     bool wants_picture; // Another program waits for a picture, even of a hidden window.

@@ -19,8 +19,8 @@ void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool r
 void dip_state_choose_pane(DipPreviewState *state, int64_t now_ns);
 // Gives the current pane the requested settings.
 void dip_state_apply(DipPreviewState *state, int64_t now_ns);
-// Gives the requested pane the settings with the least error within a time budget. Repeating the
-// action goes on to the next budget or, if `reverse`, back to the previous one.
-void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns);
+// Gives the requested pane the settings with the least error within the time budget. other_budget:
+// first goes on to the next budget of dip_preview_budgets.
+void dip_state_take_advice(DipPreviewState *state, bool other_budget, int64_t now_ns);
 
 #endif

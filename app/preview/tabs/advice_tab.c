@@ -86,8 +86,9 @@ static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate
     const DipCostReport *report = choice->live ? NULL : window->state->costs;
     const DipPixels *frame = &window->frames[0];
     char text[200], number[DIP_NUMBER_BYTES], flip[DIP_STEP_NAME_BYTES];
-    write_line(ui, SUM_SIZE, dip_style_accent, room, "%s%.1f ms",
-               choice->live ? DIP_ROUGH_MARK : "", advised->time.value);
+    dip_ms_text(advised->time.value, DIP_PRICE_TRUST_KNOWN, choice->advice.budget_ms, number);
+    write_line(ui, SUM_SIZE, dip_style_accent, room, "%s%s ms", choice->live ? DIP_ROUGH_MARK : "",
+               number);
     dip_fits_text(choice->advice.fits, number);
     write_line(ui, NOTE_SIZE, dip_style_soft, room, "%s; fits with %s",
                dip_time_kind_names[choice->candidates.kind], number);

@@ -11,72 +11,68 @@
 
 // --- a pane's time -------------------------------------------------------------------------------
 
-// Returns the live price of a pane's settings. It is unknown while the camera or the scene moves,
-// or if a report gives the prices.
-static DipPriceSum measured_here(const DipWindow *window, int pane) {
-    const DipPriceSum nothing = {.state = DIP_PRICE_UNKNOWN};
-    const bool here = window->still && window->prices && dip_prices_are_rough(window->prices);
-    return here ? dip_prices_sum(window->prices, &window->state->quality[pane]) : nothing;
-}
-
-DipPaneTime dip_pane_time(const DipWindow *window, int pane) {
-    const DipPriceSum sum = measured_here(window, pane);
-    const DipPaneFigures *figures = &window->figures[window->figures[pane].copied ? 0 : pane];
-    if (dip_price_sum_trust(&sum) != DIP_PRICE_TRUST_UNKNOWN) {
-        return (DipPaneTime){
-            .ms = sum.ms, .trust = dip_price_sum_trust(&sum), .measured_here = true};
-    }
-    return (DipPaneTime){.ms = figures->ms,
-                         .trust =
-                             figures->frames > 0 ? DIP_PRICE_TRUST_KNOWN : DIP_PRICE_TRUST_UNKNOWN,
-                         .single = figures->frames == 1};
-}
-
-void dip_pane_time_text(const DipPaneTime *time, char text[DIP_PANE_TIME_BYTES]) {
-    char digits[DIP_STEP_NAME_BYTES];
-    dip_ms_text(time->ms, time->trust, digits);
-    if (time->trust == DIP_PRICE_TRUST_UNKNOWN) {
-        snprintf(text, DIP_PANE_TIME_BYTES, "\u00b7 \u00b7 \u00b7 ms");
-    } else {
-        const bool rough = time->measured_here && time->trust != DIP_PRICE_TRUST_DOUBTFUL;
-        snprintf(text, DIP_PANE_TIME_BYTES, "%s%s%.20s ms", time->single ? "one frame: " : "",
-                 rough ? DIP_ROUGH_MARK : "", digits);
-    }
+static const DipPaneFigures *figures_of(const DipWindow *window, int pane) {
+    return &window->figures[window->figures[pane].copied ? DIP_PANE_CURRENT : pane];
 }
 
 DipPriceSum dip_pane_sum(const DipWindow *window, int pane) {
-    const DipPaneTime time = dip_pane_time(window, pane);
-    if (!dip_prices_are_rough(window->prices)) {
+    const double frame_ms = figures_of(window, pane)->ms;
+    if (window->prices && (window->still || !dip_prices_are_rough(window->prices))) {
         const DipPriceSum sum = dip_prices_sum(window->prices, &window->state->quality[pane]);
-        if (sum.state != DIP_PRICE_UNKNOWN) {
+        if (dip_price_sum_trust(&sum) != DIP_PRICE_TRUST_UNKNOWN) {
             return sum;
         }
-    } else if (time.measured_here) {
-        return measured_here(window, pane);
     }
-    return (DipPriceSum){.ms = time.ms, .base_ms = time.ms};
+    return (DipPriceSum){.state = DIP_PRICE_UNKNOWN, .ms = frame_ms, .base_ms = frame_ms};
+}
+
+const char *dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum) {
+    const bool of_path = sum->state != DIP_PRICE_UNKNOWN &&
+                         !dip_cost_is_view(dip_price_view_report(dip_prices_view(window->prices)));
+    return of_path ? " along the path" : "";
+}
+
+void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TIME_BYTES]) {
+    const DipPriceSum sum = dip_pane_sum(window, pane);
+    const int frames = figures_of(window, pane)->frames;
+    const bool is_price = sum.state != DIP_PRICE_UNKNOWN;
+    const DipPriceTrust trust = is_price     ? dip_price_sum_trust(&sum)
+                                : frames > 0 ? DIP_PRICE_TRUST_KNOWN
+                                             : DIP_PRICE_TRUST_UNKNOWN;
+    char digits[DIP_STEP_NAME_BYTES];
+    dip_ms_text(sum.ms, trust, window->state->budget_ms, digits);
+    if (trust == DIP_PRICE_TRUST_UNKNOWN) {
+        snprintf(text, DIP_PANE_TIME_BYTES, "\u00b7 \u00b7 \u00b7 ms");
+    } else {
+        const bool rough = sum.state == DIP_PRICE_ROUGH && trust != DIP_PRICE_TRUST_DOUBTFUL;
+        snprintf(text, DIP_PANE_TIME_BYTES, "%s%s%.20s ms",
+                 !is_price && frames == 1 ? "one frame: " : "", rough ? DIP_ROUGH_MARK : "",
+                 digits);
+    }
 }
 
 // --- labels --------------------------------------------------------------------------------------
 
 enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
 
-// Writes the time of a pane: "4.6 ms  60 fps", or "one frame: 44.0 ms", or that the pane is a copy.
-// If frames come too slowly for temporal antialiasing, says so instead.
+// Writes the time of a pane: "4.6 ms  60 fps", "4.6 ms along the path  60 fps", or "one frame: 44.0
+// ms", or that the pane is a copy. If frames come too slowly for temporal antialiasing, says so
+// instead.
 static void format_time(const DipWindow *window, int pane, char *text, size_t size_bytes) {
     const DipPaneFigures *figures = &window->figures[pane];
-    const DipPaneTime time = dip_pane_time(window, pane);
+    const DipPriceSum sum = dip_pane_sum(window, pane);
+    const char *scope = dip_pane_time_scope(window, &sum);
     char ms[DIP_PANE_TIME_BYTES];
-    dip_pane_time_text(&time, ms);
+    dip_pane_time_text(window, pane, ms);
     if (figures->taa_speed.too_slow) {
         snprintf(text, size_bytes, "too slow for temporal AA: %d of %d frames a second",
                  figures->taa_speed.shown, figures->taa_speed.wanted);
     } else if (figures->copied) {
         snprintf(text, size_bytes, "same as current");
     } else if (figures->fps > 0) {
-        snprintf(text, size_bytes, "%s  %d fps", ms, figures->fps);
+        snprintf(text, size_bytes, "%s%s  %d fps", ms, scope, figures->fps);
     } else {
-        snprintf(text, size_bytes, "%s", ms);
+        snprintf(text, size_bytes, "%s%s", ms, scope);
     }
 }
 
@@ -125,9 +121,12 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const int line = dip_ui_line_height(ui, LABEL_SIZE), row = dip_ui_px(ui, LABEL_HEIGHT);
     Label label = label_of(ui, window, pane, room);
     const int title_width = dip_ui_text_width(ui, LABEL_SIZE, label.title) + pad;
-    const int usual = dip_ui_text_width(ui, LABEL_SIZE,
-                                        window->figures[pane].fps > 0 ? "88.8 ms  60 fps"
-                                                                      : DIP_ROUGH_MARK "88.8 ms");
+    const DipPriceSum sum = dip_pane_sum(window, pane);
+    char usual_time[96];
+    snprintf(usual_time, sizeof usual_time, "%s88.8 ms%s%s",
+             sum.state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "", dip_pane_time_scope(window, &sum),
+             window->figures[pane].fps > 0 ? "  60 fps" : "");
+    const int usual = dip_ui_text_width(ui, LABEL_SIZE, usual_time);
     const int own = dip_ui_text_width(ui, LABEL_SIZE, label.time);
     const int time_width = dip_max(own, usual) + pad; // Changing digits do not move the settings.
     int width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);

@@ -159,13 +159,15 @@ static void draw_bar(DipUi *ui, DipRect cell, double value, double most, DipColo
 }
 
 // Draws a step's time and error, one above the other. cell: where the time lies.
-static void draw_price(DipUi *ui, const Slider *slider, int position, bool requested,
+static void draw_price(DipUi *ui, const DipPreviewState *state, const Slider *slider, int position,
                        DipRect cell) {
     const DipPrice *price = &slider->prices[position];
+    const bool requested = dip_setting_step_at(slider->setting, position) ==
+                           step_of(state, DIP_PANE_REQUESTED, slider->setting);
     const size_t mark_bytes = strlen(DIP_ROUGH_MARK);
     const bool costs = has_bar(price);
     char text[DIP_STEP_NAME_BYTES];
-    dip_price_ms_text(price, text);
+    dip_price_ms_text(price, state->budget_ms, text);
     const bool marked = costs && strncmp(text, DIP_ROUGH_MARK, mark_bytes) == 0;
     dip_ui_text(ui, PRICE_SIZE,
                 !costs      ? dip_style_dim
@@ -240,10 +242,7 @@ static void draw_steps(DipUi *ui, const DipPreviewState *state, const Slider *sl
         draw_pill(ui, state, slider, i, cell);
         cell.y = price_y;
         cell.height = price;
-        draw_price(ui, slider, i,
-                   dip_setting_step_at(slider->setting, i) ==
-                       step_of(state, DIP_PANE_REQUESTED, slider->setting),
-                   cell);
+        draw_price(ui, state, slider, i, cell);
     }
 }
 
@@ -291,6 +290,26 @@ static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting settin
     draw_values(ui, state, setting, STEP_SIZE, head);
 }
 
+// Declares a button at the right end of *head that plays the path made to show the setting, and
+// cuts it off. Leaves it out if there is no such path, if it plays already, or if the setting has
+// no effect.
+static void declare_path(DipUi *ui, DipWindow *window, DipSetting setting, DipRect *head) {
+    DipPreviewState *state = window->state;
+    const int category = dip_preview_category_of(setting);
+    const DipCamPath *path = category < 0 ? NULL : state->track->categories[category].path;
+    if (!path || path == dip_preview_playing_path(state) || state->scene_title ||
+        needs_of(state, setting)) {
+        return;
+    }
+    const DipRect rect =
+        dip_cut_right(head, dip_ui_text_width(ui, NAME_SIZE, "Its path") + dip_ui_px(ui, 10));
+    dip_cut_right(head, dip_ui_px(ui, 8));
+    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PATH), rect, "Its path", DIP_UI_PLAIN,
+                      "Plays the camera path that was made to show this setting (0 to 9).")) {
+        dip_preview_act(state, DIP_ACTION_PATH, category, false, dip_ui_now_ns(ui));
+    }
+}
+
 // Adds to a note how many pixels a step of the render scale draws.
 static void add_drawn_size(const DipPreviewState *state, int step, char note[DIP_STEP_TEXT_BYTES]) {
     const size_t length = strlen(note);
@@ -309,7 +328,7 @@ static void write_note(const DipWindow *window, DipSetting setting, int step,
     const DipPrice price = price_of(window, setting, step);
     char why[256];
     is_valid(window->state, setting, step, why);
-    dip_step_tip(setting, step, &price, why, note);
+    dip_step_tip(setting, step, &price, window->state->budget_ms, why, note);
     if (setting == DIP_SETTING_SCALE) {
         add_drawn_size(window->state, step, note);
     }
@@ -324,7 +343,7 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
         rect.height >= 2 * pad + steps_height + dip_ui_px(ui, NAME_HEIGHT + 2 * PRICE_HEIGHT);
     dip_ui_fill_round(ui, rect, dip_ui_px(ui, 4), dip_style_editor);
     DipRect rest = dip_rect_inset(rect, pad, has_note ? dip_ui_px(ui, 7) : dip_ui_px(ui, 3));
-    const DipRect head = dip_cut_top(&rest, dip_ui_px(ui, NAME_HEIGHT));
+    DipRect head = dip_cut_top(&rest, dip_ui_px(ui, NAME_HEIGHT));
     dip_cut_top(&rest, dip_ui_px(ui, has_note ? 6 : 2));
     Slider slider = make_slider(ui, window, setting, dip_cut_top(&rest, steps_height));
     char note[DIP_STEP_TEXT_BYTES];
@@ -336,6 +355,7 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
                                            .skips_focus = true,
                                            .takes_wheel = true});
     change_by(ui, window, setting, &slider.input, slider.pointed);
+    declare_path(ui, window, setting, &head);
     if (!dip_ui_is_drawing(ui)) {
         return;
     }
@@ -381,7 +401,7 @@ void dip_setting_entry_declare(DipUi *ui, DipWindow *window, DipSetting setting,
     const DipPrice price = price_of(window, setting, requested);
     if (has_bar(&price) && rect.width >= dip_ui_px(ui, 180)) {
         char ms[DIP_STEP_NAME_BYTES];
-        dip_price_ms_text(&price, ms);
+        dip_price_ms_text(&price, state->budget_ms, ms);
         dip_ui_label(ui, PRICE_SIZE, dip_style_soft, DIP_ALIGN_RIGHT,
                      dip_cut_right(&rest, dip_ui_px(ui, 42)), ms);
     }
@@ -408,7 +428,7 @@ void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, 
     const DipPrice price = price_of(window, setting, requested);
     const char *title = dip_setting_info(setting)->short_title;
     char tip[DIP_STEP_TEXT_BYTES], ms[DIP_STEP_NAME_BYTES] = "";
-    dip_step_tip(setting, requested, &price, "", tip);
+    dip_step_tip(setting, requested, &price, window->state->budget_ms, "", tip);
     DipUiInput input = dip_ui_stepper(ui, id_of(setting), rect, tip);
     const int title_end = rect.x + dip_ui_px(ui, 10) + dip_ui_text_width(ui, LINE_SIZE, title);
     // Between the title's end and the line's right end, a click in the left half goes one step
@@ -429,7 +449,7 @@ void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, 
         dip_ui_fill(ui, rect, dip_style_raised);
     }
     if (is_known(&price)) {
-        dip_price_ms_text(&price, ms);
+        dip_price_ms_text(&price, window->state->budget_ms, ms);
     }
     DipRect rest = dip_rect_inset(rect, pad, 0);
     dip_ui_label(ui, size, dip_style_soft, DIP_ALIGN_RIGHT, dip_cut_right(&rest, price_width), ms);

@@ -55,8 +55,11 @@ static DipUiLook describe_preset(const DipWindow *window, DipPreset preset, char
     }
     const DipPriceSum sum = dip_prices_sum(window->prices, &quality);
     if (sum.state != DIP_PRICE_UNKNOWN) {
-        snprintf(price, sizeof price, "\n%s%.1f ms",
-                 sum.state == DIP_PRICE_MEASURED ? "" : DIP_ROUGH_MARK, sum.ms);
+        const DipPriceTrust trust = dip_price_sum_trust(&sum);
+        const bool rough = sum.state == DIP_PRICE_ROUGH && trust == DIP_PRICE_TRUST_KNOWN;
+        char digits[DIP_STEP_NAME_BYTES];
+        dip_ms_text(sum.ms, trust, window->state->budget_ms, digits);
+        snprintf(price, sizeof price, "\n%s%s ms", rough ? DIP_ROUGH_MARK : "", digits);
     }
     dip_quality_format_changes(&quality, text, sizeof text);
     snprintf(tip, 320, "%s: %s%s", name, text, price);
@@ -295,32 +298,21 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 // far it exceeds the budget, or what its 95 % interval is. The last two notes also say so if the
 // sum holds for a path.
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
-    char along[48] = "";
+    const double budget_ms = window->state->budget_ms;
+    const char *scope = dip_pane_time_scope(window, sum);
+    char from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES];
     note[0] = '\0';
-    if (sum->state != DIP_PRICE_UNKNOWN && !dip_prices_are_rough(window->prices)) {
-        snprintf(along, sizeof along, " along the path");
-    }
     if (dip_price_sum_trust(sum) == DIP_PRICE_TRUST_DOUBTFUL) {
         snprintf(note, 96, "doubtful: the machine was busy");
-    } else if (sum->ms > window->state->budget_ms) {
-        snprintf(note, 96, "%.1f over %.1f%s", sum->ms - window->state->budget_ms,
-                 window->state->budget_ms, along);
+    } else if (sum->ms > budget_ms) {
+        dip_ms_text(sum->ms - budget_ms, DIP_PRICE_TRUST_KNOWN, 0.0, from);
+        dip_budget_ms_text(budget_ms, to);
+        snprintf(note, 96, "%s over %s%s", from, to, scope);
     } else if (sum->ms_high > sum->ms_low) {
-        snprintf(note, 96, "%.1f to %.1f%s", sum->ms_low, sum->ms_high, along);
+        dip_ms_text(sum->ms_low, DIP_PRICE_TRUST_KNOWN, budget_ms, from);
+        dip_ms_text(sum->ms_high, DIP_PRICE_TRUST_KNOWN, budget_ms, to);
+        snprintf(note, 96, "%s to %s%s", from, to, scope);
     }
-}
-
-// Writes the sum of a pane's prices as dip_pane_time_text does. Without prices, writes the pane's
-// time.
-static void format_sum(const DipWindow *window, int pane, const DipPriceSum *sum,
-                       char text[DIP_PANE_TIME_BYTES]) {
-    DipPaneTime time = dip_pane_time(window, pane);
-    if (sum->state != DIP_PRICE_UNKNOWN) {
-        time = (DipPaneTime){.ms = sum->ms,
-                             .trust = dip_price_sum_trust(sum),
-                             .measured_here = sum->state == DIP_PRICE_ROUGH};
-    }
-    dip_pane_time_text(&time, text);
 }
 
 // Draws the sum and a note beside it.
@@ -328,7 +320,7 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     const bool over =
         sum->ms > window->state->budget_ms && dip_price_sum_trust(sum) != DIP_PRICE_TRUST_DOUBTFUL;
     char text[DIP_PANE_TIME_BYTES], note[96];
-    format_sum(window, DIP_PANE_REQUESTED, sum, text);
+    dip_pane_time_text(window, DIP_PANE_REQUESTED, text);
     format_note(window, sum, note);
     rect.height = dip_ui_line_height(ui, SUM_SIZE);
     dip_ui_word(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, &rect, dip_ui_px(ui, 9),
@@ -391,7 +383,7 @@ static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSu
                             DipRect line) {
     const DipPriceSum now = dip_pane_sum(window, DIP_PANE_CURRENT);
     char text[80], from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES], time[DIP_PANE_TIME_BYTES];
-    format_sum(window, DIP_PANE_CURRENT, &now, time);
+    dip_pane_time_text(window, DIP_PANE_CURRENT, time);
     snprintf(text, sizeof text, "current %s", time);
     dip_ui_word(ui, NOTE_SIZE, dip_style_soft, &line, dip_ui_px(ui, 14), text);
     if (!sum->has_flip || !now.has_flip || now.flip <= 0.0) {

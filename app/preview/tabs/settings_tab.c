@@ -133,7 +133,7 @@ static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) 
     const DipRect other = dip_cut_right(&rest, dip_ui_px(ui, 30));
     rest.y = foot.y;
     rest.height = foot.height;
-    dip_ms_text(sum.ms, trust, text);
+    dip_ms_text(sum.ms, trust, budget_ms, text);
     dip_ui_word(ui, 13, over ? dip_style_worse : dip_style_accent, &rest, pad, text);
     dip_budget_ms_text(budget_ms, budget);
     snprintf(of, sizeof of, "of %s ms", budget);

@@ -21,7 +21,7 @@ enum {
 static const char costs_note[] =
     "1x: the baseline and its FLIP. Other steps: relative time (?: doubtful) and change of FLIP";
 static const char help_note[] =
-    "While time runs, a change of a setting also chooses the path that shows it best";
+    "0 to 9: the path that was made to show a setting; a change of a setting moves no camera";
 
 // --- a table on a sheet --------------------------------------------------------------------------
 

@@ -82,27 +82,19 @@ void dip_bar_declare(DipUi *ui, DipWindow *window);
 
 enum { DIP_PANE_TIME_BYTES = 48 };
 
-typedef struct DipPaneTime {
-    double ms;
-    DipPriceTrust trust;
-    bool measured_here; // Measured at rest with a few frames, for the live prices (prices.h).
-    bool single;        // The time of a single frame.
-} DipPaneTime;
-
-// Returns a pane's frame time. While pictures move, this is the median of the last second. At rest,
-// it is the time that was measured for the live price of the pane's settings. If there is no live
-// price, it is the last median or, if the settings have changed since, the time of the single frame
-// that was drawn.
-DipPaneTime dip_pane_time(const DipWindow *window, int pane);
-
-// Writes a pane's time: "8.4 ms"; "≈ 8.4 ms" if it was measured at rest; "8? ms" if it is doubtful;
-// "one frame: 44.0 ms"; or dots if it is not known.
-void dip_pane_time_text(const DipPaneTime *time, char text[DIP_PANE_TIME_BYTES]);
-
-// Returns the time of a pane's settings as the sum of prices that the panel shows. It comes from
-// the report or, if prices are live, from measurements at rest. If neither is known, the sum is the
-// pane's time (dip_pane_time), and the base is its only part.
+// Returns a pane's time and its parts, as labels and panel show them. It is the price of the pane's
+// settings: from the report or, at rest, from live prices. If this price is not known, the sum has
+// the state DIP_PRICE_UNKNOWN and the pane's frame time as its only part: the median of the last
+// second with frames or, if the settings have changed since, the time of a single frame.
 DipPriceSum dip_pane_sum(const DipWindow *window, int pane);
+
+// Returns for what the time of dip_pane_sum holds: " along the path", or "" for the picture in
+// view.
+const char *dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum);
+
+// Writes the time of dip_pane_sum: "8.4 ms"; "≈ 8.4 ms" if it was measured at rest; "8? ms" if it
+// is doubtful; "one frame: 44.0 ms"; or dots if it is not known.
+void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TIME_BYTES]);
 
 // --- the settings' tab ----------------------------------------------------------------------
 
@@ -118,6 +110,7 @@ enum {
     DIP_ID_MEASURE_HERE,
     DIP_ID_MORE,
     DIP_ID_EDITOR,
+    DIP_ID_PATH,
     DIP_ID_FLIP,
     DIP_ID_FRAME_RATE,
     DIP_ID_BUDGET

@@ -50,7 +50,7 @@ static void turn_wheel(DipUi *ui, DipPreviewState *state, DipUiInput *input) {
         state->flight.zoom_steps += input->steps;
         state->flight.knows_centre = false;
     } else {
-        dip_pilot_act(state, DIP_ACTION_SPEED, input->steps, false, dip_ui_now_ns(ui));
+        dip_pilot_change_speed(state, input->steps, dip_ui_now_ns(ui));
     }
     input->steps = 0;
 }

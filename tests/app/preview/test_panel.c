@@ -152,6 +152,39 @@ static void steps_show_their_time_and_change_of_flip(void **state) {
     dip_cost_report_free(&report);
 }
 
+// The sheet (U) and the panel's prices mark the same steps as doubtful: none of a good report, one
+// whose times scatter, all of a report from a machine that was too busy.
+static void the_sheet_doubts_what_the_panel_doubts(void **state) {
+    (void)state;
+    static const double scatter[] = {0.2, 5.0, 0.5, 3.0};
+    DipCostReport report;
+    dip_made_report(&report, 16);
+    for (int round = 0; round < 3; round++) {
+        DipPrices *prices = dip_prices_create(NULL);
+        DipCosts costs;
+        int doubtful = 0;
+        for (int f = 0; round == 1 && f < dip_cost_frame_count(&report); f++) {
+            dip_made_timed(&report, 3, f)->ms = 4.0 * scatter[f % 4];
+        }
+        assert_true(dip_cost_estimate_times(&report, NULL));
+        report.verdict = round == 2 ? DIP_COST_RED : DIP_COST_GREEN;
+        assert_true(dip_prices_set_report(prices, &report, NULL));
+        dip_costs_make(&costs, &report);
+        const DipCostsRow *row = &costs.rows[0];
+        for (int s = 1; s < row->step_count; s++) {
+            const DipQuality *quality = &row->steps[s].quality;
+            const DipPrice price =
+                dip_prices_step(prices, DIP_SETTING_AA, quality->step[DIP_SETTING_AA], quality);
+            const bool marked = strchr(row->steps[s].time, '?') != NULL;
+            assert_int_equal(marked, dip_price_trust(&price) == DIP_PRICE_TRUST_DOUBTFUL);
+            doubtful += marked;
+        }
+        assert_int_equal(doubtful, round);
+        dip_prices_destroy(&prices);
+    }
+    dip_cost_report_free(&report);
+}
+
 static void a_report_of_another_scene_is_refused(void **state) {
     (void)state;
     DipCostReport report;
@@ -181,7 +214,7 @@ static void choose(DipPreviewState *preview, DipPreviewChoice *choice, const Dip
 }
 
 // Row r of the made-up report takes r + 1 ms; rows 2 and 3 are its combinations. The key takes the
-// advice for the budget, then for the report's next ones.
+// advice for the budget and leaves the budget as it is; with Shift, it goes on to the next one.
 static void advice_sets_the_requested_pane(void **state) {
     (void)state;
     DipCostReport report;
@@ -201,15 +234,18 @@ static void advice_sets_the_requested_pane(void **state) {
     assert_int_equal(preview.scene_changes, 0);
     preview.costs = &report;
     choose(&preview, &choice, prices);
-    preview.advised_ms = 0.0;
-    dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, false, 0);
+    for (int i = 0; i < 2; i++) { // The second press changes nothing.
+        preview.scene_changes = 0;
+        dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, false, 0);
+        assert_true(preview.budget_ms == 16.6);
+    }
     // Both combinations are fast enough; the one of 4 ms has less error.
     assert_non_null(strstr(preview.notice, "Within 16.6 ms: 4.0 ms p95, FLIP "));
     assert_non_null(strstr(preview.notice, ", fits with 100 %; baseline 3.0 ms, "));
     assert_memory_equal(&preview.quality[DIP_PANE_REQUESTED], &report.rows[3].quality,
                         sizeof(DipQuality));
     assert_int_equal(preview.scene_changes, 1);
-    dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, false, 0);
+    dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, true, 0);
     assert_string_equal(preview.notice, "Nothing measured surely fits 1 ms.");
     assert_true(preview.budget_ms == 1.0 && preview.has_budget);
     assert_int_equal(preview.scene_changes, 1);
@@ -243,6 +279,7 @@ int main(void) {
         cmocka_unit_test_setup(a_copy_has_errors_only, set_up),
         cmocka_unit_test(the_preview_rests_when_nothing_moves),
         cmocka_unit_test(steps_show_their_time_and_change_of_flip),
+        cmocka_unit_test(the_sheet_doubts_what_the_panel_doubts),
         cmocka_unit_test(a_report_of_another_scene_is_refused),
         cmocka_unit_test(advice_sets_the_requested_pane),
         cmocka_unit_test(the_budget_follows_the_display),

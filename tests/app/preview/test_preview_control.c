@@ -197,6 +197,21 @@ static void notices_and_the_panel_can_be_off(void **state) {
     assert_false(state_now()->tools.bare);
 }
 
+// A panel that changes settings while time runs leaves the camera where it is.
+static void settings_move_no_camera(void **state) {
+    (void)state;
+    assert_ok("{\"request\":\"play\"}");
+    const int64_t before_ns = state_now()->play_ns;
+    assert_ok("{\"request\":\"set\",\"pane\":\"requested\",\"change\":\"af=8\"}");
+    turn();
+    assert_ok("{\"request\":\"set\",\"pane\":[\"current\",\"requested\"],\"settings\":\"aa=2\"}");
+    turn();
+    assert_int_equal(state_now()->track->active, DIP_CATEGORY_DEFAULT);
+    assert_true(state_now()->play_ns > before_ns);
+    assert_true(state_now()->play_ns < before_ns + INT64_C(1000000000));
+    assert_false(state_now()->manual);
+}
+
 // One pane's settings would allow the change, the other's would not: neither changes.
 static void a_refused_change_changes_no_pane(void **state) {
     (void)state;
@@ -558,6 +573,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         CONTROL_TEST(settings_are_pushed_and_applied),
         CONTROL_TEST(notices_and_the_panel_can_be_off),
+        CONTROL_TEST(settings_move_no_camera),
         CONTROL_TEST(a_refused_change_changes_no_pane),
         CONTROL_TEST(settings_that_a_pane_has_already_draw_nothing),
         CONTROL_TEST(time_and_path_follow_requests),

@@ -119,15 +119,24 @@ static void keys_change_the_chosen_panes_and_apply_copies(void **state) {
     assert_int_equal(step_of(f, DIP_PANE_CURRENT, DIP_SETTING_AA), 0);
 }
 
-static void a_setting_chooses_its_path(void **state) {
+// A change of a setting leaves the camera where it is: only then can the user compare the pictures.
+static void a_setting_moves_no_camera(void **state) {
     Fixture *f = *state;
     dip_preview_advance(&f->state, 3000000000, 0);
     press(f, DIP_ACTION_SETTING, DIP_SETTING_AF, false);
+    dip_preview_set_step(&f->state, DIP_SETTING_AF, 3, 0);
+    assert_int_equal(f->track.active, DIP_CATEGORY_DEFAULT);
+    assert_int_equal(dip_camtrack_time(&f->track, f->state.play_ns), 3000000000);
+    assert_string_equal(f->state.notice, "Anisotropic filtering: 8");
+}
+
+static void the_user_chooses_a_path(void **state) {
+    Fixture *f = *state;
+    dip_preview_advance(&f->state, 3000000000, 0);
+    press(f, DIP_ACTION_PATH, DIP_CATEGORY_AF, false);
     assert_int_equal(f->track.active, DIP_CATEGORY_AF);
     assert_int_equal(dip_camtrack_time(&f->track, f->state.play_ns),
                      0); // a new path starts at its beginning
-    press(f, DIP_ACTION_SETTING, DIP_SETTING_MIPDEBUG, false);
-    assert_int_equal(f->track.active, DIP_CATEGORY_AF);
     press(f, DIP_ACTION_NEXT_PATH, 0, false);
     assert_int_equal(f->track.active, DIP_CATEGORY_DEFAULT);
     press(f, DIP_ACTION_NEXT_PATH, 0, true);
@@ -137,6 +146,41 @@ static void a_setting_chooses_its_path(void **state) {
     press(f, DIP_ACTION_PATH, DIP_CATEGORY_WATER, false); // the scene has no such path
     assert_int_equal(f->track.active, DIP_CATEGORY_DEFAULT);
     assert_non_null(strstr(f->state.notice, "WATER"));
+}
+
+// The camera that the user flies holds no model still: time stops only while paused.
+static void the_free_camera_does_not_stop_the_scene(void **state) {
+    Fixture *f = *state;
+    f->state.scene_moves = true;
+    press(f, DIP_ACTION_CAMERA, 0, false);
+    assert_true(f->state.manual);
+    const unsigned changes = f->state.scene_changes;
+    dip_preview_advance(&f->state, 1000, 0);
+    assert_int_equal(f->state.play_ns, 1000);
+    assert_int_equal(f->state.scene_changes, changes + 1);
+    assert_false(dip_preview_rests(&f->state, false));
+    press(f, DIP_ACTION_PAUSE, 0, false);
+    dip_preview_advance(&f->state, 1000, 0);
+    assert_int_equal(f->state.play_ns, 1000);
+    assert_true(dip_preview_rests(&f->state, false));
+}
+
+// Every action has a function, and only those that need no window act in a terminal.
+static void every_action_is_carried_out(void **state) {
+    Fixture *f = *state;
+    const DipPreviewState before = f->state;
+    for (int in_terminal = 0; in_terminal < 2; ++in_terminal) {
+        for (int a = 0; a < DIP_ACTION_COUNT; ++a) {
+            f->state = before;
+            f->state.in_terminal = in_terminal;
+            press(f, (DipAction)a, a == DIP_ACTION_SPEED || a == DIP_ACTION_PATH_END, false);
+            const bool refused = strstr(f->state.notice, "not in a terminal") != NULL;
+            assert_int_equal(refused, in_terminal && dip_preview_needs_window((DipAction)a));
+            const bool edits = a == DIP_ACTION_PATH_EDIT; // Does nothing without an editor.
+            f->state.in_terminal = false;
+            assert_true(edits || memcmp(&f->state, &before, sizeof before) != 0);
+        }
+    }
 }
 
 static void time_stops_while_paused_or_flying(void **state) {
@@ -395,7 +439,10 @@ int main(void) {
         cmocka_unit_test_setup_teardown(every_setting_returns_to_its_first_step, set_up, tear_down),
         cmocka_unit_test_setup_teardown(keys_change_the_chosen_panes_and_apply_copies, set_up,
                                         tear_down),
-        cmocka_unit_test_setup_teardown(a_setting_chooses_its_path, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_setting_moves_no_camera, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_user_chooses_a_path, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_free_camera_does_not_stop_the_scene, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(every_action_is_carried_out, set_up, tear_down),
         cmocka_unit_test_setup_teardown(time_stops_while_paused_or_flying, set_up, tear_down),
         cmocka_unit_test_setup_teardown(notices_disappear, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_terminal_names_what_needs_a_window, set_up, tear_down),

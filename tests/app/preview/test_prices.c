@@ -491,7 +491,7 @@ static void doubtful_times_are_written_with_one_digit(void **state) {
                                 .ms_low = cases[i].low,
                                 .ms_high = cases[i].high,
                                 .without_ms = cases[i].without_ms};
-        dip_price_ms_text(&price, written);
+        dip_price_ms_text(&price, INFINITY, written);
         assert_string_equal(written, cases[i].text);
         assert_int_equal(dip_price_trust(&price) == DIP_PRICE_TRUST_KNOWN, cases[i].compares);
     }
@@ -501,16 +501,65 @@ static void doubtful_times_are_written_with_one_digit(void **state) {
                            .ms_high = 3864303.5,
                            .without_ms = 5.0,
                            .has_flip = true};
-    dip_step_tip(DIP_SETTING_AA, 1, &wild, "", tip);
+    dip_step_tip(DIP_SETTING_AA, 1, &wild, INFINITY, "", tip);
     assert_null(strstr(tip, "3864303"));
     assert_non_null(strstr(tip, "Its time cannot be told"));
     const DipPrice busy = {.state = DIP_PRICE_BASE, .ms = 50.16, .doubtful = true};
-    dip_step_tip(DIP_SETTING_AA, 0, &busy, "", tip);
+    dip_step_tip(DIP_SETTING_AA, 0, &busy, INFINITY, "", tip);
     assert_non_null(strstr(tip, "The base of all prices: 50? ms."));
     dip_flip_text(-0.00001, true, tip);
     assert_string_equal(tip, ".0000"); // Not "-.0000".
     const DipPriceSum sum = {.state = DIP_PRICE_ROUGH, .ms = 12.0, .ms_high = 3864303.5};
     assert_int_equal(dip_price_sum_trust(&sum), DIP_PRICE_TRUST_DOUBTFUL);
+}
+
+// Rounding carries no time over the budget: more digits are written where one would.
+static void no_time_is_rounded_across_the_budget(void **state) {
+    (void)state;
+    static const struct {
+        double ms, budget_ms;
+        bool doubtful;
+        const char *text;
+    } cases[] = {
+        {14.9, 12.0, true, "15?"},
+        {14.9, 16.7, true, "10?"},
+        {14.9, 17.0, true, "10?"},
+        {16.9, 16.7, true, "20?"},
+        {15.4, 16.7, true, "15?"},
+        {16.9, 16.95, true, "16.9?"},
+        {16.66, 1000 / 60.0, false, "16.66"},
+        {16.64, 16.0, false, "16.6"},
+        {16.04, 16.0, false, "16.04"},
+        {15.96, 16.0, false, "16.0"},
+        {8.4, INFINITY, true, "8?"},
+        {120.0, 95.0, true, "100?"},
+        {95.04, 95.0, true, "95.04?"},
+        {0.34, 0.3, true, "0.34?"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[DIP_STEP_NAME_BYTES];
+        dip_ms_text(cases[i].ms,
+                    cases[i].doubtful ? DIP_PRICE_TRUST_DOUBTFUL : DIP_PRICE_TRUST_KNOWN,
+                    cases[i].budget_ms, text);
+        assert_string_equal(text, cases[i].text);
+    }
+    for (int i = 1; i < 4000; i++) { // Any time beside any budget.
+        const double ms = 0.01 * i, budget_ms = 0.37 * (i % 100) + 1.0;
+        for (int doubtful = 0; doubtful < 2; doubtful++) {
+            char text[DIP_STEP_NAME_BYTES];
+            dip_ms_text(ms, doubtful ? DIP_PRICE_TRUST_DOUBTFUL : DIP_PRICE_TRUST_KNOWN, budget_ms,
+                        text);
+            assert_int_equal(strtod(text, NULL) > budget_ms, ms > budget_ms);
+        }
+    }
+    // A step is priced beside what the budget leaves for it.
+    char text[DIP_STEP_NAME_BYTES];
+    const DipPrice price = {
+        .state = DIP_PRICE_MEASURED, .ms = 14.9, .ms_low = 6.0, .ms_high = 30.0, .without_ms = 5.0};
+    dip_price_ms_text(&price, 16.7, text);
+    assert_string_equal(text, "+15?");
+    dip_price_ms_text(&price, 33.3, text);
+    assert_string_equal(text, "+10?");
 }
 
 static void a_new_live_time_replaces_the_old_one(void **state) {
@@ -566,6 +615,7 @@ int main(void) {
         TEST(prices_of_a_busy_machine_are_marked),
         TEST(live_prices_are_differences_of_whole_times),
         TEST(doubtful_times_are_written_with_one_digit),
+        TEST(no_time_is_rounded_across_the_budget),
         TEST(a_new_live_time_replaces_the_old_one),
         TEST(live_prices_replace_a_report_on_demand),
     };

@@ -259,6 +259,18 @@ static void a_tip_appears_after_a_while(void **state) {
     dip_canvas_free(&canvas);
 }
 
+// A user who clicks a disabled control wants to know why, so its tip shows at once.
+static void a_click_on_a_disabled_control_shows_its_tip(void **state) {
+    (void)state;
+    controls[MIDDLE].tip = "It waits for something";
+    mouse(DIP_EVENT_MOUSE_MOVE, 60, 130);
+    assert_true(dip_ui_wakes_ns(ui) > now_ns);
+    mouse(DIP_EVENT_MOUSE_DOWN, 60, 130);
+    assert_true(dip_ui_wakes_ns(ui) <= now_ns);
+    mouse(DIP_EVENT_MOUSE_UP, 60, 130);
+    assert_true(dip_ui_wakes_ns(ui) <= now_ns);
+}
+
 // A drawing pass reports no input, and hovers what an event pass hovers.
 static void drawing_reports_no_input(void **state) {
     (void)state;
@@ -294,12 +306,18 @@ static void a_lost_control_takes_no_keys(void **state) {
 int main(void) {
 #define UI_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        UI_TEST(the_topmost_control_takes_the_mouse), UI_TEST(a_drag_stays_with_its_control),
-        UI_TEST(a_disabled_control_takes_nothing),    UI_TEST(tab_visits_the_controls_in_order),
-        UI_TEST(keys_act_on_the_visible_focus),       UI_TEST(arrows_move_the_focus),
-        UI_TEST(the_wheel_counts_whole_steps),        UI_TEST(a_tip_covers_no_row),
-        UI_TEST(a_tip_appears_after_a_while),         UI_TEST(drawing_reports_no_input),
+        UI_TEST(the_topmost_control_takes_the_mouse),
+        UI_TEST(a_drag_stays_with_its_control),
+        UI_TEST(a_disabled_control_takes_nothing),
+        UI_TEST(tab_visits_the_controls_in_order),
+        UI_TEST(keys_act_on_the_visible_focus),
+        UI_TEST(arrows_move_the_focus),
+        UI_TEST(the_wheel_counts_whole_steps),
+        UI_TEST(a_tip_covers_no_row),
+        UI_TEST(a_tip_appears_after_a_while),
+        UI_TEST(drawing_reports_no_input),
         UI_TEST(a_lost_control_takes_no_keys),
+        UI_TEST(a_click_on_a_disabled_control_shows_its_tip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,14 @@
 // Tests of the window's layout and of its settings tab: at every size, nothing leaves the window,
 // and the keyboard reaches every setting and Apply; clicks, drags and the wheel change steps.
+#include "tests/app/cost/made_report.h"
 #include "tests/app/preview/made_live.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/live/figures.h"
 #include "app/preview/loop/view.h"
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
+#include "app/ui/layout.h"
+#include "app/ui/style.h"
 #include "config/config.h"
 
 #include <math.h>
@@ -211,6 +214,32 @@ static void keys_change_the_focused_setting(void **unused) {
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
 }
 
+// The editor plays the path that was made for the open setting, if there is one.
+static void the_open_settings_path_has_a_button(void **unused) {
+    (void)unused;
+    const DipUiId button = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PATH);
+    const DipCamKey keys[2] = {{{0, 0, 0}, {0, 0, 0, 1}}, {{2, 2, 0}, {0, 0, 0, 1}}};
+    DipCamPath *other;
+    assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &other, NULL));
+    for (int has_path = 0; has_path < 2; ++has_path) {
+        if (has_path) {
+            dip_camtrack_set(&track, DIP_CATEGORY_MIPLOD, other, 60.0);
+        }
+        dip_ui_blur(dip_view_ui(view));
+        bool found = false;
+        for (int i = 0; i < 60 && !found; ++i) {
+            state.open_setting = DIP_SETTING_MIPLOD;
+            press(DIP_KEYCODE_TAB);
+            found = dip_ui_focus(dip_view_ui(view)) == button;
+        }
+        assert_int_equal(found, has_path);
+    }
+    press(DIP_KEYCODE_ENTER);
+    assert_int_equal(track.active, DIP_CATEGORY_MIPLOD);
+    track = dip_camtrack_make(true);
+    dip_campath_destroy(&other);
+}
+
 // In a small window, the drawer lies over the current pane and takes clicks in its place.
 static void the_drawer_takes_clicks_over_the_pane(void **unused) {
     (void)unused;
@@ -246,29 +275,86 @@ static void a_pane_has_one_time(void **unused) {
     char text[DIP_PANE_TIME_BYTES];
     DipWindow window = {.state = &state, .figures = figures, .prices = prices, .still = true};
     figures[1].frames = 1;
-    DipPaneTime time = dip_pane_time(&window, 1);
-    dip_pane_time_text(&time, text);
+    dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, "one frame: 5.0 ms");
-    assert_true(dip_pane_sum(&window, 1).ms == time.ms);
+    assert_true(dip_pane_sum(&window, 1).ms == 5.0);
     figures[1].frames = 30;
-    time = dip_pane_time(&window, 1);
-    dip_pane_time_text(&time, text);
+    dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, "5.0 ms");
     // What was measured at rest takes the place of the frames' time, in both.
     dip_made_live(prices, "aa=none", 6.7, 0.01, 0.05);
-    time = dip_pane_time(&window, 1);
-    dip_pane_time_text(&time, text);
+    dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, DIP_ROUGH_MARK "6.7 ms");
-    assert_true(dip_pane_sum(&window, 1).ms == time.ms);
+    const DipPriceSum sum = dip_pane_sum(&window, 1);
+    assert_true(sum.ms > 6.65 && sum.ms < 6.75);
+    assert_string_equal(dip_pane_time_scope(&window, &sum), "");
     dip_made_live(prices, "aa=none", 6.7, 0.9, 0.05);
-    time = dip_pane_time(&window, 1);
-    dip_pane_time_text(&time, text);
+    dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, "7? ms");
     window.still = false; // Moving pictures have their own time.
-    time = dip_pane_time(&window, 1);
-    dip_pane_time_text(&time, text);
+    dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, "5.0 ms");
-    assert_true(dip_pane_sum(&window, 1).ms == time.ms);
+    assert_true(dip_pane_sum(&window, 1).ms == 5.0);
+}
+
+// With a report, its price is the pane's one time, whether or not pictures move.
+static void a_report_gives_the_panes_time(void **unused) {
+    (void)unused;
+    DipCostReport report;
+    char text[DIP_PANE_TIME_BYTES];
+    dip_made_report(&report, 16); // Row 0, with the default settings, takes 1 ms.
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    assert_true(dip_prices_set_report(prices, &report, NULL));
+    DipWindow window = {.state = &state, .figures = figures, .prices = prices};
+    for (int still = 0; still < 2; ++still) {
+        window.still = still;
+        const DipPriceSum sum = dip_pane_sum(&window, 0);
+        dip_pane_time_text(&window, 0, text);
+        assert_string_equal(text, "1.0 ms");
+        assert_true(fabs(sum.ms - 1.0) < 1e-9);
+        assert_string_equal(dip_pane_time_scope(&window, &sum), " along the path");
+    }
+    dip_prices_destroy(&prices);
+    prices = dip_prices_create(NULL);
+    dip_cost_report_free(&report);
+}
+
+// Returns where a colour begins in the lowest row of the dock's bar, or -1 if it has none.
+static int line_of(DipColour colour) {
+    assert_true(dip_view_draw(view, &input, NULL));
+    const DipPixels shown = dip_view_picture(view);
+    const DipRect bar = dip_view_layout(&input).bar;
+    const uint8_t *row = shown.rgba8 + (size_t)(dip_rect_bottom(bar) - 1) * shown.stride_bytes;
+    for (int x = bar.x; x < dip_rect_right(bar); ++x) {
+        const uint8_t *pixel = row + 4 * (size_t)x;
+        if (pixel[0] == colour.red && pixel[1] == colour.green && pixel[2] == colour.blue) {
+            return x;
+        }
+    }
+    return -1;
+}
+
+// A white line stands under the name of the open tab. A line in the accent colour stands under the
+// tab of a tool that shows over the panes while another tab is open.
+static void lines_mark_the_open_tab_and_the_tools(void **unused) {
+    (void)unused;
+    int begin[DIP_TAB_COUNT];
+    for (int t = 0; t < DIP_TAB_COUNT; ++t) {
+        state.tools.tab = (DipTab)t;
+        begin[t] = line_of(dip_style_white);
+        assert_true(begin[t] > (t > 0 ? begin[t - 1] : -1));
+        assert_int_equal(line_of(dip_style_accent), -1);
+    }
+    state.tools.tab = DIP_TAB_SETTINGS;
+    state.tools.loupe = true;
+    assert_int_equal(line_of(dip_style_white), begin[DIP_TAB_SETTINGS]);
+    assert_int_equal(line_of(dip_style_accent), begin[DIP_TAB_LOUPE]);
+    state.tools.tab = DIP_TAB_LOUPE;
+    assert_int_equal(line_of(dip_style_white), begin[DIP_TAB_LOUPE]);
+    assert_int_equal(line_of(dip_style_accent), -1);
+    state.tools.open = false; // The tool shows, and its tab is folded away.
+    assert_int_equal(line_of(dip_style_white), -1);
+    assert_int_equal(line_of(dip_style_accent), begin[DIP_TAB_LOUPE]);
 }
 
 // The time of the last second with frames stays while nothing is drawn, until the settings change.
@@ -446,6 +532,9 @@ int main(void) {
         WINDOW_TEST(the_drawer_takes_clicks_over_the_pane),
         WINDOW_TEST(text_grows_with_the_window),
         WINDOW_TEST(a_pane_has_one_time),
+        WINDOW_TEST(a_report_gives_the_panes_time),
+        WINDOW_TEST(lines_mark_the_open_tab_and_the_tools),
+        WINDOW_TEST(the_open_settings_path_has_a_button),
         WINDOW_TEST(a_time_stays_while_nothing_is_drawn),
         WINDOW_TEST(frames_that_copied_pixels_do_not_count),
         WINDOW_TEST(presets_wait_for_prices),

@@ -1,0 +1,367 @@
+// Carries out the user's actions: one function for each action, and a table of these functions.
+#include "app/preview/state/pilot.h"
+#include "app/preview/state/state_private.h"
+
+#include <stdio.h>
+
+static const int64_t ns_per_ms = 1000000;
+
+// An action that is carried out: the parameters of dip_preview_act.
+typedef struct Act {
+    DipPreviewState *state;
+    int argument;
+    bool reverse;
+    int64_t now_ns;
+} Act;
+
+// --- settings ------------------------------------------------------------------------------------
+
+static void undo(const Act *act) {
+    dip_state_undo(act->state, act->reverse, act->now_ns);
+}
+
+static void choose_preset(const Act *act) {
+    dip_state_choose_preset(act->state, (DipPreset)act->argument, act->now_ns);
+}
+
+static void change_setting(const Act *act) {
+    dip_state_change_setting(act->state, (DipSetting)act->argument, act->reverse, act->now_ns);
+}
+
+static void choose_pane(const Act *act) {
+    dip_state_choose_pane(act->state, act->now_ns);
+}
+
+static void apply(const Act *act) {
+    dip_state_apply(act->state, act->now_ns);
+}
+
+static void take_advice(const Act *act) {
+    dip_state_take_advice(act->state, act->reverse, act->now_ns);
+}
+
+// --- time ----------------------------------------------------------------------------------------
+
+static void pause_or_play(const Act *act) {
+    DipPreviewState *state = act->state;
+    state->paused = !state->paused;
+    dip_preview_notice(state, act->now_ns, state->paused ? "Paused" : "Playing");
+}
+
+static void step_by(const Act *act, int64_t by_ns) {
+    DipPreviewState *state = act->state;
+    state->paused = true;
+    dip_preview_seek(state, state->play_ns + by_ns);
+    dip_preview_notice(state, act->now_ns, "Paused");
+}
+
+static void step_on(const Act *act) {
+    step_by(act, act->state->step_ns);
+}
+
+static void step_back(const Act *act) {
+    step_by(act, -act->state->step_ns);
+}
+
+static void seek(const Act *act) {
+    const int64_t by_ns = act->argument * ns_per_ms;
+    dip_preview_seek(act->state, act->state->play_ns + (act->reverse ? -by_ns : by_ns));
+}
+
+// --- paths, animations and scenes ----------------------------------------------------------------
+
+static bool has_path(const DipPreviewState *state, int category) {
+    return state->track->categories[category].path != NULL;
+}
+
+// Plays the path of a category, or says that it has none.
+static void play_path(DipPreviewState *state, int category, int64_t now_ns) {
+    if (category < 0 || category >= DIP_CAMTRACK_CATEGORIES || !has_path(state, category)) {
+        dip_preview_notice(state, now_ns, "%s has no path: the ini names no CAMPATH_%s",
+                           dip_preview_category_title(category),
+                           dip_preview_category_name(category));
+        return;
+    }
+    dip_camtrack_switch(state->track, category, state->play_ns);
+    state->manual = false;
+    dip_preview_notice(state, now_ns, "Path: %s", dip_preview_path_title(state, category));
+    ++state->scene_changes;
+}
+
+static void choose_path(const Act *act) {
+    play_path(act->state, act->argument, act->now_ns);
+}
+
+// Chooses the next category, in the given direction, whose path is not the current one. Several
+// categories may share a path.
+static void step_path(const Act *act, int direction) {
+    DipPreviewState *state = act->state;
+    if (state->shows_gallery) { // Each scene has one path, so the next scene shows.
+        state->scene_step = direction;
+        ++state->scene_changes;
+        return;
+    }
+    const int from = state->track->active;
+    const DipCamPath *playing = state->track->categories[from].path;
+    const int count = DIP_CAMTRACK_CATEGORIES; // Includes the cameras of the models.
+    for (int i = 1; i < count; ++i) {
+        const int category = (from + direction * i + count * i) % count;
+        if (has_path(state, category) && state->track->categories[category].path != playing) {
+            play_path(state, category, act->now_ns);
+            return;
+        }
+    }
+    dip_preview_notice(state, act->now_ns, "There is only one path");
+}
+
+static void next_path(const Act *act) {
+    step_path(act, act->reverse ? -1 : 1);
+}
+
+static void previous_path(const Act *act) {
+    step_path(act, -1);
+}
+
+// Asks for an animation of the models, or for none if the argument is -1.
+static void choose_animation(const Act *act) {
+    DipPreviewState *state = act->state;
+    const DipSessionAnimations *animations = state->animations;
+    const int index = act->argument;
+    if (!animations || animations->count == 0 || index < -1 || index >= animations->count) {
+        dip_preview_notice(state, act->now_ns, "The models have no such animation");
+    } else if (index != animations->playing || state->opens_animation) {
+        state->wants_animation = true;
+        state->wanted_animation = index;
+    }
+}
+
+static void next_scene(const Act *act) {
+    act->state->scene_step = act->reverse ? -1 : 1;
+    ++act->state->scene_changes;
+}
+
+static void change_look(const Act *act) {
+    DipPreviewState *state = act->state;
+    if (!state->shows_gallery) {
+        dip_preview_notice(state, act->now_ns, "Only scenes of the gallery have variants");
+        return;
+    }
+    state->look += act->reverse ? -1 : 1;
+    ++state->scene_changes;
+}
+
+// --- the camera ----------------------------------------------------------------------------------
+
+static void free_camera(const Act *act) {
+    DipPreviewState *state = act->state;
+    state->manual = !state->manual;
+    dip_preview_notice(state, act->now_ns,
+                       state->manual ? "Free camera: W A S D Q E move it, dragging turns it"
+                                     : "The camera follows its path");
+    ++state->scene_changes;
+}
+
+static void reset_camera(const Act *act) {
+    dip_pilot_reset(act->state, act->now_ns);
+}
+
+static void orbit(const Act *act) {
+    dip_pilot_orbit(act->state, act->now_ns);
+}
+
+static void change_speed(const Act *act) {
+    dip_pilot_change_speed(act->state, act->reverse ? -act->argument : act->argument, act->now_ns);
+}
+
+static void choose_path_end(const Act *act) {
+    dip_pilot_choose_end(act->state, act->reverse ? -act->argument : act->argument, act->now_ns);
+}
+
+static void edit_path(const Act *act) {
+    dip_pilot_edit_path(act->state, (DipPathEdit)act->argument, act->now_ns);
+}
+
+// --- the dock and the tools ----------------------------------------------------------------------
+
+static void open_tab(DipPreviewState *state, DipTab tab) {
+    DipToolState *tools = &state->tools;
+    tools->open = !(tools->open && tools->tab == tab);
+    tools->bare = false;
+    tools->tab = tab;
+}
+
+static void open_tab_of(const Act *act) {
+    open_tab(act->state, (DipTab)act->argument);
+}
+
+static void open_times(const Act *act) {
+    open_tab(act->state, DIP_TAB_TIMES);
+}
+
+static void fold_dock(const Act *act) {
+    act->state->tools.open = !act->state->tools.open;
+    act->state->tools.bare = false;
+}
+
+static void show_panes_only(const Act *act) {
+    bool *bare = &act->state->tools.bare;
+    *bare = !*bare;
+    dip_preview_notice(act->state, act->now_ns, *bare ? "Panes only" : "Panes with the panel");
+}
+
+static void use_loupe(const Act *act) {
+    DipToolState *tools = &act->state->tools;
+    tools->loupe = !tools->loupe;
+    tools->open = tools->loupe || tools->open;
+    tools->tab = tools->loupe ? DIP_TAB_LOUPE : DIP_TAB_SETTINGS;
+}
+
+static void zoom(const Act *act) {
+    int *zoom = &act->state->tools.zoom;
+    const int wanted = act->reverse ? *zoom / 2 : *zoom * 2;
+    *zoom = wanted >= DIP_LOUPE_MIN_ZOOM && wanted <= DIP_LOUPE_MAX_ZOOM ? wanted : *zoom;
+}
+
+// Returns a tool's next value in a ring of `count` values, and opens the tool's tab.
+static int next_of(const Act *act, DipTab tab, int value, int count) {
+    DipToolState *tools = &act->state->tools;
+    tools->tab = tab;
+    tools->open = true;
+    tools->bare = false;
+    return (value + (act->reverse ? count - 1 : 1)) % count;
+}
+
+static void next_comparison(const Act *act) {
+    DipToolState *tools = &act->state->tools;
+    tools->comparison =
+        (DipComparison)next_of(act, DIP_TAB_COMPARE, (int)tools->comparison, DIP_COMPARISON_COUNT);
+}
+
+static void next_map(const Act *act) {
+    DipToolState *tools = &act->state->tools;
+    tools->map = (DipMap)next_of(act, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT);
+    if (tools->map != DIP_MAP_NONE) {
+        tools->comparison = DIP_COMPARE_SIDE_BY_SIDE; // A map needs both panes side by side.
+    }
+}
+
+// Changes what shows: doubles or halves the brightness of a map or the gain of the difference, or
+// moves the wipe's divider by 5 %.
+static void adjust(const Act *act) {
+    enum { MAX_GAIN = 64 };
+    DipToolState *tools = &act->state->tools;
+    if (tools->map != DIP_MAP_NONE) {
+        const double brightness = tools->brightness * (act->reverse ? 0.5 : 2.0);
+        tools->brightness = brightness < 0.125 ? 0.125 : brightness > 64.0 ? 64.0 : brightness;
+    } else if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
+        const int gain = act->reverse ? tools->gain / 2 : tools->gain * 2;
+        tools->gain = gain < 1 ? 1 : gain > MAX_GAIN ? MAX_GAIN : gain;
+    } else {
+        const double divider = tools->divider + (act->reverse ? -0.05 : 0.05);
+        tools->divider = divider < 0.0 ? 0.0 : divider > 1.0 ? 1.0 : divider;
+    }
+}
+
+static void blink(const Act *act) {
+    act->state->tools.blinked = !act->state->tools.blinked;
+}
+
+// --- sheets, files and the window ----------------------------------------------------------------
+
+static void show_help(const Act *act) {
+    act->state->help = !act->state->help;
+    act->state->help_words[0] = '\0';
+}
+
+static void show_costs(const Act *act) {
+    act->state->show_costs = !act->state->show_costs;
+}
+
+static void save_screenshot(const Act *act) {
+    act->state->screenshot = true;
+    act->state->plain_screenshot = act->reverse;
+}
+
+static void save_pose(const Act *act) {
+    act->state->save_pose = true;
+}
+
+static void fill_screen(const Act *act) {
+    act->state->full_screen = !act->state->full_screen;
+}
+
+static void quit(const Act *act) {
+    act->state->quit = true;
+}
+
+// --- all actions ---------------------------------------------------------------------------------
+
+static const struct {
+    void (*carry_out)(const Act *act);
+    bool needs_window; // A terminal does not show what the action does.
+} actions[DIP_ACTION_COUNT] = {
+    [DIP_ACTION_SETTING] = {change_setting},
+    [DIP_ACTION_NEXT_PANE] = {choose_pane},
+    [DIP_ACTION_APPLY] = {apply},
+    [DIP_ACTION_PAUSE] = {pause_or_play},
+    [DIP_ACTION_STEP] = {step_on},
+    [DIP_ACTION_STEP_BACK] = {step_back},
+    [DIP_ACTION_NEXT_PATH] = {next_path},
+    [DIP_ACTION_PREVIOUS_PATH] = {previous_path},
+    [DIP_ACTION_PATH] = {choose_path},
+    [DIP_ACTION_ANIMATION] = {choose_animation},
+    [DIP_ACTION_NEXT_SCENE] = {next_scene},
+    [DIP_ACTION_LOOK] = {change_look},
+    [DIP_ACTION_CAMERA] = {free_camera},
+    [DIP_ACTION_CAMERA_BACK] = {reset_camera},
+    [DIP_ACTION_ORBIT] = {orbit},
+    [DIP_ACTION_SPEED] = {change_speed},
+    [DIP_ACTION_PATH_END] = {choose_path_end},
+    [DIP_ACTION_PATH_EDIT] = {edit_path, .needs_window = true},
+    [DIP_ACTION_HELP] = {show_help},
+    [DIP_ACTION_PANEL] = {open_times},
+    [DIP_ACTION_COSTS] = {show_costs},
+    [DIP_ACTION_ADVICE] = {take_advice},
+    [DIP_ACTION_TAB] = {open_tab_of, .needs_window = true},
+    [DIP_ACTION_DOCK] = {fold_dock, .needs_window = true},
+    [DIP_ACTION_BARE] = {show_panes_only, .needs_window = true},
+    [DIP_ACTION_UNDO] = {undo},
+    [DIP_ACTION_PRESET] = {choose_preset},
+    [DIP_ACTION_SEEK] = {seek},
+    [DIP_ACTION_LOUPE] = {use_loupe, .needs_window = true},
+    [DIP_ACTION_ZOOM] = {zoom, .needs_window = true},
+    [DIP_ACTION_COMPARISON] = {next_comparison, .needs_window = true},
+    [DIP_ACTION_MAP] = {next_map, .needs_window = true},
+    [DIP_ACTION_ADJUST] = {adjust, .needs_window = true},
+    [DIP_ACTION_BLINK] = {blink, .needs_window = true},
+    [DIP_ACTION_SCREENSHOT] = {save_screenshot},
+    [DIP_ACTION_SAVE_POSE] = {save_pose},
+    [DIP_ACTION_FULL_SCREEN] = {fill_screen, .needs_window = true},
+    [DIP_ACTION_QUIT] = {quit},
+};
+
+bool dip_preview_needs_window(DipAction action) {
+    return actions[action].needs_window;
+}
+
+void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                     int64_t now_ns) {
+    const Act act = {state, argument, reverse, now_ns};
+    if (state->in_terminal && actions[action].needs_window) {
+        dip_preview_notice(state, now_ns, "This key acts in a window, not in a terminal");
+        return;
+    }
+    actions[action].carry_out(&act);
+    dip_preview_follow_dock(state);
+}
+
+void dip_preview_follow_dock(DipPreviewState *state) {
+    const DipToolState *tools = &state->tools;
+    state->panel = tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
+}
+
+void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns) {
+    const double scale = state->tools.ui_scale + by;
+    state->tools.ui_scale = scale < 0.75 ? 0.75 : scale > 4.0 ? 4.0 : scale;
+    dip_preview_notice(state, now_ns, "Size of the panel: %.0f %%", 100.0 * state->tools.ui_scale);
+}
