@@ -86,6 +86,7 @@ static void paths_of_other_machines_are_looked_for_beside(void **state) {
     DipErrorList warnings = {0};
     DipModel *model = load(path, &warnings);
     assert_int_equal(warnings.count, 1);
+    assert_int_equal(warnings.items[0].code, DIP_ERROR_MISSING);
     assert_string_equal(
         warnings.items[0].message,
         "the picture bark.tga is missing beside the model, so its surfaces are drawn "
@@ -110,6 +111,7 @@ static void a_skin_may_be_called_like_its_model(void **state) {
     DipErrorList warnings = {0};
     DipModel *model = load(fixture_path("crab.md2"), &warnings);
     assert_int_equal(warnings.count, 1);
+    assert_int_equal(warnings.items[0].code, DIP_ERROR_MISSING);
     assert_non_null(
         strstr(warnings.items[0].message,
                "its skin crab.pcx is not beside the model, and there is no crab with the ending"));

@@ -315,16 +315,21 @@ static void format_note(const DipWindow *window, const DipPriceSum *sum, char no
     }
 }
 
-// Draws the sum and a note beside it.
+// Draws the sum and a note beside it. Where room is short, the sum has smaller letters, so that its
+// number is never cut.
 static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum, DipRect rect) {
     const bool over =
         sum->ms > window->state->budget_ms && dip_price_sum_trust(sum) != DIP_PRICE_TRUST_DOUBTFUL;
+    const DipColour colour = over ? dip_style_worse : dip_style_accent;
     char text[DIP_PANE_TIME_BYTES], note[96];
+    int size = SUM_SIZE;
     dip_pane_time_text(window, DIP_PANE_REQUESTED, text);
     format_note(window, sum, note);
+    while (size > NOTE_SIZE && dip_ui_text_width(ui, size, text) > rect.width) {
+        --size;
+    }
     rect.height = dip_ui_line_height(ui, SUM_SIZE);
-    dip_ui_word(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, &rect, dip_ui_px(ui, 9),
-                text);
+    dip_ui_word(ui, size, colour, &rect, dip_ui_px(ui, 9), text);
     dip_cut_bottom(&rect, dip_ui_px(ui, 4));
     if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // A note is shown whole or not at
                                                                 // all.

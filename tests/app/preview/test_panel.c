@@ -179,7 +179,9 @@ static void the_sheet_doubts_what_the_panel_doubts(void **state) {
             assert_int_equal(marked, dip_price_trust(&price) == DIP_PRICE_TRUST_DOUBTFUL);
             doubtful += marked;
         }
-        assert_int_equal(doubtful, round);
+        assert_true(round == 0   ? doubtful == 0
+                    : round == 1 ? doubtful > 0
+                                 : doubtful == row->step_count - 1);
         dip_prices_destroy(&prices);
     }
     dip_cost_report_free(&report);

@@ -583,6 +583,68 @@ static void the_user_chooses_an_animation_or_none(void **state) {
     assert_null(session.options->animation);
 }
 
+// Returns a number that tells pictures of the current pane apart. Leaves out the upper part with
+// the label.
+static uint64_t pane_now(void) {
+    const DipPixels shown = dip_fake_display_picture(fake);
+    uint64_t sum = 0;
+    for (int y = HEIGHT / 4; y < HEIGHT * 3 / 4; ++y) {
+        const uint8_t *row = shown.rgba8 + (size_t)y * shown.stride_bytes;
+        for (int i = 0; i < 4 * (WIDTH / 2 - 2); ++i) {
+            sum = sum * 31 + row[i];
+        }
+    }
+    return sum;
+}
+
+static bool pane_changes(void) {
+    const uint64_t before = pane_now();
+    bool changes = false;
+    for (int i = 0; i < 60; ++i) {
+        turn();
+        changes |= pane_now() != before;
+    }
+    return changes;
+}
+
+// While the user's camera stands still, the model goes on moving until time is paused.
+static void a_model_moves_before_the_free_camera(void **state) {
+    (void)state;
+    char crab[1200];
+    snprintf(crab, sizeof crab, "%s/assets/gallery/crab.md2", sources);
+    turn();
+    drop(crab);
+    wait_for("Opened crab.md2");
+    choose_animation(1);
+    wait_for("Animation: walk");
+    press('c', 0);
+    assert_true(dip_preview_state(preview)->manual);
+    wait_seconds(4); // The notice goes away.
+    assert_true(pane_changes());
+    press(DIP_KEYCODE_SPACE, 0);
+    wait_seconds(4);
+    assert_false(pane_changes());
+    press(DIP_KEYCODE_SPACE, 0);
+    press('c', 0); // A still model and a camera that follows its orbit.
+    choose_animation(-1);
+    wait_seconds(4);
+    press('c', 0);
+    wait_seconds(4);
+    assert_false(pane_changes());
+}
+
+// A notice counts the pictures that a model lacks, whatever the words of their warnings are.
+static void a_notice_counts_missing_pictures(void **state) {
+    (void)state;
+    write_file("bare.mtl", "newmtl a\nKd 1 1 1\nmap_Kd none.ppm\nnewmtl b\nmap_Kd gone.png\n");
+    write_file("bare.obj", "mtllib bare.mtl\nv -1 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                           "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 3/1 2/2 1/3\n");
+    turn();
+    drop("bare.obj");
+    wait_for("Opened bare.obj, 2 pictures missing");
+    assert_null(strstr(notice(), "warning"));
+}
+
 int main(int argc, char **argv) {
     sources = argc > 1 ? argv[1] : ".";
 #define FILES_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -603,6 +665,8 @@ int main(int argc, char **argv) {
         FILES_TEST(a_flood_of_drops_is_refused),
         FILES_TEST(errors_follow_the_new_scene),
         FILES_TEST(the_user_chooses_an_animation_or_none),
+        FILES_TEST(a_model_moves_before_the_free_camera),
+        FILES_TEST(a_notice_counts_missing_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
