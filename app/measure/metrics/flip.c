@@ -12,8 +12,8 @@
 // White point D65 in XYZ, the reference white of both the opponent colours and CIELab.
 static const float white[3] = {0.950428545f, 1.0f, 1.088900371f};
 
-// Takes linear sRGB to XYZ. It follows from sRGB's primaries and D65; its entries are exact
-// fractions.
+// The matrix that takes linear sRGB to XYZ. It follows from sRGB's primaries and D65; its entries
+// are exact fractions.
 static const float rgb_to_xyz[3][3] = {
     {(float)(10135552.0 / 24577794.0), (float)(8788810.0 / 24577794.0),
      (float)(4435075.0 / 24577794.0)},
