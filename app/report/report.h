@@ -187,8 +187,8 @@ typedef struct DipCostReport {
     DipCostRow *rows; // Owned. Row 0 is the baseline on path 0.
     int row_count;
     // Two rows of each path with the baseline's settings. All other rows of the path are timed
-    // beside the base row. One of them is the A/A row (same_rows), which is timed as if it were
-    // another setting; its ratio shows how noisy the machine is.
+    // beside the base row. The other of the two is the A/A row (same_rows), which is timed as if it
+    // were another setting; its ratio shows how noisy the machine is.
     int base_rows[DIP_COST_MAX_PATHS];
     int same_rows[DIP_COST_MAX_PATHS];
     int combined_first; // Rows from this index on are the combinations, on path 0.
