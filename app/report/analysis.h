@@ -34,7 +34,7 @@ typedef struct DipCostAnalysis {
     int interaction_count;
 } DipCostAnalysis;
 
-// Fills in report->analysis. Call it once nothing is measured any more. Fails with
+// Fills in report->analysis. Call it after everything has been measured. Fails with
 // DIP_ERROR_MEMORY.
 bool dip_cost_analyse(DipCostReport *report, DipError *err);
 

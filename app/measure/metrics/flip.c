@@ -286,9 +286,9 @@ static float length(float x, float y) {
     return sqrtf(x * x + y * y);
 }
 
-// Maps the colour distance of a pixel, raised to colour_exponent, to 0..1. Values up to `share`
-// times the greatest one map to 0..used, and greater values to used..1. The pixel is pixel i of `a`
-// and pixel k of `b`.
+// Maps the colour distance of a pixel, raised to colour_exponent, to 0..1. Values up to the share
+// 0.4 of the greatest one map to 0..0.95, and greater values to 0.95..1 (the paper's p_c and p_t).
+// The pixel is pixel i of `a` and pixel k of `b`.
 static float colour_error(const DipFlipAnalysis *a, size_t i, const DipFlipAnalysis *b, size_t k,
                           float greatest) {
     const float share = 0.4f, used = 0.95f;

@@ -69,7 +69,7 @@ typedef struct DipTruthJob DipTruthJob;
 // Begins a truth. The job reads it from the folder `cache` if it is there; otherwise, or if the
 // file is damaged, the job draws it and writes it to the folder. If `cache` is NULL, there is no
 // cache. Reference, scene hash and folder are borrowed. Processes may share a folder. Two jobs may
-// run at once if their references are separate.
+// run at once if each has a reference renderer of its own.
 //
 // A live job is one that a user waits for. It draws the coarser levels first, and one tile per
 // step, which takes a few milliseconds. It does not write the truth if the folder already holds
