@@ -340,8 +340,8 @@ double dip_cost_floor_flip(const DipCostReport *report, int path);
 
 // Returns estimates of the errors of a path's truths themselves. A truth is the mean of two halves,
 // whose noise is independent, so the mean square of its noise is a quarter of the mean square of
-// the difference of the halves. From the metrics of one half against the other therefore follow:
-// half of their RMSE, their PSNR plus 6.02 dB, and a quarter of their 1 - SSIM, since 1 - SSIM is
+// the difference of the halves. The estimates are therefore the RMSE of the first half against the
+// second, halved; its PSNR plus 6.02 dB; and a quarter of its 1 - SSIM, since 1 - SSIM is
 // proportional to the noise's variance as long as it is small. FLIP is dip_cost_floor_flip.
 DipMetrics dip_cost_floor_metrics(const DipCostReport *report, int path);
 
