@@ -65,7 +65,7 @@ const char *dip_step_explanation(DipSetting setting, int step) {
              "make one: edges and textures gain, and a frame takes about three "
              "times as long."},
         [DIP_SETTING_UPSCALE] =
-            {"Each pixel is blended from the four nearest pixels of the smaller one: "
+            {"Each pixel blends the four nearest pixels of the smaller picture: "
              "soft, and the fastest.",
              "Each pixel is a sum of sixteen pixels of the smaller picture: crisper.",
              "Pixels are blended along edges (FSR 1): smooth edges, but it "
