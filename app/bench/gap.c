@@ -7,9 +7,10 @@
 
 typedef struct Unit {
     const char *name;
-    DipBenchStage stage; // in which the unit's work is done
+    DipBenchStage stage; // the stage in which the unit's work is done
     int counter;         // counts the units
-    double floors[4];    // with 1, 2, 4 and 8 samples; the first is for any number if others are 0
+    double floors[4];    // for 1, 2, 4 and 8 samples; if the last three are 0, the first holds for
+                         // any number
 } Unit;
 
 static const Unit units[] = {
@@ -42,7 +43,7 @@ static double fastest_ms(const DipBenchResult *result, int combination, DipBench
     return sum / options->frames;
 }
 
-// With 6 samples, the floor is that with 4.
+// Returns the floor of a unit. For 6 samples, this is the floor for 4.
 static double floor_of(const Unit *unit, int sample_count) {
     const int index = sample_count >= 8 ? 3 : sample_count >= 4 ? 2 : sample_count - 1;
     return unit->floors[index] > 0.0 ? unit->floors[index] : unit->floors[0];

@@ -8,12 +8,12 @@
 #include <stdio.h>
 
 // The floors, in cycles of one core per unit. The first two are computed. Set-up writes 192 bytes
-// for a triangle (a DipTriangle of 96 bytes and planes of 96 bytes), 32 bytes in a cycle. A tile
-// reads 96 bytes for a triangle, 64 bytes in a cycle. The others were measured with loops that were
-// written by hand for the same work, on an Intel Xeon with AVX-512 and with all data in the
-// first-level cache (docs/performance.md, Kernels). A sub-block's floor is 16 times that of a
-// pixel, for 1, 2, 4 and 8 samples. A fragment's floor is a trilinear read. A probe's floor is the
-// sixteenth part of a read with 16 probes in each of two levels.
+// for a triangle (a DipTriangle of 96 bytes and planes of 96 bytes) and can write 32 bytes in a
+// cycle. A tile reads 96 bytes for a triangle and can read 64 bytes in a cycle. The others were
+// measured with loops that were written by hand for the same work, on an Intel Xeon with AVX-512
+// and with all data in the first-level cache (docs/performance.md, Kernels). A sub-block's floor is
+// 16 times that of a pixel, for 1, 2, 4 and 8 samples. A fragment's floor is a trilinear read. A
+// probe's floor is the sixteenth part of a read with 16 probes in each of two levels.
 #define DIP_BENCH_FLOOR_TRIANGLE      6.0
 #define DIP_BENCH_FLOOR_TILE_TRIANGLE 1.5
 #define DIP_BENCH_FLOOR_SUB_BLOCK_1   (16 * 0.6)
@@ -24,9 +24,9 @@
 #define DIP_BENCH_FLOOR_PROBE         (106.0 / 16)
 
 // Prints for each combination the cycles per triangle, tile triangle, sub-block, fragment and
-// probe, and how many times the floor they are. A stage's cycles are those of all threads: the
-// mean of its times in each frame's fastest round, times the number of threads, over the length of
-// a cycle.
+// probe, and how many times the floor they are. A stage's cycles are those of all threads: the mean
+// of its times in each frame's fastest round, multiplied by the number of threads and divided by
+// the length of a cycle.
 void dip_bench_print_gap(const DipBenchResult *result, double ns_per_cycle, FILE *out);
 
 #endif

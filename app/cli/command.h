@@ -38,7 +38,8 @@ typedef struct DipCommand {
     const char *text;    // Paragraphs that explain the command, separated by "\n\n".
     const DipExample *examples;
     size_t example_count;
-    bool lists_settings; // The help also lists the settings, because an option takes a SET.
+    bool lists_settings; // The help also lists the settings, because one of the options takes
+                         // settings.
     const DipOptionParts *parts;
     DipOperands operands;
     size_t options_size; // Bytes of the command's struct of options.

@@ -18,7 +18,8 @@ typedef enum DipOptionKind {
     DIP_OPTION_SIZE,     // DipOptionSize
     DIP_OPTION_SETTINGS, // DipQuality
     DIP_OPTION_CHOICE,   // int; the index in `names` of the name that was typed
-    DIP_OPTION_LIST,     // array of at most `room` values of kind `item`, or `read` stores each
+    DIP_OPTION_LIST,     // array of at most `room` values of kind `item`; or any type, if `read`
+                         // stores each value
     DIP_OPTION_CUSTOM    // any type; the function `read` stores the value
 } DipOptionKind;
 

@@ -114,7 +114,8 @@ static bool is_full(const Client *client) {
 // Appends a line to the output. Returns false if there is no room.
 static bool send_line(Client *client, const char *line, size_t length) {
     if (client->broken) {
-        return true; // Nobody reads replies any more, but the client's requests still count.
+        return true; // Nobody reads replies any more, but the client's requests are still carried
+                     // out.
     }
     if (length + 1 > sizeof client->out - client->out_bytes) {
         return false;

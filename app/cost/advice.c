@@ -1,6 +1,6 @@
-// Checks the advice for each time budget (app/report/choice.h). Times those combinations again that
-// would be better than the advised one, but of which it is unclear whether they fit the budget.
-// Stops when this is clear for all, or after MOST_RACES times.
+// Checks the advice for each time budget (app/report/choice.h). If it is unclear whether a
+// combination that is better than the advised one fits the budget, that combination is timed again.
+// This ends when it is clear for all combinations, or after MOST_RACES times.
 #include "app/cost/steps.h"
 
 #include "app/cli/progress.h"

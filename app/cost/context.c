@@ -89,7 +89,8 @@ static bool cut_history(const DipCostContext *cost, const DipQuality *quality) {
     return dip_quality_has_history(quality) && !cost->gallery;
 }
 
-// With a history, draws the frame before, so that the frame blends with it.
+// If the settings have a history, first draws the frame before this one, so that this one blends
+// with it.
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err) {
     const int64_t step_ns = dip_cost_path_duration_ns(cost->report, cost->session, path) /
@@ -101,7 +102,8 @@ bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int pa
     return draw(cost, quality, path, step_ns * index, index, frame, err);
 }
 
-// Draws frame `index` of a burst. With a history, first draws the frames that led to the first one.
+// Draws frame `index` of a burst. If the settings have a history, first draws the frames that
+// precede the burst.
 static bool draw_burst_frame(DipCostContext *cost, const DipCostRow *row, int viewpoint, int index,
                              DipFrame *frame, DipError *err) {
     int first = index;

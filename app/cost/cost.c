@@ -124,7 +124,7 @@ static bool run_command(DipSession *session, const void *options_given, DipError
     options.has_seed = arguments->measure.has_seed;
     options.seed = dip_measure_seed(&arguments->measure);
     if (!arguments->serve.serve) {
-        dip_interrupt_watch(); // A process that serves ends with the one that started it.
+        dip_interrupt_watch(); // A process that serves is ended by the one that started it.
     }
     const bool done = dip_cost_plan(&report, session, &options, err) &&
                       (arguments->serve.serve ? serve(session, &report, err)

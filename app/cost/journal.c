@@ -75,8 +75,8 @@ static bool read_file(DipCostJournal *journal, DipError *err) {
 }
 
 // Opens the file for writing and locks it, so that no other run writes to it. The lock ends with
-// the process, however that ends. A run that has just finished may have removed the file between
-// its opening and its locking here; then a new one is opened.
+// the process, however that ends. A run that finishes may remove the file after this function has
+// opened it and before it has locked it; then a new file is opened.
 static bool open_file(DipCostJournal *journal, const char *folder, DipError *err) {
     struct stat status = {.st_nlink = 0};
     while (status.st_nlink == 0) {
@@ -158,8 +158,9 @@ static bool append(const DipCostJournal *journal, const char *kind, const char *
            io_fault(journal, err);
 }
 
-// Finds a line with this kind and key, after *skip other such lines, and returns the text of its
-// numbers. Returns NULL if there are too few lines; *skip is then lower by their number.
+// Finds a line with this kind and key, passing over the first *skip such lines, and returns the
+// text of its numbers. If there are too few such lines, returns NULL and subtracts their number
+// from *skip.
 static const char *find(const DipCostJournal *journal, const char *kind, const char *key,
                         int *skip) {
     char head[64];

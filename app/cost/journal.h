@@ -43,9 +43,9 @@ bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
 // Sets *seed to the seed of the first of these rounds, if there are any. `seed` may be NULL.
 int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed);
 
-// Returns the frames of round 0..dip_cost_journal_round_count - 1, in the order in which they were
-// stored. Sets *count to their number, or to 0 if the round had another seed. The caller frees the
-// frames. Returns NULL when memory runs out.
+// Returns the frames of a round, in the order in which they were stored. `round` is
+// 0..dip_cost_journal_round_count - 1. Sets *count to their number, or to 0 if the round had
+// another seed. The caller frees the frames. Returns NULL when memory runs out.
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count);
 
 // Stores a round with the journal's plan hash for the next run.

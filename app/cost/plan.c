@@ -164,8 +164,8 @@ static void add_if_valid(DipCostReport *report, DipCostSweep *sweep, const DipQu
 }
 
 // Adds a sweep of adaptive AA for each number of samples, because the possible group sizes depend
-// on the number of samples. The steps go from few sample groups to many. All surfaces are shaded in
-// groups of one sample only, since such frames take long.
+// on the number of samples. The steps go from few sample groups to many. The step that shades all
+// surfaces per group has groups of one sample only, since its frames take long.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     const DipSettingInfo *group_size = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {
@@ -206,8 +206,9 @@ static void add_base_rows(DipCostReport *report) {
 
 // --- combinations --------------------------------------------------------------------------------
 
-// Returns whether a combination is measured although the user named no settings to combine. Steps
-// of adaptive AA other than off and on are not: there are many, and those of aaa=all take long.
+// Returns whether a combination is measured although the user named no settings to combine.
+// Combinations with steps of adaptive AA other than off and on are not measured: there are many,
+// and those of aaa=all take long.
 static bool is_measured_by_default(const DipQuality *quality) {
     const int step = quality->step[DIP_SETTING_AAA];
     return step == DIP_AAA_OFF || step == DIP_AAA_ON;

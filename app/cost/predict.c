@@ -16,8 +16,8 @@
 enum {
     COUNTED_FRAMES = 8, // Frames of path 0, spread evenly, whose work is counted.
     DESIGN_TERMS = DIP_LEAST_SQUARES_MAX_TERMS,
-    // After the first combinations, those that are predicted to be best are measured, in at most
-    // MOST_GOES goes of at most MOST_PROMISING combinations.
+    // After the first combinations, those that are predicted to be best are measured,
+    // MOST_PROMISING combinations at a time, at most MOST_GOES times.
     MOST_PROMISING = 24,
     MOST_GOES = 3,
     PER_BUDGET = 6 // Combinations of least FLIP that are measured for each budget.

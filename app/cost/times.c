@@ -17,8 +17,8 @@
 #include <string.h>
 
 enum {
-    BASE_COPIES = 3, // Number of rounds in which each frame of the baseline is drawn, to tell slow
-                     // frames from slow moments.
+    BASE_COPIES = 3, // Number of rounds in which each frame of the baseline is timed. More than one
+                     // round tells slow frames from slow moments.
     BLOCK_ROWS = 4,  // Rows that are timed beside one drawing of the baseline. If all rows of a
                      // round shared one drawing, ratios would deviate twice as much.
     LEAST_SIDE = 64, // Pixels. Smaller pictures are not timed at half their size.

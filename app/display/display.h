@@ -64,7 +64,7 @@ typedef struct DipDisplay {
     bool (*set_clipboard)(void *context, const char *text);
 
     // Asks for another size of the picture, in pixels. The display may take another size than the
-    // one asked for. NULL if someone else decides about the size.
+    // one asked for. NULL if another program decides the size.
     void (*set_size)(void *context, int width, int height);
 
     // Sets the characters that the next present shows over the picture: `rows` rows of `columns`

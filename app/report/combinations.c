@@ -105,9 +105,9 @@ static bool apply(const double *of, const double *base, double *counters) {
     return of != NULL;
 }
 
-// Returns the pixels of a frame that follow from a combination's counters; 0 if it filters none or
-// was not counted. Filters of the finished picture are applied one after the other to pictures of
-// known sizes, so their pixels need not be composed.
+// Returns the number of pixels of a frame, as it follows from a combination's counters; 0 if the
+// combination filters none or was not counted. Filters of the finished picture are applied one
+// after the other to pictures of known sizes, so their pixels need not be composed.
 static double pixels_of_frame(const double *of, const DipQuality *quality) {
     const double filtered = dip_cost_pixels_filtered(quality);
     return of && filtered > 0.0 ? of[DIP_COST_COUNTER_pixels_filtered] / filtered : 0.0;

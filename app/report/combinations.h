@@ -42,10 +42,11 @@ unsigned dip_cost_sampling_settings(void);
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
-// Composes the counters of a combination. Samples and shadows always count as groups of their own.
-// All other groups count as one group if the base with the settings of all of them was counted;
-// otherwise each counts alone. Returns false if a combination that is needed was not counted, or if
-// the combination differs from the base in a setting that belongs to no group.
+// Composes the counters of a combination. The settings of samples and those of shadows are always
+// groups of their own. All other groups are treated as one group if the base with the settings of
+// all of them was counted; otherwise each is treated by itself. Returns false if a combination that
+// is needed was not counted, or if the combination differs from the base in a setting that belongs
+// to no group.
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
                       const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]);
 

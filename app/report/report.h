@@ -95,7 +95,7 @@ typedef struct DipCostSweep {
     int path;
     int base; // Index of the row with which all steps are compared. It has the baseline's step.
     int rows[DIP_COST_MAX_SWEEP_ROWS];
-    DipEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Each row's time over the base row's time.
+    DipEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Each row's time divided by the base row's.
     int row_count;
 } DipCostSweep;
 
@@ -186,9 +186,9 @@ typedef struct DipCostReport {
     int path_count;
     DipCostRow *rows; // Owned. Row 0 is the baseline on path 0.
     int row_count;
-    // Two rows of each path with the baseline's settings. All other rows of the path are timed
-    // beside the base row. One of them is the A/A row (same_rows), which is timed as if it were
-    // another setting; its ratio shows how noisy the machine is.
+    // Each path has two rows with the baseline's settings. One is the base row, beside which all
+    // other rows of the path are timed. The other is the A/A row (same_rows), which is timed as if
+    // it were another setting; its ratio shows how noisy the machine is.
     int base_rows[DIP_COST_MAX_PATHS];
     int same_rows[DIP_COST_MAX_PATHS];
     int combined_first; // Rows from this index on are the combinations, on path 0.
@@ -340,9 +340,9 @@ double dip_cost_floor_flip(const DipCostReport *report, int path);
 
 // Returns estimates of the errors of a path's truths themselves. A truth is the mean of two halves,
 // whose noise is independent, so the mean square of its noise is a quarter of the mean square of
-// the difference of the halves. That is half of their RMSE, 6.02 dB more than their PSNR, and a
-// quarter of their 1 - SSIM, since 1 - SSIM is proportional to the noise's variance as long as it
-// is small. FLIP is dip_cost_floor_flip.
+// the difference of the halves. The estimates are therefore the RMSE of the first half against the
+// second, halved; its PSNR plus 6.02 dB; and a quarter of its 1 - SSIM, since 1 - SSIM is
+// proportional to the noise's variance as long as it is small. FLIP is dip_cost_floor_flip.
 DipMetrics dip_cost_floor_metrics(const DipCostReport *report, int path);
 
 // Returns a row's FLIP for ranking: at least dip_cost_floor_flip.

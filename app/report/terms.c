@@ -6,7 +6,8 @@
 
 #include <math.h>
 
-// The values that the formulas of terms use. A value that says whether something is so is 1 or 0.
+// The values that the formulas of terms use. A value that answers a yes-or-no question is 1 for yes
+// and 0 for no.
 typedef struct Work {
     const double *counters;
     double samples;     // Number of samples per pixel.
@@ -24,9 +25,10 @@ typedef struct Work {
     double advanced;    // 1 with opt=advanced.
     double biased[3];   // 1 if miplod is at least as coarse as quality (the first value), as
                         // performance (the second) and as high-performance (the third).
-    double sharp[2];    // 1 if miplod is at least as sharp as sharp (the first value), as sharper.
+    double sharp[2];    // 1 if miplod is at least as sharp as `sharp` (the first value), as
+                        // `sharper` (the second).
     double scaled;      // 1 if a larger picture is drawn and averaged.
-    double scale;       // How many times as wide and high the picture that is drawn is.
+    double scale;       // Width of the drawn picture divided by that of the frame.
     double drawn_part;  // Pixels that are drawn per pixel of a frame, if scale is below 1; else 1.
     double enlarged[3]; // 1 with a scale below 1 and upscale=bilinear (the first value), =bicubic
                         // (the second) and =easu (the third).
@@ -37,7 +39,8 @@ typedef struct Work {
     double smaa;        // 1 with post=smaa.
     double sharpness;   // Strength of the sharpening, 0..1.
     double shadows;     // 1 with shadows.
-    double shadow_step; // 1 / the size of the shadow map, as a share of the smallest map's.
+    double shadow_step; // Size of the smallest shadow map divided by the size of this one; 0
+                        // without shadows.
     double filters;     // Pixels that all filters of the finished picture write per pixel of a
                         // frame; 1 if there is none.
 } Work;
@@ -117,9 +120,9 @@ typedef struct Work {
     X("edge found by FXAA", C(edges_found) * w->fxaa)                                              \
     X("edge found by SMAA", C(edges_found) * w->smaa)
 
-// The first terms stand for the errors of edges, and the next ones for those of the edges of
-// alpha-clipped surfaces, of textures and of the other settings. The last ones are products of two
-// terms, since one error hides a part of another error in the same place.
+// The first terms stand for errors at edges. The next ones stand for errors at the edges of
+// alpha-clipped surfaces, for those in textures, and for those of the other settings. The last ones
+// are products of two terms, since one error hides a part of another error in the same place.
 #define FLIP_TERMS(X)                                                                              \
     X("picture", 1.0)                                                                              \
     X("one sample", 1.0 - w->several)                                                              \

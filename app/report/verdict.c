@@ -6,9 +6,9 @@
 
 const char *const dip_cost_verdict_names[] = {"green", "amber", "red"};
 
-// The limits come from 66 halves of runs whose true ratios were known, on a quiet machine, beside
-// one or two busy loops, and beside bursts of load (docs/cost-methods.md). None of the halves under
-// load is green, and no green one errs by more than 2.5 %.
+// The limits come from 66 measurements whose true ratios were known, on a quiet machine, beside one
+// or two busy loops, and beside bursts of load (docs/cost-methods.md). None of the measurements
+// under load is green, and no green one errs by more than 2.5 %.
 const DipCostLimits dip_cost_wait_limits = {0.05, 0.20};
 const DipCostLimits dip_cost_spread_limits = {0.05, 0.10};
 const DipCostLimits dip_cost_offset_limits = {0.02, 0.05};

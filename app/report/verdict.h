@@ -1,9 +1,9 @@
 // Judges whether the machine was quiet enough for its times to be believed.
 //
-// The verdict needs two kinds of signs, because each is blind to what the other sees. The waiting
-// time of the threads shows other programs on this machine. The A/A rows (the baseline, timed as if
-// it were another setting) show disturbances from outside, such as another virtual machine on the
-// same host.
+// The verdict needs two kinds of signs, because each shows what the other misses. The waiting time
+// of the threads shows other programs on this machine. The A/A rows (the baseline, timed as if it
+// were another setting) show disturbances from outside, such as another virtual machine on the same
+// host.
 #ifndef DIP_APP_REPORT_VERDICT_H
 #define DIP_APP_REPORT_VERDICT_H
 

@@ -34,8 +34,8 @@ DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent)
 // most of the rectangle below it.
 bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent);
 
-// A scene with a ground. Owns the ground and the arrays of `def`. What else these arrays point to
-// belongs to the scene without the ground.
+// A scene with a ground. Owns the ground and the arrays of `def`. Everything else that these arrays
+// point to belongs to the scene without the ground.
 typedef struct DipGround {
     DipSceneDef def;
     uint8_t *shade_rgba8;

@@ -100,7 +100,7 @@ static bool load_cameras(DipSession *session, DipErrorList *faults) {
     return loaded;
 }
 
-// Returns whether a file with this name exists that is no folder.
+// Returns whether something with this name exists and is not a folder.
 static bool is_there(const char *file) {
     struct stat status;
     return stat(file, &status) == 0 && !S_ISDIR(status.st_mode);

@@ -19,8 +19,8 @@ struct DipUi {
     int pointer_y;
     bool pointer_inside; // An event has said where the pointer is.
     // `placed` holds the controls of this pass, and `before` those of the pass before it. This pass
-    // finds the topmost control under the pointer in `before`. Controls beyond the limit take
-    // neither mouse nor focus.
+    // finds the topmost control under the pointer in `before`. Controls beyond DIP_UI_MAX_CONTROLS
+    // take neither mouse nor focus.
     DipUiPlaced placed[DIP_UI_MAX_CONTROLS];
     int placed_count;
     DipUiPlaced before[DIP_UI_MAX_CONTROLS];
@@ -30,7 +30,7 @@ struct DipUi {
     int64_t hovered_ns; // When the pointer came over that control.
     DipUiId held;       // While a mouse button is down: the control over which it was pressed.
     DipMouseButton held_button;
-    double wheel_rest; // The part of a step by which the wheel has turned beyond its whole steps.
+    double wheel_rest; // The part of a step that the wheel has turned after its last whole step.
     DipUiId focus;
     bool focus_shows; // The focus came by the keyboard, or the control takes digits.
     DipUiId typing;   // The number field into which the user types, or 0.

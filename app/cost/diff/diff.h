@@ -202,7 +202,7 @@ typedef struct DipCause {
 // with least squares, and takes the kind that leaves the least error. This kind is sure if it wins
 // in 90 % of 200 bootstrap draws of the starts and explains 90 % of the sum of squares. Kinds of
 // work that are proportional over the rows to within a few per cent (the cosine of their angle is
-// above .999) cannot be told apart and count as the first of them. Fails with DIP_ERROR_MEMORY.
+// above .999) cannot be told apart, and the first of them is taken. Fails with DIP_ERROR_MEMORY.
 bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err);
 
 // Returns whether two kinds of work are proportional over the rows, so that they cannot be told
@@ -211,8 +211,8 @@ bool dip_cause_is_same_work(const DipCauseData *data, int a, int b);
 
 // Writes diff->cause from the times of two programs: the stage that takes most of the additional
 // time of the slower rows and, with four rows or more, the kind of work with which this time grows.
-// In `times` and `fit`, each row is a subject on each side, with the index 2 * row + side. Fails
-// with DIP_ERROR_MEMORY.
+// In `times` and `fit`, the subject 2 * row + side stands for a row on one side. Fails with
+// DIP_ERROR_MEMORY.
 bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTimesFit *fit,
                            DipError *err);
 

@@ -230,7 +230,7 @@ static void free_duel(Duel *duel) {
 // --- estimates -----------------------------------------------------------------------------------
 
 // Adds up the counters of a subject's frames and divides them by the number of frames. The counters
-// have the order of DIP_COUNTER_LIST and must be 0.
+// have the order of DIP_COUNTER_LIST and must be 0 before the call.
 static void count_work(const Duel *duel, int subject, double *counters) {
     for (int f = 0; f < duel->frames; f++) {
         dip_counters_add(&duel->first[subject * duel->frames + f].counters, counters);

@@ -311,7 +311,7 @@ static DipDisplay display_of(SdlDisplay *sdl) {
         .refresh_hz = refresh_hz,
         .now_ns = now_ns,
         .is_hidden = is_hidden,
-        // The host decides about the size of its windows.
+        // The host decides the size of its windows.
         .set_full_screen = sdl->host ? NULL : set_full_screen,
         .set_size = sdl->host ? NULL : set_size,
         .set_title = sdl->host ? NULL : set_title,

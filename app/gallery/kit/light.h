@@ -17,8 +17,8 @@ typedef struct DipKitLight {
     float position[3];  // Of point and spot lights.
     float direction[3]; // Unit vector along which directional and spot lights shine.
     float colour[3];    // May exceed 1.
-    float reach;        // Distance at which a point or spot light is half as strong.
-    float inner_cos;    // Cosine of the angle within which a spot light is full.
+    float reach;        // Distance at which a point or spot light has half its strength.
+    float inner_cos;    // Cosine of the angle within which a spot light has its full strength.
     float outer_cos;    // Cosine of the angle beyond which a spot light is dark; < inner_cos.
 } DipKitLight;
 

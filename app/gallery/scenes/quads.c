@@ -1,4 +1,4 @@
-// Draws the gallery scene "quads": three quads whose pictures fragment shaders compute without any
+// Draws the gallery scene "quads": three quads. Fragment shaders compute their pictures without any
 // texture. They come from seed 001, where they are called "Horrible trick", "Flame" and "ShaderToy
 // shader"; gallery.h says what a seed is.
 //
@@ -28,8 +28,8 @@ static void shade_rings(DipFragmentBatch *batch) {
         const float v = batch->varying[DIP_KIT_UV + 1][i] - 0.5f;
         const float distance = sqrtf(u * u + v * v);
         const float wave = dip_kit_wave(0.25f + 0.5f * rings * distance - 12.0f * uniforms->turns);
-        // Change of u and of v per pixel. The rings begin to fade out where the wave makes a fifth
-        // of a turn per pixel, and vanish where it makes half a turn.
+        // Change of u and of v per pixel. The rings begin to fade out where a fifth of the wave's
+        // period lies on a pixel, and vanish where half of it does.
         const float du =
             fabsf(batch->varying_dx[DIP_KIT_UV][i]) + fabsf(batch->varying_dy[DIP_KIT_UV][i]);
         const float dv = fabsf(batch->varying_dx[DIP_KIT_UV + 1][i]) +

@@ -12,8 +12,8 @@
 // White point D65 in XYZ, the reference white of both the opponent colours and CIELab.
 static const float white[3] = {0.950428545f, 1.0f, 1.088900371f};
 
-// Takes linear sRGB to XYZ. It follows from sRGB's primaries and D65; its entries are exact
-// fractions.
+// The matrix that takes linear sRGB to XYZ. It follows from sRGB's primaries and D65; its entries
+// are exact fractions.
 static const float rgb_to_xyz[3][3] = {
     {(float)(10135552.0 / 24577794.0), (float)(8788810.0 / 24577794.0),
      (float)(4435075.0 / 24577794.0)},
@@ -286,9 +286,9 @@ static float length(float x, float y) {
     return sqrtf(x * x + y * y);
 }
 
-// Maps the colour distance of a pixel, raised to colour_exponent, to 0..1. Values up to `share`
-// times the greatest one map to 0..used, and greater values to used..1. The pixel is pixel i of `a`
-// and pixel k of `b`.
+// Maps the colour distance of a pixel, raised to colour_exponent, to 0..1. Values up to the share
+// 0.4 of the greatest one map to 0..0.95, and greater values to 0.95..1 (the paper's p_c and p_t).
+// The pixel is pixel i of `a` and pixel k of `b`.
 static float colour_error(const DipFlipAnalysis *a, size_t i, const DipFlipAnalysis *b, size_t k,
                           float greatest) {
     const float share = 0.4f, used = 0.95f;

@@ -69,13 +69,13 @@ typedef struct DipTruthJob DipTruthJob;
 // Begins a truth. The job reads it from the folder `cache` if it is there; otherwise, or if the
 // file is damaged, the job draws it and writes it to the folder. If `cache` is NULL, there is no
 // cache. Reference, scene hash and folder are borrowed. Processes may share a folder. Two jobs may
-// run at once if their references are separate.
+// run at once if each has a reference renderer of its own.
 //
 // A live job is one that a user waits for. It draws the coarser levels first, and one tile per
-// step, which takes a few milliseconds. It does not write the truth if the folder holds truths of
-// more than 1 GiB, and it does not fail if the truth cannot be written. Other jobs draw the last
-// level only, and many tiles per step on the pool; if `pool` is NULL, the calling thread draws
-// alone.
+// step, which takes a few milliseconds. It does not write the truth if the folder already holds
+// more than 1 GiB of truths, and it does not fail if the truth cannot be written. Other jobs draw
+// the last level only, and many tiles per step on the pool; if `pool` is NULL, the calling thread
+// draws alone.
 DIP_API DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, DipPool *pool,
                                           bool live, DipError *err);
 DIP_API void dip_truth_job_destroy(DipTruthJob **job);

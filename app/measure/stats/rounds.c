@@ -56,9 +56,9 @@ static Variance add_variance(Variance a, Variance b) {
     return (Variance){sum, parts > 0.0 ? sum * sum / parts : INFINITY};
 }
 
-// Returns the variance between units that a subject contributes. This is the mean of `own`, which
-// comes from the subject alone, and of `pooled`, which comes from all subjects of the base. The
-// weights are the degrees of freedom of the two.
+// Returns the variance between units that a subject contributes. This is the weighted mean of
+// `own`, which comes from the subject alone, and `pooled`, which comes from all subjects of the
+// base. The weights are their degrees of freedom.
 static Variance own_variance(const DipTimesFit *fit, const DipTimesBase *base, double own,
                              double pooled) {
     const double degrees = fit->units - 1 + base->pooled_degrees;

@@ -35,7 +35,8 @@ static int compare_places(const void *a, const void *b) {
     return side;
 }
 
-// Compares like compare_places. Elements that are equal there keep their order in the log.
+// Compares as compare_places does. Elements that compare_places finds equal keep their order in the
+// log.
 static int compare_times(const void *a, const void *b) {
     const DipTimed *x = *(const DipTimed *const *)a, *y = *(const DipTimed *const *)b;
     const int side = compare_places(a, b);

@@ -97,7 +97,7 @@ typedef struct DipTimesWork {
     bool repeats;    // True if most frames were timed several times.
     bool is_base;    // True if the subject is the base itself, which has no pairs.
     double *level;   // [(1 + units) * frames]: levels from all units, then with each left out.
-    double *missing; // [1 + units]: variance of the true levels less that of the fitted levels.
+    double *missing; // [1 + units]: variance of the true levels minus that of the fitted levels.
     double spread;   // As in DipTimesSubject.
     double doubt;    // As in DipTimesSubject.
     DipTimesMoment *moments; // [count]

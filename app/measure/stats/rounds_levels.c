@@ -243,7 +243,7 @@ static int choose_reach(DipTimesWork *w, const double *level) {
 // Replaces each level by the weighted mean of the level and the prediction from its neighbours. The
 // weights are the inverse variances of the two. `noise` is the variance of the levels' noise. A
 // prediction is wrong because the neighbours are noisy and because the levels change along the
-// path; its variance is estimated as the mean squared difference from the levels less `noise`.
+// path; its variance is estimated as the mean squared difference from the levels, minus `noise`.
 // Returns by how much the variance of the true levels exceeds that of the new levels.
 static double join_neighbours(DipTimesWork *w, int reach, double noise, double *level) {
     const int frames = w->times->frames;

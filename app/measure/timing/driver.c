@@ -64,7 +64,8 @@ struct DipDriver {
     // Number of the frames that all subjects draw, and number of all elements of `frames`.
     int frame_count, all_frame_count;
     int *is_needed; // [subject]: 1 if the round draws the subject.
-    int *score;     // [subject]: undisturbed frames less three times the disturbed ones.
+    int *score;     // [subject]: number of undisturbed frames minus three times that of disturbed
+                    // ones.
 
     DipTimed *fresh; // Frames of the incomplete round.
     int fresh_count;

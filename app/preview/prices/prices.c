@@ -97,7 +97,8 @@ static bool begin_live(DipPrices *prices, DipError *err) {
     report->options.budget_of = DIP_TIME_MEAN;
     report->machine.settled = true;
     report->path_count = 1;
-    report->rounds = report->options.rounds = 1; // The log of times has more rounds.
+    report->rounds = report->options.rounds = 1; // 0 would mean that the report has no times.
+                                                 // Adding times raises the number.
     report->rows = calloc(DIP_PRICES_LIVE_ROWS, sizeof *report->rows);
     return (report->rows || out_of_memory(err)) && dip_cost_report_alloc(report, err);
 }

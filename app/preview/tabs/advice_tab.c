@@ -341,7 +341,8 @@ static void draw_front(DipUi *ui, const Plot *plot, const DipPreviewChoice *choi
     }
 }
 
-// Draws about four round numbers along each axis, with lines across the plot for the errors.
+// Draws about four round numbers along each axis, and lines across the plot at those of the error
+// axis.
 static void draw_axes(DipUi *ui, const Plot *plot) {
     const int line = dip_ui_line_height(ui, NOTE_SIZE), gap = dip_ui_px(ui, 4);
     const int room = dip_ui_px(ui, 60);

@@ -362,7 +362,7 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     find_prices(window, &slider);
     draw_head(ui, state, setting, head);
     draw_steps(ui, state, &slider);
-    if (has_note) { // About the step under the pointer, or the one that is requested.
+    if (has_note) { // The note is about the step under the pointer, or else the requested one.
         if (!slider.input.hovered) {
             write_note(window, setting, step_of(state, DIP_PANE_REQUESTED, setting), note);
         }
@@ -405,7 +405,7 @@ void dip_setting_entry_declare(DipUi *ui, DipWindow *window, DipSetting setting,
         dip_ui_label(ui, PRICE_SIZE, dip_style_soft, DIP_ALIGN_RIGHT,
                      dip_cut_right(&rest, dip_ui_px(ui, 42)), ms);
     }
-    // The whole name, if the steps fit beside it.
+    // Shows the whole name if the steps fit beside it.
     const DipSettingInfo *info = dip_setting_info(setting);
     const bool whole = dip_ui_text_width(ui, STEP_SIZE, info->title) <= rest.width / 2;
     dip_ui_word(ui, STEP_SIZE,

@@ -331,8 +331,7 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     rect.height = dip_ui_line_height(ui, SUM_SIZE);
     dip_ui_word(ui, size, colour, &rect, dip_ui_px(ui, 9), text);
     dip_cut_bottom(&rect, dip_ui_px(ui, 4));
-    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // A note is shown whole or not at
-                                                                // all.
+    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // The note is shown whole or not.
         dip_ui_line(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft,
                     &(DipRect){rect.x, dip_rect_bottom(rect) - dip_ui_line_height(ui, NOTE_SIZE),
                                rect.width, 0},

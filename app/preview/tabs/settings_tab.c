@@ -21,7 +21,7 @@ enum {
     LINE_HEIGHT = 19,
     FOOT_HEIGHT = 30,
     PRESETS_HEIGHT = 24,
-    EDITOR_HEIGHT = 78 // Of the editor above the sum.
+    EDITOR_HEIGHT = 78 // Height of an editor that stands above the sum.
 };
 
 // The settings in the order in which a frame uses them, and the words of their groups. A column

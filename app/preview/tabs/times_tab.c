@@ -151,7 +151,7 @@ static void draw_lines(DipUi *ui, const DipPanelLine *lines, int count, DipRect 
     }
 }
 
-// Writes what the panes show and at which size.
+// Writes what a pane shows, and at which size.
 static void draw_heading(DipUi *ui, const DipWindow *window, int pane, DipRect line) {
     const DipPreviewState *state = window->state;
     const DipPixels *frame = &window->frames[pane];

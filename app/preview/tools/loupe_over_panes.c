@@ -11,7 +11,8 @@
 
 enum { TINY = 10 }; // Size of letters.
 
-// Outlines the part of a pane that the loupe's tab shows if its crop has the usual size.
+// Outlines the part of a pane that the loupe shows enlarged. Takes the crop to have its usual size,
+// 368 x 176 pixels at scale 1.
 static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
     const DipToolState *tools = &window->state->tools;
     const DipPixels *frame = &window->frames[pane];

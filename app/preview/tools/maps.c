@@ -89,8 +89,8 @@ static double median(const double *values, int count) {
     return count % 2 ? sorted[count / 2] : (sorted[count / 2 - 1] + sorted[count / 2]) / 2.0;
 }
 
-// Adds a draw of a pane's frame: its times join those of the draws before. Its counters replace
-// theirs, since each draw of a frame does the same work.
+// Adds a draw of a pane's frame. Keeps its times beside those of the earlier draws. Its counters
+// replace the earlier ones, since each draw of a frame does the same work.
 static bool add_draw(DipMapWork *work, const DipFrame *frame) {
     if (!frame->tiles.records || (!work->records && !make_arrays(work, frame))) {
         return false; // A render scale draws a larger picture, whose tiles are not recorded.

@@ -18,7 +18,7 @@ typedef enum DipFieldKind {
     DIP_FIELD_TEXT,     // char[size].
     DIP_FIELD_WHOLE,    // int in least..most.
     DIP_FIELD_FLAG,     // bool.
-    DIP_FIELD_NUMBER,   // double in least..most; it is not known if it is not finite.
+    DIP_FIELD_NUMBER,   // double in least..most; a value that is not finite counts as unknown.
     DIP_FIELD_ESTIMATE, // DipEstimate; low and high are known if low < high.
     DIP_FIELD_SETTINGS, // DipQuality: "aa=4,taa=off,...".
     DIP_FIELD_NAMED,    // int: an index of `names`.
@@ -81,8 +81,8 @@ typedef struct DipFieldList {
     // If `record` is NULL, a nameless field with the kind, range and stride of the values.
     const struct DipField *element;
     int (*count)(const DipFieldAt *at);
-    // Returns the item; it may be made up in *scratch. Items are written in order, and at each call
-    // *scratch still holds what the previous call left there.
+    // Returns the item, which the function may construct in *scratch. Items are written in order,
+    // and at each call *scratch still holds what the previous call left there.
     const void *(*item)(const DipFieldAt *at, int index, DipFieldScratch *scratch);
     // Makes room for `count` items that are read. Returns DIP_ERROR_NONE, DIP_ERROR_FORMAT if this
     // number is impossible, or DIP_ERROR_MEMORY.

@@ -296,7 +296,7 @@ static bool has_crops(const DipCostPictureSet *set) {
 // Frees the pictures of a set that do not fit in `room` bytes, and adds the number of their rows to
 // *left_out. If `frames` is false, frees the crops that do not fit. If it is true, whole frames
 // that fit take the place of crops, and the other frames are freed. The first row that fits also
-// takes the room of the truth's picture. Returns the bytes that are left.
+// needs room for the truth's picture. Returns the bytes that are left.
 static double fit_set(DipCostPictureSet *set, bool frames, double room, int *left_out) {
     char **truth = frames ? &set->truth.frame : &set->truth.crop;
     double with_first = size_of(*truth);

@@ -77,7 +77,8 @@ typedef struct DipPriceSum {
     // in the part of adaptive AA.
     double parts_ms[DIP_SETTING_COUNT];
     DipPriceTrust parts_trust[DIP_SETTING_COUNT];
-    double together_ms; // By how much ms exceeds the base and the parts; it may be negative.
+    double together_ms; // By how much ms exceeds the sum of the base and the parts; it may be
+                        // negative.
     bool doubtful;      // As in DipPrice.
 } DipPriceSum;
 

@@ -38,7 +38,8 @@ static void keep_company(DipPriceQuestion *question, DipSetting company, uint8_t
     question->with.step[company] = question->without.step[company] = step;
 }
 
-// Gives both combinations the pane's scale if it is below 1. Otherwise gives them one that is.
+// Gives both combinations the pane's scale if it is below 1. Otherwise gives them a scale that is
+// below 1.
 static void keep_scale(DipPriceQuestion *question, const DipQuality *quality) {
     uint8_t step = quality->step[DIP_SETTING_SCALE];
     if (!dip_quality_upscales(quality)) {
@@ -114,7 +115,7 @@ DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, 
         keep_company(&question, DIP_SETTING_AA, DIP_COST_COMPANY_AA, quality, "AA");
         ask_alone(&question, setting, step, 0);
         if (step == DIP_TAA_HISTORY) {
-            question.needs[0] = '\0'; // Only alternating samples need AA.
+            question.needs[0] = '\0'; // Of the steps of temporal AA, only taa=alternate needs AA.
         }
         break;
     case DIP_SETTING_AAF:

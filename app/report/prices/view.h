@@ -66,13 +66,13 @@ bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPr
 // Returns a predicted time with an error that follows from the misses of similar predictions. The
 // standard error is so great that 90 % of a normal distribution lies within log(1 + misses->p90) of
 // its mean, but it has a fixed minimum. It has as many degrees of freedom as there are misses.
-// Without misses it is not known.
+// Without misses, the error is not known.
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 
 // --- questions -----------------------------------------------------------------------------------
 
-// A price asks for the difference between two combinations of settings: one with the step and one
-// without.
+// A price is the difference between two combinations of settings: one with the step and one
+// without. A question names these two.
 //
 // A setting that does nothing alone is priced beside its company: other settings, which both
 // combinations have. They come from the pane (one of the preview's two pictures) for which the

@@ -26,7 +26,7 @@ typedef struct DipFlipKernels {
     DipKernel1D luma;      // Contrast sensitivity of Y.
     DipKernel1D red_green; // Contrast sensitivity of Cx.
     DipKernel1D blue[2];   // Contrast sensitivity of Cz: the sum of two Gaussians.
-    DipKernel1D gauss;     // Gaussian, applied across the derivative's axis.
+    DipKernel1D gauss;     // Gaussian, applied along the axis without a derivative.
     DipKernel1D edge;      // First derivative, which finds edges.
     DipKernel1D point;     // Second derivative, which finds points and lines.
 } DipFlipKernels;
