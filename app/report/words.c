@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 void dip_number_text(double value, int decimals, bool change, const char *minus,
@@ -20,16 +21,18 @@ static bool keeps_side(double rounded, double value, double limit) {
     return (rounded > limit) == (value > limit);
 }
 
+// Rounds to the nearest number with these decimals, which is the very number that its digits mean.
+// decimals: if negative, this many digits before the point become 0.
 static double round_to(double value, int decimals) {
-    const double unit = pow(10.0, -decimals);
-    return copysign(unit * round(fabs(value) / unit), value);
+    const double power = pow(10.0, abs(decimals));
+    return decimals < 0 ? power * round(value / power) : round(value * power) / power;
 }
 
 void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
                    char text[DIP_NUMBER_BYTES]) {
     enum { MOST_DECIMALS = 3 };
     const double size = fabs(ms);
-    int decimals = 1; // If negative, this many digits before the point are rounded to 0.
+    int decimals = 1;
     if (doubtful) {
         decimals = size < 0.05 ? 0 : -(int)floor(log10(fmin(fmax(size, 0.1), 1e9)));
     }

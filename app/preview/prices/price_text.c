@@ -137,9 +137,14 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) 
 static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
     const char *why = price->doubtful ? "the machine was too busy while it was measured"
                                       : "other programs disturbed the frames that timed it";
-    if (price->ms_high - price->ms_low <= price->without_ms) {
-        snprintf(text, size_bytes, "\nIts time is doubtful, between %+.1f and %+.1f ms: %s.",
-                 price->ms_low, price->ms_high, why);
+    const double width = price->ms_high - price->ms_low;
+    if (width <= price->without_ms) {
+        const int decimals = width < 1.0 ? 2 : 1;
+        char low[DIP_NUMBER_BYTES], high[DIP_NUMBER_BYTES];
+        dip_number_text(price->ms_low, decimals, true, "\u2212", low);
+        dip_number_text(price->ms_high, decimals, true, "\u2212", high);
+        snprintf(text, size_bytes, "\nIts time is doubtful, between %s and %s ms: %s.", low, high,
+                 why);
     } else {
         snprintf(text, size_bytes, "\nIts time cannot be told: %s.", why);
     }

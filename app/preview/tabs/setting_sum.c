@@ -429,6 +429,17 @@ static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
     }
 }
 
+// Returns the height of what draw_source must not cut: the progress, and the source if it warns.
+static int source_height(const DipUi *ui, const DipWindow *window, int width) {
+    char source[400];
+    const char *progress = dip_prices_progress(window->prices);
+    const bool stale = dip_prices_source(window->prices, window->frames[0].width,
+                                         window->frames[0].height, source, sizeof source);
+    const bool warns = stale || dip_prices_are_doubtful(window->prices);
+    return (progress[0] ? dip_ui_text_block_height(ui, NOTE_SIZE, width, progress) : 0) +
+           (warns ? dip_ui_text_block_height(ui, SMALL_SIZE, width, source) : 0);
+}
+
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPriceSum sum = dip_pane_sum(window, DIP_PANE_REQUESTED);
     const bool doubtful = dip_price_sum_trust(&sum) == DIP_PRICE_TRUST_DOUBTFUL;
@@ -458,13 +469,17 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     line = dip_cut_top(&rest, dip_ui_px(ui, BUDGET_HEIGHT + 6));
     line.height = dip_ui_px(ui, BUDGET_HEIGHT);
     draw_budget(ui, &parts, shown.ms, window->state->budget_ms, line);
-    line = dip_cut_top(&rest, dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3));
-    line.height = note;
-    draw_legend(ui, &shown, &parts, line);
-    line = dip_cut_top(&rest, dip_ui_px(ui, 28)); // The buttons may cover the legend.
+    const int buttons = dip_ui_px(ui, 28), gap = dip_ui_px(ui, 4);
+    const int spare = rest.height - buttons - gap - source_height(ui, window, rest.width);
+    line = dip_cut_top(&rest, dip_max(0, dip_min(dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3), spare)));
+    if (line.height >= note) { // A warning needs the legend's room more than the legend does.
+        line.height = note;
+        draw_legend(ui, &shown, &parts, line);
+    }
+    line = dip_cut_top(&rest, buttons); // The buttons may cover the legend.
     line.y = dip_min(line.y, dip_rect_bottom(rect) - line.height);
     dip_setting_buttons_declare(ui, window, line);
-    rest.y = dip_rect_bottom(line) + dip_ui_px(ui, 4);
+    rest.y = dip_rect_bottom(line) + gap;
     rest.height = dip_rect_bottom(rect) - rest.y;
     draw_source(ui, window, rest);
 }

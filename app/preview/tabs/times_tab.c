@@ -79,7 +79,8 @@ static void draw_legend(DipUi *ui, const DipWindow *window, History *history, in
     if (window->figures[pane].copied) {
         snprintf(text, sizeof text, "%s: same settings, drawn once", pane_titles[pane]);
     } else if (history->count == 0) {
-        snprintf(text, sizeof text, "%s: no frame, since time stands still", pane_titles[pane]);
+        snprintf(text, sizeof text, "%s: no frame%s", pane_titles[pane],
+                 window->still ? ", since time stands still" : " yet");
     } else {
         snprintf(text, sizeof text, "%s: median %.1f, p95 %.1f ms", pane_titles[pane],
                  dip_percentile(history->ms, history->count, 0.5),

@@ -157,17 +157,18 @@ static void steps_show_their_time_and_change_of_flip(void **state) {
 static void the_sheet_doubts_what_the_panel_doubts(void **state) {
     (void)state;
     static const double scatter[] = {0.2, 5.0, 0.5, 3.0};
-    DipCostReport report;
-    dip_made_report(&report, 16);
-    for (int round = 0; round < 3; round++) {
+    enum { GOOD, SCATTERED, BUSY, KINDS };
+    for (int kind = GOOD; kind < KINDS; kind++) {
+        DipCostReport report;
         DipPrices *prices = dip_prices_create(NULL);
         DipCosts costs;
         int doubtful = 0;
-        for (int f = 0; round == 1 && f < dip_cost_frame_count(&report); f++) {
+        dip_made_report(&report, 16);
+        for (int f = 0; kind == SCATTERED && f < dip_cost_frame_count(&report); f++) {
             dip_made_timed(&report, 3, f)->ms = 4.0 * scatter[f % 4];
         }
         assert_true(dip_cost_estimate_times(&report, NULL));
-        report.verdict = round == 2 ? DIP_COST_RED : DIP_COST_GREEN;
+        report.verdict = kind == BUSY ? DIP_COST_RED : DIP_COST_GREEN;
         assert_true(dip_prices_set_report(prices, &report, NULL));
         dip_costs_make(&costs, &report);
         const DipCostsRow *row = &costs.rows[0];
@@ -179,12 +180,12 @@ static void the_sheet_doubts_what_the_panel_doubts(void **state) {
             assert_int_equal(marked, dip_price_trust(&price) == DIP_PRICE_TRUST_DOUBTFUL);
             doubtful += marked;
         }
-        assert_true(round == 0   ? doubtful == 0
-                    : round == 1 ? doubtful > 0
-                                 : doubtful == row->step_count - 1);
+        assert_true(kind == GOOD        ? doubtful == 0
+                    : kind == SCATTERED ? doubtful > 0
+                                        : doubtful == row->step_count - 1);
         dip_prices_destroy(&prices);
+        dip_cost_report_free(&report);
     }
-    dip_cost_report_free(&report);
 }
 
 static void a_report_of_another_scene_is_refused(void **state) {

@@ -519,7 +519,7 @@ static void no_time_is_rounded_across_the_budget(void **state) {
     static const struct {
         double ms, budget_ms;
         bool doubtful;
-        const char *text;
+        const char *written;
     } cases[] = {
         {14.9, 12.0, true, "15?"},
         {14.9, 16.7, true, "10?"},
@@ -537,29 +537,29 @@ static void no_time_is_rounded_across_the_budget(void **state) {
         {0.34, 0.3, true, "0.34?"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[DIP_STEP_NAME_BYTES];
+        char shown[DIP_STEP_NAME_BYTES];
         dip_ms_text(cases[i].ms,
                     cases[i].doubtful ? DIP_PRICE_TRUST_DOUBTFUL : DIP_PRICE_TRUST_KNOWN,
-                    cases[i].budget_ms, text);
-        assert_string_equal(text, cases[i].text);
+                    cases[i].budget_ms, shown);
+        assert_string_equal(shown, cases[i].written);
     }
     for (int i = 1; i < 4000; i++) { // Any time beside any budget.
         const double ms = 0.01 * i, budget_ms = 0.37 * (i % 100) + 1.0;
         for (int doubtful = 0; doubtful < 2; doubtful++) {
-            char text[DIP_STEP_NAME_BYTES];
+            char shown[DIP_STEP_NAME_BYTES];
             dip_ms_text(ms, doubtful ? DIP_PRICE_TRUST_DOUBTFUL : DIP_PRICE_TRUST_KNOWN, budget_ms,
-                        text);
-            assert_int_equal(strtod(text, NULL) > budget_ms, ms > budget_ms);
+                        shown);
+            assert_int_equal(strtod(shown, NULL) > budget_ms, ms > budget_ms);
         }
     }
     // A step is priced beside what the budget leaves for it.
-    char text[DIP_STEP_NAME_BYTES];
+    char shown[DIP_STEP_NAME_BYTES];
     const DipPrice price = {
         .state = DIP_PRICE_MEASURED, .ms = 14.9, .ms_low = 6.0, .ms_high = 30.0, .without_ms = 5.0};
-    dip_price_ms_text(&price, 16.7, text);
-    assert_string_equal(text, "+15?");
-    dip_price_ms_text(&price, 33.3, text);
-    assert_string_equal(text, "+10?");
+    dip_price_ms_text(&price, 16.7, shown);
+    assert_string_equal(shown, "+15?");
+    dip_price_ms_text(&price, 33.3, shown);
+    assert_string_equal(shown, "+10?");
 }
 
 static void a_new_live_time_replaces_the_old_one(void **state) {
