@@ -71,7 +71,7 @@ static void vertices_are_multiplied_and_copied(void **state) {
     for (int rows = 1; rows <= 4; rows++) {
         float m[16];
         random_matrix(&random, m, 16);
-        make_vertices(&vertices, &random, 100 + 50 * rows);
+        make_vertices(&vertices, &random, 56 + 40 * rows);
         dip_vertices_transform(&vertices.batch, m, rows, vertices.batch.clip);
         for (int r = 0; r < rows; r++) {
             check_row(&vertices, r, 0, m + 4 * r, m[4 * r + 3]);
