@@ -23,7 +23,18 @@ static void *stb_allocate(size_t size_bytes) {
     return memory;
 }
 
+// Most bytes that a block of stb_image may grow to, and whether it tried to grow beyond. Two blocks
+// grow, each to twice its size: the compressed data of a PNG file, which it sizes by what the file
+// says before it reads it, and the data that this unpacks to. Beyond the end of the compressed data
+// it reads zeros, and if the file's code makes bytes of zeros, 200 bytes unpack to 2 GB.
+static _Thread_local size_t most_bytes;
+static _Thread_local bool grew_too_large;
+
 static void *stb_resize(void *memory, size_t old_bytes, size_t size_bytes) {
+    grew_too_large = grew_too_large || size_bytes > most_bytes;
+    if (size_bytes > most_bytes) {
+        return NULL; // stb_image gives up.
+    }
     uint8_t *resized = realloc(memory, size_bytes);
     ran_out = ran_out || !resized;
     if (resized && size_bytes > old_bytes) {
@@ -148,6 +159,16 @@ static bool any_alpha(const DipPicture *picture) {
 
 // --- PNG, JPEG, BMP, TGA -------------------------------------------------------------------------
 
+// Returns twice the greater of the file's size and the size of a PNG's unpacked data: rows of at
+// most 8 bytes per pixel and a byte that names their filter, of which an interlaced picture has
+// about twice as many.
+static size_t largest_block(const PictureFile *file, const DipPicture *picture) {
+    const size_t row_bytes = 8 * (size_t)picture->width + 8;
+    const size_t unpacked_bytes = 2 * row_bytes * ((size_t)picture->height + 8);
+    const size_t read_bytes = file->size_bytes + 4096;
+    return 2 * (unpacked_bytes > read_bytes ? unpacked_bytes : read_bytes);
+}
+
 static bool read_with_stb(const PictureFile *file, DipPicture *picture) {
     static const stbi_io_callbacks callbacks = {source_read, source_skip, source_at_end};
     if (!dip_jpeg_check(file)) {
@@ -167,10 +188,17 @@ static bool read_with_stb(const PictureFile *file, DipPicture *picture) {
     source = (Source){.bytes = file->bytes, .size_bytes = file->size_bytes};
     picture->level_count = 1;
     picture->has_alpha = channels == 2 || channels == 4;
+    most_bytes = largest_block(file, picture);
+    grew_too_large = false;
     picture->rgba8 = stbi_load_from_callbacks(&callbacks, &source, &picture->width,
                                               &picture->height, &channels, 4);
     if (source.passed_end) {
         return dip_picture_truncated(file);
+    }
+    if (grew_too_large) {
+        return dip_error_set(
+            file->err, DIP_ERROR_TRUNCATED, file->name, 0, NULL,
+            "the picture file ends too early, or its data is longer than its pixels");
     }
     if (picture->rgba8 && !picture->has_alpha) {
         make_opaque(picture);

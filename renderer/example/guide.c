@@ -79,34 +79,21 @@ static void draw_triangle(DipPipeline *pipeline) {
 
 // What the shaders of the lit scene need.
 typedef struct Lit {
+    DipMatrix to_world; // moves the mesh, and does not turn it
     float to_clip[16];
-    float place[3]; // added to the positions of the mesh
     float colour[3];
     float alpha;
     float to_light[3]; // unit vector
-    // Step 6: the light's view, and the depths that it sees.
-    float to_light_clip[16];
+    // Step 6: takes positions to the light's map, and the depths that the light sees.
+    float to_map[16];
     DipShadowMap shadows;
 } Lit;
 
-static float row_times(const float *row, const float p[3]) {
-    return ((row[0] * p[0] + row[1] * p[1]) + row[2] * p[2]) + row[3];
-}
-
-// Varyings 0..2 are the normal, varyings 3..5 the position in the world.
+// Varyings 0..2 are the normal.
 static void lit_vertex(const DipVertexBatch *batch) {
     const Lit *lit = batch->uniforms;
-    for (int i = 0; i < batch->count; i++) {
-        float p[3];
-        for (int c = 0; c < 3; c++) {
-            p[c] = batch->in[DIP_SHAPE_POSITION + c][i] + lit->place[c];
-            batch->varying[c][i] = batch->in[DIP_SHAPE_NORMAL + c][i];
-            batch->varying[3 + c][i] = p[c];
-        }
-        for (int c = 0; c < 4; c++) {
-            batch->clip[c][i] = row_times(lit->to_clip + 4 * c, p);
-        }
-    }
+    dip_vertices_transform(batch, lit->to_clip, 4, batch->clip);
+    dip_vertices_copy(batch, DIP_SHAPE_NORMAL, 0, 3);
 }
 
 // Returns the light that falls on fragment i, without shadows: 0..1.
@@ -160,13 +147,20 @@ static void make_camera(World *world) {
     world->to_clip = dip_matrix_multiply(&projection, &view);
 }
 
-static Lit lit_at(const World *world, float x, float y, float z, const float colour[3]) {
-    Lit lit = {.place = {x, y, z}, .alpha = 1.0f, .to_light = {0.48f, 0.8f, 0.36f}};
+// Writes the matrix that takes the mesh to where `to_clip` takes the world.
+static void set_view(float out[16], const Lit *lit, const DipMatrix *to_clip) {
+    const DipMatrix product = dip_matrix_multiply(to_clip, &lit->to_world);
+    dip_matrix_floats(&product, out);
+}
+
+static Lit lit_at(const World *world, double x, double y, double z, const float colour[3]) {
+    Lit lit = {.to_world = dip_matrix_translation(x, y, z),
+               .alpha = 1.0f,
+               .to_light = {0.48f, 0.8f, 0.36f}};
     for (int c = 0; c < 3; c++) {
         lit.colour[c] = colour[c];
     }
-    dip_matrix_floats(&world->to_clip, lit.to_clip);
-    dip_matrix_floats(&world->to_light_clip, lit.to_light_clip);
+    set_view(lit.to_clip, &lit, &world->to_clip);
     return lit;
 }
 
@@ -174,8 +168,8 @@ static DipDraw lit_draw(const DipMesh *mesh, const Lit *lit) {
     return (DipDraw){.mesh = mesh,
                      .vertex_shader = lit_vertex,
                      .fragment_shader = lit_fragment,
-                     .varying_count = 6,
-                     .value_only_varying_count = 6,
+                     .varying_count = 3,
+                     .value_only_varying_count = 3,
                      .uniforms = lit,
                      .cull = DIP_CULL_BACK};
 }
@@ -201,8 +195,8 @@ static void draw_world(World *world, const DipDraw *draws, int count) {
 }
 
 static void draw_lit(World *world) {
-    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
-    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    const Lit ground = lit_at(world, 0.0, 0.0, 0.0, stone);
+    const Lit ball = lit_at(world, 0.0, 1.0, 0.0, red);
     const DipDraw draws[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
     draw_world(world, draws, 2);
 }
@@ -212,9 +206,9 @@ static void draw_lit(World *world) {
 static void draw_glass(World *world) {
     static const DipDrawState glass = {.blend = DIP_BLEND_MODE_ALPHA, .keep_depth = true};
     static const float green[3] = {0.1f, 0.6f, 0.3f};
-    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
-    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
-    Lit bubble = lit_at(world, 0.9f, 0.9f, 1.2f, green);
+    const Lit ground = lit_at(world, 0.0, 0.0, 0.0, stone);
+    const Lit ball = lit_at(world, 0.0, 1.0, 0.0, red);
+    Lit bubble = lit_at(world, 0.9, 0.9, 1.2, green);
     bubble.alpha = 0.4f;
     DipDraw draws[3] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball),
                         lit_draw(world->ball, &bubble)};
@@ -230,11 +224,12 @@ static void grown_vertex(const DipVertexBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         float p[3];
         for (int c = 0; c < 3; c++) {
-            p[c] = batch->in[DIP_SHAPE_POSITION + c][i] + lit->place[c] +
-                   0.06f * batch->in[DIP_SHAPE_NORMAL + c][i];
+            p[c] =
+                batch->in[DIP_SHAPE_POSITION + c][i] + 0.06f * batch->in[DIP_SHAPE_NORMAL + c][i];
         }
-        for (int c = 0; c < 4; c++) {
-            batch->clip[c][i] = row_times(lit->to_clip + 4 * c, p);
+        for (int r = 0; r < 4; r++) {
+            const float *m = lit->to_clip + 4 * r;
+            batch->clip[r][i] = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
         }
     }
 }
@@ -263,9 +258,9 @@ static void draw_outline(World *world) {
                                                      .front = {.function = DIP_COMPARE_NOT_EQUAL},
                                                      .back = {.function = DIP_COMPARE_NOT_EQUAL}}};
     static const float gold[3] = {1.0f, 0.7f, 0.1f};
-    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
-    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
-    const Lit line = lit_at(world, 0.0f, 1.0f, 0.0f, gold);
+    const Lit ground = lit_at(world, 0.0, 0.0, 0.0, stone);
+    const Lit ball = lit_at(world, 0.0, 1.0, 0.0, red);
+    const Lit line = lit_at(world, 0.0, 1.0, 0.0, gold);
     DipDraw draws[3] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball),
                         lit_draw(world->ball, &line)};
     draws[1].state = &marks;
@@ -282,9 +277,9 @@ static void draw_wires(World *world) {
     static const DipDrawState wires = {
         .fill = DIP_FILL_WIREFRAME, .line_width = 1.5f, .depth_test = DIP_DEPTH_NEARER_OR_EQUAL};
     static const float white[3] = {1.0f, 1.0f, 1.0f};
-    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
-    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
-    const Lit lines = lit_at(world, 0.0f, 1.0f, 0.0f, white);
+    const Lit ground = lit_at(world, 0.0, 0.0, 0.0, stone);
+    const Lit ball = lit_at(world, 0.0, 1.0, 0.0, red);
+    const Lit lines = lit_at(world, 0.0, 1.0, 0.0, white);
     DipDraw draws[3] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball),
                         lit_draw(world->ball, &lines)};
     draws[2].state = &wires;
@@ -303,17 +298,18 @@ static void make_light(World *world) {
     world->to_light_clip = dip_matrix_multiply(&projection, &view);
 }
 
+// Varyings 3..5 are u, v and z in the light's map.
+static void shadowed_vertex(const DipVertexBatch *batch) {
+    const Lit *lit = batch->uniforms;
+    lit_vertex(batch);
+    dip_vertices_transform(batch, lit->to_map, 3, batch->varying + 3);
+}
+
 static void shadowed_fragment(DipFragmentBatch *batch) {
     const Lit *lit = batch->uniforms;
-    float u[DIP_FRAGMENT_BATCH], v[DIP_FRAGMENT_BATCH], z[DIP_FRAGMENT_BATCH];
     float open[DIP_FRAGMENT_BATCH];
-    for (int i = 0; i < batch->count; i++) {
-        const float p[3] = {batch->varying[3][i], batch->varying[4][i], batch->varying[5][i]};
-        u[i] = 0.5f + 0.5f * row_times(lit->to_light_clip, p);
-        v[i] = 0.5f - 0.5f * row_times(lit->to_light_clip + 4, p);
-        z[i] = row_times(lit->to_light_clip + 8, p);
-    }
-    batch->sample_shadow(batch, &lit->shadows, u, v, z, open);
+    batch->sample_shadow(batch, &lit->shadows, batch->varying[3], batch->varying[4],
+                         batch->varying[5], open);
     for (int i = 0; i < batch->count; i++) {
         const float light = 0.12f + 0.88f * diffuse(batch, lit, i) * open[i];
         for (int c = 0; c < 3; c++) {
@@ -325,8 +321,8 @@ static void shadowed_fragment(DipFragmentBatch *batch) {
 // Draws what the light sees: depths alone.
 static void draw_map(World *world, DipDepth *depth) {
     static const DipDrawState away = {.depth_bias = {.slope = -2.0f, .constant = -0x1p-20f}};
-    Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
-    dip_matrix_floats(&world->to_light_clip, ball.to_clip);
+    Lit ball = lit_at(world, 0.0, 1.0, 0.0, red);
+    set_view(ball.to_clip, &ball, &world->to_light_clip);
     DipDraw draw = lit_draw(world->ball, &ball);
     draw.fragment_shader = NULL;
     draw.state = &away;
@@ -346,11 +342,17 @@ static void draw_shadow(World *world) {
     DipDepth *depth = dip_depth_create(MAP, MAP, 1, &err);
     require(depth != NULL, &err);
     draw_map(world, depth);
-    Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
-    Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
-    ground.shadows = ball.shadows = (DipShadowMap){depth, DIP_SHADOW_LINEAR};
-    DipDraw draws[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
-    draws[0].fragment_shader = draws[1].fragment_shader = shadowed_fragment;
+    const DipMatrix half = dip_matrix_to_map();
+    const DipMatrix to_map = dip_matrix_multiply(&half, &world->to_light_clip);
+    Lit lit[2] = {lit_at(world, 0.0, 0.0, 0.0, stone), lit_at(world, 0.0, 1.0, 0.0, red)};
+    DipDraw draws[2] = {lit_draw(world->ground, &lit[0]), lit_draw(world->ball, &lit[1])};
+    for (int i = 0; i < 2; i++) {
+        set_view(lit[i].to_map, &lit[i], &to_map);
+        lit[i].shadows = (DipShadowMap){depth, DIP_SHADOW_LINEAR};
+        draws[i].vertex_shader = shadowed_vertex;
+        draws[i].fragment_shader = shadowed_fragment;
+        draws[i].varying_count = draws[i].value_only_varying_count = 6;
+    }
     draw_world(world, draws, 2);
     dip_depth_destroy(&depth);
 }
@@ -373,8 +375,8 @@ static Kept make_kept(void) {
 
 // Draws the ground and the ball, and keeps their colours and depths in every sample.
 static void draw_still(World *world, const Kept *kept) {
-    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
-    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    const Lit ground = lit_at(world, 0.0, 0.0, 0.0, stone);
+    const Lit ball = lit_at(world, 0.0, 1.0, 0.0, red);
     const DipDraw draws[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
     const DipPass still = {
         .draws = draws,
@@ -418,7 +420,7 @@ static void draw_sparks(World *world) {
     DipDraw draws[SPARKS];
     float x = 1.25f, z = 0.0f;
     for (int i = 0; i < SPARKS; i++) {
-        sparks[i] = lit_at(world, x, 0.2f + 0.03f * (float)i, z, gold);
+        sparks[i] = lit_at(world, x, 0.2 + 0.03 * i, z, gold);
         draws[i] = lit_draw(world->spark, &sparks[i]);
         draws[i].fragment_shader = one_colour;
         draws[i].state = &glow;
@@ -437,41 +439,42 @@ static void draw_sparks(World *world) {
 
 enum { NO_COLOUR = DIP_CHANNEL_RED | DIP_CHANNEL_GREEN | DIP_CHANNEL_BLUE | DIP_CHANNEL_ALPHA };
 
-// Draws into kept samples and depths. first: the pass clears them, and has the clip plane.
-static void draw_into(World *world, const Kept *kept, const DipDraw *draws, int count, bool first,
-                      const float clip_plane[4]) {
+// Draws the mirrored scene into samples and depths, without storing a picture. What is mirrored
+// lies behind the mirror; the margin keeps the mirror itself.
+static void draw_mirrored(World *world, const Kept *kept, const DipDraw *draws, int count) {
     DipPass pass = {
         .draws = draws,
         .draw_count = count,
         .sample_count = 4,
         .clear_lin = {0.25f, 0.42f, 0.65f},
+        .clip_plane_count = 1,
         .target = {.width = WIDTH, .height = HEIGHT},
         .attachments = {.samples = kept->samples, .keep_target = true, .depth = kept->depth},
     };
-    if (first) {
-        pass.clip_plane_count = 1;
-        memcpy(pass.clip_planes[0], clip_plane, sizeof pass.clip_planes[0]);
-    } else {
-        pass.attachments.colour_load = DIP_LOAD_KEEP;
-        pass.attachments.depth_load = DIP_LOAD_KEEP;
-        pass.attachments.stencil_load = DIP_LOAD_KEEP;
-    }
+    const double behind[4] = {0.0, 0.0, -1.0, -1.5 + 0.001};
     DipError err = {0};
+    require(dip_matrix_clip_plane(&world->to_clip, behind, pass.clip_planes[0], &err), &err);
     require(dip_pipeline_draw(world->pipeline, &pass, NULL, NULL, &err), &err);
 }
 
-// Stores the means of the samples in the picture.
-static void resolve(World *world, const Kept *kept) {
-    const DipPass means = {
+// Draws the rest over what is there, and stores the means of the samples in the picture.
+static void draw_rest(World *world, const Kept *kept, const DipDraw *draws, int count) {
+    const DipPass rest = {
+        .draws = draws,
+        .draw_count = count,
         .sample_count = 4,
         .target = {.rgba8 = &picture[0][0][0],
                    .stride_bytes = WIDTH * 4,
                    .width = WIDTH,
                    .height = HEIGHT},
-        .attachments = {.samples = kept->samples, .colour_load = DIP_LOAD_KEEP},
+        .attachments = {.samples = kept->samples,
+                        .colour_load = DIP_LOAD_KEEP,
+                        .depth = kept->depth,
+                        .depth_load = DIP_LOAD_KEEP,
+                        .stencil_load = DIP_LOAD_KEEP},
     };
     DipError err = {0};
-    require(dip_pipeline_draw(world->pipeline, &means, NULL, NULL, &err), &err);
+    require(dip_pipeline_draw(world->pipeline, &rest, NULL, NULL, &err), &err);
 }
 
 // Draws the scene with a mirror in the plane z = -1.5.
@@ -495,9 +498,9 @@ static void draw_mirror(World *world) {
                                                    .read_mask = 255,
                                                    .front = {.function = DIP_COMPARE_EQUAL}}};
     static const float tint[3] = {0.05f, 0.06f, 0.08f};
-    Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
-    Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
-    Lit pane = lit_at(world, 0.5f, 1.2f, -1.5f, tint);
+    Lit ground = lit_at(world, 0.0, 0.0, 0.0, stone);
+    Lit ball = lit_at(world, 0.0, 1.0, 0.0, red);
+    Lit pane = lit_at(world, 0.5, 1.2, -1.5, tint);
     pane.alpha = 0.35f;
     const DipDraw scene[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
 
@@ -509,24 +512,17 @@ static void draw_mirror(World *world) {
     DipDraw first[3] = {lit_draw(world->mirror, &pane), scene[0], scene[1]};
     first[0].state = &mark;
     for (int i = 0; i < 2; i++) {
-        dip_matrix_floats(&mirrored_to_clip, mirrored[i].to_clip);
+        set_view(mirrored[i].to_clip, &mirrored[i], &mirrored_to_clip);
         first[1 + i].uniforms = &mirrored[i];
         first[1 + i].cull = DIP_CULL_FRONT;
         first[1 + i].state = &inside;
     }
 
-    // What is mirrored lies behind the mirror. The margin keeps the mirror itself.
-    const double behind[4] = {0.0, 0.0, -1.0, -1.5 + 0.001};
-    float clip_plane[4];
-    DipError err = {0};
-    require(dip_matrix_clip_plane(&world->to_clip, behind, clip_plane, &err), &err);
-
     DipDraw second[3] = {lit_draw(world->mirror, &pane), scene[0], scene[1]};
     second[0].state = &glass;
     Kept kept = make_kept();
-    draw_into(world, &kept, first, 3, true, clip_plane);
-    draw_into(world, &kept, second, 3, false, NULL);
-    resolve(world, &kept);
+    draw_mirrored(world, &kept, first, 3);
+    draw_rest(world, &kept, second, 3);
     dip_samples_destroy(&kept.samples);
     dip_depth_destroy(&kept.depth);
 }

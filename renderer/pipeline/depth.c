@@ -5,6 +5,7 @@
 #include "renderer/pipeline/target.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 DipDepth *dip_depth_create(int width, int height, int sample_count, DipError *err) {
     if (width < 1 || height < 1 || width > DIP_MAX_TARGET_SIZE || height > DIP_MAX_TARGET_SIZE) {
@@ -41,6 +42,20 @@ void dip_depth_destroy(DipDepth **depth) {
         free(*depth);
         *depth = NULL;
     }
+}
+
+bool dip_depth_copy(DipDepth *copy, const DipDepth *depth, DipError *err) {
+    if (copy->width != depth->width || copy->height != depth->height ||
+        copy->sample_count != depth->sample_count) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "copy",
+                             "%dx%d pixels with %d samples, while `depth` has %dx%d with %d",
+                             copy->width, copy->height, copy->sample_count, depth->width,
+                             depth->height, depth->sample_count);
+    }
+    const size_t count = dip_depth_row_index(depth, depth->sample_count, 0);
+    memmove(copy->depth, depth->depth, count * sizeof *depth->depth);
+    memmove(copy->stencil, depth->stencil, count * sizeof *depth->stencil);
+    return true;
 }
 
 int dip_depth_width(const DipDepth *depth) {

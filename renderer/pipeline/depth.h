@@ -24,6 +24,11 @@ DIP_API DipDepth *dip_depth_create(int width, int height, int sample_count, DipE
 // Frees depths that no pass uses any more. *depth may be NULL and becomes NULL.
 DIP_API void dip_depth_destroy(DipDepth **depth);
 
+// Makes `copy` hold the depths and stencil values of `depth`. Fails with CONFLICT if the two differ
+// in size or number of samples; the copy is then unchanged. No pass may draw to either of them
+// during the call.
+DIP_API bool dip_depth_copy(DipDepth *copy, const DipDepth *depth, DipError *err);
+
 DIP_API int dip_depth_width(const DipDepth *depth);
 DIP_API int dip_depth_height(const DipDepth *depth);
 DIP_API int dip_depth_sample_count(const DipDepth *depth);

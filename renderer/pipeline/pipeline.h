@@ -11,6 +11,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/isa.h"
 #include "renderer/base/pool.h"
+#include "renderer/pipeline/batch.h"
 #include "renderer/pipeline/counters.h"
 #include "renderer/pipeline/depth.h"
 #include "renderer/pipeline/mesh.h"

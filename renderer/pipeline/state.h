@@ -82,7 +82,7 @@ typedef struct DipBlend {
 } DipBlend;
 
 // Initialisers of DipBlend for common modes. s is the source's colour, a its alpha, t the target's
-// colour. The source's alpha replaces the target's in all of them.
+// colour. The source's alpha replaces the target's in all of them but the last.
 // clang-format off
 #define DIP_BLEND_ALPHA_IS_SOURCE {DIP_BLEND_ONE, DIP_BLEND_ZERO, DIP_BLEND_ADD}
 // s a + t (1 - a)
@@ -101,6 +101,12 @@ typedef struct DipBlend {
 #define DIP_BLEND_MODE_DOUBLE_MULTIPLICATIVE                                                       \
     {true, {DIP_BLEND_TARGET_COLOUR, DIP_BLEND_SOURCE_COLOUR, DIP_BLEND_ADD},                      \
      DIP_BLEND_ALPHA_IS_SOURCE, {0, 0, 0, 0}}
+// s + t (1 - a), for colours that are multiplied by their alpha already. Alpha is blended in the
+// same way, so that a picture that begins transparent ends as such a layer itself. With s = 0 it
+// darkens, with a = 0 it adds light.
+#define DIP_BLEND_MODE_PREMULTIPLIED                                                               \
+    {true, {DIP_BLEND_ONE, DIP_BLEND_ONE_MINUS_SOURCE_ALPHA, DIP_BLEND_ADD},                       \
+     {DIP_BLEND_ONE, DIP_BLEND_ONE_MINUS_SOURCE_ALPHA, DIP_BLEND_ADD}, {0, 0, 0, 0}}
 // clang-format on
 
 // Channels that a draw leaves as they are (DipDrawState.kept_channels).

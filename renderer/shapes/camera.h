@@ -92,6 +92,12 @@ DIP_API bool dip_matrix_invert(DipMatrix *inverse, const DipMatrix *matrix, DipE
 // if the 3x3 elements have no inverse or one of them is not finite.
 DIP_API bool dip_matrix_normals(float normals[9], const DipMatrix *model, DipError *err);
 
+// Takes clip space to the coordinates of a target or a shadow map, as fractions of its size from
+// its top left corner: u = (w + x) / 2 and v = (w - y) / 2; z and w stay. The product of this
+// matrix and a light's matrix to clip space takes the world to the coordinates of the light's map.
+// With a perspective, u, v and z are then divided by w.
+DIP_API DipMatrix dip_matrix_to_map(void);
+
 // Makes a clip plane of a pass (DipPass.clip_planes in pipeline.h) from a plane of the space that
 // to_clip takes to clip space. Points p with plane[0..2] . p + plane[3] >= 0 are kept. out is
 // scaled by a power of two for which its largest element has a magnitude of 1 to 2. Fails with

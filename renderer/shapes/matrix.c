@@ -19,6 +19,11 @@ DipMatrix dip_matrix_scaling(double x, double y, double z) {
     return (DipMatrix){{x, 0.0, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, 0.0, z, 0.0, 0.0, 0.0, 0.0, 1.0}};
 }
 
+DipMatrix dip_matrix_to_map(void) {
+    return (DipMatrix){
+        {0.5, 0.0, 0.0, 0.5, 0.0, -0.5, 0.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}};
+}
+
 DipMatrix dip_matrix_translation(double x, double y, double z) {
     DipMatrix made = dip_matrix_identity();
     made.m[3] = x;

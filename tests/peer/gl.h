@@ -69,6 +69,7 @@
     X(PixelStorei, PIXELSTOREI)                                                                    \
     X(ReadPixels, READPIXELS)                                                                      \
     X(RenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE)                              \
+    X(SampleMaski, SAMPLEMASKI)                                                                    \
     X(SamplerParameterf, SAMPLERPARAMETERF)                                                        \
     X(SamplerParameteri, SAMPLERPARAMETERI)                                                        \
     X(Scissor, SCISSOR)                                                                            \

@@ -89,31 +89,6 @@ bool dip_kit_draw(const DipGalleryView *view, DipPipeline *pipeline, const DipPa
 
 // --- objects -------------------------------------------------------------------------------------
 
-// Writes row . (x, y, z) + last for each vertex. x, y and z are its attributes from `first` on.
-static void transform_row(const DipVertexBatch *batch, int first, const float row[3], float last,
-                          float *out) {
-    const float *x = batch->in[first];
-    const float *y = batch->in[first + 1];
-    const float *z = batch->in[first + 2];
-    for (int i = 0; i < batch->count; i++) {
-        out[i] = row[0] * x[i] + row[1] * y[i] + row[2] * z[i] + last;
-    }
-}
-
-void dip_kit_transform(const DipVertexBatch *batch, const float to_clip[16]) {
-    for (int r = 0; r < 4; r++) {
-        const float *row = to_clip + 4 * r;
-        transform_row(batch, DIP_SHAPE_POSITION, row, row[3], batch->clip[r]);
-    }
-}
-
-void dip_kit_copy(const DipVertexBatch *batch, int attribute, int varying, int count) {
-    for (int i = 0; i < count; i++) {
-        memcpy(batch->varying[varying + i], batch->in[attribute + i],
-               (size_t)batch->count * sizeof(float));
-    }
-}
-
 void dip_kit_screen_vertex(const DipVertexBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         batch->clip[0][i] = batch->in[0][i];
@@ -125,14 +100,10 @@ void dip_kit_screen_vertex(const DipVertexBatch *batch) {
 
 void dip_kit_vertex(const DipVertexBatch *batch) {
     const DipKitObject *object = batch->uniforms;
-    dip_kit_transform(batch, object->to_clip);
-    for (int r = 0; r < 3; r++) {
-        const float *row = object->to_world + 4 * r;
-        transform_row(batch, DIP_SHAPE_POSITION, row, row[3], batch->varying[DIP_KIT_WORLD + r]);
-        transform_row(batch, DIP_SHAPE_NORMAL, object->normals + 3 * r, 0.0f,
-                      batch->varying[DIP_KIT_NORMAL + r]);
-    }
-    dip_kit_copy(batch, DIP_SHAPE_TEXTURE, DIP_KIT_UV, 2);
+    dip_vertices_transform(batch, object->to_clip, 4, batch->clip);
+    dip_vertices_transform(batch, object->to_world, 3, batch->varying + DIP_KIT_WORLD);
+    dip_vertices_turn(batch, DIP_SHAPE_NORMAL, object->normals, batch->varying + DIP_KIT_NORMAL);
+    dip_vertices_copy(batch, DIP_SHAPE_TEXTURE, DIP_KIT_UV, 2);
 }
 
 DipKitList dip_kit_list(const DipGalleryView *view, double near_distance, DipError *err) {

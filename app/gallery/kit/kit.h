@@ -221,12 +221,6 @@ void dip_kit_vertex(const DipVertexBatch *batch);
 // Vertex shader for a quad that fills the picture. The corners' x and y are in clip space.
 void dip_kit_screen_vertex(const DipVertexBatch *batch);
 
-// Takes the position of each vertex, its first three attributes, to clip space. For vertex shaders.
-void dip_kit_transform(const DipVertexBatch *batch, const float to_clip[16]);
-
-// Copies `count` attributes to varyings. For vertex shaders.
-void dip_kit_copy(const DipVertexBatch *batch, int attribute, int varying, int count);
-
 enum { DIP_KIT_MAX_DRAWS = 32, DIP_KIT_UNIFORM_DOUBLES = 64 };
 
 // A list of draws to which a scene adds its objects, and the camera that sees them. If adding one

@@ -53,14 +53,14 @@ static const uint8_t glyphs[GLYPHS][CELL] = {
 
 // Vertex shader for vertices with a position and a colour, which the seed calls SimpleVertex.
 static void simple_vertex(const DipVertexBatch *batch) {
-    dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
-    dip_kit_copy(batch, 3, 0, 3);
+    dip_vertices_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip, 4, batch->clip);
+    dip_vertices_copy(batch, 3, 0, 3);
 }
 
 // Vertex shader for vertices with a position and u, v, which the seed calls TextureVertex.
 static void texture_vertex(const DipVertexBatch *batch) {
-    dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
-    dip_kit_copy(batch, 3, 0, 2);
+    dip_vertices_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip, 4, batch->clip);
+    dip_vertices_copy(batch, 3, 0, 2);
 }
 
 static void shade_colour(DipFragmentBatch *batch) {

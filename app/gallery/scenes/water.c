@@ -69,8 +69,8 @@ typedef struct Content {
 // --- shaders of the courtyard --------------------------------------------------------------------
 
 static void court_vertex(const DipVertexBatch *batch) {
-    dip_kit_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip);
-    dip_kit_copy(batch, UV0, 0, VARYINGS);
+    dip_vertices_transform(batch, ((const Uniforms *)batch->uniforms)->to_clip, 4, batch->clip);
+    dip_vertices_copy(batch, UV0, 0, VARYINGS);
 }
 
 static void shade_court(DipFragmentBatch *batch) {
@@ -142,8 +142,8 @@ static void shade_pool_floor(DipFragmentBatch *batch) {
 
 static void water_vertex(const DipVertexBatch *batch) {
     const Water *water = batch->uniforms;
-    dip_kit_transform(batch, water->to_clip);
-    dip_kit_copy(batch, 0, POSITION, 3);
+    dip_vertices_transform(batch, water->to_clip, 4, batch->clip);
+    dip_vertices_copy(batch, 0, POSITION, 3);
     for (int i = 0; i < batch->count; i++) {
         const float x = batch->in[0][i];
         const float z = batch->in[2][i];

@@ -145,7 +145,7 @@ static void draw_mode(const Mode *mode, bool in_codes) {
     dip_mesh_destroy(&meshes[1]);
 }
 
-static void four_modes(void **state) {
+static void published_modes(void **state) {
     (void)state;
     static const Mode modes[] = {
         {DIP_BLEND_MODE_ADDITIVE,
@@ -160,11 +160,44 @@ static void four_modes(void **state) {
         {DIP_BLEND_MODE_ALPHA,
          {{0, 0, 255}, {205, 205, 92}, {188, 188, 188}},
          {{0, 0, 255}, {191, 191, 64}, {128, 128, 128}}},
+        {DIP_BLEND_MODE_PREMULTIPLIED,
+         {{0, 0, 255}, {255, 255, 92}, {255, 255, 188}},
+         {{0, 0, 255}, {255, 255, 64}, {255, 255, 128}}},
     };
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
         draw_mode(&modes[i], false);
         draw_mode(&modes[i], true);
     }
+}
+
+// Two premultiplied colours over a transparent layer, and the layer over a background, are the same
+// as both over the background.
+static void premultiplied_layers(void **state) {
+    (void)state;
+    static float floats[HEIGHT][WIDTH][4];
+    static const Colour colours[2] = {{{0.3f, 0.1f, 0.05f, 0.4f}}, {{0.02f, 0.2f, 0.3f, 0.75f}}};
+    static const DipDrawState layer = {.blend = DIP_BLEND_MODE_PREMULTIPLIED,
+                                       .depth_test = DIP_DEPTH_ALWAYS};
+    DipMesh *mesh = rectangle(8, 8, 48, 48, 0.5f);
+    const DipDraw draws[2] = {draw_of(mesh, &colours[0], &layer),
+                              draw_of(mesh, &colours[1], &layer)};
+    DipPass pass = pass_of(draws, 2, 1);
+    pass.target.format = DIP_FORMAT_RGBA32F;
+    pass.target.floats = &floats[0][0][0];
+    pass.target.stride_bytes = sizeof floats[0];
+    pass.attachments.clear_transparent = true;
+    run(&pass);
+    const float *found = floats[20][20];
+    assert_true(fabs((double)found[3] - (1.0 - 0.6 * 0.25)) < 1e-6);
+    for (int c = 0; c < 3; c++) {
+        const double background = 0.5 + 0.1 * c;
+        const double first = (double)colours[0].channel[c] + background * 0.6;
+        const double both = (double)colours[1].channel[c] + first * 0.25;
+        const double of_layer = (double)found[c] + background * (1.0 - (double)found[3]);
+        assert_true(fabs(of_layer - both) < 1e-6);
+    }
+    assert_true(floats[60][20][3] == 0.0f);
+    dip_mesh_destroy(&mesh);
 }
 
 // A pass that keeps the target's colours stores every code unchanged, also where a draw has touched
@@ -361,6 +394,40 @@ static void depth_bias(void **state) {
         }
         dip_mesh_destroy(&mesh);
     }
+    dip_depth_destroy(&depth);
+}
+
+// --- copies of depths ----------------------------------------------------------------------------
+
+static void depths_are_copied(void **state) {
+    (void)state;
+    DipDepth *depth = dip_depth_create(5, 3, 4, NULL);
+    DipDepth *copy = dip_depth_create(5, 3, 4, NULL);
+    for (int s = 0; s < 4; s++) {
+        for (int y = 0; y < 3; y++) {
+            for (int x = 0; x < 5; x++) {
+                dip_depth_row(depth, s, y)[x] = (float)(s * 100 + y * 10 + x) / 512.0f;
+                dip_stencil_row(depth, s, y)[x] = (uint8_t)(s * 50 + y * 10 + x);
+            }
+        }
+    }
+    assert_true(dip_depth_copy(copy, depth, NULL));
+    for (int s = 0; s < 4; s++) {
+        for (int y = 0; y < 3; y++) {
+            assert_memory_equal(dip_depth_row(copy, s, y), dip_depth_row(depth, s, y), 5 * 4);
+            assert_memory_equal(dip_stencil_row(copy, s, y), dip_stencil_row(depth, s, y), 5);
+        }
+    }
+    static const int others[3][3] = {{6, 3, 4}, {5, 4, 4}, {5, 3, 2}};
+    for (int k = 0; k < 3; k++) {
+        DipDepth *other = dip_depth_create(others[k][0], others[k][1], others[k][2], NULL);
+        DipError err = {0};
+        assert_false(dip_depth_copy(other, depth, &err));
+        assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+        assert_true(dip_depth_row(other, 1, 2)[4] == 0.0f);
+        dip_depth_destroy(&other);
+    }
+    dip_depth_destroy(&copy);
     dip_depth_destroy(&depth);
 }
 
@@ -779,7 +846,8 @@ static void bad_fields(void **test_state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(four_modes),         cmocka_unit_test(kept_codes),
+        cmocka_unit_test(published_modes),    cmocka_unit_test(premultiplied_layers),
+        cmocka_unit_test(depths_are_copied),  cmocka_unit_test(kept_codes),
         cmocka_unit_test(ordered_like_plain), cmocka_unit_test(wireframes),
         cmocka_unit_test(depth_bias),         cmocka_unit_test(depth_only),
         cmocka_unit_test(shadow_maps),        cmocka_unit_test(formats),

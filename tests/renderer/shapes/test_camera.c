@@ -343,6 +343,21 @@ static void reflections_mirror_at_their_plane(void **context) {
     assert_true(out[0] == 21.0 && out[1] == 32.0 && out[2] == -37.0 && out[3] == 1.0);
 }
 
+// The corners of clip space become those of a target; depths and divisors stay.
+static void maps_begin_at_their_top_left_corner(void **state) {
+    (void)state;
+    const DipMatrix to_map = dip_matrix_to_map();
+    static const double clip[3][4] = {{-2, 2, 0.5, 2}, {3, -3, 1, 3}, {0.5, 0.25, 0.125, 1}};
+    static const double map[3][4] = {{0, 0, 0.5, 2}, {3, 3, 1, 3}, {0.75, 0.375, 0.125, 1}};
+    for (int i = 0; i < 3; i++) {
+        double out[4];
+        dip_matrix_apply(&to_map, clip[i], out);
+        for (int k = 0; k < 4; k++) {
+            assert_true(out[k] == map[i][k]);
+        }
+    }
+}
+
 // Returns plane . point, with the fourth element as it is.
 static double beyond(const double plane[4], const double p[3]) {
     return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3];
@@ -521,6 +536,7 @@ int main(void) {
         cmocka_unit_test(normals_stay_perpendicular),
         cmocka_unit_test(rotations_turn_counter_clockwise),
         cmocka_unit_test(reflections_mirror_at_their_plane),
+        cmocka_unit_test(maps_begin_at_their_top_left_corner),
         cmocka_unit_test(clip_planes_keep_what_their_planes_keep),
         cmocka_unit_test(bad_cameras_are_refused_by_name),
         cmocka_unit_test(singular_matrices_are_refused),
