@@ -354,30 +354,39 @@ static bool take_block(JobRun *run, uint32_t *block) {
     return true;
 }
 
-static void add_to_bin(JobRun *run, uint32_t triangle, size_t index) {
-    DipBinBlock *blocks = run->geometry->blocks;
+// Adds a block to a bin. Returns false if the space for blocks is used up.
+static bool lengthen_bin(JobRun *run, DipTileBin *bin, bool empty) {
+    uint32_t block;
+    if (!take_block(run, &block)) {
+        return false;
+    }
+    if (empty) {
+        bin->first = block;
+    } else {
+        run->geometry->blocks[bin->last].next = block;
+    }
+    bin->last = block;
+    bin->last_count = 0;
+    return true;
+}
+
+static inline void add_to_bin(JobRun *run, uint32_t triangle, size_t index) {
     DipTileBin *bin = &run->bins[index];
     uint64_t *word = &run->scratch->occupied[index / 64];
     const uint64_t bit = (uint64_t)1 << index % 64;
     const bool empty = !(*word & bit);
     if (empty || bin->last_count == DIP_BIN_BLOCK) {
-        uint32_t block;
-        if (!take_block(run, &block)) {
+        if (!lengthen_bin(run, bin, empty)) {
             return;
         }
-        if (empty) {
-            *word |= bit;
-            bin->first = block;
-        } else {
-            blocks[bin->last].next = block;
-        }
-        bin->last = block;
-        bin->last_count = 0;
+        *word |= bit;
     }
-    blocks[bin->last].triangle[bin->last_count++] = triangle;
+    run->geometry->blocks[bin->last].triangle[bin->last_count++] = triangle;
 }
 
-static void bin_triangle(JobRun *run, uint32_t index) {
+// Adds a triangle to the bins of all tiles that its pixel box touches, or to the bin of wide
+// triangles.
+static void bin_across_tiles(JobRun *run, uint32_t index) {
     const DipTriangle *triangle = &run->geometry->triangles[index];
     const DipTargetRegion *region = &run->geometry->tile_region;
     const size_t tiles_x = (size_t)run->geometry->tiles_x;
@@ -396,6 +405,28 @@ static void bin_triangle(JobRun *run, uint32_t index) {
             if (is_needed(run->geometry, y * tiles_x + x)) {
                 add_to_bin(run, index, y * tiles_x + x);
             }
+        }
+    }
+}
+
+// Sorts the triangles first..end - 1 into the bins. Most triangles of a dense mesh have their pixel
+// box in one tile. This tile is in the region, because set-up keeps no triangle outside it.
+static void bin_triangles(JobRun *run, uint32_t first, uint32_t end) {
+    const DipTriangle *triangles = run->geometry->triangles;
+    const DipTileRegion *parts = run->geometry->pass->tile_regions;
+    const unsigned tiles_x = (unsigned)run->geometry->tiles_x;
+    for (uint32_t index = first; index < end; index++) {
+        const DipTriangle *triangle = &triangles[index];
+        const unsigned x0 = (unsigned)triangle->x0;
+        const unsigned y0 = (unsigned)triangle->y0;
+        if (((x0 ^ (unsigned)triangle->x1) | (y0 ^ (unsigned)triangle->y1)) >= DIP_TILE) {
+            bin_across_tiles(run, index);
+            continue;
+        }
+        const size_t tile = y0 / DIP_TILE * tiles_x + x0 / DIP_TILE;
+        run->job.tile_triangles++;
+        if (!parts || parts[tile].x1) {
+            add_to_bin(run, index, tile);
         }
     }
 }
@@ -428,9 +459,7 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
     const size_t first_plane = (size_t)first * (size_t)geometry->plane_stride;
     const int count = run->kernels->dip_kernel_setup(
         &run->target, batch, geometry->triangles + first, geometry->planes + first_plane);
-    for (int i = 0; i < count; i++) {
-        bin_triangle(run, first + (uint32_t)i);
-    }
+    bin_triangles(run, first, first + (uint32_t)count);
     run->next_triangle += (uint32_t)count;
     run->job.triangles_drawn += (uint64_t)count;
 }
