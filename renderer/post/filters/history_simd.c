@@ -86,6 +86,9 @@ VEC_INLINE Place find_place(const DipHistoryRow *row, int x) {
     Vf dx = vf_splat(0.0f);
     Vf dy = vf_splat(0.0f);
     for (int i = 0; i < 9; i++) {
+        if (i == 4) { // the pixel itself
+            continue;
+        }
         const Vf other = vf_load(row->depths[i / 3] + x + i % 3 - 1);
         const Mask nearer = vf_lt(depth, other);
         depth = vf_select(nearer, other, depth);
@@ -102,13 +105,12 @@ VEC_INLINE Place find_place(const DipHistoryRow *row, int x) {
     const Vf inverse = 1.0f / w;
     const Vf from_x = ((before_x * inverse + 1.0f) * (0.5f * width) - 0.5f) - dx;
     const Vf from_y = ((1.0f - before_y * inverse) * (0.5f * height) - 0.5f) - dy;
-    const unsigned within = mask_bits(vf_lt(vf_splat(0.0f), w)) &
-                            mask_bits(vf_lt(vf_splat(-0.5f), from_x)) &
-                            mask_bits(vf_lt(vf_splat(-0.5f), from_y)) &
-                            mask_bits(vf_lt(from_x, vf_splat(width - 0.5f))) &
-                            mask_bits(vf_lt(from_y, vf_splat(height - 0.5f)));
+    const unsigned inside = row->begins ? 0 : lanes_within(row->width - x);
     Place place = {.exists =
-                       mask_from_bits(row->begins ? 0 : within & lanes_within(row->width - x))};
+                       (Mask)(mask_from_bits(inside) & vf_lt(vf_splat(0.0f), w) &
+                              vf_lt(vf_splat(-0.5f), from_x) & vf_lt(vf_splat(-0.5f), from_y) &
+                              vf_lt(from_x, vf_splat(width - 0.5f)) &
+                              vf_lt(from_y, vf_splat(height - 0.5f)))};
     const Vf valid_x = vf_select(place.exists, from_x, vf_splat(0.0f));
     const Vf valid_y = vf_select(place.exists, from_y, vf_splat(0.0f));
     const Vf floor_x = vf_floor(valid_x);
@@ -182,25 +184,24 @@ VEC_INLINE void read_four(const float *from, const Reach *reach, Lie lie, Vf val
 // Returns the past of the pixels.
 VEC_INLINE Colour sample_at(const DipHistoryRow *row, const Place *place, const Reach *reach,
                             Lie lie) {
-    const float scale = row->summed ? 1.0f / (float)row->summed : 1.0f;
     Colour past;
     Vf weights_x[4];
     Vf weights_y[4];
     weights_of(place->part_x, weights_x);
     weights_of(place->part_y, weights_y);
     for (int c = 0; c < 3; c++) {
-        Vf sum = vf_splat(0.0f);
+        Vf sum;
         for (int j = 0; j < 4; j++) {
             Vf values[4];
-            Vf line = vf_splat(0.0f);
             read_four(row->past[c] + (ptrdiff_t)(j - 2) * row->plane_stride - 2, reach, lie,
                       values);
-            for (int i = 0; i < 4; i++) {
+            Vf line = values[0] * weights_x[0];
+            for (int i = 1; i < 4; i++) {
                 line += values[i] * weights_x[i];
             }
-            sum += line * weights_y[j];
+            sum = j ? sum + line * weights_y[j] : line * weights_y[j];
         }
-        past.channel[c] = sum * scale;
+        past.channel[c] = sum * row->past_scale;
     }
     return past;
 }
@@ -226,6 +227,9 @@ VEC_INLINE void limit(const DipHistoryRow *row, int x, const Colour *centre, Col
         Vf sum = vf_splat(0.0f);
         Vf squares = vf_splat(0.0f);
         for (int i = 0; i < 9; i++) {
+            if (i == 4) { // the colour itself
+                continue;
+            }
             const Vf off = vf_load(row->colours[i / 3][c] + x + i % 3 - 1) - centre->channel[c];
             sum += off;
             squares += off * off;
