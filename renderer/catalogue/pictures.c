@@ -52,6 +52,19 @@ static DipRenderer *create_renderer(const StabilityRun *run, const StabilityShot
                                                                 : NULL;
 }
 
+// Draws the frames before the picture, and the picture.
+static bool draw_frames(const StabilityShot *shot, DipRenderer *renderer, DipScene *scene,
+                        DipFrame *frame, DipError *err) {
+    bool drawn = true;
+    for (int before = shot->frames_before; before >= 0 && drawn; before--) {
+        DipPose pose = *shot->pose;
+        pose.position_world[2] += 0.02 * before;
+        dip_renderer_set_frame_index(renderer, shot->frame_index - (uint64_t)before);
+        drawn = dip_renderer_draw(renderer, scene, &pose, shot->time_ns, frame, err);
+    }
+    return drawn;
+}
+
 bool stability_draw(StabilityRun *run, const StabilityShot *shot, StabilityPicture *picture) {
     DipError err = {0};
     if (!allocate(run, shot, picture)) {
@@ -62,8 +75,7 @@ bool stability_draw(StabilityRun *run, const StabilityShot *shot, StabilityPictu
     DipFrame frame;
     bool drawn = false;
     if (renderer) {
-        dip_renderer_set_frame_index(renderer, shot->frame_index);
-        drawn = dip_renderer_draw(renderer, scene, shot->pose, shot->time_ns, &frame, &err);
+        drawn = draw_frames(shot, renderer, scene, &frame, &err);
     }
     if (drawn) {
         stability_decode(&frame, picture);

@@ -16,6 +16,9 @@ typedef struct StabilityShot {
     int height;
     int64_t time_ns;
     uint64_t frame_index;
+    // Frames that are drawn before, at most frame_index. Each is taken from 2 cm farther back than
+    // the next, so that the picture has a past that moves.
+    int frames_before;
 } StabilityShot;
 
 // A picture in linear light, width * height * 3 values, top row first. Its owner frees rgb_lin.

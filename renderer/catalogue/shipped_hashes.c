@@ -6,15 +6,25 @@
 #include <stdio.h>
 #include <string.h>
 
-// Together, these settings use every step of sampling, filtering and effects.
+// Together, these settings use every step of sampling, filtering and effects, and every filter of
+// the finished picture. Their number and the step of a short run have no common divisor.
 static const char *const all_settings[] = {
     "aa=none,af=none",
     "aa=8,aaa=on,asd=2,af=16,aaf=on",
     "aa=6,taa=on,af=2,miplod=performance,opt=advanced",
     "aa=4,gi=off,mipdebug=on,opt=standard,af=8",
+    "aa=4,aaa=coverage,miplod=sharp,scale=1/1.5,upscale=easu,post=smaa,sharpen=high",
+    "aa=2,aaa=all,taa=history,miplod=sharper,scale=1.25,post=fxaa,sharpen=low",
+    "taa=history,af=4,scale=1/2,upscale=bicubic,sharpen=medium",
+    "aa=8,aaa=coverage,scale=2,post=smaa",
+    "aa=6,scale=1/1.3,upscale=bilinear,post=fxaa",
 };
 
+// Frames that a history has before the picture.
+enum { FRAMES_BEFORE = 3 };
+
 static bool draw_hash(StabilityRun *run, DipTestScene *scene, const char *settings, char hash[33]) {
+    const int before = strstr(settings, "taa=history") ? FRAMES_BEFORE : 0;
     const StabilityShot shot = {.def = &scene->def,
                                 .pose = &scene->pose,
                                 .reflection = scene->reflection.width ? &scene->reflection : NULL,
@@ -22,7 +32,8 @@ static bool draw_hash(StabilityRun *run, DipTestScene *scene, const char *settin
                                 .width = 97,
                                 .height = 61,
                                 .time_ns = INT64_C(123456789012),
-                                .frame_index = 1};
+                                .frame_index = 1 + (uint64_t)before,
+                                .frames_before = before};
     StabilityPicture picture;
     if (!stability_draw(run, &shot, &picture)) {
         return false;

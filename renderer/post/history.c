@@ -201,6 +201,7 @@ static void add_row(DipHistory *history, Worker *worker, int slot, int y) {
         .srgb_code = history->codes->code,
         .begins = picture->step == DIP_HISTORY_BEGIN,
         .summed = history->summed,
+        .past_scale = history->summed ? 1.0f / (float)history->summed : 1.0f,
         .alpha = history->alpha,
         .plane_stride = history->planes[0][0].stride,
     };

@@ -12,30 +12,32 @@
 #include "renderer/simd/vec.h"
 
 #if VEC_AVX512 || VEC_AVX2 || VEC_SSE2
-VEC_INLINE __m128i vec_load_quad(const uint32_t *pairs, int32_t index) {
-    return _mm_loadu_si128((const __m128i *)(const void *)(pairs + 2 * (size_t)(uint32_t)index));
+VEC_INLINE __m128i vec_load_quad(const uint32_t *base, size_t stride, int32_t index) {
+    return _mm_loadu_si128((const __m128i *)(const void *)(base + stride * (uint32_t)index));
 }
 #endif
 
-// Returns vector k of the quads that start at pairs[2 * index[lane]].
-VEC_INLINE Vu vu_load_quads(const uint32_t *pairs, const int32_t index[DIP_LANES], int k) {
+// Returns vector k of the quads that start at base[stride * index[lane]]. Indices are 0 or more.
+VEC_INLINE Vu vu_load_quads(const uint32_t *base, size_t stride, const int32_t index[DIP_LANES],
+                            int k) {
 #if VEC_AVX512
     const __m256i low =
-        _mm256_inserti128_si256(_mm256_castsi128_si256(vec_load_quad(pairs, index[k])),
-                                vec_load_quad(pairs, index[k + 4]), 1);
+        _mm256_inserti128_si256(_mm256_castsi128_si256(vec_load_quad(base, stride, index[k])),
+                                vec_load_quad(base, stride, index[k + 4]), 1);
     const __m256i high =
-        _mm256_inserti128_si256(_mm256_castsi128_si256(vec_load_quad(pairs, index[k + 8])),
-                                vec_load_quad(pairs, index[k + 12]), 1);
+        _mm256_inserti128_si256(_mm256_castsi128_si256(vec_load_quad(base, stride, index[k + 8])),
+                                vec_load_quad(base, stride, index[k + 12]), 1);
     return (Vu)_mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 #elif VEC_AVX2
-    return (Vu)_mm256_inserti128_si256(_mm256_castsi128_si256(vec_load_quad(pairs, index[k])),
-                                       vec_load_quad(pairs, index[k + 4]), 1);
+    return (Vu)_mm256_inserti128_si256(
+        _mm256_castsi128_si256(vec_load_quad(base, stride, index[k])),
+        vec_load_quad(base, stride, index[k + 4]), 1);
 #elif VEC_SSE2
-    return (Vu)vec_load_quad(pairs, index[k]);
+    return (Vu)vec_load_quad(base, stride, index[k]);
 #else
     Vu v;
     for (int i = 0; i < DIP_LANES; i++) {
-        v[i] = pairs[2 * (size_t)(uint32_t)index[i] + (size_t)k];
+        v[i] = base[stride * (uint32_t)index[i] + (size_t)k];
     }
     return v;
 #endif
@@ -60,6 +62,53 @@ VEC_INLINE Vu vu_quad_weights(Vu left, Vu right, int k) {
 #else
     const Vu column = k < 2 ? left : right;
     return k & 1 ? (column >> 16) | (column & 0xffff0000u) : (column & 0xffffu) | column << 16;
+#endif
+}
+
+#if VEC_AVX512 || VEC_AVX2 || VEC_SSE2
+// Returns the values of a and b in turn, from the lower or upper half of each 128-bit part.
+VEC_INLINE Vf vf_interleave(Vf a, Vf b, bool upper) {
+#if VEC_AVX512
+    const __m512 v = (__m512)a, w = (__m512)b;
+    return (Vf)(upper ? _mm512_unpackhi_ps(v, w) : _mm512_unpacklo_ps(v, w));
+#elif VEC_AVX2
+    const __m256 v = (__m256)a, w = (__m256)b;
+    return (Vf)(upper ? _mm256_unpackhi_ps(v, w) : _mm256_unpacklo_ps(v, w));
+#else
+    const __m128 v = (__m128)a, w = (__m128)b;
+    return (Vf)(upper ? _mm_unpackhi_ps(v, w) : _mm_unpacklo_ps(v, w));
+#endif
+}
+
+// Returns the lower or upper half of each 128-bit part of a, followed by that of b.
+VEC_INLINE Vf vf_join_halves(Vf a, Vf b, bool upper) {
+#if VEC_AVX512
+    const __m512 v = (__m512)a, w = (__m512)b;
+    return (Vf)(upper ? _mm512_shuffle_ps(v, w, 0xee) : _mm512_shuffle_ps(v, w, 0x44));
+#elif VEC_AVX2
+    const __m256 v = (__m256)a, w = (__m256)b;
+    return (Vf)(upper ? _mm256_shuffle_ps(v, w, 0xee) : _mm256_shuffle_ps(v, w, 0x44));
+#else
+    const __m128 v = (__m128)a, w = (__m128)b;
+    return (Vf)(upper ? _mm_shuffle_ps(v, w, 0xee) : _mm_shuffle_ps(v, w, 0x44));
+#endif
+}
+#endif
+
+// Takes quads of floats apart: values[i] gets the value i of every lane's quad, in the order of
+// lanes.
+VEC_INLINE void vf_split_quads(const Vu quads[4], Vf values[4]) {
+#if VEC_AVX512 || VEC_AVX2 || VEC_SSE2
+    for (int half = 0; half < 2; half++) {
+        const Vf ab = vf_interleave((Vf)quads[0], (Vf)quads[1], half);
+        const Vf cd = vf_interleave((Vf)quads[2], (Vf)quads[3], half);
+        values[2 * half] = vf_join_halves(ab, cd, false);
+        values[2 * half + 1] = vf_join_halves(ab, cd, true);
+    }
+#else
+    for (int i = 0; i < 4; i++) {
+        values[i] = (Vf)quads[i];
+    }
 #endif
 }
 

@@ -454,7 +454,7 @@ VEC_INLINE void add_read(LightSum *sum, const DipTexture *texture, const int32_t
     Vu blue[4];
     for (int k = 0; k < 4; k++) {
         red_green[k] = blue[k] = vu_splat(0);
-        add_texels(&red_green[k], &blue[k], vu_load_quads(texels, index, k),
+        add_texels(&red_green[k], &blue[k], vu_load_quads(texels, 2, index, k),
                    vu_quad_weights(weights->left, weights->right, k));
     }
     const Vu both = vu_quad_sum(red_green);

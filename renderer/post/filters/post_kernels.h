@@ -117,6 +117,7 @@ typedef struct DipHistoryRow {
     float to_before[12];        // DipHistoryPicture.to_before
     bool begins;                // the picture has no past
     int summed;                 // pictures whose sum the past is; 0: it is a picture
+    float past_scale;           // 1 / summed, or 1
     float alpha;                // share of the new picture
     const float *past[3];       // channels of pixel (0, 0) of the last result, in planes
     int plane_stride;

@@ -7,6 +7,8 @@
     study.py order OUT/*                               do green runs rank the steps alike?
     study.py advice OUT/*                              is the advice of green runs the best of all?
     study.py bench DIPTYCH OUT/quiet-1                 is the advice within its budget, measured anew?
+    study.py unseen DIPTYCH OUT [--count 300]          are combinations that were never timed predicted
+                                                       within 10 %, 90 % of them? Exits with 1 if not
     study.py p95 DIPTYCH OUT/quiet-*                   is p95 / mean that of many more rounds by bench?
 
 The truth of a ratio is the median over the other quiet runs: a run is never part of its own truth.
@@ -23,6 +25,7 @@ import subprocess
 import sys
 import tempfile
 
+SPACES = ("aa,taa,aaa,af,miplod", "aa,aaa,af,scale")  # those of docs/choosing.py
 BUDGETS = "4,8,16,33,5.3,6.7,9.1,11.9,14.2"
 
 
@@ -85,6 +88,29 @@ def coverage(options):
           "%.1f %%" % (held, total, 100 * held / total, 100 * statistics.median(halves)))
     levels = [read(folder)["rows"][0]["ms"] for folder in options.reports]
     print("milliseconds of the baseline: %s" % ", ".join("%.2f" % level for level in levels))
+
+
+def unseen(options):
+    """Counts, over the spaces of docs/choosing.py, how many predictions lie within 10 %."""
+    rows, held = 0, 0.0
+    for number, space in enumerate(SPACES):
+        report = pathlib.Path(options.out) / ("unseen-%d" % number)
+        there = report / "there.json"
+        subprocess.run([options.diptych, "cost", "--out", str(report), "--quick", "--combine", space,
+                        "--threads", "1", "--pictures", "none", *options.arguments],
+                       stdout=subprocess.DEVNULL, check=True)
+        subprocess.run([options.diptych, "cost", "predict", str(report), "--time", "6", "--check",
+                        str(options.count // len(SPACES)), "--json", str(there),
+                        *options.arguments],
+                       stdout=subprocess.DEVNULL, check=True)
+        misses = json.loads(there.read_text())["misses"]["checked"]
+        print("%s: %d combinations, median miss %.1f %%, 90 %% within %.1f %%, %.0f %% within 10 %%" %
+              (space, misses["rows"], 100 * misses["median"], 100 * misses["p90"],
+               100 * misses["within_10_percent"]), flush=True)
+        rows += misses["rows"]
+        held += misses["rows"] * misses["within_10_percent"]
+    print("%d combinations, %.1f %% within 10 %%" % (rows, 100 * held / rows))
+    sys.exit(held < 0.9 * rows)
 
 
 def verdicts(options):
@@ -253,6 +279,13 @@ def main():
     one.add_argument("--load", type=int, default=0)
     one.add_argument("arguments", nargs="*", help="further options of diptych cost, after --")
     one.set_defaults(run=repeat)
+    one = commands.add_parser("unseen")
+    one.add_argument("diptych")
+    one.add_argument("out")
+    one.add_argument("--count", type=int, default=300)
+    one.add_argument("arguments", nargs="*",
+                     help="further options of diptych cost and cost predict, after --")
+    one.set_defaults(run=unseen)
     for name, run in (("coverage", coverage), ("verdicts", verdicts), ("order", order),
                       ("advice", advice)):
         one = commands.add_parser(name)
