@@ -22,6 +22,7 @@ enum {
     DIP_SHADER_COUNT_OCCLUDED,
     DIP_SHADER_COUNT_EMITTING,
     DIP_SHADER_COUNT_COATED,
+    DIP_SHADER_COUNT_SURROUNDED, // by an environment
     DIP_SHADER_COUNT_SHADOWED, // fragments that read the shadow map
 };
 
