@@ -103,15 +103,17 @@ static bool read_material(DipPackReader *reader, uint64_t index, DipMaterialDef 
                             .double_sided = record.double_sided == 1,
                             .lit = record.lit == 1,
                             .opacity = record.opacity,
+                            .transmission = record.transmission,
                             .pbr = record.has_pbr == 1 ? &reader->pbrs[index] : NULL};
     memcpy(def->base_colour_lin, record.base_colour_lin, sizeof def->base_colour_lin);
     memcpy(def->specular_lin, record.specular_lin, sizeof def->specular_lin);
     const float *base = record.base_colour_lin;
     const bool numbers = within_unit(base[0]) && within_unit(base[1]) && within_unit(base[2]) &&
                          within_unit(record.roughness) && within_unit(record.alpha_cutoff) &&
-                         within_unit(record.opacity) && record.light_map_scale >= 0.0f &&
-                         isfinite(record.light_map_scale) && are_light(record.specular_lin) &&
-                         record.shininess >= 0.0f && record.shininess <= (float)DIP_MAX_SHININESS;
+                         within_unit(record.opacity) && within_unit(record.transmission) &&
+                         record.light_map_scale >= 0.0f && isfinite(record.light_map_scale) &&
+                         are_light(record.specular_lin) && record.shininess >= 0.0f &&
+                         record.shininess <= (float)DIP_MAX_SHININESS;
     const bool textures = is_texture(reader, record.colour_texture) &&
                           is_texture(reader, record.light_map) &&
                           is_texture(reader, record.normal_map);

@@ -69,7 +69,7 @@ static bool is_coated(const DipScene *scene, int object) {
 }
 
 static bool is_blended(const DipScene *scene, int object) {
-    return material_of(scene, object)->surface == DIP_SURFACE_BLENDED;
+    return material_of(scene, object)->blended;
 }
 
 static bool is_clouded(const DipScene *scene, int object) {

@@ -144,6 +144,7 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_sky:
         return mip_colours ? &steady : &sky;
     case DIP_TEST_SCENE_water:
+    case DIP_TEST_SCENE_clear_water:
         return mip_colours && narrow ? &narrow_mips : narrow ? &water_narrow : &steady;
     case DIP_TEST_SCENE_water_effects:
         return mip_colours ? &fence_mips : covers ? &mirrored_coverage : &mirrored_fence;
