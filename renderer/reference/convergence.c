@@ -35,8 +35,9 @@ struct DipConvergence {
 // The samples of a tile, pixel by pixel.
 typedef struct Samples {
     const DipConvergence *convergence;
-    const struct Samples *mirrored; // the mirrored samples; NULL if the tile has no reflecting water
-    double *x;                      // positions in the frame, in 1/256 pixel
+    const struct Samples
+        *mirrored; // the mirrored samples; NULL if the tile has no reflecting water
+    double *x;     // positions in the frame, in 1/256 pixel
     double *y;
     double *depths;
     // Depths of the nearest alpha-clipped triangles, even where alpha removes them.

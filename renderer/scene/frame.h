@@ -96,7 +96,7 @@ typedef struct DipEffects {
 // counter.
 typedef struct DipFrameTiles {
     const DipTileRecord *records; // across * down tiles, row by row; NULL if not recorded
-    const uint8_t *mixed; // DipTileRecording.mixed, width * height bytes
+    const uint8_t *mixed;         // DipTileRecording.mixed, width * height bytes
     int across;
     int down;
     // The work and the times of drawing the mirrored scene and the shadow map, with their geometry.

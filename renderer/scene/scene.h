@@ -25,7 +25,8 @@ typedef enum DipSurface {
     DIP_SURFACE_OPAQUE,
     DIP_SURFACE_CLIPPED, // alpha-clipped: cut away where the texture's alpha is below alpha_cutoff
     DIP_SURFACE_BLENDED, // drawn over what lies behind it, with the texture's alpha * opacity
-    DIP_SURFACE_WATER,   // reflects the scene, and lets `transmission` of the light from below through
+    DIP_SURFACE_WATER,   // reflects the scene, and lets `transmission` of the light from below
+                         // through
     DIP_SURFACE_SKY,
 } DipSurface;
 

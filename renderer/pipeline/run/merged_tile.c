@@ -42,6 +42,7 @@ static void shade_plain_draws(DipTileWorker *worker) {
     dip_tile_worker_shade_tile(worker);
     worker->shading_ns += dip_clock_ns() - begin_ns;
     worker->work->multi_fragment_pixels += (uint64_t)worker->shading.multi_fragment_count;
+    dip_tile_worker_record_mixed(worker);
     worker->shading.multi_fragment_count = 0;
     dip_merge_clear_ids(&worker->tile);
 }

@@ -216,8 +216,10 @@ static void begin_tile(DipTileWorker *worker, int index) {
     set_destination(worker);
 }
 
-// Records which pixels of the tile several fragments share.
-static void record_mixed(const DipTileWorker *worker) {
+void dip_tile_worker_record_mixed(const DipTileWorker *worker) {
+    if (!worker->pass->mixed) {
+        return;
+    }
     const DipTileShading *shading = &worker->shading;
     const size_t width = (size_t)worker->pass->pass->target.width;
     uint8_t *first =
@@ -238,9 +240,7 @@ void dip_plain_tile_end(DipTileWorker *worker, int64_t begin_ns) {
     work->stage_ns[DIP_TILE_STAGE_RASTER] += covered_ns - begin_ns;
     work->stage_ns[DIP_TILE_STAGE_SHADING] = shaded_ns - covered_ns;
     work->stage_ns[DIP_TILE_STAGE_RESOLVE] = dip_clock_ns() - shaded_ns;
-    if (pass->mixed) {
-        record_mixed(worker);
-    }
+    dip_tile_worker_record_mixed(worker);
 }
 
 // Covers, shades and resolves a tile of a pass that is not merged.

@@ -111,6 +111,9 @@ const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle);
 // Collects the fragments of all covered samples, and shades them.
 void dip_tile_worker_shade_tile(DipTileWorker *worker);
 
+// Records which pixels of the tile several fragments share, if tiles are recorded.
+void dip_tile_worker_record_mixed(const DipTileWorker *worker);
+
 // Shades and resolves a tile that is not merged and whose triangles have covered it since begin_ns.
 void dip_plain_tile_end(DipTileWorker *worker, int64_t begin_ns);
 
