@@ -201,6 +201,11 @@ int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX
 // ini that names it.
 static bool load_environment(DipSession *session, DipErrorList *faults) {
     const DipConfigFile *file = &session->config.environment;
+    const int line = session->config.line[DIP_KEY_ENVIRONMENT_BACKGROUND];
+    if (!file->path && session->config.environment_background && !session->options->model_count) {
+        return dip_session_refuse(faults, DIP_ERROR_MISSING, session->config.file, line,
+                                  "ENVIRONMENT_BACKGROUND", "there is no ENVIRONMENT to show");
+    }
     if (!file->path || session->options->model_count || session->environment) {
         return true;
     }

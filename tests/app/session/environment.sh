@@ -56,6 +56,8 @@ draw alone.txt --config plain.ini --json plain.json
 has '"environment": {"run": false, "why": "the scene has no environment"' plain.json
 has '"fragments_surrounded": 0' plain.json
 
+write_ini bad.ini 'ENVIRONMENT_BACKGROUND: true'
+refuse 'bad.ini:5: \[ENVIRONMENT_BACKGROUND\] there is no ENVIRONMENT' dump --config bad.ini --hash
 refuse_picture missing.hdr 'missing.hdr'
 refuse_picture square.hdr '64x64 pixels, accepted 2x1..4096x2048, twice as wide as high'
 refuse_picture short.hdr "ends"
