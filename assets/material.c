@@ -245,6 +245,8 @@ static void fill_material(DipModel *model, int file_index, const struct aiMesh *
     read_alpha(model, file, material, base_alpha, plan, def);
     if (plan->tag == DIP_TAG_WATER) {
         def->surface = DIP_SURFACE_WATER;
+        def->transmission = 1.0f - def->opacity;
+        def->opacity = 1.0f;
     } else if (plan->tag == DIP_TAG_SKY) {
         def->surface = DIP_SURFACE_SKY;
     }

@@ -126,6 +126,8 @@
         "centre")                                                                                  \
     KEY(ENVIRONMENT, environment, FILE, "", 0, 0,                                                  \
         "Radiance HDR picture (equirectangular) that metallic-roughness surfaces reflect")         \
+    KEY(ENVIRONMENT_BACKGROUND, environment_background, FLAG, "false", 0, 0,                       \
+        "show the environment behind the models, instead of a background and a ground")            \
     KEY(LOG, log, FILE, "", 0, 0, "file that receives a copy of all warnings and errors")          \
     KEY(SCENE, scene, NAME, "", 0, 0,                                                              \
         "scene of the gallery that is shown instead of the models, or `tour` (docs/gallery.md)")

@@ -4,6 +4,7 @@
 // the same bits on every machine.
 #include "app/session/ground.h"
 
+#include "app/session/added_surface.h"
 #include "renderer/scene/motion.h"
 
 #include <math.h>
@@ -388,21 +389,10 @@ static bool fill_shade(const Grid *grid, double size, uint8_t *rgba8) {
 
 // --- the scene with the ground -------------------------------------------------------------------
 
-// Returns a copy of an array with room for one more item.
-static void *longer(const void *items, int count, size_t item_bytes) {
-    void *copy = malloc(((size_t)count + 1) * item_bytes);
-    if (copy && count) {
-        memcpy(copy, items, (size_t)count * item_bytes);
-    }
-    return copy;
-}
-
 static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
 
-// Appends the ground's texture, material, mesh and object to the arrays of the scene, each of which
-// has room for one more item.
+// Adds the ground's square.
 static void add_square(DipGround *ground, const Grid *grid, double level) {
-    DipSceneDef *def = &ground->def;
     const double size = grid->cell * GRID;
     for (int i = 0; i < 4; i++) {
         const int right = i == 1 || i == 2;
@@ -413,53 +403,33 @@ static void add_square(DipGround *ground, const Grid *grid, double level) {
         ground->uv[i][0] = (float)right;
         ground->uv[i][1] = (float)front;
     }
-    ((DipTextureDef *)def->textures)[def->texture_count] =
-        (DipTextureDef){.name = "shade of the ground",
-                        .width = GRID,
-                        .height = GRID,
-                        .rgba8 = ground->shade_rgba8,
-                        .encoding = DIP_ENCODING_LINEAR,
-                        .wrap_u = DIP_WRAP_CLAMP,
-                        .wrap_v = DIP_WRAP_CLAMP};
-    DipMaterialDef material = {.name = "ground",
-                               .surface = DIP_SURFACE_OPAQUE,
-                               .colour_texture = def->texture_count,
-                               .light_map = DIP_NO_TEXTURE,
-                               .normal_map = DIP_NO_TEXTURE};
-    memcpy(material.base_colour_lin, def->background_lin, sizeof material.base_colour_lin);
-    ((DipMaterialDef *)def->materials)[def->material_count] = material;
-    ((DipMeshDef *)def->meshes)[def->mesh_count] = (DipMeshDef){.name = "ground",
-                                                                .vertex_count = 4,
-                                                                .positions = ground->positions[0],
-                                                                .uv0 = ground->uv[0],
-                                                                .index_count = 6,
-                                                                .indices = indices,
-                                                                .material = def->material_count};
-    ((DipObjectDef *)def->objects)[def->object_count] =
-        (DipObjectDef){.name = "ground",
-                       .mesh = def->mesh_count,
-                       .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
-    def->texture_count++;
-    def->material_count++;
-    def->mesh_count++;
-    def->object_count++;
+    dip_scene_def_add_surface(&ground->def,
+                              &(DipTextureDef){.name = "shade of the ground",
+                                               .width = GRID,
+                                               .height = GRID,
+                                               .rgba8 = ground->shade_rgba8,
+                                               .encoding = DIP_ENCODING_LINEAR,
+                                               .wrap_u = DIP_WRAP_CLAMP,
+                                               .wrap_v = DIP_WRAP_CLAMP},
+                              ground->def.background_lin,
+                              &(DipMeshDef){.name = "ground",
+                                            .vertex_count = 4,
+                                            .positions = ground->positions[0],
+                                            .uv0 = ground->uv[0],
+                                            .index_count = 6,
+                                            .indices = indices});
 }
 
 DipGround *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err) {
     DipGround *ground = calloc(1, sizeof *ground);
     Grid *grid = malloc(sizeof *grid);
-    if (ground) {
-        ground->def = *def;
-        ground->def.textures = longer(def->textures, def->texture_count, sizeof *def->textures);
-        ground->def.materials = longer(def->materials, def->material_count, sizeof *def->materials);
-        ground->def.meshes = longer(def->meshes, def->mesh_count, sizeof *def->meshes);
-        ground->def.objects = longer(def->objects, def->object_count, sizeof *def->objects);
+    bool made = ground && grid && dip_scene_def_begin_surface(def, &ground->def);
+    if (made) {
         ground->shade_rgba8 = malloc((size_t)4 * GRID * GRID);
+        made = ground->shade_rgba8 != NULL;
     }
     const double size = size_of(extent);
     const double half = 0.5 * width_of(extent) + 0.8 * size;
-    bool made = ground && grid && ground->def.textures && ground->def.materials &&
-                ground->def.meshes && ground->def.objects && ground->shade_rgba8;
     if (made) {
         *grid = (Grid){.low = {0.5 * (extent->low[0] + extent->high[0]) - half,
                                0.5 * (extent->low[2] + extent->high[2]) - half},
@@ -481,10 +451,7 @@ DipGround *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, Di
 
 void dip_ground_destroy(DipGround **ground) {
     if (*ground) {
-        free((void *)(*ground)->def.textures);
-        free((void *)(*ground)->def.materials);
-        free((void *)(*ground)->def.meshes);
-        free((void *)(*ground)->def.objects);
+        dip_scene_def_free_surface(&(*ground)->def);
         free((*ground)->shade_rgba8);
         free(*ground);
         *ground = NULL;

@@ -284,6 +284,7 @@ void dip_session_close(DipSession *session) {
     dip_session_free_animations(session);
     dip_scene_destroy(&session->scene);
     dip_ground_destroy(&session->ground);
+    dip_backdrop_destroy(&session->backdrop);
     dip_model_destroy(&session->model);
     free(session->environment);
     dip_pool_destroy(&session->pool);

@@ -7,6 +7,7 @@
 #define DIP_APP_SESSION_SESSION_H
 
 #include "app/gallery/gallery.h"
+#include "app/session/backdrop.h"
 #include "app/session/ground.h"
 #include "app/session/painter.h"
 #include "app/session/session_options.h"
@@ -96,10 +97,10 @@ typedef struct DipSession {
     bool force_all_effects;
     DipModel *model;                // NULL unless the session keeps it for the reference renderer.
     DipGround *ground;              // The ground below that model; NULL if it has none.
-    DipEnvironmentDef *environment; // What the models reflect, from the ini; NULL if the ini names
-                                    // none.
-    DipSceneDef scene_def; // The model's scene with its background and sky, and with the ground.
-                           // Points into `model`, `ground` and `environment`.
+    DipBackdrop *backdrop;          // The environment behind it; NULL if it is not shown.
+    DipEnvironmentDef *environment; // What the models reflect, from the ini; NULL if it has none.
+    DipSceneDef scene_def; // The model's scene with its background and sky, and with the ground or
+                           // the backdrop. Points into `model`, into these and `environment`.
     DipSessionAnimations animations;
     // The extent and the silhouette of the models, without the ground. The silhouette is known only
     // if the camera orbits the models.

@@ -201,6 +201,11 @@ int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX
 // ini that names it.
 static bool load_environment(DipSession *session, DipErrorList *faults) {
     const DipConfigFile *file = &session->config.environment;
+    const int line = session->config.line[DIP_KEY_ENVIRONMENT_BACKGROUND];
+    if (!file->path && session->config.environment_background && !session->options->model_count) {
+        return dip_session_refuse(faults, DIP_ERROR_MISSING, session->config.file, line,
+                                  "ENVIRONMENT_BACKGROUND", "there is no ENVIRONMENT to show");
+    }
     if (!file->path || session->options->model_count || session->environment) {
         return true;
     }
@@ -232,21 +237,39 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
     return model;
 }
 
-// Adds a ground to the scene if the models need one and --no-ground is not given. Fails only if
-// memory runs out.
-static bool add_ground(const DipSession *session, const DipExtent *extent, DipSceneDef *def,
-                       DipGround **ground, DipError *err) {
+// The surfaces that the program adds to the models.
+typedef struct Additions {
+    DipGround *ground;
+    DipBackdrop *backdrop;
+} Additions;
+
+static void destroy_additions(Additions *added) {
+    dip_ground_destroy(&added->ground);
+    dip_backdrop_destroy(&added->backdrop);
+}
+
+// Shows the environment behind the scene if this is wanted. Otherwise, adds a ground if the models
+// need one and it is wanted. Fails only if memory runs out.
+static bool add_surfaces(const DipSession *session, const DipExtent *extent, DipSceneDef *def,
+                         Additions *added, DipError *err) {
     const bool wanted =
         session->options->model_count ? !session->options->no_ground : session->config.ground;
-    *ground = NULL;
+    *added = (Additions){NULL, NULL};
+    if (def->environment && session->config.environment_background) {
+        added->backdrop = dip_backdrop_create(def, extent, err);
+        if (added->backdrop) {
+            *def = added->backdrop->def;
+        }
+        return added->backdrop != NULL;
+    }
     if (!wanted || !dip_ground_is_missing(def, extent)) {
         return true;
     }
-    *ground = dip_ground_create(def, extent, err);
-    if (*ground) {
-        *def = (*ground)->def;
+    added->ground = dip_ground_create(def, extent, err);
+    if (added->ground) {
+        *def = added->ground->def;
     }
-    return *ground != NULL;
+    return added->ground != NULL;
 }
 
 const char *dip_session_scene_file(const DipSession *session) {
@@ -269,9 +292,14 @@ bool dip_session_keep_model(DipSession *session, DipError *err) {
         DipErrorList warnings = {0}; // The first load has already reported these warnings.
         session->model = load_model(session, &warnings, &session->scene_def, err);
         dip_error_list_free(&warnings);
+        Additions added;
         if (session->model &&
-            !add_ground(session, &session->extent, &session->scene_def, &session->ground, err)) {
+            !add_surfaces(session, &session->extent, &session->scene_def, &added, err)) {
             dip_model_destroy(&session->model);
+        }
+        if (session->model) {
+            session->ground = added.ground;
+            session->backdrop = added.backdrop;
         }
     }
     return session->model != NULL;
@@ -280,7 +308,7 @@ bool dip_session_keep_model(DipSession *session, DipError *err) {
 bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults) {
     DipError err = {0};
     DipSceneDef def;
-    DipGround *ground = NULL;
+    Additions added = {NULL, NULL};
     if (!load_environment(session, faults)) {
         return false;
     }
@@ -291,17 +319,18 @@ bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *
             session->silhouette = dip_silhouette_of(&def, &session->extent);
         }
         session->scene = keep_animations(session, model, &err) &&
-                                 add_ground(session, &session->extent, &def, &ground, &err)
+                                 add_surfaces(session, &session->extent, &def, &added, &err)
                              ? dip_scene_create(&def, session->pool, &err)
                              : NULL;
         session->times.import_ms = dip_model_times(model).import_ms;
         session->times.pictures_ms = dip_model_times(model).pictures_ms;
         if (session->scene && keep_model) {
             session->model = model;
-            session->ground = ground;
+            session->ground = added.ground;
+            session->backdrop = added.backdrop;
             session->scene_def = def;
         } else {
-            dip_ground_destroy(&ground);
+            destroy_additions(&added);
             dip_model_destroy(&model);
         }
     }

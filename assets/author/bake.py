@@ -112,9 +112,10 @@ def picture_uvs(material, surface):
 
 
 def assemble(meshes, made):
-    """The baked meshes, each at one position, and all other objects, which only throw shadows."""
+    """The baked meshes, each at one position, and all other objects, which only throw shadows.
+    Meshes that have the light of another one are neither."""
     baked, others = Assembly(), Assembly()
-    for mesh in meshes:
+    for mesh in (m for m in meshes if not m.part.light_of):
         for material, surface in mesh.part.surfaces.items():
             if MATERIALS[material].surface == "sky":
                 continue

@@ -65,6 +65,8 @@ def lay_out(scene, side):
     ]
     charts = []  # (mesh, chart, low, extent, density)
     for mesh in meshes:
+        if mesh.part.light_of:
+            continue
         for chart, (low, high) in sorted(chart_boxes(mesh.part).items()):
             charts.append((mesh, chart, low, high - low, mesh.part.chart_density[chart]))
 
@@ -95,8 +97,9 @@ def lay_out(scene, side):
         rectangles[mesh.name, chart] = (origin, extent, size, place)
     for mesh in meshes:
         for material, surface in light_mapped(mesh.part):
+            owner = mesh.part.light_of or mesh.name
             mesh.light_uvs[material] = (np.array([
-                texel_of(uv, *rectangles[mesh.name, chart])
+                texel_of(uv, *rectangles[owner, chart])
                 for chart, uv in zip(surface.charts, surface.chart_uvs)
             ]) / side)
     return meshes

@@ -136,7 +136,9 @@ def add_fence(scene):
 
 def add_fountain(scene):
     scene.add(fountain.fountain())
-    scene.add(fountain.water())
+    water = fountain.water()
+    scene.add(water)
+    scene.add(fountain.pools(water))
     ball = fountain.post_ball()
     for k in range(8):
         a = np.radians(45.0 * k + 22.5)

@@ -1,8 +1,12 @@
 """The fountain: an octagonal basin and two bowls, each with its pool, under a finial."""
 import math
 
+import numpy as np
+
 from geometry import Part
 
+ABSORPTION_PER_M = np.array((1.9, 0.5, 0.65))  # of red, green and blue light, in the water
+WET = 0.62  # how much of its light wet stone keeps
 WATER_M = (0.66, 2.30, 3.33)  # levels of the pools; lowest: FOUNTAIN_WATER_LEVEL of the ini
 OCTAGON = dict(segments=8, start_deg=22.5, flat=True)
 
@@ -89,6 +93,52 @@ def water():
     part.disc("water", 2.745, WATER_M[0], 8, 22.5)
     part.disc("water", 1.39, WATER_M[1], 24)
     part.disc("water", 0.70, WATER_M[2], 16)
+    return part
+
+
+def light_on(water, pool, near, far):
+    """Returns spot(point) for Part.lit_as: the light on the water above a point, within the
+    distances near to far from the axis, where nothing covers the water."""
+    surface = water.surfaces["water"]
+    corners = [i for i, chart in enumerate(surface.charts) if chart == pool][:3]
+    places = np.array([surface.positions[i][:2] for i in corners])
+    uvs = np.array([surface.chart_uvs[i] for i in corners])
+    to_uv = np.linalg.solve(places[1:] - places[0], uvs[1:] - uvs[0])
+
+    def spot(point):
+        at = np.asarray(point, float)[:2]
+        radius = np.hypot(*at)
+        at = at * (min(max(radius, near), far) / radius)
+        return pool, tuple(uvs[0] + (at - places[0]) @ to_uv)
+
+    return spot
+
+
+def pools(water):
+    """What the water shows of the pools: their walls and floors below the surface. They have the
+    light of the water's surface; they are wet, and water above them takes away most of the red and
+    some blue."""
+    part = Part("pools", light_of="water")
+    low, middle, high = WATER_M
+    with part.lit_as(light_on(water, 0, 1.06, 2.62)):
+        part.lathe("pool", [(2.738, low), (2.735, 0.32)], **OCTAGON)
+        part.lathe("pool", [(2.735, 0.32), (1.8, 0.318), (0.94, 0.316)], **OCTAGON)
+        part.lathe("pool", [(0.953, 0.316), (0.953, low)], **OCTAGON)
+    with part.lit_as(light_on(water, 1, 0.46, 1.30)):
+        part.lathe("pool",
+                   [(1.388, middle), (1.33, 2.17), (1.16, 2.05), (0.84, 1.95), (0.33, 1.90)],
+                   32,
+                   smooth_deg=80.0)
+        part.lathe("pool", [(0.343, 1.90), (0.343, middle)], 16)
+    with part.lit_as(light_on(water, 2, 0.26, 0.62)):
+        part.lathe("pool", [(0.698, high), (0.62, 3.22), (0.42, 3.13), (0.16, 3.09)], 28,
+                   smooth_deg=80.0)
+        part.lathe("pool", [(0.172, 3.09), (0.172, high)], 12)
+    surface = part.surfaces["pool"]
+    levels = [next(level for level in WATER_M if z <= level + 1e-9)
+              for _, _, z in surface.positions]
+    depths = np.array(levels) - np.array(surface.positions)[:, 2]
+    surface.colours = [tuple(c) for c in WET * np.exp(-2.0 * depths[:, None] * ABSORPTION_PER_M)]
     return part
 
 

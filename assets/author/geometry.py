@@ -65,13 +65,16 @@ class Surface:
 
 class Part:
 
-    def __init__(self, name):
+    def __init__(self, name, light_of=None):
+        """light_of: the name of the part in whose charts this part's surfaces lie (lit_as)."""
         self.name = name
+        self.light_of = light_of
         self.surfaces = {}
         self.chart_density = []  # per chart; texels per metre, relative
         self._frame = np.eye(4)
         self._sheet = None
         self._density = 1.0
+        self._spot = None
 
     # ---- state that applies to the next faces
 
@@ -91,6 +94,14 @@ class Part:
         self._sheet = None
 
     @contextlib.contextmanager
+    def lit_as(self, spot):
+        """Faces made within the block have the light of another part: spot(point) returns the
+        chart of that part and the coordinates in it."""
+        self._spot = spot
+        yield
+        self._spot = None
+
+    @contextlib.contextmanager
     def density(self, factor):
         before, self._density = self._density, self._density * factor
         yield
@@ -107,7 +118,10 @@ class Part:
         """A convex polygon."""
         surface = self.surfaces.setdefault(material, Surface())
         first = len(surface.positions)
-        for p, n, uv, chart_uv in zip(points, normals, uvs, chart_uvs):
+        spots = [(chart, uv) for uv in chart_uvs]
+        if self._spot:
+            spots = [self._spot(p) for p in points]
+        for p, n, uv, (chart, chart_uv) in zip(points, normals, uvs, spots):
             surface.positions.append(
                 tuple(self._frame[:3, :3] @ np.asarray(p, float) + self._frame[:3, 3]))
             surface.normals.append(tuple(unit(self._frame[:3, :3] @ np.asarray(n, float))))

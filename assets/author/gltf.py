@@ -73,6 +73,8 @@ class Writer:
         shading = {"metallicFactor": 0, "roughnessFactor": source.roughness}
         if source.colour_lin != (1.0, 1.0, 1.0):
             shading["baseColorFactor"] = [*source.colour_lin, 1.0]
+        if source.opacity < 1.0:
+            shading["baseColorFactor"] = [*source.colour_lin, source.opacity]
         value = {"name": name, "pbrMetallicRoughness": shading}
         if source.picture:
             shading["baseColorTexture"] = {"index": self.texture(source.picture, source.clamp_v)}
@@ -86,6 +88,8 @@ class Writer:
             }
         if source.surface == "mask":
             value.update(alphaMode="MASK", alphaCutoff=0.5)
+        elif source.opacity < 1.0:
+            value["alphaMode"] = "BLEND"
         if source.double_sided:
             value["doubleSided"] = True
         return self.once("materials", name, value)

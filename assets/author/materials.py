@@ -20,6 +20,7 @@ class Material:
     lightmapped: bool = True
     double_sided: bool = False
     density: float = 1.0  # texels of the light map per metre, relative to other materials
+    opacity: float = 1.0  # below 1: the surface is blended
     clamp_v: bool = False
 
 
@@ -43,7 +44,9 @@ MATERIALS = {
     "bronze": Material(colour_lin=(0.16, 0.10, 0.04), roughness=0.35, density=0.4),
     "lamp": Material(colour_lin=(0.80, 0.62, 0.34), roughness=0.3, density=0.4),
     "glass": Material((0.5, 1.7), "glass.jpg", roughness=0.08, surface="glass", density=0.6),
-    "water": Material((1.6, 1.6), "water.jpg", True, roughness=0.05, surface="water"),
+    "water": Material((1.6, 1.6), "water.jpg", True, roughness=0.05, surface="water",
+                      opacity=0.3),
+    "pool": Material((1.0, 1.0), "carved.jpg", roughness=0.4),
     "fence": Material((2.0, 2.0), "fence.png", roughness=0.4, surface="mask", lightmapped=False,
                       double_sided=True, clamp_v=True),
     "leaf": Material((1.0, 1.0), "leaf.png", roughness=0.6, surface="mask", lightmapped=False,

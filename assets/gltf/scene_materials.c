@@ -243,6 +243,8 @@ static void read_surface(Maker *maker) {
     }
     if (maker->plan.tag == DIP_TAG_WATER) {
         def->surface = DIP_SURFACE_WATER;
+        def->transmission = 1.0f - def->opacity;
+        def->opacity = 1.0f;
     } else if (maker->plan.tag == DIP_TAG_SKY) {
         def->surface = DIP_SURFACE_SKY;
     }

@@ -109,7 +109,7 @@ typedef struct PackMaterial {
     float opacity;
     uint32_t has_pbr; // 0: the material has no DipPbrDef, and `pbr` is ignored
     PackPbr pbr;
-    uint32_t unused;
+    float transmission;
 } PackMaterial;
 
 typedef struct PackMesh {

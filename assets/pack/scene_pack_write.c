@@ -139,6 +139,7 @@ static bool add_materials(Writer *writer, const DipSceneDef *scene) {
                                     .double_sided = def->double_sided,
                                     .lit = def->lit,
                                     .opacity = def->opacity,
+                                    .transmission = def->transmission,
                                     .has_pbr = def->pbr != NULL};
         if (def->pbr) {
             records[i].pbr = pbr_of(def->pbr);

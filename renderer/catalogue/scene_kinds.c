@@ -498,6 +498,15 @@ static void make_water(DipTestScene *scene) {
     scene->pose.orientation[3] = dip_cos(-0.22);
 }
 
+static void make_clear_water(DipTestScene *scene) {
+    make_water(scene);
+    for (int i = 0; i < scene->def.material_count; i++) {
+        if (scene->materials[i].surface == DIP_SURFACE_WATER) {
+            scene->materials[i].transmission = scene->materials[i].double_sided ? 1.0f : 0.7f;
+        }
+    }
+}
+
 static void make_water_effects(DipTestScene *scene) {
     dip_test_scene_begin(scene);
     const int colour = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 64, 64);

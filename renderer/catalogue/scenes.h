@@ -30,7 +30,8 @@
     X(water, "pools at two heights that reflect what stands in and around them")                   \
     X(water_effects, "a pool that mirrors clouds, a fence and a bumpy wall: all effects together") \
     X(metal_gloss, "metallic-roughness surfaces with all maps, a clear coat and both sides")       \
-    X(blending, "blended panes and a ball, single- and double-sided, mirrored by a pool")
+    X(blending, "blended panes and a ball, single- and double-sided, mirrored by a pool")          \
+    X(clear_water, "the pools of `water`, whose floors are seen through it")
 
 typedef enum DipTestSceneKind {
 #define DIP_TEST_SCENE_ENUM(name, text) DIP_TEST_SCENE_##name,

@@ -83,8 +83,8 @@ typedef struct DipTileRecord {
 typedef struct DipTileRecording {
     DipTileRecord *tiles; // one per tile (DIP_TARGET_TILE) of the target, row by row
     // One byte per pixel of the target, rows packed: 1 if the pixel's samples show more than one
-    // fragment. The sum of a tile is its counter `pixels_resolved`. Merged passes (state.h) leave
-    // all bytes 0. NULL: not recorded.
+    // fragment of plain draws. The sum of a tile is its counter `pixels_resolved`, or less if plain
+    // draws follow ordered ones (state.h) in it. NULL: not recorded.
     uint8_t *mixed;
 } DipTileRecording;
 

@@ -101,6 +101,7 @@ bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *
 static void begin_merge(DipPipeline *pipeline, const DipPass *pass) {
     DipTilePass *tile_pass = &pipeline->tile_pass;
     tile_pass->merged = dip_pass_is_merged(pass);
+    tile_pass->merges_all = dip_pass_merges_all_tiles(pass);
     if (tile_pass->merged) {
         for (int d = 0; d < pass->draw_count; d++) {
             pipeline->is_ordered[d] = dip_state_is_ordered(pass->draws[d].state);
@@ -277,10 +278,10 @@ typedef struct Batch {
 } Batch;
 
 // Whether other passes may copy a pass's pixels, or this pass those of others. The colours of a
-// merged pass and of a readback do not go to pixels, and records tell the work of a pass alone.
+// merged tile and of a readback do not go to pixels, and records tell the work of a pass alone.
 static bool may_share(const DipPassWork *work) {
     const DipTilePass *tile_pass = &work->pipeline->tile_pass;
-    return !tile_pass->merged && !work->pass->readback && !work->pipeline->recording.tiles;
+    return !tile_pass->merges_all && !work->pass->readback && !work->pipeline->recording.tiles;
 }
 
 static bool has_own_shading(const DipPass *pass) {

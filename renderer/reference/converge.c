@@ -116,6 +116,20 @@ static void draw_triangles(Converging *c, bool blended) {
 
 static void find_colour(const Converging *c, size_t pixel, double rgb[3]);
 
+// Shades the surface at a place of the plane's sample in a pixel. rgba[3] is the share of what lies
+// behind that it covers.
+static void shade_surface(const Converging *c, size_t pixel, const DipRefPosition *place,
+                          double rgba[4]) {
+    dip_reference_shade(place, NULL, rgba);
+    rgba[3] = dip_reference_opacity(place, NULL);
+    if (c->mirrored && place->triangle->water) {
+        double mirrored[3];
+        find_colour(c->mirrored, pixel, mirrored);
+        dip_reference_blend_water(c->reference, c->pose, c->width, c->height, place, mirrored,
+                                  rgba);
+    }
+}
+
 // Computes the colour of the plane's sample in a pixel, without blended surfaces.
 static void shade(const Converging *c, size_t pixel, double rgb[3]) {
     const int32_t index = c->plane.triangles[pixel];
@@ -127,13 +141,9 @@ static void shade(const Converging *c, size_t pixel, double rgb[3]) {
     }
     const DipRefPosition place =
         place_at(&c->triangles.items[index], c->plane.x[pixel], c->plane.y[pixel]);
-    dip_reference_shade(&place, NULL, rgb);
-    if (c->mirrored && place.triangle->material->surface == DIP_SURFACE_WATER) {
-        double mirrored[3];
-        find_colour(c->mirrored, pixel, mirrored);
-        dip_reference_blend_water(c->reference, c->pose, c->width, c->height, &place, mirrored,
-                                  rgb);
-    }
+    double rgba[4];
+    shade_surface(c, pixel, &place, rgba);
+    memcpy(rgb, rgba, 3 * sizeof *rgb);
 }
 
 // Returns the colour of the plane's sample in a pixel with its blended surfaces.
@@ -153,7 +163,9 @@ static bool blend_next(Converging *c) {
         if (peel->next != NOTHING) {
             const DipRefPosition place =
                 place_at(&c->triangles.items[peel->next], c->plane.x[pixel], c->plane.y[pixel]);
-            dip_reference_peel_blend(peel, &place);
+            double rgba[4];
+            shade_surface(c, pixel, &place, rgba);
+            dip_reference_peel_blend(peel, rgba);
             any = true;
         }
     }

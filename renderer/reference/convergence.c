@@ -35,8 +35,9 @@ struct DipConvergence {
 // The samples of a tile, pixel by pixel.
 typedef struct Samples {
     const DipConvergence *convergence;
-    const struct Samples *mirrored; // the mirrored samples; NULL if no reflecting water is visible
-    double *x;                      // positions in the frame, in 1/256 pixel
+    const struct Samples
+        *mirrored; // the mirrored samples; NULL if the tile has no reflecting water
+    double *x;     // positions in the frame, in 1/256 pixel
     double *y;
     double *depths;
     // Depths of the nearest alpha-clipped triangles, even where alpha removes them.
@@ -316,13 +317,29 @@ static DipRefPosition place_on(const DipRefTriangle *triangle, double x, double 
     return place;
 }
 
+// Whether a sample sees water, whose blended surfaces have been drawn.
 static bool shows_water(const Samples *samples, size_t i) {
     const int32_t seen = samples->triangles[i];
-    const DipRefTriangle *triangles = samples->convergence->triangles.items;
-    return seen != NOTHING && triangles[seen].material->surface == DIP_SURFACE_WATER;
+    return (seen != NOTHING && samples->convergence->triangles.items[seen].water) ||
+           (samples->peels && samples->peels[i].water);
 }
 
 static void find_colour(const Samples *samples, size_t i, double rgb[3]);
+
+// Shades the surface at a place of sample i. rgba[3] is the share of what lies behind that it
+// covers.
+static void shade_surface(const Samples *samples, size_t i, const DipRefPosition *place,
+                          double rgba[4]) {
+    const DipConvergence *c = samples->convergence;
+    dip_reference_shade(place, NULL, rgba);
+    rgba[3] = dip_reference_opacity(place, NULL);
+    if (samples->mirrored && place->triangle->water) {
+        double mirrored[3];
+        find_colour(samples->mirrored, i, mirrored);
+        dip_reference_blend_water(c->reference, &c->pose, c->width, c->height, place, mirrored,
+                                  rgba);
+    }
+}
 
 // Shades what is not blended.
 static void shade_sample(const Samples *samples, size_t i, double rgb[3]) {
@@ -335,13 +352,9 @@ static void shade_sample(const Samples *samples, size_t i, double rgb[3]) {
     }
     const DipRefPosition place =
         place_on(&c->triangles.items[samples->triangles[i]], samples->x[i], samples->y[i]);
-    dip_reference_shade(&place, NULL, rgb);
-    if (samples->mirrored && shows_water(samples, i)) {
-        double mirrored[3];
-        find_colour(samples->mirrored, i, mirrored);
-        dip_reference_blend_water(c->reference, &c->pose, c->width, c->height, &place, mirrored,
-                                  rgb);
-    }
+    double rgba[4];
+    shade_surface(samples, i, &place, rgba);
+    memcpy(rgb, rgba, 3 * sizeof *rgb);
 }
 
 // Returns the colour of a sample with its blended surfaces.
@@ -379,9 +392,12 @@ static bool blend_next(Samples *samples, size_t i) {
     if (peel->next == NOTHING) {
         return false;
     }
-    const DipRefPosition place =
-        place_on(&samples->convergence->triangles.items[peel->next], samples->x[i], samples->y[i]);
-    dip_reference_peel_blend(peel, &place);
+    const DipRefTriangle *triangle = &samples->convergence->triangles.items[peel->next];
+    const DipRefPosition place = place_on(triangle, samples->x[i], samples->y[i]);
+    double rgba[4];
+    shade_surface(samples, i, &place, rgba);
+    dip_reference_peel_blend(peel, rgba);
+    peel->water = peel->water || triangle->water;
     return true;
 }
 
@@ -459,18 +475,12 @@ static DipSeen classify(const Samples *samples, size_t first) {
                                                                               : DIP_SEEN_PLAIN;
 }
 
-static bool any_water(const Samples *samples) {
-    for (int y = samples->y0; y < samples->y1; y++) {
-        for (int x = samples->x0; x < samples->x1; x++) {
-            const size_t first = first_of(samples, x, y);
-            for (size_t i = first; i < first + (size_t)samples->per_pixel; i++) {
-                if (shows_water(samples, i)) {
-                    return true;
-                }
-            }
-        }
+static bool has_water(const DipConvergence *c, int tile) {
+    bool any = false;
+    for (size_t k = c->bins.first[tile]; !any && k < c->bins.first[tile + 1]; k++) {
+        any = c->triangles.items[c->bins.items[k]].water;
     }
-    return false;
+    return any;
 }
 
 // Places the samples of a tile and finds the triangle that each of them shows.
@@ -495,7 +505,7 @@ bool dip_convergence_add_tile(const DipConvergence *convergence, int tile, int s
         return false;
     }
     bool drawn = draw_samples(convergence, tile, sample_count, side, seed, &samples);
-    if (drawn && convergence->mirrored && any_water(&samples)) {
+    if (drawn && convergence->mirrored && has_water(convergence, tile)) {
         drawn = draw_samples(convergence->mirrored, tile, sample_count, side, seed, &mirrored);
         samples.mirrored = &mirrored;
     }

@@ -247,20 +247,21 @@ static void draw_triangles(Drawing *drawing) {
 }
 
 // Shades a surface at the samples in mask, which belong to one pixel or to one sample group of a
-// pixel.
+// pixel. rgba[3] is the share of what lies behind that the surface covers.
 static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigned mask,
-                  double colour[3]) {
+                  double rgba[4]) {
     const DipRefTriangle *triangle = &drawing->triangles.items[surface];
     const DipRefPosition place = has_groups(drawing, triangle)
                                      ? place_of_pass(drawing, triangle, x, y, mask)
                                      : place_to_shade(drawing, triangle, x, y, mask);
-    dip_reference_shade(&place, filter_of(drawing, triangle), colour);
-    if (drawing->mirrored && triangle->material->surface == DIP_SURFACE_WATER) {
+    dip_reference_shade(&place, filter_of(drawing, triangle), rgba);
+    rgba[3] = dip_reference_opacity(&place, filter_of(drawing, triangle));
+    if (drawing->mirrored && triangle->water) {
         double mirrored[3];
         dip_reference_read_mirrored(drawing->mirrored, drawing->mirrored_size, drawing->width,
                                     drawing->height, &place, mirrored);
         dip_reference_blend_water(drawing->reference, drawing->shot.pose, drawing->width,
-                                  drawing->height, &place, mirrored, colour);
+                                  drawing->height, &place, mirrored, rgba);
     }
 }
 
@@ -316,10 +317,7 @@ static void blend_sample(const Drawing *drawing, int x, int y, int s, double rgb
     Layer *layer = next_layer(drawing, x, y, s, behind, last, &depth);
     while (layer) {
         if (!layer->shaded) {
-            const DipRefPosition place = place_to_shade(
-                drawing, &drawing->triangles.items[layer->triangle], x, y, layer->mask);
-            dip_reference_shade(&place, &drawing->filter, layer->rgba);
-            layer->rgba[3] = dip_reference_opacity(&place, &drawing->filter);
+            shade(drawing, layer->triangle, x, y, layer->mask, layer->rgba);
             layer->shaded = true;
         }
         for (int c = 0; c < 3; c++) {
@@ -364,7 +362,7 @@ static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
         }
         const unsigned mask = shaded_with(drawing, surfaces, s);
         done |= mask;
-        double colour[3];
+        double colour[4];
         if (surfaces[s] == NOTHING) {
             for (int c = 0; c < 3; c++) {
                 colour[c] = drawing->reference->def->background_lin[c];
@@ -407,15 +405,6 @@ static bool make_layers(Drawing *drawing, DipError *err) {
         return drawing->layers.first || out_of_layers(err);
     }
     return true;
-}
-
-static bool sees_water(const Drawing *drawing) {
-    for (size_t t = 0; t < drawing->triangles.count; t++) {
-        if (drawing->triangles.items[t].material->surface == DIP_SURFACE_WATER) {
-            return true;
-        }
-    }
-    return false;
 }
 
 // Draws the picture of a shot (a view that is drawn to one picture). The caller must have built the
@@ -494,7 +483,7 @@ static bool draw_picture(const DipReference *reference, const DipQuality *qualit
     set_filters(&drawing, &filter);
     bool drawn = dip_reference_build_triangles(reference, &drawing.shot, &drawing.triangles, err);
     double *mirrored = NULL;
-    if (drawn && dip_reference_reflects(reference, pose) && sees_water(&drawing)) {
+    if (drawn && dip_reference_reflects(reference, pose) && drawing.triangles.has_water) {
         mirrored = draw_mirrored(&drawing, err);
         drawing.mirrored = mirrored;
         drawn = mirrored != NULL;

@@ -243,6 +243,7 @@ static bool append(DipRefTriangles *triangles, const DipRefTriangle *triangle) {
     }
     triangles->items[triangles->count++] = *triangle;
     triangles->has_blended = triangles->has_blended || triangle->blended;
+    triangles->has_water = triangles->has_water || triangle->water;
     return true;
 }
 
@@ -411,7 +412,9 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
                                .fragments = phong || like.normal_map};
     }
     like.clipped = material->surface == DIP_SURFACE_CLIPPED && like.colour;
-    like.blended = material->surface == DIP_SURFACE_BLENDED;
+    like.water = material->surface == DIP_SURFACE_WATER;
+    like.blended =
+        material->surface == DIP_SURFACE_BLENDED || (like.water && material->transmission > 0.0f);
     describe_pbr(reference, mesh, &like);
     find_repeats(&like);
     return like;

@@ -19,12 +19,9 @@ void dip_reference_peel_offer(DipRefPeel *peel, double depth, int32_t triangle) 
     }
 }
 
-void dip_reference_peel_blend(DipRefPeel *peel, const DipRefPosition *place) {
-    double rgb[3];
-    dip_reference_shade(place, NULL, rgb);
-    const double opacity = dip_reference_opacity(place, NULL);
+void dip_reference_peel_blend(DipRefPeel *peel, const double rgba[4]) {
     for (int c = 0; c < 3; c++) {
-        peel->rgb[c] = opacity * rgb[c] + (1.0 - opacity) * peel->rgb[c];
+        peel->rgb[c] = rgba[3] * rgba[c] + (1.0 - rgba[3]) * peel->rgb[c];
     }
     peel->depth = peel->next_depth;
     peel->last = peel->next;

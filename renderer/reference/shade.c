@@ -76,8 +76,15 @@ double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter
 }
 
 double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *filter) {
-    const double alpha = place->triangle->colour ? dip_reference_alpha(place, filter) : 1.0;
-    return alpha * place->triangle->material->opacity;
+    const DipRefTriangle *triangle = place->triangle;
+    if (!triangle->blended) {
+        return 1.0;
+    }
+    if (triangle->water) {
+        return 1.0 - (double)triangle->material->transmission;
+    }
+    return (triangle->colour ? dip_reference_alpha(place, filter) : 1.0) *
+           triangle->material->opacity;
 }
 
 void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filter,

@@ -44,16 +44,20 @@ static double schlick(double cos_in) {
 
 void dip_reference_blend_water(const DipReference *reference, const DipPose *pose, int width,
                                int height, const DipRefPosition *place, const double mirrored[3],
-                               double rgb[3]) {
+                               double rgba[4]) {
     const double down = -look_up(pose, width, height, place);
     if (down <= 0.0) {
         return;
     }
     const double cos_in = fmin(down, 1.0);
     const double share = reference->reflection.schlick ? schlick(cos_in) : reflectance(cos_in);
+    // The water reflects `share` of the light from above, and lets the rest of the light from below
+    // through as far as its own colour does not cover it.
+    const double covered = share + (1.0 - share) * rgba[3];
     for (int c = 0; c < 3; c++) {
-        rgb[c] += (mirrored[c] - rgb[c]) * share;
+        rgba[c] += (mirrored[c] - rgba[c]) * share / covered;
     }
+    rgba[3] = covered;
 }
 
 void dip_reference_read_mirrored(const double *mirrored, const int size[2], int width, int height,

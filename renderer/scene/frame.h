@@ -25,6 +25,7 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(fragments_occluded, "fragments of such surfaces with an occlusion map")                      \
     X(fragments_emitting, "fragments of such surfaces that send out light")                        \
     X(fragments_coated, "fragments of such surfaces with a clear coat")                            \
+    X(fragments_surrounded, "fragments of such surfaces that see an environment")                  \
     X(fragments_blended, "fragments of blended surfaces")                                          \
     X(fragments_shadowed, "fragments that read the shadow map")                                    \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
@@ -70,6 +71,7 @@ typedef struct DipCounters {
     X(occlusion, "occlusion maps")                                                                 \
     X(emission, "emission")                                                                        \
     X(coat, "clear coats")                                                                         \
+    X(environment, "environment")                                                                  \
     X(blend, "blending")                                                                           \
     X(sky, "clouds")                                                                               \
     X(history, "history")                                                                          \
@@ -94,7 +96,7 @@ typedef struct DipEffects {
 // counter.
 typedef struct DipFrameTiles {
     const DipTileRecord *records; // across * down tiles, row by row; NULL if not recorded
-    const uint8_t *mixed; // DipTileRecording.mixed, width * height bytes; all 0 if the frame blends
+    const uint8_t *mixed;         // DipTileRecording.mixed, width * height bytes
     int across;
     int down;
     // The work and the times of drawing the mirrored scene and the shadow map, with their geometry.

@@ -97,9 +97,9 @@ static void mark_used_textures(const DipScene *scene, bool *used, bool *alpha) {
                 used[textures[k]] = true;
             }
         }
-        const bool cut =
+        const bool has_alpha =
             material->surface == DIP_SURFACE_CLIPPED || material->surface == DIP_SURFACE_BLENDED;
-        if (cut && material->colour_texture != DIP_NO_TEXTURE) {
+        if (has_alpha && material->colour_texture != DIP_NO_TEXTURE) {
             alpha[material->colour_texture] = true;
         }
     }
@@ -228,7 +228,7 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
         const DipSceneMaterial *material = &scene->materials[scene->meshes[object->mesh].material];
         scene->has_caster |=
             material->casts && dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
-        if (material->surface == DIP_SURFACE_BLENDED) {
+        if (material->blended) {
             scene->blended_count++;
             scene->blended_two_sided += material->double_sided;
         }
@@ -325,6 +325,7 @@ static void copy_materials(const DipSceneDef *def, DipScene *scene) {
         const DipMaterialDef *material = &def->materials[i];
         scene->materials[i] = (DipSceneMaterial){
             .surface = material->surface,
+            .blended = dip_material_is_blended(material),
             .colour_texture = material->colour_texture,
             .light_map = material->light_map,
             .normal_map =

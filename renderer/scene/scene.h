@@ -25,7 +25,8 @@ typedef enum DipSurface {
     DIP_SURFACE_OPAQUE,
     DIP_SURFACE_CLIPPED, // alpha-clipped: cut away where the texture's alpha is below alpha_cutoff
     DIP_SURFACE_BLENDED, // drawn over what lies behind it, with the texture's alpha * opacity
-    DIP_SURFACE_WATER,
+    DIP_SURFACE_WATER,   // reflects the scene, and lets `transmission` of the light from below
+                         // through
     DIP_SURFACE_SKY,
 } DipSurface;
 
@@ -80,6 +81,10 @@ typedef struct DipMaterialDef {
     bool double_sided;     // false: visible only where the winding is counter-clockwise
     bool lit;      // true: without a light map, the scene's lights or the fixed light fall on it
     float opacity; // 0..1, for DIP_SURFACE_BLENDED
+    // 0..1, for DIP_SURFACE_WATER: the share of the light from below that the water lets through,
+    // as far as the surface does not reflect it. Water of more than 0 is drawn over what lies
+    // behind it, as blended surfaces are.
+    float transmission;
     const DipPbrDef *pbr; // NULL: the surface reflects nothing but the highlights described above
 } DipMaterialDef;
 

@@ -61,6 +61,7 @@ static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef
     assert_int_equal(one->double_sided, other->double_sided);
     assert_int_equal(one->lit, other->lit);
     assert_memory_equal(&one->opacity, &other->opacity, sizeof(float));
+    assert_memory_equal(&one->transmission, &other->transmission, sizeof(float));
     assert_same_pbr(one->pbr, other->pbr);
 }
 
@@ -174,6 +175,7 @@ static void check_material(const DipMaterialDef *material, int texture_count) {
     assert_in_unit(material->alpha_cutoff);
     assert_true(isfinite(material->light_map_scale));
     assert_in_unit(material->opacity);
+    assert_in_unit(material->transmission);
     if (material->pbr) {
         check_pbr(material->pbr, texture_count);
     }

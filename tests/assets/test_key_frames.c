@@ -1,10 +1,9 @@
 // Tests that the key frames of MD2 models play in scenes. assimp, another reader, reads the frames
 // one by one; between them, positions and normals are blended here in double precision.
 #include "assets/model.h"
-#include "renderer/reference/reference.h"
 #include "renderer/scene/motion.h"
-#include "renderer/scene/renderer.h"
 #include "tests/assets/fixture.h"
+#include "tests/assets/stage.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -28,8 +27,6 @@ static const struct {
     int count;
 } clips[] = {{"stand", 0, 10}, {"walk", 10, 12}, {"wave", 22, 12}};
 enum { CLIPS = sizeof clips / sizeof *clips };
-
-enum { WIDTH = 120, HEIGHT = 90, PICTURE_BYTES = WIDTH * HEIGHT * 4 };
 
 static const DipPose pose = {
     .position_world = {0.0, 0.0, 90.0}, .orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 45.0};
@@ -237,93 +234,34 @@ static void flat_shading_plays_too(void **state) {
 
 // --- pictures ------------------------------------------------------------------------------------
 
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
-static Stage open_stage(const DipSceneDef *def, int threads) {
-    Stage stage = {.pool = dip_pool_create(threads, NULL)};
-    stage.scene = dip_scene_create(def, stage.pool, NULL);
-    DipRendererDef renderer = dip_renderer_default_def();
-    renderer.pool = stage.pool;
-    renderer.width = WIDTH;
-    renderer.height = HEIGHT;
-    stage.renderer = dip_renderer_create(&renderer, NULL);
-    assert_non_null(stage.scene);
-    assert_non_null(stage.renderer);
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
-}
-
-static uint64_t draw(const Stage *stage, int number, uint8_t *rgba8) {
-    DipFrame frame;
-    const int64_t time_ns = (int64_t)number * 1000000000 / 30;
-    assert_true(dip_renderer_draw(stage->renderer, stage->scene, &pose, time_ns, &frame, NULL));
-    for (int y = 0; y < HEIGHT; ++y) {
-        memcpy(rgba8 + y * WIDTH * 4, frame.rgba8 + y * frame.stride_bytes, WIDTH * 4);
-    }
-    return frame.counters.vertices_posed;
-}
-
 static void a_frame_depends_on_its_time_alone(void **state) {
     (void)state;
-    static uint8_t start[PICTURE_BYTES];
-    static uint8_t after[PICTURE_BYTES];
-    static uint8_t alone[PICTURE_BYTES];
+    static uint8_t start[STAGE_BYTES];
+    static uint8_t after[STAGE_BYTES];
+    static uint8_t alone[STAGE_BYTES];
     DipModel *model = load_clip("walk");
     const DipSceneDef *def = dip_model_scene_def(model);
-    Stage stage = open_stage(def, 2);
-    assert_int_equal(draw(&stage, 0, start), def->meshes[0].vertex_count);
+    Stage stage = stage_open(def, 2, "aa=none");
+    assert_int_equal(stage_draw(&stage, &pose, 0, start).counters.vertices_posed,
+                     def->meshes[0].vertex_count);
     for (int i = 1; i <= 50; ++i) {
-        draw(&stage, i, after);
+        stage_draw(&stage, &pose, i, after);
     }
-    assert_int_not_equal(memcmp(start, after, PICTURE_BYTES), 0);
+    assert_int_not_equal(memcmp(start, after, STAGE_BYTES), 0);
     for (int threads = 1; threads <= 3; ++threads) {
-        Stage fresh = open_stage(def, threads);
-        draw(&fresh, 50, alone);
-        assert_memory_equal(alone, after, PICTURE_BYTES);
-        close_stage(&fresh);
+        Stage fresh = stage_open(def, threads, "aa=none");
+        stage_draw(&fresh, &pose, 50, alone);
+        assert_memory_equal(alone, after, STAGE_BYTES);
+        stage_close(&fresh);
     }
-    close_stage(&stage);
+    stage_close(&stage);
     dip_model_destroy(&model);
-}
-
-static double encode(double x) {
-    return 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055);
 }
 
 static void the_reference_draws_the_same_moment(void **state) {
     (void)state;
-    static uint8_t picture[PICTURE_BYTES];
-    static double rgb_lin[WIDTH * HEIGHT * 3];
     DipModel *model = load_clip("wave");
-    Stage stage = open_stage(dip_model_scene_def(model), 2);
-    DipReference *reference = dip_reference_create(dip_model_scene_def(model), NULL);
-    assert_non_null(reference);
-    const DipQuality quality = dip_renderer_quality(stage.renderer);
-    for (int number = 4; number < 36; number += 15) {
-        draw(&stage, number, picture);
-        dip_reference_set_time(reference, (int64_t)number * 1000000000 / 30);
-        assert_true(dip_reference_draw(reference, &quality, &pose, WIDTH, HEIGHT, rgb_lin, NULL));
-        double squares = 0.0;
-        for (size_t i = 0; i < (size_t)WIDTH * HEIGHT * 3; ++i) {
-            const double difference = encode(rgb_lin[i]) - picture[i / 3 * 4 + i % 3];
-            squares += difference * difference;
-        }
-        const double psnr_db = 10.0 * log10(255.0 * 255.0 * WIDTH * HEIGHT * 3 / squares);
-        if (!(psnr_db > 42.0)) {
-            fail_msg("frame %d: %g dB", number, psnr_db);
-        }
-    }
-    dip_reference_destroy(&reference);
-    close_stage(&stage);
+    stage_check_moments(dip_model_scene_def(model), &pose, 4, 36, 15);
     dip_model_destroy(&model);
 }
 
@@ -333,7 +271,7 @@ static void bounds_hold_at_every_time(void **state) {
     for (int c = 0; c < CLIPS; ++c) {
         DipModel *model = load_clip(clips[c].name);
         DipPosedDef *posed = posed_of(model);
-        Stage stage = open_stage(dip_model_scene_def(model), 1);
+        Stage stage = stage_open(dip_model_scene_def(model), 1, "aa=none");
         float low[3];
         float high[3];
         dip_scene_bounds(stage.scene, low, high);
@@ -346,7 +284,7 @@ static void bounds_hold_at_every_time(void **state) {
             }
         }
         dip_posed_def_destroy(&posed);
-        close_stage(&stage);
+        stage_close(&stage);
         dip_model_destroy(&model);
     }
 }
@@ -364,9 +302,9 @@ static void a_scene_computes_the_boxes_that_its_description_lacks(void **state) 
     assert_true(dip_motion_bound_meshes(&motion, boxes));
     assert_memory_equal(boxes[0], mesh.box, sizeof boxes[0]);
     for (int i = 0; i < 2; ++i) {
-        Stage stage = open_stage(&def, 1);
+        Stage stage = stage_open(&def, 1, "aa=none");
         dip_scene_bounds(stage.scene, bounds[i], bounds[i] + 3);
-        close_stage(&stage);
+        stage_close(&stage);
         mesh.box = NULL;
         motion.meshes = &mesh;
         def.motion = &motion;

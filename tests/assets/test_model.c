@@ -128,8 +128,8 @@ static void the_courtyard_is_loaded_completely(void **state) {
     assert_int_equal(warnings.count, 0);
     // These are the numbers that assets/author/gltf.py prints. Each primitive of a glTF mesh is a
     // mesh of the scene.
-    assert_int_equal(def->mesh_count, 181);
-    assert_int_equal(def->object_count, 540);
+    assert_int_equal(def->mesh_count, 182);
+    assert_int_equal(def->object_count, 541);
     uint64_t triangles = 0;
     uint64_t stored = 0;
     for (int i = 0; i < def->object_count; ++i) {
@@ -138,8 +138,8 @@ static void the_courtyard_is_loaded_completely(void **state) {
     for (int i = 0; i < def->mesh_count; ++i) {
         stored += def->meshes[i].index_count / 3;
     }
-    assert_int_equal(triangles, 35239);
-    assert_int_equal(stored, 14873);
+    assert_int_equal(triangles, 35783);
+    assert_int_equal(stored, 15417);
     // The folder has 21 pictures, and each is one texture.
     assert_int_equal(def->texture_count, 21);
     static const struct {
@@ -176,6 +176,9 @@ static void the_courtyard_is_loaded_completely(void **state) {
     const DipMaterialDef *iron = find_material(def, "iron");
     assert_int_equal(iron->colour_texture, DIP_NO_TEXTURE);
     assert_true(fabsf(iron->base_colour_lin[2] - 0.026f) < 1e-6f);
+    const DipMaterialDef *water = find_material(def, "water");
+    assert_true(fabsf(water->transmission - 0.7f) < 1e-6f);
+    assert_true(water->opacity == 1.0f && iron->transmission == 0.0f);
     const DipMaterialDef *setts = find_material(def, "setts");
     assert_int_equal(def->textures[setts->normal_map].encoding, DIP_ENCODING_LINEAR);
     assert_int_equal(def->textures[setts->colour_texture].encoding, DIP_ENCODING_SRGB);

@@ -4,9 +4,9 @@
 #include "assets/model.h"
 #include "renderer/reference/reference.h"
 #include "renderer/scene/motion.h"
-#include "renderer/scene/renderer.h"
 #include "tests/assets/fixture.h"
 #include "tests/assets/same_scene.h"
+#include "tests/assets/stage.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -17,8 +17,6 @@
 #include <cmocka.h>
 
 static const char importer_word[] = "import";
-
-enum { WIDTH = 160, HEIGHT = 120, PICTURE_BYTES = WIDTH * HEIGHT * 4 };
 
 // It sees all of motion.gltf.
 static const DipPose pose = {
@@ -199,124 +197,56 @@ static void a_held_animation_stands_still(void **state) {
 
 // --- pictures ------------------------------------------------------------------------------------
 
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
-static Stage open_stage(const DipSceneDef *def, int threads, const char *settings) {
-    DipError err = {0};
-    Stage stage = {.pool = dip_pool_create(threads, NULL)};
-    stage.scene = dip_scene_create(def, stage.pool, &err);
-    DipRendererDef renderer = dip_renderer_default_def();
-    renderer.pool = stage.pool;
-    renderer.width = WIDTH;
-    renderer.height = HEIGHT;
-    assert_true(dip_quality_parse(settings, &renderer.quality, NULL));
-    stage.renderer = dip_renderer_create(&renderer, NULL);
-    if (!stage.scene) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    assert_non_null(stage.renderer);
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
-}
-
-// Draws a moment of 30 frames a second, and copies the picture.
-static DipFrame draw(const Stage *stage, int number, uint8_t *rgba8) {
-    DipFrame frame;
-    DipError err = {0};
-    const int64_t time_ns = (int64_t)number * 1000000000 / 30;
-    if (!dip_renderer_draw(stage->renderer, stage->scene, &pose, time_ns, &frame, &err)) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    for (int y = 0; y < HEIGHT; ++y) {
-        memcpy(rgba8 + y * WIDTH * 4, frame.rgba8 + y * frame.stride_bytes, WIDTH * 4);
-    }
-    return frame;
-}
-
 static void a_frame_does_not_depend_on_the_frames_before_it(void **state) {
     (void)state;
-    static uint8_t after[PICTURE_BYTES];
-    static uint8_t alone[PICTURE_BYTES];
-    static uint8_t start[PICTURE_BYTES];
+    static uint8_t after[STAGE_BYTES];
+    static uint8_t alone[STAGE_BYTES];
+    static uint8_t start[STAGE_BYTES];
     DipModel *model = load_motion(&first);
     const DipSceneDef *def = dip_model_scene_def(model);
-    Stage stage = open_stage(def, 2, "aa=4");
-    draw(&stage, 0, start);
+    Stage stage = stage_open(def, 2, "aa=4");
+    stage_draw(&stage, &pose, 0, start);
     for (int i = 1; i <= 311; ++i) {
-        draw(&stage, i, after);
+        stage_draw(&stage, &pose, i, after);
     }
-    assert_int_not_equal(memcmp(start, after, PICTURE_BYTES), 0);
+    assert_int_not_equal(memcmp(start, after, STAGE_BYTES), 0);
     for (int threads = 1; threads <= 3; threads += 2) {
-        Stage fresh = open_stage(def, threads, "aa=4");
-        draw(&fresh, 311, alone);
-        assert_memory_equal(alone, after, PICTURE_BYTES);
-        close_stage(&fresh);
+        Stage fresh = stage_open(def, threads, "aa=4");
+        stage_draw(&fresh, &pose, 311, alone);
+        assert_memory_equal(alone, after, STAGE_BYTES);
+        stage_close(&fresh);
     }
-    close_stage(&stage);
+    stage_close(&stage);
     dip_model_destroy(&model);
 }
 
 // A scene that has the shape of the moment from the start is drawn as the moving scene.
 static void a_moment_is_drawn_as_a_still_scene(void **state) {
     (void)state;
-    static uint8_t moving[PICTURE_BYTES];
-    static uint8_t still[PICTURE_BYTES];
+    static uint8_t moving[STAGE_BYTES];
+    static uint8_t still[STAGE_BYTES];
     DipModel *model = load_motion(&first);
     DipPosedDef *posed = posed_of(model);
-    Stage stage = open_stage(dip_model_scene_def(model), 2, "aa=none");
+    Stage stage = stage_open(dip_model_scene_def(model), 2, "aa=none");
     for (int number = 0; number < 60; number += 7) {
         dip_posed_def_set(posed, (int64_t)number * 1000000000 / 30);
-        Stage of_moment = open_stage(dip_posed_def(posed), 1, "aa=none");
-        const DipFrame frame = draw(&stage, number, moving);
-        const DipFrame plain = draw(&of_moment, 0, still);
-        assert_memory_equal(moving, still, PICTURE_BYTES);
+        Stage of_moment = stage_open(dip_posed_def(posed), 1, "aa=none");
+        const DipFrame frame = stage_draw(&stage, &pose, number, moving);
+        const DipFrame plain = stage_draw(&of_moment, &pose, 0, still);
+        assert_memory_equal(moving, still, STAGE_BYTES);
         assert_int_equal(frame.counters.vertices_posed, 8); // those of "morphed" and "bent"
         assert_int_equal(plain.counters.vertices_posed, 0);
-        close_stage(&of_moment);
+        stage_close(&of_moment);
     }
-    close_stage(&stage);
+    stage_close(&stage);
     dip_posed_def_destroy(&posed);
     dip_model_destroy(&model);
 }
 
-static double encode(double x) {
-    return 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055);
-}
-
 static void the_reference_draws_the_same_moment(void **state) {
     (void)state;
-    static uint8_t picture[PICTURE_BYTES];
-    static double rgb_lin[WIDTH * HEIGHT * 3];
     DipModel *model = load_motion(&first);
-    Stage stage = open_stage(dip_model_scene_def(model), 2, "aa=none");
-    DipReference *reference = dip_reference_create(dip_model_scene_def(model), NULL);
-    assert_non_null(reference);
-    const DipQuality quality = dip_renderer_quality(stage.renderer);
-    for (int number = 5; number < 60; number += 18) {
-        draw(&stage, number, picture);
-        dip_reference_set_time(reference, (int64_t)number * 1000000000 / 30);
-        assert_true(dip_reference_draw(reference, &quality, &pose, WIDTH, HEIGHT, rgb_lin, NULL));
-        double squares = 0.0;
-        for (size_t i = 0; i < (size_t)WIDTH * HEIGHT * 3; ++i) {
-            const double difference = encode(rgb_lin[i]) - picture[i / 3 * 4 + i % 3];
-            squares += difference * difference;
-        }
-        const double psnr_db = 10.0 * log10(255.0 * 255.0 * WIDTH * HEIGHT * 3 / squares);
-        if (!(psnr_db > 42.0)) {
-            fail_msg("frame %d: %g dB", number, psnr_db);
-        }
-    }
-    dip_reference_destroy(&reference);
-    close_stage(&stage);
+    stage_check_moments(dip_model_scene_def(model), &pose, 5, 60, 18);
     dip_model_destroy(&model);
 }
 
@@ -329,17 +259,19 @@ static void draw_shadows(const DipSceneDef *def, int64_t time_ns, bool after_oth
     assert_true(dip_quality_parse("aa=none,shadows=1024", &quality, NULL));
     if (after_others) {
         dip_reference_set_time(reference, time_ns / 2);
-        assert_true(dip_reference_draw(reference, &quality, &pose, WIDTH, HEIGHT, rgb_lin, NULL));
+        assert_true(dip_reference_draw(reference, &quality, &pose, STAGE_WIDTH, STAGE_HEIGHT,
+                                       rgb_lin, NULL));
     }
     dip_reference_set_time(reference, time_ns);
-    assert_true(dip_reference_draw(reference, &quality, &pose, WIDTH, HEIGHT, rgb_lin, NULL));
+    assert_true(
+        dip_reference_draw(reference, &quality, &pose, STAGE_WIDTH, STAGE_HEIGHT, rgb_lin, NULL));
     dip_reference_destroy(&reference);
 }
 
 static void the_shadows_of_the_reference_follow_the_model(void **state) {
     (void)state;
-    static double moving[WIDTH * HEIGHT * 3];
-    static double still[WIDTH * HEIGHT * 3];
+    static double moving[STAGE_PIXELS * 3];
+    static double still[STAGE_PIXELS * 3];
     static const DipLightDef sun = {.kind = DIP_LIGHT_DIRECTIONAL,
                                     .colour_lin = {0.8f, 0.8f, 0.8f},
                                     .direction_world = {-0.6f, -0.64f, -0.48f}};
@@ -365,7 +297,7 @@ static void bounds_hold_over_the_clip(void **state) {
     (void)state;
     DipModel *model = load_motion(&first);
     DipPosedDef *posed = posed_of(model);
-    Stage stage = open_stage(dip_model_scene_def(model), 1, "aa=none");
+    Stage stage = stage_open(dip_model_scene_def(model), 1, "aa=none");
     float low[3];
     float high[3];
     dip_scene_bounds(stage.scene, low, high);
@@ -386,7 +318,7 @@ static void bounds_hold_over_the_clip(void **state) {
     }
     assert_true(dip_scene_moves(stage.scene));
     dip_posed_def_destroy(&posed);
-    close_stage(&stage);
+    stage_close(&stage);
     dip_model_destroy(&model);
 }
 

@@ -440,7 +440,9 @@ static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
     for (int o = 0; o < content->def->object_count; o++) {
         Object *object = &content->objects[o];
         const int texture = object->material->colour_texture;
-        if (object->material->surface == DIP_SURFACE_WATER) {
+        // The mosaic takes the place of the pools' own floors.
+        if (object->material->surface == DIP_SURFACE_WATER ||
+            strcmp(object->material->name, "pool") == 0) {
             continue;
         }
         const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);

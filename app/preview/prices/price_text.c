@@ -63,7 +63,7 @@ static const char *const explanations[DIP_SETTING_COUNT][DIP_MAX_STEPS] = {
                            "make one: edges and textures gain, and a frame takes about three "
                            "times as long."},
     [DIP_SETTING_UPSCALE] =
-        {"Each pixel is blended from the four nearest pixels of the smaller one: "
+        {"Each pixel blends the four nearest pixels of the smaller picture: "
          "soft, and the fastest.",
          "Each pixel is a sum of sixteen pixels of the smaller picture: crisper.",
          "Pixels are blended along edges (FSR 1): smooth edges, but it "

@@ -35,12 +35,16 @@ bool dip_pass_has_colours(const DipPass *pass) {
     return pass->attachments.samples || has_target(&pass->target);
 }
 
-bool dip_pass_is_merged(const DipPass *pass) {
+bool dip_pass_merges_all_tiles(const DipPass *pass) {
     const DipAttachments *a = &pass->attachments;
     return pass->target.format != DIP_FORMAT_SRGB8 || !has_target(&pass->target) || a->samples ||
            a->colour_load != DIP_LOAD_CLEAR || a->colour_store != DIP_STORE_KEEP ||
            a->clear_transparent || a->depth || a->clear_depth > 0.0f || is_set(&pass->viewport) ||
-           is_set(&pass->scissor) || has_ordered_draws(pass);
+           is_set(&pass->scissor);
+}
+
+bool dip_pass_is_merged(const DipPass *pass) {
+    return dip_pass_merges_all_tiles(pass) || has_ordered_draws(pass);
 }
 
 static void cut(DipTargetRegion *region, const DipTargetRegion *by) {

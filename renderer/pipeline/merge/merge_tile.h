@@ -2,7 +2,8 @@
 // it has ordered draws (pipeline/state.h), starts from earlier colours or depths, keeps its depths
 // or the colours of its samples, draws without colours, has a viewport or a scissor, or has a
 // target of another format than sRGB bytes. Passes that need none of this are drawn without this
-// memory.
+// memory. If ordered draws are the only reason, so are the tiles that they do not reach: the
+// colours have the same bits either way.
 #ifndef DIP_RENDERER_PIPELINE_MERGE_MERGE_TILE_H
 #define DIP_RENDERER_PIPELINE_MERGE_MERGE_TILE_H
 
@@ -41,6 +42,9 @@ typedef struct DipMergeTile {
 
 // Whether a pass must be drawn as a merged pass.
 bool dip_pass_is_merged(const DipPass *pass);
+
+// Whether a merged pass must merge even the tiles that no ordered draw reaches.
+bool dip_pass_merges_all_tiles(const DipPass *pass);
 
 // Whether a pass draws colours, into samples or a target.
 bool dip_pass_has_colours(const DipPass *pass);

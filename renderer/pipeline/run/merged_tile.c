@@ -1,9 +1,12 @@
 // Draws one tile of a merged pass (merge/merge_tile.h): runs of plain draws are covered and shaded
 // as in any pass, but their colours go to the samples; the triangles of ordered draws are merged
-// one after the other.
+// one after the other. A tile that need not be merged becomes a merged one at its first triangle of
+// an ordered draw. Until then, plain draws have covered it but are not shaded.
 #include "renderer/base/clock.h"
 #include "renderer/pipeline/geometry/visit.h"
 #include "renderer/pipeline/run/tile_worker.h"
+
+#include <string.h>
 
 // --- plain draws ---------------------------------------------------------------------------------
 
@@ -39,6 +42,7 @@ static void shade_plain_draws(DipTileWorker *worker) {
     dip_tile_worker_shade_tile(worker);
     worker->shading_ns += dip_clock_ns() - begin_ns;
     worker->work->multi_fragment_pixels += (uint64_t)worker->shading.multi_fragment_count;
+    dip_tile_worker_record_mixed(worker);
     worker->shading.multi_fragment_count = 0;
     dip_merge_clear_ids(&worker->tile);
 }
@@ -113,6 +117,11 @@ static void draw_triangle(void *context, uint32_t index) {
         dip_tile_worker_cover(worker, index);
         return;
     }
+    if (!worker->merging) {
+        const bool plain_left = worker->merge.plain_left;
+        dip_merged_tile_begin(worker);
+        worker->merge.plain_left = plain_left;
+    }
     if (worker->merge.draw != (int64_t)triangle->draw) {
         end_ordered_draw(worker);
         shade_plain_draws(worker);
@@ -126,6 +135,9 @@ static void draw_triangle(void *context, uint32_t index) {
 
 void dip_merged_tile_begin(DipTileWorker *worker) {
     DipTileShading *shading = &worker->shading;
+    worker->merging = true;
+    shading->share.paused = true; // Its colours do not go to pixels.
+    memset(shading->share.offered, 0, sizeof shading->share.offered);
     shading->flush = flush_list;
     shading->flush_whole = flush_whole_list;
     shading->stride = DIP_TILE;
@@ -138,7 +150,13 @@ void dip_merged_tile_draw(DipTileWorker *worker, int index) {
     DipTileWork *work = worker->work;
     MergeVisit visit = {worker, dip_tile_worker_clip_test(worker, NULL)};
     const int64_t begin_ns = dip_clock_ns();
+    worker->merge.draw = -1;
+    worker->merge.plain_left = false;
     dip_geometry_visit(worker->pass->geometry, index, draw_triangle, &visit);
+    if (!worker->merging) {
+        dip_plain_tile_end(worker, begin_ns);
+        return;
+    }
     end_ordered_draw(worker);
     shade_plain_draws(worker);
     const int64_t drawn_ns = dip_clock_ns();

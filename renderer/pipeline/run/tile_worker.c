@@ -149,11 +149,14 @@ static void set_margins(const DipTargetRegion *region, const DipTileRegion *need
     tile->bottom = greatest(tile->y0 + DIP_TILE - region->y1, DIP_TILE - needed->y1);
 }
 
-// Where the colours of plain draws go: into the target, or in a merged pass into the samples.
+// Where the colours of plain draws go: into the target, or in a tile that is merged into the
+// samples.
 static void set_destination(DipTileWorker *worker) {
     const DipTarget *target = &worker->pass->pass->target;
     DipTileShading *shading = &worker->shading;
-    if (worker->pass->merged) {
+    worker->merging = false;
+    shading->share.paused = false;
+    if (worker->pass->merges_all) {
         dip_merged_tile_begin(worker);
         return;
     }
@@ -213,8 +216,10 @@ static void begin_tile(DipTileWorker *worker, int index) {
     set_destination(worker);
 }
 
-// Records which pixels of the tile several fragments share.
-static void record_mixed(const DipTileWorker *worker) {
+void dip_tile_worker_record_mixed(const DipTileWorker *worker) {
+    if (!worker->pass->mixed) {
+        return;
+    }
     const DipTileShading *shading = &worker->shading;
     const size_t width = (size_t)worker->pass->pass->target.width;
     uint8_t *first =
@@ -225,12 +230,9 @@ static void record_mixed(const DipTileWorker *worker) {
     }
 }
 
-// Covers, shades and resolves a tile of a pass that is not merged.
-static void draw_plain_tile(DipTileWorker *worker, int index) {
+void dip_plain_tile_end(DipTileWorker *worker, int64_t begin_ns) {
     const DipTilePass *pass = worker->pass;
     DipTileWork *work = worker->work;
-    const int64_t begin_ns = dip_clock_ns();
-    dip_geometry_visit(pass->geometry, index, draw_triangle, worker);
     const int64_t covered_ns = dip_clock_ns();
     dip_tile_worker_shade_tile(worker);
     const int64_t shaded_ns = dip_clock_ns();
@@ -238,9 +240,14 @@ static void draw_plain_tile(DipTileWorker *worker, int index) {
     work->stage_ns[DIP_TILE_STAGE_RASTER] += covered_ns - begin_ns;
     work->stage_ns[DIP_TILE_STAGE_SHADING] = shaded_ns - covered_ns;
     work->stage_ns[DIP_TILE_STAGE_RESOLVE] = dip_clock_ns() - shaded_ns;
-    if (pass->mixed) {
-        record_mixed(worker);
-    }
+    dip_tile_worker_record_mixed(worker);
+}
+
+// Covers, shades and resolves a tile of a pass that is not merged.
+static void draw_plain_tile(DipTileWorker *worker, int index) {
+    const int64_t begin_ns = dip_clock_ns();
+    dip_geometry_visit(worker->pass->geometry, index, draw_triangle, worker);
+    dip_plain_tile_end(worker, begin_ns);
 }
 
 void dip_tile_worker_shade_tile(DipTileWorker *worker) {

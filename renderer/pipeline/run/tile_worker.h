@@ -54,6 +54,7 @@ typedef struct DipTilePass {
     const DipSrgbEncodeTable *srgb;
     const float *srgb_light; // linear light of the 256 8-bit sRGB values
     bool merged;             // the pass is merged (merge/merge_tile.h)
+    bool merges_all;         // it merges even the tiles that no ordered draw reaches
     uint8_t *mixed;          // DipTileRecording.mixed; NULL unless tiles are recorded
     DipMergePass merge;
 } DipTilePass;
@@ -73,6 +74,7 @@ typedef struct DipTileWorker {
     DipFragmentList clip_list;
     DipEncodedBatch encoded;
     DipMergeTile merge; // its arrays exist once a merged pass has been drawn
+    bool merging;       // the tile is being merged
     int64_t shading_ns; // merged passes: time of shading in the tile so far
     DipTileWork *work;  // counters and times of the tile that is being drawn
 } DipTileWorker;
@@ -109,7 +111,14 @@ const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle);
 // Collects the fragments of all covered samples, and shades them.
 void dip_tile_worker_shade_tile(DipTileWorker *worker);
 
-// merged_tile.c: covers, shades and stores the tile of a merged pass that has begun.
+// Records which pixels of the tile several fragments share, if tiles are recorded.
+void dip_tile_worker_record_mixed(const DipTileWorker *worker);
+
+// Shades and resolves a tile that is not merged and whose triangles have covered it since begin_ns.
+void dip_plain_tile_end(DipTileWorker *worker, int64_t begin_ns);
+
+// merged_tile.c: begin merges the tile from now on; draw covers, shades and stores the tile of a
+// merged pass, which merges it if an ordered draw reaches it.
 void dip_merged_tile_begin(DipTileWorker *worker);
 void dip_merged_tile_draw(DipTileWorker *worker, int index);
 

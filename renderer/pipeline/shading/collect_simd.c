@@ -345,7 +345,7 @@ static void copy_pixels(const SubBlock *sub, unsigned pixels) {
 
 // Whether the pass offers pixels to other passes or copies theirs.
 static inline bool shares(const DipTileShading *shading) {
-    return shading->share.offers || shading->share.from;
+    return (shading->share.offers || shading->share.from) && !shading->share.paused;
 }
 
 // Offers pixels to other passes, or copies those that another pass offers. uniform: pixels that

@@ -82,6 +82,7 @@ typedef struct DipTileShading DipTileShading;
 // from as that pass left it: its visibility buffer and its pixels.
 typedef struct DipShadingShare {
     bool offers; // other passes copy pixels of this pass
+    bool paused; // this tile neither offers nor copies pixels, because it is merged
     // The draws of this pass may have own_shading. If false, own_shading need not be looked up.
     bool some_own;
     const DipTileShading *from; // the pass to copy pixels from; NULL if this pass shades them all

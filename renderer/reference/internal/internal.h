@@ -100,10 +100,11 @@ typedef struct DipRefTriangle {
     const DipRefTexture *emission;
     const DipSkyDef *sky; // the clouds of a sky surface; NULL for other surfaces
     int64_t time_ns;      // time of the clouds
-    uint64_t patch;   // number of a patch, which is shaded as one surface; unique among all objects
-    bool mirrored;    // true if the object's transform mirrors, which reverses the winding
-    bool clipped;     // true if the alpha of `colour` clips the surface
-    bool blended;     // true if the surface is drawn over what lies behind it
+    uint64_t patch; // number of a patch, which is shaded as one surface; unique among all objects
+    bool mirrored;  // true if the object's transform mirrors, which reverses the winding
+    bool clipped;   // true if the alpha of `colour` clips the surface
+    bool blended;   // true if the surface is drawn over what lies behind it
+    bool water;
     int min_x, max_x; // pixels of the frame that the triangle may touch, inclusive
     int min_y, max_y;
 } DipRefTriangle;
@@ -111,6 +112,7 @@ typedef struct DipRefTriangle {
 typedef struct DipRefTriangles {
     DipRefTriangle *items;
     bool has_blended; // some triangle is blended
+    bool has_water;   // some triangle is water
     size_t count;
     size_t capacity;
 } DipRefTriangles;
@@ -159,7 +161,8 @@ double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filt
 double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter *filter,
                                  double *slope);
 
-// Returns the share of what lies behind that a blended surface covers. filter: as above.
+// Returns the share of what lies behind that a surface covers; 1 unless it is blended. filter: as
+// above.
 double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *filter);
 
 // Shades a triangle at a position; the result is linear light, 0..1. filter is the colour texture's
@@ -260,11 +263,12 @@ void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter 
 // level.
 bool dip_reference_reflects(const DipReference *reference, const DipPose *pose);
 
-// Blends water's own colour, rgb, with the colour of the mirrored scene at the same position of the
-// frame.
+// Blends water's own colour, rgba, with the colour of the mirrored scene at the same position of
+// the frame. rgba[3] is the share of what lies behind that the water's own colour covers. It
+// becomes the share that colour and reflection cover.
 void dip_reference_blend_water(const DipReference *reference, const DipPose *pose, int width,
                                int height, const DipRefPosition *place, const double mirrored[3],
-                               double rgb[3]);
+                               double rgba[4]);
 
 // Reads the colour of the mirrored scene at a position of the frame, bilinearly from the mirrored
 // picture, which has the given width and height.
@@ -278,14 +282,15 @@ typedef struct DipRefPeel {
     int32_t last;  // its triangle
     double next_depth;
     int32_t next; // triangle of the farthest surface that is left, or -1
+    bool water;   // water has been drawn
 } DipRefPeel;
 
 // Begins with the colour and the depth of what is opaque.
 DipRefPeel dip_reference_peel_begin(const double rgb[3], double depth);
 // Offers a triangle that covers the sample. Surfaces of equal depth keep their submission order.
 void dip_reference_peel_offer(DipRefPeel *peel, double depth, int32_t triangle);
-// Draws the farthest of the offered surfaces. `place` lies on its triangle.
-void dip_reference_peel_blend(DipRefPeel *peel, const DipRefPosition *place);
+// Draws the farthest of the offered surfaces, with its colour and the share that it covers.
+void dip_reference_peel_blend(DipRefPeel *peel, const double rgba[4]);
 
 // enlarge.c: enlarges the picture of a scale below 1. Its colours, in linear light, are rounded to
 // codes first. upscale: the step of the setting. Fails with MEMORY.

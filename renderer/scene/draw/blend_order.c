@@ -2,8 +2,6 @@
 // are equal, it has one result.
 #include "renderer/scene/draw/blend_order.h"
 
-#include <stdbool.h>
-
 int64_t dip_blend_depth(const DipView *view, const DipBox *bounds) {
     static const double limit = 0x1p62;
     double depth = 0.0;
@@ -17,8 +15,23 @@ int64_t dip_blend_depth(const DipView *view, const DipBox *bounds) {
     return steps < limit ? (int64_t)steps : (int64_t)1 << 62;
 }
 
+int dip_blend_layer(const float *levels, int count, double eye, double centre, bool is_water) {
+    int passed = 0;
+    bool beyond_own = false;
+    for (int i = 0; i < count; i++) {
+        const double level = (double)levels[i];
+        const bool own = is_water && level == centre;
+        passed += !own && (eye > level) != (centre > level);
+        beyond_own = beyond_own || own;
+    }
+    return 2 * passed + beyond_own;
+}
+
 // Whether a is drawn before b.
 static bool is_before(const DipBlendedObject *a, const DipBlendedObject *b) {
+    if (a->layer != b->layer) {
+        return a->layer > b->layer;
+    }
     return a->depth != b->depth ? a->depth > b->depth : a->object < b->object;
 }
 

@@ -16,8 +16,9 @@ bool dip_draw_set_make(DipDrawSet *set, const DipScene *scene, bool reflects, Di
     set->matrices = calloc(room, sizeof *set->matrices);
     set->water = reflects ? calloc(room, sizeof *set->water) : NULL;
     set->blended = blended ? calloc(blended, sizeof *set->blended) : NULL;
+    set->levels = blended ? calloc(blended, sizeof *set->levels) : NULL;
     if (!set->draws || !set->uniforms || !set->matrices || (reflects && !set->water) ||
-        (blended && !set->blended)) {
+        (blended && (!set->blended || !set->levels))) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "no memory for %d objects",
                              scene->object_count);
     }
@@ -30,6 +31,7 @@ void dip_draw_set_free(DipDrawSet *set) {
     free(set->matrices);
     free(set->water);
     free(set->blended);
+    free(set->levels);
     *set = (DipDrawSet){0};
 }
 
@@ -70,8 +72,8 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
         const DipSceneMaterial *material = &scene->materials[i];
         // Blended surfaces are shaded once per pixel, whatever the settings.
         const bool all = dip_quality_groups_shade_all(quality);
-        const bool has_groups = material->surface == DIP_SURFACE_CLIPPED ||
-                                (all && material->surface != DIP_SURFACE_BLENDED);
+        const bool has_groups =
+            material->surface == DIP_SURFACE_CLIPPED || (all && !material->blended);
         const int32_t own_bias_lod8 = has_groups ? dip_quality_groups_bias_lod8(quality) : 0;
         if (material->colour_texture != DIP_NO_TEXTURE) {
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_COLOUR];
@@ -315,8 +317,8 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     }
 }
 
-// Blends the draw that was added last. A double-sided surface becomes two draws: first its back
-// faces, then its front faces.
+// Blends the draw that was added last. The shader of reflecting water computes the alpha itself. A
+// double-sided surface becomes two draws: first its back faces, then its front faces.
 static void blend_last(const DipDrawInput *input, const DipDrawView *pass, int object,
                        DipDrawSet *set) {
     // The alpha of the target stays 1.
@@ -327,9 +329,12 @@ static void blend_last(const DipDrawInput *input, const DipDrawView *pass, int o
     const DipSceneMaterial *material = &scene->materials[scene->meshes[shown->mesh].material];
     DipDraw *draw = &set->draws[set->count - 1];
     DipSurfaceUniforms *uniforms = &set->uniforms[set->count - 1];
-    uniforms->colour_shader = draw->fragment_shader;
-    draw->fragment_shader = input->kernels->dip_kernel_blended_fragment;
+    if (draw->fragment_shader != input->kernels->dip_kernel_water_fragment) {
+        uniforms->colour_shader = draw->fragment_shader;
+        draw->fragment_shader = input->kernels->dip_kernel_blended_fragment;
+    }
     draw->state = &over;
+    draw->own_shading = false; // the pixels of blended surfaces are never copied
     if (material->double_sided) {
         const bool reversed = shown->mirrors != pass->mirrored;
         draw->cull = reversed ? DIP_CULL_BACK : DIP_CULL_FRONT;
@@ -337,6 +342,30 @@ static void blend_last(const DipDrawInput *input, const DipDrawView *pass, int o
         draw[1].cull = reversed ? DIP_CULL_FRONT : DIP_CULL_BACK;
         set->count++;
     }
+}
+
+static const DipSceneMaterial *material_of(const DipScene *scene, const DipSceneObject *object) {
+    return &scene->materials[scene->meshes[object->mesh].material];
+}
+
+// Finds the heights of the blended water, whether or not it is in view.
+static void find_levels(const DipScene *scene, DipDrawSet *set) {
+    set->level_count = 0;
+    for (int i = 0; scene->blended_count && scene->has_water && i < scene->object_count; i++) {
+        const DipSceneMaterial *material = material_of(scene, &scene->objects[i]);
+        if (material->surface == DIP_SURFACE_WATER && material->blended) {
+            set->levels[set->level_count++] = scene->objects[i].bounds.centre[1];
+        }
+    }
+}
+
+static DipBlendedObject place_blended(const DipScene *scene, const DipView *view, int index,
+                                      const DipDrawSet *set) {
+    const DipSceneObject *object = &scene->objects[index];
+    const bool is_water = material_of(scene, object)->surface == DIP_SURFACE_WATER;
+    return (DipBlendedObject){dip_blend_layer(set->levels, set->level_count, view->eye[1],
+                                              (double)object->bounds.centre[1], is_water),
+                              dip_blend_depth(view, &object->bounds), index};
 }
 
 // Adds the blended objects, of which there are `count` in set->blended, from far to near.
@@ -364,20 +393,20 @@ void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDraw
     set->culled = 0;
     set->rays = view_rays(pass->view, pass->width, pass->height);
     see_lights(scene, pass->view, set);
+    find_levels(scene, set);
     if (pass->shadow) {
         set->shadow = *pass->shadow;
     }
     for (int i = 0; i < scene->object_count; i++) {
         const DipSceneObject *object = &scene->objects[i];
-        const DipSurface surface = scene->materials[scene->meshes[object->mesh].material].surface;
-        if (pass->mirrored && surface == DIP_SURFACE_WATER) {
+        const DipSceneMaterial *material = material_of(scene, object);
+        if (pass->mirrored && material->surface == DIP_SURFACE_WATER) {
             continue;
         }
         if (pass->seen && dip_cull_outside(pass->seen, &object->bounds)) {
             set->culled++;
-        } else if (surface == DIP_SURFACE_BLENDED) {
-            set->blended[blended++] =
-                (DipBlendedObject){dip_blend_depth(pass->view, &object->bounds), i};
+        } else if (material->blended) {
+            set->blended[blended++] = place_blended(scene, pass->view, i, set);
         } else {
             add_draw(input, pass, i, set);
         }

@@ -63,6 +63,8 @@ typedef struct DipDrawSet {
     DipDrawMatrices *matrices;    // one per draw
     DipWaterUniforms *water;      // one per draw; NULL if the set has no reflecting water
     DipBlendedObject *blended;    // the blended objects in view; NULL if the scene has none
+    float *levels;                // the heights of blended water; as many as blended objects
+    int level_count;
     DipViewRays rays;
     DipLightingUniforms lighting; // only if the scene has lights or metallic-roughness surfaces
     DipShadowUniforms shadow;     // only if surfaces receive shadows

@@ -157,6 +157,11 @@ static void make_mirrored_pass(FrameSetup *setup) {
     set_draws(renderer, setup->scene, seen, &mirror->set, pass);
 }
 
+// Whether some draw of a set is blended.
+static bool blends(const DipDrawSet *set) {
+    return set->count > set->plain_count;
+}
+
 static void make_scene_pass(FrameSetup *setup) {
     DipRenderer *renderer = setup->renderer;
     DipShadowUniforms shadow;
@@ -169,13 +174,13 @@ static void make_scene_pass(FrameSetup *setup) {
     setup->pass = begin_pass(renderer, setup->scene, &setup->plan);
     setup->pass.target = dip_renderer_target(renderer);
     setup->pass.depths = setup->readback ? NULL : dip_finish_depths(renderer->finish);
-    // A pass with blended surfaces is merged, and a merged pass stores no light.
-    setup->pass.light16 = setup->scene->blended_count ? NULL : renderer->scaled.light16;
     if (setup->readback) {
         setup->pass.readback = setup->readback;
         setup->pass.region = setup->readback->region;
     }
     set_draws(renderer, setup->scene, seen, &renderer->set, &setup->pass);
+    // A pass with blended surfaces is merged, and a merged pass stores no light.
+    setup->pass.light16 = blends(&renderer->set) ? NULL : renderer->scaled.light16;
 }
 
 // --- the history ---------------------------------------------------------------------------------
@@ -427,6 +432,7 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
         .fragments_occluded = passes->shader_counts[DIP_SHADER_COUNT_OCCLUDED],
         .fragments_emitting = passes->shader_counts[DIP_SHADER_COUNT_EMITTING],
         .fragments_coated = passes->shader_counts[DIP_SHADER_COUNT_COATED],
+        .fragments_surrounded = passes->shader_counts[DIP_SHADER_COUNT_SURROUNDED],
         .fragments_shadowed = passes->shader_counts[DIP_SHADER_COUNT_SHADOWED],
         .fragments_blended = passes->fragments_ordered, // all ordered draws of a scene blend
         .fragments_sky = passes->shader_counts[DIP_SHADER_COUNT_SKY],
@@ -474,7 +480,7 @@ static void end_frame(const FrameSetup *setup) {
     const bool reflects = setup->plan.effects.reflection.run;
     DipTarget picture = dip_renderer_target(renderer);
     if (renderer->scaled.light16) {
-        shrink(renderer, setup->scene->blended_count > 0, frame);
+        shrink(renderer, blends(&renderer->set), frame);
         picture = (DipTarget){.rgba8 = renderer->rgba8,
                               .stride_bytes = renderer->stride_bytes,
                               .width = renderer->width,

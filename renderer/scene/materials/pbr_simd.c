@@ -449,4 +449,5 @@ void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
 void DIP_KERNEL(dip_kernel_pbr_environment_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     shade_batch(batch, uniforms->pbr->environment);
+    batch->work.counts[DIP_SHADER_COUNT_SURROUNDED] += (uint64_t)batch->count;
 }

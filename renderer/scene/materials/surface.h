@@ -22,7 +22,8 @@ enum {
     DIP_SHADER_COUNT_OCCLUDED,
     DIP_SHADER_COUNT_EMITTING,
     DIP_SHADER_COUNT_COATED,
-    DIP_SHADER_COUNT_SHADOWED, // fragments that read the shadow map
+    DIP_SHADER_COUNT_SURROUNDED, // by an environment
+    DIP_SHADER_COUNT_SHADOWED,   // fragments that read the shadow map
 };
 
 enum {
@@ -152,8 +153,9 @@ typedef struct DipSurfaceUniforms {
     // Of a metallic-roughness surface, which also has the four fields of surfaces whose fragments
     // are lit, `lighting` and `lights`; NULL for other surfaces.
     const DipPbrUniforms *pbr;
-    // The next two are set for blended surfaces.
+    // The next three are set for blended surfaces.
     float opacity;
+    bool has_alpha;                   // the alpha of the colour texture multiplies the opacity
     DipFragmentShader *colour_shader; // computes the colour
 } DipSurfaceUniforms;
 

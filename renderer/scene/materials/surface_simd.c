@@ -91,7 +91,7 @@ void DIP_KERNEL(dip_kernel_surface_cover)(DipFragmentBatch *batch) {
 void DIP_KERNEL(dip_kernel_blended_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     uniforms->colour_shader(batch);
-    if (uniforms->colour_varying != DIP_ABSENT) {
+    if (uniforms->colour_varying != DIP_ABSENT && uniforms->has_alpha) {
         batch->sample_alpha(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
                             uniforms->colour_varying, batch->alpha);
         for (int i = 0; i < batch->count; i += DIP_LANES) {

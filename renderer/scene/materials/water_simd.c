@@ -37,6 +37,14 @@ VEC_INLINE Vf share_of(const DipWaterUniforms *water, Vf3 ray) {
     return vf_select(vf_lt(vf_splat(0.0f), down), share, vf_splat(0.0f));
 }
 
+// Sets the alpha of blended water: it covers what it reflects and, of the rest, its opacity.
+// Returns the weight of the mirrored scene in the colour that alpha multiplies.
+VEC_INLINE Vf cover(float opacity, Vf share, float *alpha) {
+    const Vf covered = share + (vf_splat(1.0f) - share) * opacity;
+    vf_store(alpha, covered);
+    return share / vf_max(covered, vf_splat(0x1p-20f)); // Without a reflection, share is 0.
+}
+
 void DIP_KERNEL(dip_kernel_water_fragment)(DipFragmentBatch *batch) {
     const DipWaterUniforms *water = batch->uniforms;
     float u[DIP_FRAGMENT_BATCH];
@@ -49,7 +57,10 @@ void DIP_KERNEL(dip_kernel_water_fragment)(DipFragmentBatch *batch) {
     }
     batch->sample_target(batch, water->mirrored, u, v, mirrored);
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        const Vf share = share_of(water, view_ray(water->surface.rays, batch, i));
+        Vf share = share_of(water, view_ray(water->surface.rays, batch, i));
+        if (water->surface.opacity < 1.0f) {
+            share = cover(water->surface.opacity, share, batch->alpha + i);
+        }
         for (int c = 0; c < 3; c++) {
             const Vf own = clamp01(vf_load(batch->colour[c] + i));
             vf_store(batch->colour[c] + i, own + (vf_load(mirrored[c] + i) - own) * share);

@@ -69,7 +69,7 @@ static bool is_coated(const DipScene *scene, int object) {
 }
 
 static bool is_blended(const DipScene *scene, int object) {
-    return material_of(scene, object)->surface == DIP_SURFACE_BLENDED;
+    return material_of(scene, object)->blended;
 }
 
 static bool is_clouded(const DipScene *scene, int object) {
@@ -340,6 +340,16 @@ static DipEffect plan_coat(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("no surface with a clear coat is in view");
 }
 
+// All metallic-roughness surfaces of a scene with an environment see it.
+static DipEffect plan_environment(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!plan->effects.pbr.run) {
+        return plan->effects.pbr;
+    }
+    return input->scene->pbr->environment
+               ? run(input, "metallic-roughness surfaces that see the environment are in view")
+               : skip("the scene has no environment");
+}
+
 static DipEffect plan_blend(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->blended_count) {
         return skip("the scene has no blended surface");
@@ -426,6 +436,7 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters,
     settle(&effects->occlusion, counters->fragments_occluded + more->fragments_occluded);
     settle(&effects->emission, counters->fragments_emitting + more->fragments_emitting);
     settle(&effects->coat, counters->fragments_coated + more->fragments_coated);
+    settle(&effects->environment, counters->fragments_surrounded + more->fragments_surrounded);
     settle(&effects->sky, counters->fragments_sky + more->fragments_sky);
     settle(&effects->blend, counters->fragments_blended);
 }

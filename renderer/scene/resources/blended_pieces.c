@@ -4,6 +4,7 @@
 
 #include "renderer/scene/motion.h"
 #include "renderer/scene/resources/posed.h"
+#include "renderer/scene/resources/scene_layout.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -247,7 +248,7 @@ static bool is_sound(const DipMeshDef *mesh) {
 
 static bool may_be_cut(const DipSceneDef *def, int mesh) {
     const DipMeshDef *cut = &def->meshes[mesh];
-    return def->materials[cut->material].surface == DIP_SURFACE_BLENDED && cut->index_count > 3 &&
+    return dip_material_is_blended(&def->materials[cut->material]) && cut->index_count > 3 &&
            dip_moving_mesh(def->motion, mesh) < 0 && is_sound(cut);
 }
 

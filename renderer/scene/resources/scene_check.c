@@ -68,6 +68,7 @@ static bool check_material(const DipSceneDef *def, const DipMaterialDef *materia
                        err) &&
            check_floats(&material->alpha_cutoff, 1, 1, material->name, "alpha_cutoff", err) &&
            check_range(&material->opacity, 1, 0.0, 1.0, material->name, "opacity", err) &&
+           check_range(&material->transmission, 1, 0.0, 1.0, material->name, "transmission", err) &&
            check_pbr(def, material, err) &&
            check_index(material->colour_texture, def->texture_count, material->name,
                        "colour_texture", err) &&

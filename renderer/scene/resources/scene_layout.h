@@ -48,6 +48,7 @@ typedef struct DipSceneObject {
 
 typedef struct DipSceneMaterial {
     DipSurface surface;
+    bool blended;       // surfaces of the material are drawn over what lies behind them
     int colour_texture; // index or DIP_NO_TEXTURE
     int light_map;
     int normal_map; // DIP_NO_TEXTURE also if the material's normal map is not drawn
@@ -55,6 +56,12 @@ typedef struct DipSceneMaterial {
     bool double_sided;
     bool casts; // surfaces of the material cast shadows
 } DipSceneMaterial;
+
+// Whether surfaces of a material are drawn over what lies behind them.
+static inline bool dip_material_is_blended(const DipMaterialDef *material) {
+    return material->surface == DIP_SURFACE_BLENDED ||
+           (material->surface == DIP_SURFACE_WATER && material->transmission > 0.0f);
+}
 
 struct DipScene {
     uint64_t serial; // unique number of the scene, so that a renderer notices another scene
@@ -82,7 +89,7 @@ struct DipScene {
     bool has_emission;       // some metallic-roughness mesh sends out light
     bool has_coat;           // some metallic-roughness mesh has a clear coat
     bool has_sky;            // some mesh is a sky with moving clouds
-    int blended_count;       // objects with a blended surface
+    int blended_count;       // objects whose material is blended
     int blended_two_sided;   // those of them that are double-sided, which take two draws each
     DipSkyDef sky;
     DipSceneLighting *lighting; // NULL: the fixed light of sky and sun

@@ -73,7 +73,9 @@ static DipSurfaceUniforms uniforms_of(const DipMaterialDef *material) {
         .roughness = material->roughness,
         .light_map_scale = material->light_map_scale,
         .alpha_cutoff = material->alpha_cutoff,
-        .opacity = material->opacity,
+        .opacity = material->surface == DIP_SURFACE_WATER ? 1.0f - material->transmission
+                                                          : material->opacity,
+        .has_alpha = material->surface != DIP_SURFACE_WATER,
     };
     memcpy(uniforms.base_colour_lin, material->base_colour_lin, sizeof uniforms.base_colour_lin);
     memcpy(uniforms.specular_lin, material->specular_lin, sizeof uniforms.specular_lin);

@@ -1,5 +1,7 @@
 # Writes a scene of metallic-roughness balls (balls.gltf), a picture of a studio (studio.hdr), and HDR
-# files that cannot be environments. Usage: environment.py FOLDER
+# files that cannot be environments. With a third argument, compares instead the border of a picture of
+# 96x72 pixels (RGB24) with the studio as a camera with a vertical field of view of 50 degrees that looks
+# along -z sees it. Usage: environment.py FOLDER [PICTURE.rgb]
 import base64, json, math, os, struct, sys
 
 folder = sys.argv[1]
@@ -38,6 +40,33 @@ def studio(d):
         return (.3, .6, 1.3)
     return rgb
 
+
+def codes_at(x, y, width, height):
+    half = math.tan(math.radians(25))
+    ray = ((2 * x / width - 1) * half * width / height, (1 - 2 * y / height) * half, -1)
+    length = math.sqrt(sum(c * c for c in ray))
+    lin = [min(c, 1) for c in studio([c / length for c in ray])]
+    return [255 * (12.92 * c if c <= .0031308 else 1.055 * c**(1 / 2.4) - .055) for c in lin]
+
+
+def check_border(name):
+    width, height = 96, 72
+    close = total = 0
+    with open(os.path.join(folder, name), "rb") as picture:
+        pixels = picture.read()
+    for y in range(height):
+        for x in range(width) if y in (0, 1, height - 1) else (0, width - 1):
+            codes = codes_at(x + .5, y + .5, width, height)
+            around = [codes_at(x + i, y + j, width, height) for i in (-3, 4) for j in (-3, 4)]
+            if max(abs(a - b) for other in around for a, b in zip(codes, other)) <= 6:  # no border of tiles and lights
+                close += max(abs(a - b) for a, b in zip(codes, pixels[3 * (y * width + x):][:3])) <= 3
+                total += 1
+    print(close, "of", total, "pixels show the environment")
+    sys.exit(total < 100 or close < total)
+
+
+if len(sys.argv) > 2:
+    check_border(sys.argv[2])
 
 # --- balls
 positions, normals, indices = [], [], []

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Tests the ini's ENVIRONMENT: metal balls reflect it, and a bad file ends the program with one line.
+# Tests the ini's ENVIRONMENT: metal balls reflect it, it is shown behind them where this is asked for,
+# and a bad file ends the program with one line.
 # Usage: environment.sh DIPTYCH TEST_FOLDER
 . "$(dirname "$0")/../program.sh"
 here=$2
@@ -42,6 +43,21 @@ draw model.txt --config plain.ini --model balls.gltf
 draw dropped.txt --config studio.ini --model balls.gltf
 check "a model of --model does not see it" cmp model.txt dropped.txt
 
+write_ini shown.ini 'ENVIRONMENT: studio.hdr' 'ENVIRONMENT_BACKGROUND: true' 'GROUND: true'
+"$diptych" dump --config shown.ini --pane current --raw shown.rgb --pose '0 0 8 0 0 0 1' --fov 50 \
+    --frames 0:1 --json shown.json >out.txt 2>err.txt
+check "the background is the environment" python3 "$here/environment.py" . shown.rgb
+draw shown1.txt --config shown.ini --threads 1
+draw shown3.txt --config shown.ini --threads 3 --isa scalar
+check "nor does the background depend on threads and instruction sets" cmp shown1.txt shown3.txt
+has '"environment": {"run": true, "why": "metallic-roughness surfaces that see the environment' shown.json
+has '"fragments_surrounded": [1-9]' shown.json
+draw alone.txt --config plain.ini --json plain.json
+has '"environment": {"run": false, "why": "the scene has no environment"' plain.json
+has '"fragments_surrounded": 0' plain.json
+
+write_ini bad.ini 'ENVIRONMENT_BACKGROUND: true'
+refuse 'bad.ini:5: \[ENVIRONMENT_BACKGROUND\] there is no ENVIRONMENT' dump --config bad.ini --hash
 refuse_picture missing.hdr 'missing.hdr'
 refuse_picture square.hdr '64x64 pixels, accepted 2x1..4096x2048, twice as wide as high'
 refuse_picture short.hdr "ends"

@@ -129,6 +129,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     static const DipImageBounds huge_narrow_all = {0.0018, 0.01, 0.001, 0.08};
     // A larger picture has more slivers, whose vertices may be rounded to either step.
     static const DipImageBounds scaled = {0.0016, 0.01, 0.0002, 0.13};
+    // Larger pictures that blend are averaged from codes of 8 bits.
+    static const DipImageBounds scaled_codes = {0.0018, 0.01, 0.0, 0.01};
     // Where a surface is seen nearly from the side, its reflection changes within a step of the
     // fast renderer's tables, which are coarser than those of the reference.
     static const DipImageBounds gloss = {0.0025, 0.01, 0.004, 0.1};
@@ -144,6 +146,10 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_sky:
         return mip_colours ? &steady : &sky;
     case DIP_TEST_SCENE_water:
+    case DIP_TEST_SCENE_clear_water:
+        if (is_scaled && kind == DIP_TEST_SCENE_clear_water) {
+            return &scaled_codes;
+        }
         return mip_colours && narrow ? &narrow_mips : narrow ? &water_narrow : &steady;
     case DIP_TEST_SCENE_water_effects:
         return mip_colours ? &fence_mips : covers ? &mirrored_coverage : &mirrored_fence;

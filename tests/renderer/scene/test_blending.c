@@ -212,7 +212,7 @@ static void the_order_is_from_far_to_near(void **state) {
     uint32_t random = 1;
     for (int i = 0; i < COUNT; i++) {
         random = random * 1664525u + 1013904223u;
-        objects[i] = (DipBlendedObject){(int64_t)(random >> 26), i};
+        objects[i] = (DipBlendedObject){0, (int64_t)(random >> 26), i};
     }
     dip_blend_sort(objects, COUNT);
     for (int i = 1; i < COUNT; i++) {
@@ -222,6 +222,29 @@ static void the_order_is_from_far_to_near(void **state) {
     }
     dip_blend_sort(objects, 0);
     dip_blend_sort(objects, 1);
+}
+
+static void water_separates_what_lies_above_and_below_it(void **state) {
+    (void)state;
+    static const float levels[2] = {2.0f, -1.0f};
+    static const struct {
+        double eye;
+        double centre;
+        bool is_water;
+        int layer;
+    } expected[] = {{5.0, 3.0, false, 0},  {5.0, 2.0, true, 1},   {5.0, 0.0, false, 2},
+                    {5.0, -1.0, true, 3},  {5.0, -4.0, false, 4}, {0.0, 0.5, false, 0},
+                    {0.0, 2.0, true, 1},   {0.0, -1.0, true, 1},  {0.0, 3.0, false, 2},
+                    {0.0, -2.0, false, 2}, {-3.0, 2.0, true, 3}};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        assert_int_equal(
+            dip_blend_layer(levels, 2, expected[i].eye, expected[i].centre, expected[i].is_water),
+            expected[i].layer);
+    }
+    DipBlendedObject objects[3] = {{0, 9, 0}, {2, 1, 1}, {2, 5, 2}};
+    dip_blend_sort(objects, 3);
+    assert_int_equal(objects[0].object, 2);
+    assert_int_equal(objects[1].object, 1);
 }
 
 static void depths_are_measured_along_the_view_axis(void **state) {
@@ -476,6 +499,35 @@ static void water_mirrors_panes(void **state) {
     author_free(&scene);
 }
 
+// Water covers what lies behind it by the share that it reflects and by its own colour. One pane
+// lies below it, the others stand above it, although some are farther away than its middle.
+static void water_is_seen_through(void **state) {
+    (void)state;
+    author_make_panes(&scene);
+    scene.objects[0].transform[7] = 0.6f; // two panes would stand in the water
+    scene.objects[3].transform[7] = 1.1f;
+    const int sunk = author_add_pbr(&scene, 0.0f, 1.0f);
+    scene.materials[sunk].surface = DIP_SURFACE_BLENDED;
+    scene.materials[sunk].opacity = 0.7f;
+    scene.materials[sunk].pbr = NULL;
+    scene.materials[sunk].base_colour_lin[1] = 0.05f;
+    author_add_quad(&scene, sunk, (const float[]){-0.8f, -1.5f, 3.5f}, (const float[]){1.6f, 0, 0},
+                    (const float[]){0, 0, -3});
+    const int water = author_add_pbr(&scene, 0.0f, 1.0f);
+    scene.materials[water].surface = DIP_SURFACE_WATER;
+    scene.materials[water].pbr = NULL;
+    scene.materials[water].base_colour_lin[0] = 0.05f;
+    scene.materials[water].transmission = 0.8f;
+    author_add_quad(&scene, water, (const float[]){-9.0f, -1.0f, 6.0f}, (const float[]){18, 0, 0},
+                    (const float[]){0, 0, -8});
+    const DipReflectionDef reflection = {.width = WIDTH, .height = HEIGHT, .level_m = -1.0};
+    compare("panes_under_water", "aa=none", &reflection);
+    compare("panes_under_water", "aa=4,aaa=all,asd=1", &reflection);
+    compare("panes_under_water", "aa=8,taa=on,aaa=coverage", &reflection);
+    compare("panes_under_plain_water", "aa=2", NULL);
+    author_free(&scene);
+}
+
 // The converged picture is the mean of many samples that are sorted by themselves. A pane that
 // stands in another has no right order of objects, so only the reference is right there.
 static void the_converged_picture_sorts_each_sample(void **state) {
@@ -512,6 +564,7 @@ int main(void) {
         cmocka_unit_test(both_sides_of_a_double_sided_pane_are_seen),
         cmocka_unit_test(reading_samples_leaves_the_frame_as_it_is),
         cmocka_unit_test(the_order_is_from_far_to_near),
+        cmocka_unit_test(water_separates_what_lies_above_and_below_it),
         cmocka_unit_test(depths_are_measured_along_the_view_axis),
         cmocka_unit_test(panes_equal_the_reference),
         cmocka_unit_test(the_pieces_of_a_mesh_are_sorted),
@@ -519,6 +572,7 @@ int main(void) {
         cmocka_unit_test(what_is_connected_or_not_blended_or_broken_is_not_cut),
         cmocka_unit_test(pieces_move_with_their_object),
         cmocka_unit_test(water_mirrors_panes),
+        cmocka_unit_test(water_is_seen_through),
         cmocka_unit_test(the_converged_picture_sorts_each_sample),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -402,20 +402,32 @@ static void a_scene_without_water_costs_nothing(void **state) {
 
 // --- Fresnel -----------------------------------------------------------------------------------
 
+static double encode(double light) {
+    return 255.0 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1.0 / 2.4) - 0.055);
+}
+
 // Black water lies under a white sky and is seen at an angle in the middle of the picture. The
 // light there is therefore the share of light that the surface reflects. Fresnel's equations give
-// this share from the angles on both sides of the surface.
+// this share from the angles on both sides of the surface. Clear water adds its part of the light
+// of a grey floor, as far as the surface does not reflect it.
 static void water_reflects_the_share_that_fresnel_gives(void **state) {
     (void)state;
     static DipTestScene scene;
+    static const double transmissions[] = {0.0, 0.0, 0.6, 1.0};
+    const double floor_light = 0.25;
     dip_test_scene_begin(&scene);
     const int water = add_water(&scene, (const float[]){-500, 0, 500}, 1000, 1000);
+    const int floor = dip_test_scene_add_material(&scene, DIP_NO_TEXTURE);
+    dip_test_scene_add_quad(&scene, floor, (const float[]){-9e3f, -1, 9e3f},
+                            (const float[]){18e3f, 0, 0}, (const float[]){0, 0, -18e3f}, 1, 1);
     for (int c = 0; c < 3; c++) {
         scene.materials[water].base_colour_lin[c] = 0.0f;
+        scene.materials[floor].base_colour_lin[c] = (float)floor_light;
         scene.def.background_lin[c] = 1.0f;
     }
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 4; i++) {
         const DipReflectionDef reflection = {32, 32, 0.0, i == 1, false};
+        scene.materials[water].transmission = (float)transmissions[i];
         Stage stage = open_stage(&scene.def, 101, 101, &reflection, false);
         for (int down_deg = 1; down_deg <= 90; down_deg++) {
             DipPose pose = scene.pose;
@@ -432,9 +444,9 @@ static void water_reflects_the_share_that_fresnel_gives(void **state) {
                                            : 0.5 * (pow(sin(in - out) / sin(in + out), 2.0) +
                                                     pow(tan(in - out) / tan(in + out), 2.0));
             const double share = i == 1 ? r0 + (1.0 - r0) * pow(1.0 - cos_in, 5.0) : exact;
-            const double encoded =
-                share <= 0.0031308 ? 12.92 * share : 1.055 * pow(share, 1.0 / 2.4) - 0.055;
-            assert_true(fabs(code - 255.0 * encoded) < 0.56);
+            const double light = share + (1.0 - share) * transmissions[i] * floor_light;
+            assert_true(fabs(code - encode(light)) < 0.56);
+            assert_int_equal(frame.effects.blend.run, transmissions[i] > 0.0);
         }
         close_stage(&stage);
     }

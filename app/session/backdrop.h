@@ -1,0 +1,27 @@
+// Shows an environment behind a scene: as a sphere around it that is so large that all its points
+// look infinitely far away.
+#ifndef DIP_APP_SESSION_BACKDROP_H
+#define DIP_APP_SESSION_BACKDROP_H
+
+#include "app/session/ground.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/scene.h"
+
+#include <stdint.h>
+
+// A scene with a backdrop. Owns the sphere and the arrays of the def; everything else in them
+// belongs to the scene without it.
+typedef struct DipBackdrop {
+    DipSceneDef def;
+    uint8_t *rgba8;    // The environment, cut off at 1 and encoded as sRGB.
+    float *positions;  // 3 floats for each vertex, and behind them, 2 texture coordinates for each.
+    uint32_t *indices; // Of triangles that face the middle.
+} DipBackdrop;
+
+// Adds a sphere with the scene's environment around the middle of an extent. Returns NULL and fills
+// *err with DIP_ERROR_MEMORY when memory runs out. The scene must outlive the backdrop.
+DipBackdrop *dip_backdrop_create(const DipSceneDef *def, const DipExtent *extent, DipError *err);
+// *backdrop may be NULL and becomes NULL.
+void dip_backdrop_destroy(DipBackdrop **backdrop);
+
+#endif
