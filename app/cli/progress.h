@@ -16,14 +16,24 @@ typedef struct DipProgress {
 
 DipProgress dip_progress_begin(const char *things, int64_t total);
 
-// Shows "7 of 12 frames, 3 s left". On a terminal, one line is overwritten up to ten times a
-// second. If standard error is not a terminal, a new line is printed every ten seconds, so a short
-// command prints nothing.
+// Sets how long the parts of the command will take that come after what is counted now. From now
+// on, the time left that is shown is that of the whole command.
+void dip_progress_set_later(double seconds);
+
+// Shows "7 of 12 frames, 3 s left", or "7 of 12 frames, about 4 min left in all". On a terminal,
+// one line is overwritten up to ten times a second. If standard error is not a terminal, a new line
+// is printed every ten seconds, so a short command prints nothing.
 void dip_progress_show(DipProgress *progress, int64_t done);
 
 // Shows that `done` of the things are done and ends the line. Prints nothing if standard error is
 // not a terminal.
 void dip_progress_end(DipProgress *progress, int64_t done);
+
+// Returns the seconds since the work began.
+double dip_progress_elapsed_s(const DipProgress *progress);
+
+// Clears the line of the display on a terminal, so that another text can be printed there.
+void dip_progress_clear(void);
 
 // From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second one ends the
 // program at once.

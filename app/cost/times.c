@@ -51,6 +51,7 @@ typedef struct Timing {
     DipDriverMachine machine;
     DipTimesFit *fit; // Times of the subjects of dip_cost_time_elsewhere, otherwise NULL.
     DipChild *child;  // The process that draws; NULL if this process draws.
+    bool kept;        // The journal gets the times.
 } Timing;
 
 static void close_timing(Timing *t) {
@@ -179,8 +180,9 @@ static bool start(void *context, int index, DipError *err) {
 
 static bool keep_round(void *context, const DipTimed *timed, int count, DipError *err) {
     const Timing *t = context;
-    return dip_cost_journal_add_round(t->cost->journal, t->cost->report->options.seed, timed, count,
-                                      err);
+    dip_cost_look_at_times(t->cost, timed, count);
+    return !t->kept || dip_cost_journal_add_round(t->cost->journal, t->cost->report->options.seed,
+                                                  timed, count, err);
 }
 
 // Hands the rounds of the journal to the driver, which refuses a round that is not its next one.
@@ -211,11 +213,12 @@ typedef enum Where {
 static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const char *progress,
                   DipError *err) {
     DipCostReport *report = t->cost->report;
+    t->kept = where == KEPT;
     const bool starts = report->options.starts > 1 && t->cost->start && where != ELSEWHERE;
     const DipDriverCalls calls = {
         .draw = draw,
         .start = starts ? start : NULL,
-        .keep = where == KEPT ? keep_round : NULL,
+        .keep = where == ELSEWHERE ? NULL : keep_round,
         .context = t,
     };
     const int rounds = report->options.rounds;
