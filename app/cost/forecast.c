@@ -115,7 +115,7 @@ void dip_cost_forecast_begin(DipCostContext *cost) {
     }
 }
 
-void dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase) {
+double dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase) {
     double later_s = 0.0;
     for (int later = (int)phase + 1; later < DIP_COST_PHASE_COUNT; later++) {
         later_s += cost->report->options.errors_only && later != DIP_COST_PHASE_SWEEPS
@@ -123,4 +123,5 @@ void dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase) {
                        : phase_s(cost, (DipCostPhase)later);
     }
     dip_progress_set_later(later_s);
+    return later_s;
 }

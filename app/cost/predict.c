@@ -51,6 +51,25 @@ static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN
     return count;
 }
 
+// Estimates the time of a frame from its main counters, with usual prices in nanoseconds. The fit
+// weighs a row by the inverse of its time, so the choice of rows does, too. It also keeps the run
+// from measuring rows that take very long.
+static double usual_ns(const double counters[DIP_COST_COUNTER_COUNT]) {
+    static const struct {
+        int counter;
+        double ns;
+    } prices[] = {
+        {DIP_COST_COUNTER_fragments_shaded, 12.0}, {DIP_COST_COUNTER_texture_probes, 6.0},
+        {DIP_COST_COUNTER_samples_shown, 1.0},     {DIP_COST_COUNTER_pixels_filtered, 10.0},
+        {DIP_COST_COUNTER_shadow_texels, 1.0},     {DIP_COST_COUNTER_triangles_in, 30.0},
+    };
+    double ns = 1.0;
+    for (size_t i = 0; i < sizeof prices / sizeof *prices; i++) {
+        ns += counters[prices[i].counter] * prices[i].ns;
+    }
+    return ns;
+}
+
 bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err) {
     const DipCostPredictions *predicted = &report->predicted;
     double *matrix = malloc((size_t)predicted->count * DESIGN_TERMS * sizeof *matrix);
@@ -60,8 +79,11 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
     int terms = 0, given = 0;
     for (int i = 0; i < predicted->count; i++) {
         double row[DESIGN_TERMS];
+        const double weight = 1.0 / usual_ns(predicted->list[i].counters);
         terms = design_terms(&predicted->list[i], row);
-        memcpy(matrix + (size_t)i * (size_t)terms, row, (size_t)terms * sizeof *row);
+        for (int t = 0; t < terms; t++) {
+            matrix[(size_t)i * (size_t)terms + (size_t)t] = weight * row[t];
+        }
     }
     for (int i = 0; i < predicted->count && given < count; i++) {
         if (predicted->list[i].row >= 0) {

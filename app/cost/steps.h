@@ -34,8 +34,9 @@ typedef enum DipCostPhase {
 // Begins the forecast, once cost->baseline_ms is known.
 void dip_cost_forecast_begin(DipCostContext *cost);
 
-// Begins a phase: tells the progress display how long the later phases will take.
-void dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase);
+// Begins a phase: tells the progress display how long the later phases will take. Returns this time
+// in seconds.
+double dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase);
 
 // Makes the truths (converged pictures) that are not in the cache, and fills in the noise floor of
 // each truth, which tells how far the truth itself may be wrong.
