@@ -52,7 +52,11 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
                            bool judges, DipError *err);
 void dip_cost_context_close(DipCostContext *cost);
 
-// Draws the timed frame `index`, 0..dip_cost_frame_count - 1, of a path.
+// Draws the timed frame `index`, 0..dip_cost_frame_count - 1, of a path, whose settings must have
+// been prepared for it. dip_cost_prepare_timed draws the frame before it if the settings have a
+// history, with which the frame is blended.
+bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
+                            DipError *err);
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err);
 

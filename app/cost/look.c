@@ -15,12 +15,22 @@ enum {
 };
 
 // The two subjects of the driver (driver.h) are the baseline and the baseline again.
+static int frame_of(const DipCostContext *cost, const DipDriverTurn *turn) {
+    return turn->frame * dip_cost_frame_count(cost->report) / LOOK_FRAMES;
+}
+
+static bool prepare(void *context, const DipDriverTurn *turn, DipError *err) {
+    DipCostContext *cost = context;
+    return dip_cost_prepare_timed(cost, &cost->report->options.baseline, 0, frame_of(cost, turn),
+                                  err);
+}
+
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     DipCostContext *cost = context;
-    const int index = turn->frame * dip_cost_frame_count(cost->report) / LOOK_FRAMES;
     DipFrame frame;
     (void)timed;
-    return dip_cost_draw_timed(cost, &cost->report->options.baseline, 0, index, &frame, err);
+    return dip_cost_draw_timed(cost, &cost->report->options.baseline, 0, frame_of(cost, turn),
+                               &frame, err);
 }
 
 // Warns, unless this was done before.
@@ -66,7 +76,7 @@ static void judge(DipCostContext *cost, const DipDriver *driver, const DipTimesF
 
 bool dip_cost_look_at_machine(DipCostContext *cost, DipError *err) {
     static const int base_of[] = {0, 0};
-    const DipDriverCalls calls = {.draw = draw, .context = cost};
+    const DipDriverCalls calls = {.prepare = prepare, .draw = draw, .context = cost};
     const DipDriverDef def = {
         .subjects = 2,
         .base_of = base_of,

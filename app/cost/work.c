@@ -115,7 +115,7 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
         DipFrame frame;
         // The path is divided into equal parts; this is the middle of part k.
         const int index = dip_cost_frame_count(cost->report) * (2 * k + 1) / (2 * frames);
-        if (dip_cost_interrupted(err) ||
+        if (dip_cost_interrupted(err) || !dip_cost_prepare_timed(cost, quality, 0, index, err) ||
             !dip_cost_draw_timed(cost, quality, 0, index, &frame, err)) {
             return false;
         }

@@ -449,6 +449,9 @@ static bool draw_frame(DipDriver *d, const Draw *draw, DipTimed *timed, DipError
         .round = in_round ? round % d->def.rounds : -1,
         .frame = draw->frame,
     };
+    if (d->calls.prepare && !d->calls.prepare(d->calls.context, &turn, err)) {
+        return false;
+    }
     if (draw->phase == DIP_DRIVER_TIMED && d->def.rest_ns > 0) {
         rest(d->def.rest_ns);
     }

@@ -92,6 +92,10 @@ typedef struct DipDriverCalls {
     // the driver takes the time itself.
     bool (*draw)(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err);
 
+    // Does what must come before a frame and is not timed, such as drawing the frame before it. May
+    // be NULL.
+    bool (*prepare)(void *context, const DipDriverTurn *turn, DipError *err);
+
     // Begins a start, for example by starting a process. May be NULL.
     bool (*start)(void *context, int start, DipError *err);
 

@@ -49,6 +49,7 @@ typedef struct Machine {
     int fail_at;       // The turn that fails; -1 for none.
     bool is_elsewhere; // Another process draws, and tells its times.
     bool tells_no_wait;
+    int prepared; // Number of frames that were prepared.
 } Machine;
 
 static Machine m;
@@ -100,6 +101,18 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
+// Takes long, and its threads wait.
+static bool prepare(void *context, const DipDriverTurn *turn, DipError *err) {
+    (void)context;
+    (void)turn;
+    (void)err;
+    m.prepared++;
+    m.now_ns += 70000000;
+    m.use.cpu_ns += 50000000;
+    m.use.wait_ns += 20000000;
+    return true;
+}
+
 static bool start(void *context, int index, DipError *err) {
     (void)context;
     (void)err;
@@ -142,7 +155,7 @@ static DipDriverDef path_def(void) {
     };
 }
 
-static const DipDriverCalls calls = {
+static DipDriverCalls calls = {
     .draw = draw, .start = start, .keep = keep, .clock_ns = clock_ns, .thread_use = thread_use};
 
 static void begin(const DipDriverDef *def) {
@@ -171,6 +184,7 @@ static int set_up(void **state) {
     m.busy_round = m.fail_at = m.busy_subject = -1;
     m.use.has_wait = true;
     m.now_ns = 1000;
+    calls.prepare = NULL;
     return 0;
 }
 
@@ -230,6 +244,22 @@ static void every_frame_is_timed_once_beside_its_base(void **state) {
                                        2 * (COPIES - 1) * PATH);
     const DipDriverMachine machine = dip_driver_machine(driver, 1);
     assert_true(machine.settled && machine.has_wait && machine.wait == 0.0 && !machine.repeated);
+}
+
+static void what_is_prepared_is_not_timed(void **state) {
+    (void)state;
+    const DipDriverDef def = path_def();
+    calls.prepare = prepare;
+    work_until_done(&def);
+    const DipTimes times = dip_driver_times(driver);
+    assert_true(times.count > 0);
+    for (int i = 0; i < times.count; i++) {
+        const DipTimed *timed = &times.list[i];
+        const double ms = true_ms(timed->subject, timed->frame);
+        assert_true(fabs(timed->ms - ms) < 1e-5 && fabs(timed->cpu_ms - ms) < 1e-5);
+        assert_true(timed->wait == 0.0);
+    }
+    assert_int_equal(m.prepared, m.turn_count);
 }
 
 // The frames of each block in the order in which they were drawn: whole visits, each with an
