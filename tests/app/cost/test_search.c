@@ -4,8 +4,10 @@
 #include "app/cli/progress.h"
 #include "app/cost/steps.h"
 #include "app/report/combinations.h"
+#include "app/report/format/formats.h"
 #include "renderer/base/clock.h"
 #include "renderer/catalogue/random.h"
+#include "tests/app/cost/made_report.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -318,6 +320,79 @@ static void each_phase_forecasts_less_than_the_one_before(void **state) {
     dip_progress_set_later(0.0);
 }
 
+// Makes a report of three measured combinations, of which 5000000 more were predicted, and returns
+// what is printed of it. `wait` is the share of the time that the threads waited for a core.
+static char *print_answer(bool predicted, double wait) {
+    static char text[1 << 16];
+    const char *const file = "test_search.txt";
+    DipCostReport report;
+    dip_made_report(&report, 4);
+    report.machine.wait = wait;
+    const char *const sets[] = {"aa=none", "aa=4", "aa=4,af=16"};
+    for (int i = 0; i < 3; i++) {
+        DipQuality quality;
+        assert_true(dip_quality_parse(sets[i], &quality, NULL));
+        dip_made_combination(&report, &quality, 2.0 + i, 0.05 - 0.01 * i);
+    }
+    if (predicted) {
+        report.predicted = (DipCostPredictions){
+            .list = calloc(2, sizeof *report.predicted.list), .count = 2, .searched = 5000000};
+        assert_non_null(report.predicted.list);
+        assert_true(
+            dip_quality_parse("aa=8,af=8,scale=2", &report.predicted.list[0].quality, NULL));
+        assert_true(dip_quality_parse("opt=standard", &report.predicted.list[1].quality, NULL));
+        // This setting was swept and then not combined.
+        report.sweeps[report.sweep_count++] =
+            (DipCostSweep){.setting = DIP_SETTING_SHADOWS, .rows = {0}, .row_count = 1};
+    }
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    FILE *out = fopen(file, "w");
+    assert_non_null(out);
+    dip_cost_print(&report, out);
+    fclose(out);
+    FILE *in = fopen(file, "r");
+    assert_non_null(in);
+    text[fread(text, 1, sizeof text - 1, in)] = '\0';
+    fclose(in);
+    remove(file);
+    dip_cost_report_free(&report);
+    return text;
+}
+
+static void assert_has(const char *text, const char *part) {
+    if (!strstr(text, part)) {
+        fail_msg("'%s' is not in\n%s", part, text);
+    }
+}
+
+static void the_answer_says_what_was_searched(void **state) {
+    (void)state;
+    const char *text = print_answer(true, 0.0);
+    assert_true(strncmp(text, "At 60 frames a second (16.6 ms) on this machine:\n", 49) == 0);
+    assert_has(text,
+               "  Best of        5000000 combinations of 4 settings: all predicted, 3 measured\n");
+    assert_has(text, "  Not combined   shadows: no step changes a picture here\n");
+    text = print_answer(false, 0.0);
+    assert_has(text, "  Best of        3 combinations of 2 settings: all measured\n");
+    assert_null(strstr(text, "Not combined"));
+}
+
+static void a_busy_machine_gets_no_times_but_errors(void **state) {
+    (void)state;
+    const char *text = print_answer(true, 0.9);
+    assert_true(strncmp(text, "No advice:\n", 11) == 0);
+    assert_has(text, "What to do: close other programs");
+    assert_has(text, "--quick");
+    // The front has the errors, without times.
+    char *front = strstr(text, "Combinations from the fastest");
+    assert_non_null(front);
+    *strstr(front, "\n\n") = '\0';
+    assert_has(front, "aa=4,af=16");
+    assert_has(front, ".03");
+    assert_null(strstr(front, "ms"));
+    assert_null(strstr(text, "Line for ini"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(combinations_are_counted_without_a_list),
@@ -325,6 +400,8 @@ int main(void) {
         cmocka_unit_test(combinations_that_fit_a_list_are_all_listed),
         cmocka_unit_test(settings_that_change_no_picture_are_dropped),
         cmocka_unit_test(a_busy_machine_is_told_once),
+        cmocka_unit_test(the_answer_says_what_was_searched),
+        cmocka_unit_test(a_busy_machine_gets_no_times_but_errors),
         cmocka_unit_test(the_time_left_is_that_of_the_whole_run),
         cmocka_unit_test(each_phase_forecasts_less_than_the_one_before),
     };

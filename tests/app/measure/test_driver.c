@@ -817,6 +817,7 @@ int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         TEST(every_frame_is_timed_once_beside_its_base),
+        TEST(what_is_prepared_is_not_timed),
         TEST(visits_begin_untimed_and_lie_beside_the_base),
         TEST(visits_of_a_log_begin_in_order),
         TEST(order_follows_the_seed),
