@@ -115,10 +115,8 @@ static const DipOptionRow out_rows[] = {
 
 static const DipOptionRow quick_rows[] = {
     {"--quick", NULL, DIP_OPTION_FLAG,
-     .text =
-         "Answer in a minute or two, with wider intervals: the same as --predict --starts 2 "
-         "--rounds 3 --places 2 --samples 16, unless these options are given. Fewer of the best "
-         "combinations are measured."},
+     .text = "Answer in a minute or two, with wider intervals: the same as --predict --starts 2 "
+             "--rounds 3 --places 2 --burst 1 --samples 16, unless these options are given."},
 };
 
 static const DipOptionRow choice_rows[] = {
@@ -257,6 +255,7 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
             all->measure = (DipMeasureOptions){.rounds = 3, .starts = 2};
             all->cost.predict = true;
             all->cost.places = 2;
+            all->cost.burst = 1;
             all->cost.samples = 16;
         }
     }

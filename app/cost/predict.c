@@ -18,6 +18,7 @@ enum {
     // measured because they are on the front.
     MOST_PROMISING = 24,
     MOST_GOES = 3,
+    FEW_ROUNDS = 8, // With fewer rounds, the user is in a hurry, and there is one go less.
     FRONT_PER_GO = 8
 };
 
@@ -306,7 +307,8 @@ bool dip_cost_predict(DipCostContext *cost, DipError *err) {
         return false;
     }
     const int first_row = report->row_count;
-    for (int go = 0; go < MOST_GOES; go++) {
+    const int goes = report->options.rounds < FEW_ROUNDS ? MOST_GOES - 1 : MOST_GOES;
+    for (int go = 0; go < goes; go++) {
         int list[MOST_PROMISING];
         const int count = dip_cost_list_promising(report, MOST_PROMISING, list, err);
         cost->forecast.goes = go;

@@ -250,6 +250,12 @@ int dip_report_find(const DipCostReport *report, const DipQuality *quality, int 
 // the row that stands for them because it draws the same pictures (report->same), or -1.
 int dip_report_find_same(const DipCostReport *report, const DipQuality *quality, int first);
 
+// Returns the number of all combinations that were predicted; 0 if none were.
+static inline int dip_cost_searched(const DipCostReport *report) {
+    const DipCostPredictions *predicted = &report->predicted;
+    return predicted->searched > predicted->count ? predicted->searched : predicted->count;
+}
+
 // Returns the index of the prediction of these settings, or -1 if there is none.
 int dip_report_find_predicted(const DipCostPredictions *predicted, const DipQuality *quality);
 

@@ -73,7 +73,6 @@ static void write_searched(DipForm *form, const DipCostReport *report) {
     const DipCostPredictions *predicted = &report->predicted;
     const unsigned varied = varied_settings(report);
     const int measured = report->choice.candidates.count;
-    const int searched = predicted->searched > 0 ? predicted->searched : predicted->count;
     char idle[DIP_COST_TEXT] = "";
     int settings = 0;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
@@ -89,7 +88,7 @@ static void write_searched(DipForm *form, const DipCostReport *report) {
     }
     if (predicted->count > 0) {
         dip_form_fact(form, "Best of", "%d combinations of %d settings: all predicted, %d measured",
-                      searched, settings, measured);
+                      dip_cost_searched(report), settings, measured);
     } else {
         dip_form_fact(form, "Best of", "%d combinations of %d settings: all measured", measured,
                       settings);
@@ -344,10 +343,10 @@ void dip_section_predictions(DipForm *form, const DipCostReport *report) {
         "measured ones. The %d combinations that the prediction found best were then "
         "measured; beneath, each of the first ones is predicted from the others, "
         "too.%s",
-        p->count, report->paths[0], p->trained, p->times.rows,
+        dip_cost_searched(report), report->paths[0], p->trained, p->times.rows,
         p->count > DIP_COST_MOST_COUNTED
-            ? " The work of combinations of antialiasing and filtering was composed "
-              "from the work of either."
+            ? " The work of combinations was composed from the work of those that change fewer "
+              "settings."
             : "");
     dip_section_misses(form, "Times", &p->times);
     dip_section_misses(form, "FLIP", &p->errors);
