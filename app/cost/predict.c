@@ -52,25 +52,6 @@ static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN
     return count;
 }
 
-// Estimates the time of a frame from its main counters, with usual prices in nanoseconds. The fit
-// weighs a row by the inverse of its time, so the choice of rows does, too. It also keeps the run
-// from measuring rows that take very long.
-static double usual_ns(const double counters[DIP_COST_COUNTER_COUNT]) {
-    static const struct {
-        int counter;
-        double ns;
-    } prices[] = {
-        {DIP_COST_COUNTER_fragments_shaded, 12.0}, {DIP_COST_COUNTER_texture_probes, 6.0},
-        {DIP_COST_COUNTER_samples_shown, 1.0},     {DIP_COST_COUNTER_pixels_filtered, 10.0},
-        {DIP_COST_COUNTER_shadow_texels, 1.0},     {DIP_COST_COUNTER_triangles_in, 30.0},
-    };
-    double ns = 1.0;
-    for (size_t i = 0; i < sizeof prices / sizeof *prices; i++) {
-        ns += counters[prices[i].counter] * prices[i].ns;
-    }
-    return ns;
-}
-
 bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err) {
     const DipCostPredictions *predicted = &report->predicted;
     double *matrix = malloc((size_t)predicted->count * DESIGN_TERMS * sizeof *matrix);
@@ -80,11 +61,8 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
     int terms = 0, given = 0;
     for (int i = 0; i < predicted->count; i++) {
         double row[DESIGN_TERMS];
-        const double weight = 1.0 / usual_ns(predicted->list[i].counters);
         terms = design_terms(&predicted->list[i], row);
-        for (int t = 0; t < terms; t++) {
-            matrix[(size_t)i * (size_t)terms + (size_t)t] = weight * row[t];
-        }
+        memcpy(matrix + (size_t)i * (size_t)terms, row, (size_t)terms * sizeof *row);
     }
     for (int i = 0; i < predicted->count && given < count; i++) {
         if (predicted->list[i].row >= 0) {
@@ -285,7 +263,11 @@ static bool list_combinations(DipCostContext *cost, DipError *err) {
     }
     dip_cost_drop_idle_settings(cost->report);
     dip_cost_begin_phase(cost, DIP_COST_PHASE_COUNTING);
-    return dip_cost_list_predictions(cost->report, err) && dip_cost_count_combinations(cost, err);
+    if (!dip_cost_list_predictions(cost->report, err) || !dip_cost_count_combinations(cost, err)) {
+        return false;
+    }
+    dip_cost_drop_slow_sample(cost->report);
+    return true;
 }
 
 // Measures some of the predicted combinations, and predicts the others anew.

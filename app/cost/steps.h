@@ -99,6 +99,11 @@ bool dip_cost_list_predictions(DipCostReport *report, DipError *err);
 // progress on standard error.
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
 
+// If report->predicted has only a sample of the combinations, takes those out of the list that will
+// take about four times as long as the baseline or longer, and differ from it in several groups of
+// settings. They would tell much about prices, but take too long to measure.
+void dip_cost_drop_slow_sample(DipCostReport *report);
+
 // Composes the counters of a combination from the counted ones of report->predicted
 // (combinations.h). Returns false if one that is needed is not listed.
 bool dip_cost_compose_counters(const DipCostReport *report, DipCostPrediction *prediction);

@@ -12,6 +12,9 @@
 
 enum { POOL = 1024 }; // Number of combinations from which those to measure first are chosen.
 
+// Greatest time of these combinations over the baseline's, so that they are measured in short time.
+static const double most_ratio = 4.0;
+
 // --- which combinations there are ----------------------------------------------------------------
 
 static bool is_idle(const DipCostReport *report, const DipCostSweep *sweep) {
@@ -199,4 +202,38 @@ void dip_cost_scale_counters(DipCostReport *report) {
                                          : p->counters[c];
         }
     }
+}
+
+// --- the sample ----------------------------------------------------------------------------------
+
+// Estimates the time of a frame from its main counters, with usual prices in nanoseconds.
+static double usual_ns(const double counters[DIP_COST_COUNTER_COUNT]) {
+    static const struct {
+        int counter;
+        double ns;
+    } prices[] = {
+        {DIP_COST_COUNTER_fragments_shaded, 12.0}, {DIP_COST_COUNTER_texture_probes, 6.0},
+        {DIP_COST_COUNTER_samples_shown, 1.0},     {DIP_COST_COUNTER_pixels_filtered, 10.0},
+        {DIP_COST_COUNTER_shadow_texels, 1.0},     {DIP_COST_COUNTER_triangles_in, 30.0},
+    };
+    double ns = 1.0;
+    for (size_t i = 0; i < sizeof prices / sizeof *prices; i++) {
+        ns += counters[prices[i].counter] * prices[i].ns;
+    }
+    return ns;
+}
+
+void dip_cost_drop_slow_sample(DipCostReport *report) {
+    DipCostPredictions *predicted = &report->predicted;
+    const DipQuality *baseline = &report->options.baseline;
+    const double most_ns = most_ratio * usual_ns(predicted->list[0].counters);
+    int kept = 0;
+    for (int i = 0; i < predicted->count; i++) {
+        const DipCostPrediction *p = &predicted->list[i];
+        if (predicted->searched <= DIP_COST_MAX_ROWS ||
+            dip_work_count_groups(baseline, &p->quality) <= 1 || usual_ns(p->counters) <= most_ns) {
+            predicted->list[kept++] = *p;
+        }
+    }
+    predicted->count = kept;
 }
