@@ -122,6 +122,6 @@ double dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase) {
                        ? 0.0
                        : phase_s(cost, (DipCostPhase)later);
     }
-    dip_progress_set_later(later_s);
+    dip_progress_expect(phase_s(cost, phase), later_s);
     return later_s;
 }

@@ -288,6 +288,9 @@ bool dip_cost_predict(DipCostContext *cost, DipError *err) {
     if (!list_combinations(cost, err) || !measure_training(cost, err) || !predict(cost, err)) {
         return false;
     }
+    if (report->verdict == DIP_COST_RED) { // No settings will be advised, so none are looked for.
+        return true;
+    }
     const int first_row = report->row_count;
     const int goes = report->options.rounds < FEW_ROUNDS ? MOST_GOES - 1 : MOST_GOES;
     for (int go = 0; go < goes; go++) {

@@ -241,8 +241,8 @@ static void a_busy_machine_is_told_once(void **state) {
     remove(log);
 }
 
-// Shows the progress of a part that has run 10 s and is half done, and returns the text.
-static const char *show_progress(void) {
+// Shows the progress of a part that has run 10 s and done some of 100 things. Returns the text.
+static const char *show_progress(int done) {
     static char text[256];
     const char *const file = "test_search.txt";
     DipProgress progress = dip_progress_begin("things", 100);
@@ -252,7 +252,7 @@ static const char *show_progress(void) {
     fflush(stderr);
     const int kept = dup(STDERR_FILENO);
     assert_non_null(freopen(file, "w", stderr));
-    dip_progress_show(&progress, 50);
+    dip_progress_show(&progress, done);
     fflush(stderr);
     assert_true(dup2(kept, STDERR_FILENO) >= 0);
     close(kept);
@@ -267,13 +267,19 @@ static const char *show_progress(void) {
 
 static void the_time_left_is_that_of_the_whole_run(void **state) {
     (void)state;
-    dip_progress_set_later(0.0);
-    assert_string_equal(show_progress(), "50 of 100 things, 10 s left\n");
-    dip_progress_set_later(40.0);
-    assert_string_equal(show_progress(), "50 of 100 things, about 50 s left in all\n");
-    dip_progress_set_later(290.0);
-    assert_string_equal(show_progress(), "50 of 100 things, about 5 min left in all\n");
-    dip_progress_set_later(0.0);
+    dip_progress_expect(0.0, 0.0);
+    assert_string_equal(show_progress(50), "50 of 100 things, 10 s left\n");
+    dip_progress_expect(0.0, 40.0);
+    assert_string_equal(show_progress(50), "50 of 100 things, about 50 s left in all\n");
+    dip_progress_expect(0.0, 290.0);
+    assert_string_equal(show_progress(50), "50 of 100 things, about 5 min left in all\n");
+    // At first the expectation counts: 10 s for one of 100 things do not mean 990 s for the others.
+    dip_progress_expect(20.0, 40.0);
+    assert_string_equal(show_progress(1), "1 of 100 things, about 4 min left in all\n");
+    assert_string_equal(show_progress(1), "1 of 100 things, about 17 min left in all\n");
+    dip_progress_expect(20.0, 40.0);
+    assert_string_equal(show_progress(50), "50 of 100 things, about 50 s left in all\n");
+    dip_progress_expect(0.0, 0.0);
 }
 
 // Returns the seconds of all phases after this one.
@@ -317,7 +323,7 @@ static void each_phase_forecasts_less_than_the_one_before(void **state) {
     report.options.predict = false;
     assert_true(later_than(&cost, DIP_COST_PHASE_TRUTHS) > 0.0);
     assert_true(later_than(&cost, DIP_COST_PHASE_SWEEPS) == 0.0);
-    dip_progress_set_later(0.0);
+    dip_progress_expect(0.0, 0.0);
 }
 
 // Makes a report of three measured combinations, of which 5000000 more were predicted, and returns
