@@ -19,7 +19,8 @@
 //      base, waited too long for a core. While fewer than three quarters of a subject's frames are
 //      undisturbed, the driver draws the subject again in the rounds that have disturbed frames,
 //      next to its base, each round at most once. It keeps the new time of a frame if its threads
-//      waited less.
+//      waited less. The phase ends when most frames of two rounds in a row are disturbed again,
+//      since the machine is still busy.
 //
 // A driver draws one frame per step, so the preview can stop between any two frames. Commands step
 // until the driver is done.

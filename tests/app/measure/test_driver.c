@@ -42,6 +42,7 @@ typedef struct Machine {
     int busy_round;   // In this round of all starts, frames wait for half of their time; -1: none.
     int busy_subject; // Only this subject waits; -1: all do.
     bool busy_again;  // The first repetition waits longer.
+    bool busy_always;
     bool busy_at_first; // All frames wait, until the rounds are repeated.
     double slow_down;   // Per frame: the machine becomes slower all the time.
     double start_ms;
@@ -62,7 +63,7 @@ static double true_ms(int subject, int frame) {
 static bool is_busy(const DipDriverTurn *turn) {
     return turn->round >= 0 && (m.busy_subject < 0 || turn->subject == m.busy_subject) &&
            (turn->start * ROUNDS + turn->round == m.busy_round ||
-            (m.busy_at_first && m.kept_rounds < ALL_ROUNDS));
+            (m.busy_at_first && m.kept_rounds < ALL_ROUNDS) || m.busy_always);
 }
 
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
@@ -443,6 +444,15 @@ static void worse_repetitions_are_not_kept(void **state) {
     assert_int_equal(m.kept_rounds, ALL_ROUNDS + 9);
 }
 
+// The first repetitions show that the machine is still busy, so there are no more.
+static void a_machine_that_stays_busy_repeats_little(void **state) {
+    (void)state;
+    const DipDriverDef def = path_def();
+    m.busy_always = true;
+    work_until_done(&def);
+    assert_int_equal(m.kept_rounds, ALL_ROUNDS + 2);
+}
+
 // A base is drawn first, last and between in about equally many of its blocks.
 static void visits_of_a_block_have_no_fixed_order(void **state) {
     (void)state;
@@ -555,6 +565,10 @@ static void resumed_repetitions_are_those_of_the_whole(void **state) {
     (void)state;
     const DipDriverDef def = path_def();
     m.busy_at_first = true;
+    check_resume(&def);
+    tear_down(NULL);
+    set_up(NULL);
+    m.busy_always = true;
     check_resume(&def);
 }
 
@@ -828,6 +842,7 @@ int main(void) {
         TEST(many_disturbed_frames_are_drawn_again),
         TEST(frames_beside_a_disturbed_base_are_drawn_again),
         TEST(worse_repetitions_are_not_kept),
+        TEST(a_machine_that_stays_busy_repeats_little),
         TEST(visits_of_a_block_have_no_fixed_order),
         TEST(without_a_limit_nothing_is_disturbed),
         TEST(resumed_rounds_are_those_of_the_whole),
