@@ -4,6 +4,7 @@
 #include "app/cost/steps.h"
 
 #include "app/report/combinations.h"
+#include "renderer/base/assert.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -136,13 +137,14 @@ static bool list_options(Search *search) {
     for (int g = 0; base >= 0 && g < DIP_WORK_GROUPS; g++) {
         Options *options = &search->groups[g];
         options->list[options->count++] = &predicted->list[base];
-        for (int i = 0; i < predicted->count && options->count < MOST_OPTIONS; i++) {
+        for (int i = 0; i < predicted->count; i++) {
             const DipQuality *quality = &predicted->list[i].quality;
             const DipQuality alone = dip_cost_take_settings(baseline, quality, dip_work_group(g));
             const DipQuality combined =
                 dip_cost_take_settings(baseline, quality, report->options.combined);
             if (i != base && dip_quality_equal(&alone, quality) &&
                 dip_quality_equal(&combined, quality)) {
+                DIP_ASSERT(options->count < MOST_OPTIONS);
                 options->list[options->count++] = &predicted->list[i];
             }
         }
