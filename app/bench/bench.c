@@ -265,7 +265,7 @@ static bool answer(void *context, const char *request, DipBenchSample *sample, D
 static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
     Server server = {plan, create_context(plan, session, err)};
     const bool done = server.bench && dip_child_serve("bench", plan->count, plan->options.frames,
-                                                      answer, &server, err);
+                                                      NULL, answer, &server, err);
     destroy_context(&server.bench);
     return done;
 }

@@ -12,18 +12,52 @@
 static const int64_t terminal_period_ns = 100000000;
 static const int64_t other_period_ns = INT64_C(10000000000);
 
+// Expected times, of the work that begins next and of the parts of the command that come after it;
+// 0 if they are not known.
+static double next_s, later_s;
+static const double early = 0.05; // At this share, expected and real time count alike.
+
+void dip_progress_expect(double own_s, double all_later_s) {
+    next_s = own_s;
+    later_s = all_later_s;
+}
+
+double dip_progress_elapsed_s(const DipProgress *progress) {
+    return 1e-9 * (double)(dip_clock_ns() - progress->begin_ns);
+}
+
+void dip_progress_clear(void) {
+    if (isatty(STDERR_FILENO) != 0) {
+        fputs("\r\033[K", stderr);
+    }
+}
+
 DipProgress dip_progress_begin(const char *things, int64_t total) {
     const int64_t now_ns = dip_clock_ns();
-    return (DipProgress){things, total, now_ns, now_ns, isatty(STDERR_FILENO) != 0};
+    const double expected_s = next_s;
+    next_s = 0.0;
+    return (DipProgress){things, total, now_ns, now_ns, expected_s, isatty(STDERR_FILENO) != 0};
+}
+
+static void print_left(double left_s) {
+    const double all_s = left_s + later_s;
+    if (later_s <= 0.0) {
+        fprintf(stderr, ", %.0f s left", left_s);
+    } else if (all_s < 100.0) {
+        fprintf(stderr, ", about %.0f s left in all", all_s);
+    } else {
+        fprintf(stderr, ", about %.0f min left in all", all_s / 60.0);
+    }
 }
 
 static void print(const DipProgress *progress, int64_t done, int64_t now_ns) {
     fprintf(stderr, "%s%" PRId64 " of %" PRId64 " %s", progress->terminal ? "\r" : "", done,
             progress->total, progress->things);
     if (done > 0 && done < progress->total) {
-        const double elapsed_s = 1e-9 * (double)(now_ns - progress->begin_ns);
-        fprintf(stderr, ", %.0f s left",
-                elapsed_s * (double)(progress->total - done) / (double)done);
+        const double share = (double)done / (double)progress->total;
+        const double all_s = 1e-9 * (double)(now_ns - progress->begin_ns) / share;
+        const double weight = progress->expected_s > 0.0 ? share / (share + early) : 1.0;
+        print_left((1.0 - share) * (weight * all_s + (1.0 - weight) * progress->expected_s));
     }
     fputs(progress->terminal ? "\033[K" : "\n", stderr);
 }

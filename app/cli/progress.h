@@ -11,19 +11,31 @@ typedef struct DipProgress {
     int64_t total;      // Number of things when the work is done.
     int64_t begin_ns;   // When the work began, by dip_clock_ns.
     int64_t shown_ns;   // When the progress was last shown, by dip_clock_ns.
+    double expected_s;  // Time that the work is expected to take; 0 if not known.
     bool terminal;      // Standard error is a terminal.
 } DipProgress;
 
 DipProgress dip_progress_begin(const char *things, int64_t total);
 
-// Shows "7 of 12 frames, 3 s left". On a terminal, one line is overwritten up to ten times a
-// second. If standard error is not a terminal, a new line is printed every ten seconds, so a short
-// command prints nothing.
+// Sets how long the work that begins next is expected to take, and all parts of the command that
+// come after it. From now on, the time left that is shown is that of the whole command. At first it
+// follows the expectation, and then what the work really takes. 0 for what is not known.
+void dip_progress_expect(double own_s, double later_s);
+
+// Shows "7 of 12 frames, 3 s left", or "7 of 12 frames, about 4 min left in all". On a terminal,
+// one line is overwritten up to ten times a second. If standard error is not a terminal, a new line
+// is printed every ten seconds, so a short command prints nothing.
 void dip_progress_show(DipProgress *progress, int64_t done);
 
 // Shows that `done` of the things are done and ends the line. Prints nothing if standard error is
 // not a terminal.
 void dip_progress_end(DipProgress *progress, int64_t done);
+
+// Returns the seconds since the work began.
+double dip_progress_elapsed_s(const DipProgress *progress);
+
+// Clears the line of the display on a terminal, so that another text can be printed there.
+void dip_progress_clear(void);
 
 // From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second one ends the
 // program at once.

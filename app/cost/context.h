@@ -15,7 +15,18 @@
 
 #include <limits.h>
 
-// All is borrowed, except the reference renderer, the gallery and the renderers. Not thread-safe.
+// What the forecast of the time left knows (forecast.c). Times are guesses until they are measured.
+typedef struct DipCostForecast {
+    double picture_s;   // Time in which one picture is drawn and judged.
+    double row_ms;      // Time of a frame of the rows that are timed first.
+    int swept_rows;     // Rows whose errors are measured first.
+    int timed_rows;     // Rows that are timed first.
+    int counted_frames; // Frames that are drawn to count work.
+    int goes;           // How often the best combinations have been measured (predict.c).
+} DipCostForecast;
+
+// All pointers are borrowed, except the reference renderer, the gallery and the renderers. Not
+// thread-safe.
 typedef struct DipCostContext {
     const DipSession *session;
     DipCostReport *report;
@@ -30,6 +41,9 @@ typedef struct DipCostContext {
     // The command line with which the program starts itself to time frames in another process.
     // NULL if frames are timed in this process.
     const DipServeOptions *start;
+    bool has_warned; // The user was told that the machine is busy (dip_cost_look_at_machine).
+    DipCostForecast forecast;
+    double baseline_ms; // Time of a frame of the baseline at first sight; 0 if nothing is timed.
 } DipCostContext;
 
 // Opens the context of a report. Leaves `journal`, `cache` and `start` NULL; the caller may set
@@ -38,7 +52,11 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
                            bool judges, DipError *err);
 void dip_cost_context_close(DipCostContext *cost);
 
-// Draws the timed frame `index`, 0..dip_cost_frame_count - 1, of a path.
+// Draws the timed frame `index`, 0..dip_cost_frame_count - 1, of a path, whose settings must have
+// been prepared for it. dip_cost_prepare_timed draws the frame before it if the settings have a
+// history, with which the frame is blended.
+bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
+                            DipError *err);
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err);
 

@@ -42,18 +42,32 @@ bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err
     return !folder[0] || dip_folder_make(folder, "--cache", err);
 }
 
-static bool measure(DipCostContext *cost, DipError *err) {
-    const DipCostOptions *options = &cost->report->options;
-    if (!dip_cost_make_truths(cost, err)) {
+// Measures the rows that are planned.
+static bool measure_rows(DipCostContext *cost, DipError *err) {
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_SWEEPS);
+    if (!dip_cost_judge(cost, err) || !dip_cost_join_same_pictures(cost->report, err)) {
         return false;
     }
-    if (options->predict) {
-        return dip_cost_predict(cost, err) && dip_cost_advise(cost, err);
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_TIMES);
+    return cost->report->options.errors_only ||
+           (dip_cost_time_rows(cost, err) && dip_cost_time_smaller(cost, err));
+}
+
+static bool measure(DipCostContext *cost, DipError *err) {
+    const DipCostOptions *options = &cost->report->options;
+    if (!options->errors_only && !dip_cost_look_at_machine(cost, err)) {
+        return false;
     }
-    return dip_cost_judge(cost, err) && dip_cost_join_same_pictures(cost->report, err) &&
-           (options->errors_only ||
-            (dip_cost_time_rows(cost, err) && dip_cost_time_smaller(cost, err) &&
-             dip_cost_advise(cost, err)));
+    dip_cost_forecast_begin(cost);
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_TRUTHS);
+    if (!dip_cost_make_truths(cost, err) ||
+        !(options->predict ? dip_cost_predict(cost, err) : measure_rows(cost, err))) {
+        return false;
+    }
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_ADVICE);
+    const bool advised = options->errors_only || dip_cost_advise(cost, err);
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_PAGE);
+    return advised;
 }
 
 // Writes the current date and time into the report.
@@ -143,9 +157,9 @@ static const DipExample cost_examples[] = {
     {"diptych cost --out report", "measures the courtyard in a few minutes"},
     {"diptych cost --out report --quick", "answers in a minute or two, less surely"},
     {"diptych cost --out report --fps 60,120",
-     "finds the best settings for 60 and for 120 frames a second"},
-    {"diptych cost --out report --predict --budget-ms 4,8,16,33",
-     "ranks 3564 combinations of settings and measures only the best of them"},
+     "finds the best of all combinations of settings for 60 and for 120 frames a second"},
+    {"diptych cost --out report --combine aa,af --budget-ms 4,8,16,33",
+     "measures every combination of two settings and chooses for four budgets"},
     {"diptych cost --out report --model scene.glb --size 1280x720", "measures your own model"},
     {"diptych cost --out part0 --places 8 --part 0:4",
      "measures the errors at half of the viewpoints"},

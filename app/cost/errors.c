@@ -105,6 +105,7 @@ typedef struct Judge {
     int burst_count;
     DipProgress progress;
     int64_t done;
+    int64_t computed; // Bursts among these that were not in the journal.
 } Judge;
 
 static size_t picture_bytes(const Judge *j) {
@@ -196,6 +197,7 @@ static bool judge_bursts(Judge *j, DipError *err) {
             return false;
         }
     }
+    j->computed += j->burst_count;
     j->burst_count = 0;
     return true;
 }
@@ -262,6 +264,18 @@ static bool judge_viewpoint(Judge *j, DipError *err) {
     return judged;
 }
 
+// Returns the number of bursts whose errors are not known yet.
+static int64_t count_bursts(const DipCostReport *report) {
+    const DipCostOptions *options = &report->options;
+    int64_t count = 0;
+    for (int row = 0; row < report->row_count; row++) {
+        for (int p = options->first_place; p < options->end_place; p++) {
+            count += !report->rows[row].judged[p];
+        }
+    }
+    return count;
+}
+
 bool dip_cost_judge(DipCostContext *cost, DipError *err) {
     const DipCostReport *report = cost->report;
     const DipCostOptions *options = &report->options;
@@ -269,8 +283,7 @@ bool dip_cost_judge(DipCostContext *cost, DipError *err) {
     if (!open_judge(&j, cost, err)) {
         return false;
     }
-    const int64_t total = (int64_t)report->row_count * (options->end_place - options->first_place);
-    j.progress = dip_progress_begin("bursts judged", total);
+    j.progress = dip_progress_begin("bursts of frames judged", count_bursts(report));
     bool judged = true;
     for (j.path = 0; judged && j.path < report->path_count; j.path++) {
         for (j.viewpoint = options->first_place; judged && j.viewpoint < options->end_place;
@@ -279,6 +292,10 @@ bool dip_cost_judge(DipCostContext *cost, DipError *err) {
         }
     }
     dip_progress_end(&j.progress, j.done);
+    if (j.computed > 0) {
+        cost->forecast.picture_s =
+            dip_progress_elapsed_s(&j.progress) / (double)(j.computed * options->burst);
+    }
     close_judge(&j);
     return judged;
 }

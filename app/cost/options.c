@@ -116,7 +116,7 @@ static const DipOptionRow out_rows[] = {
 static const DipOptionRow quick_rows[] = {
     {"--quick", NULL, DIP_OPTION_FLAG,
      .text = "Answer in a minute or two, with wider intervals: the same as --predict --starts 2 "
-             "--rounds 3 --places 2 --samples 16, unless these options are given."},
+             "--rounds 3 --places 2 --burst 1 --samples 16, unless these options are given."},
 };
 
 static const DipOptionRow choice_rows[] = {
@@ -124,15 +124,16 @@ static const DipOptionRow choice_rows[] = {
      .text = "The settings to start from. Cost changes one of them at a time and compares the "
              "result with the baseline. By default, every setting has its default."},
     {"--combine", "LIST", DIP_OPTION_CUSTOM, .given = FIELD(has_combined), .read = read_combined,
-     .text =
-         "Also measure every combination of the steps of these settings. The default is aa,af, and "
-         "aa,aaa,asd,af,aaf with --fps or --budget-ms. With the word none, no combinations are "
-         "measured."},
+     .text = "Also measure every combination of the steps of these settings. The default is aa,af. "
+             "With "
+             "the word none, no combinations are measured. With --predict, these settings are "
+             "searched."},
     {"--predict", NULL, DIP_OPTION_FLAG, FIELD(predict),
      .text =
-         "Instead of measuring every step and every combination, measure the few combinations "
-         "that tell most about all others, predict the others, and measure those that the "
-         "prediction finds best. By default it combines aa, aaa, asd, af, aaf, opt and miplod."},
+         "Instead of measuring every combination, measure the steps of each setting and the few "
+         "combinations that tell most about all others, predict the others, and measure those that "
+         "the prediction finds best. Searches all settings but mipdebug, or those of --combine. "
+         "This is the default with --fps or --budget-ms, unless --combine or --part is given."},
 };
 
 static const DipOptionRow budget_rows[] = {
@@ -254,6 +255,7 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
             all->measure = (DipMeasureOptions){.rounds = 3, .starts = 2};
             all->cost.predict = true;
             all->cost.places = 2;
+            all->cost.burst = 1;
             all->cost.samples = 16;
         }
     }

@@ -96,10 +96,10 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 
 // --- rows ----------------------------------------------------------------------------------------
 
-// Finds the row of these settings on this path, or adds it. There is always room, since the sweeps
-// need far fewer than DIP_COST_MAX_ROWS rows.
+// Finds the row of these settings on this path, or adds it. With --predict, the rows of sweeps are
+// combinations. There is always room, since the sweeps need far fewer than DIP_COST_MAX_ROWS rows.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
-    const int known = dip_report_find(report, quality, path, 0);
+    const int known = dip_report_find(report, quality, path, report->combined_first);
     if (known >= 0) {
         return known;
     }
@@ -117,6 +117,21 @@ static void add_to_sweep(DipCostSweep *sweep, int row) {
     if (sweep->row_count < DIP_COST_MAX_SWEEP_ROWS) {
         sweep->rows[sweep->row_count++] = row;
     }
+}
+
+// Returns the path for the sweep of a setting. With --predict, it is the path of the combinations.
+static int sweep_path(DipCostReport *report, const DipSession *session, DipSetting setting) {
+    return report->options.predict ? 0 : add_path(report, session, categories[setting]);
+}
+
+// Returns whether a sweep from this base is wanted. With --predict, the sweep is one of the
+// combined settings, and so are the settings in which its base differs from the baseline.
+static bool is_swept(const DipCostReport *report, DipSetting setting, const DipQuality *base) {
+    const unsigned combined = report->options.combined;
+    const DipQuality of_combined =
+        dip_cost_take_settings(&report->options.baseline, base, combined);
+    return !report->options.predict ||
+           (combined >> setting & 1 && dip_quality_equal(&of_combined, base));
 }
 
 // Adds a sweep of all steps of a setting that the renderer accepts.
@@ -145,10 +160,10 @@ static void plan_setting(DipCostReport *report, const DipSession *session, DipSe
                      "%.50s=%.49s: %.380s", info->key, info->steps[step], err.message);
         }
     }
-    if (count < 2) {
+    if (count < 2 || !is_swept(report, setting, &base)) {
         return;
     }
-    const int path = add_path(report, session, categories[setting]);
+    const int path = sweep_path(report, session, setting);
     DipCostSweep *sweep = begin_sweep(report, setting, path, add_row(report, &base, path));
     for (int i = 0; i < count; i++) {
         add_to_sweep(sweep, add_row(report, &steps[i], path));
@@ -164,8 +179,9 @@ static void add_if_valid(DipCostReport *report, DipCostSweep *sweep, const DipQu
 }
 
 // Adds a sweep of adaptive AA for each number of samples, because the possible group sizes depend
-// on the number of samples. The steps go from few sample groups to many. The step that shades all
-// surfaces per group has groups of one sample only, since its frames take long.
+// on the number of samples. The steps go from few sample groups to many. All surfaces are shaded in
+// groups of one sample only, since such frames take long. With --predict, adds the sweep of one
+// number of samples only.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     const DipSettingInfo *group_size = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {
@@ -173,10 +189,11 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
         base.step[DIP_SETTING_AA] = (uint8_t)aa;
         base.step[DIP_SETTING_AAA] = DIP_AAA_OFF;
         base.step[DIP_SETTING_ASD] = 0;
-        if (!dip_quality_check(&base, NULL)) {
+        if (!dip_quality_check(&base, NULL) || !is_swept(report, DIP_SETTING_AAA, &base) ||
+            (report->options.predict && aa != DIP_COST_COMPANY_AA)) {
             continue;
         }
-        const int path = add_path(report, session, categories[DIP_SETTING_AAA]);
+        const int path = sweep_path(report, session, DIP_SETTING_AAA);
         const int base_row = add_row(report, &base, path);
         DipCostSweep *sweep = begin_sweep(report, DIP_SETTING_AAA, path, base_row);
         add_to_sweep(sweep, base_row);
@@ -206,51 +223,25 @@ static void add_base_rows(DipCostReport *report) {
 
 // --- combinations --------------------------------------------------------------------------------
 
-// Returns whether a combination is measured although the user named no settings to combine.
-// Combinations with steps of adaptive AA other than off and on are not measured: there are many,
-// and those of aaa=all take long.
-static bool is_measured_by_default(const DipQuality *quality) {
-    const int step = quality->step[DIP_SETTING_AAA];
-    return step == DIP_AAA_OFF || step == DIP_AAA_ON;
-}
-
-// Adds the combinations as rows, or with --predict as predictions, a few of which become rows
-// later.
+// Adds the combinations as rows.
 static bool plan_combinations(DipCostReport *report, DipError *err) {
     const DipCostOptions *options = &report->options;
-    DipCostPredictions *predicted = &report->predicted;
     DipQuality *list = malloc(DIP_COST_MAX_ROWS * sizeof *list);
-    predicted->list = options->predict ? calloc(DIP_COST_MAX_ROWS, sizeof *predicted->list) : NULL;
-    if (!list || (options->predict && !predicted->list)) {
-        free(list);
+    if (!list) {
         return dip_cost_out_of_memory(err);
     }
     int count = options->combined
                     ? dip_cost_list_combinations(&options->baseline, options->combined, list,
                                                  DIP_COST_MAX_ROWS)
                     : 0;
-    if (!options->predict && !options->has_combined && count <= DIP_COST_MAX_ROWS) {
-        int kept = 0;
-        for (int i = 0; i < count; i++) {
-            if (is_measured_by_default(&list[i])) {
-                list[kept++] = list[i];
-            }
-        }
-        count = kept;
-    }
-    const bool fit = count + (options->predict ? 0 : report->row_count) <= DIP_COST_MAX_ROWS;
+    const bool fit = count + report->row_count <= DIP_COST_MAX_ROWS;
     for (int i = 0; fit && i < count; i++) {
-        if (options->predict) {
-            predicted->list[predicted->count++] =
-                (DipCostPrediction){.quality = list[i], .row = -1};
-        } else {
-            report->rows[report->row_count++] = (DipCostRow){.quality = list[i], .path = 0};
-        }
+        report->rows[report->row_count++] = (DipCostRow){.quality = list[i], .path = 0};
     }
     free(list);
     return fit || dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--combine",
                                 "these settings make more than %d combinations; give fewer "
-                                "settings",
+                                "settings, or --predict, which measures only a few of them",
                                 DIP_COST_MAX_ROWS);
 }
 
@@ -286,16 +277,18 @@ void dip_cost_describe(DipCostReport *report, const DipSession *session) {
     report->height = session->pane_size.height;
 }
 
+// Returns whether the run chooses among predicted combinations. With budgets it does, unless the
+// user names the settings to combine or shares the work among machines.
+static bool predicts(const DipCostOptions *options) {
+    return options->predict || (options->budget_count > 0 && !options->has_combined &&
+                                options->end_place == 0 && !options->errors_only);
+}
+
 // Returns the settings that are combined by default. A plot of the Pareto front needs two settings.
-// If the user gives budgets, three more that are worth choosing in any scene are combined for the
-// advice. A prediction (--predict) combines all settings that change the error of a single picture.
+// A prediction combines all settings except mip colours, whose picture is not meant to be accurate.
 static unsigned default_combined(const DipCostOptions *options) {
-    const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
-    const unsigned five =
-        two | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD | 1u << DIP_SETTING_AAF;
-    return options->predict        ? five | 1u << DIP_SETTING_OPT | 1u << DIP_SETTING_MIPLOD
-           : options->budget_count ? five
-                                   : two;
+    return options->predict ? ((1u << DIP_SETTING_COUNT) - 1) & ~(1u << DIP_SETTING_MIPDEBUG)
+                            : 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
 }
 
 static void hash_pose(DipHash *hash, const DipCostReport *report, const DipSession *session,
@@ -329,6 +322,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     if (!report->rows) {
         return dip_cost_out_of_memory(err);
     }
+    report->options.predict = predicts(options);
     if (!report->options.has_combined) {
         report->options.combined = default_combined(&report->options);
     }
@@ -340,17 +334,24 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     }
     dip_cost_describe(report, session);
     add_row(report, &report->options.baseline, add_path(report, session, DIP_CATEGORY_DEFAULT));
-    for (int s = 0; s < DIP_SETTING_COUNT && !options->predict; s++) {
+    if (report->options.predict) {
+        add_base_rows(report);
+        report->combined_first = report->row_count;
+        add_row(report, &report->options.baseline, 0);
+    }
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         if (s == DIP_SETTING_AAA) {
             plan_adaptive(report, session);
         } else if (s != DIP_SETTING_ASD && s != DIP_SETTING_MIPDEBUG) {
             plan_setting(report, session, (DipSetting)s);
         }
     }
-    add_base_rows(report);
-    report->combined_first = report->row_count;
-    if (!plan_combinations(report, err)) {
-        return false;
+    if (!report->options.predict) {
+        add_base_rows(report);
+        report->combined_first = report->row_count;
+        if (!plan_combinations(report, err)) {
+            return false;
+        }
     }
     for (int path = 0; path < report->path_count; path++) {
         dip_cost_hash_path(report, session, path);
@@ -383,8 +384,7 @@ void dip_cost_plan_hash(const DipCostReport *report, const DipSession *session, 
         dip_hash_bytes(&hash, &report->rows[r].path, sizeof report->rows[r].path);
         dip_hash_bytes(&hash, &report->rows[r].quality, sizeof report->rows[r].quality);
     }
-    for (int i = 0; i < report->predicted.count; i++) {
-        dip_hash_bytes(&hash, &report->predicted.list[i].quality, sizeof(DipQuality));
-    }
+    const int choice[] = {report->options.predict, (int)report->options.combined};
+    dip_hash_bytes(&hash, choice, sizeof choice);
     dip_hash_hex(&hash, hex);
 }

@@ -1,11 +1,9 @@
-// Chooses which combinations to measure, measures them, and predicts all others from them.
+// Measures every step of every setting, chooses which combinations to measure besides, predicts all
+// others from them, and measures those that the prediction puts near a budget or on the front.
 #include "app/cost/steps.h"
 
 #include "app/report/report.h"
 #include "app/report/fit.h"
-#include "app/report/combinations.h"
-#include "app/cli/progress.h"
-#include "app/measure/timing/sample.h"
 #include "app/measure/stats/least_squares.h"
 #include "renderer/base/assert.h"
 
@@ -14,102 +12,15 @@
 #include <string.h>
 
 enum {
-    COUNTED_FRAMES = 8, // Frames of path 0, spread evenly, whose work is counted.
     DESIGN_TERMS = DIP_LEAST_SQUARES_MAX_TERMS,
-    // After the first combinations, those that are predicted to be best are measured,
-    // MOST_PROMISING combinations at a time, at most MOST_GOES times.
+    // After the first combinations, those that are predicted to be best are measured, in at most
+    // MOST_GOES goes of at most MOST_PROMISING combinations, of which at most FRONT_PER_GO are
+    // measured because they are on the front.
     MOST_PROMISING = 24,
     MOST_GOES = 3,
-    PER_BUDGET = 6 // Combinations of least FLIP that are measured for each budget.
+    FEW_ROUNDS = 8, // With fewer rounds, the user is in a hurry, and there is one go less.
+    FRONT_PER_GO = 8
 };
-
-// --- counting work -------------------------------------------------------------------------------
-
-bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames, double *counters,
-                    DipError *err) {
-    memset(counters, 0, DIP_COUNTER_COUNT * sizeof *counters);
-    for (int k = 0; k < frames; k++) {
-        DipFrame frame;
-        // The path is divided into equal parts; this is the middle of part k.
-        const int index = dip_cost_frame_count(cost->report) * (2 * k + 1) / (2 * frames);
-        if (dip_cost_interrupted(err) ||
-            !dip_cost_draw_timed(cost, quality, 0, index, &frame, err)) {
-            return false;
-        }
-        dip_counters_add(&frame.counters, counters);
-    }
-    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
-        counters[c] /= frames;
-    }
-    return true;
-}
-
-// Returns the counters of a combination in the list, or NULL. dip_work_compose calls it.
-static const double *find(const void *context, const DipQuality *quality) {
-    const DipCostPredictions *predicted = context;
-    const int found = dip_report_find_predicted(predicted, quality);
-    return found >= 0 ? predicted->list[found].counters : NULL;
-}
-
-// True if the combination's counters are composed from those of other combinations instead of
-// counted: if there are many combinations, and this one has neither the baseline's antialiasing nor
-// the baseline's filtering. False if one of those other combinations is missing from the list,
-// because combinations with the same pictures are listed only once.
-static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
-    const DipQuality *baseline = &report->options.baseline;
-    const unsigned settings = dip_cost_sampling_settings();
-    double composed[DIP_COST_COUNTER_COUNT]; // Not used; only the result of composing matters.
-    const DipQuality sampling = dip_cost_take_settings(&combination->quality, baseline, ~settings);
-    const DipQuality filtering = dip_cost_take_settings(&combination->quality, baseline, settings);
-    return report->predicted.count > DIP_COST_MOST_COUNTED &&
-           !dip_quality_equal(&sampling, &combination->quality) &&
-           !dip_quality_equal(&filtering, &combination->quality) &&
-           find(&report->predicted, baseline) && find(&report->predicted, &sampling) &&
-           find(&report->predicted, &filtering) &&
-           dip_work_compose(find, &report->predicted, baseline, &combination->quality, composed);
-}
-
-bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
-    DipCostReport *report = cost->report;
-    DipCostPredictions *predicted = &report->predicted;
-    DipProgress progress = dip_progress_begin("combinations counted", predicted->count);
-    bool counted = true;
-    for (int i = 0; counted && i < predicted->count; i++) {
-        DipCostPrediction *to = &predicted->list[i];
-        counted = is_composed(report, to) ||
-                  dip_cost_count(cost, &to->quality, COUNTED_FRAMES, to->counters, err);
-        dip_progress_show(&progress, i + 1);
-    }
-    dip_progress_end(&progress, predicted->count);
-    for (int i = 0; counted && i < predicted->count; i++) {
-        DipCostPrediction *to = &predicted->list[i];
-        if (is_composed(report, to)) {
-            dip_work_compose(find, predicted, &report->options.baseline, &to->quality,
-                             to->counters);
-        }
-    }
-    return counted;
-}
-
-void dip_cost_scale_counters(DipCostReport *report) {
-    DipCostPredictions *predicted = &report->predicted;
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-        double few = 0.0, all = 0.0;
-        for (int i = 0; i < predicted->count; i++) {
-            const DipCostPrediction *p = &predicted->list[i];
-            if (p->row >= 0) {
-                few += p->counters[c];
-                all += report->rows[p->row].counters[c];
-            }
-        }
-        for (int i = 0; i < predicted->count; i++) {
-            DipCostPrediction *p = &predicted->list[i];
-            p->counters[c] = p->row >= 0 ? report->rows[p->row].counters[c]
-                             : few > 0.0 ? p->counters[c] * all / few
-                                         : p->counters[c];
-        }
-    }
-}
 
 // --- the rows to measure first -------------------------------------------------------------------
 
@@ -153,10 +64,14 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
         terms = design_terms(&predicted->list[i], row);
         memcpy(matrix + (size_t)i * (size_t)terms, row, (size_t)terms * sizeof *row);
     }
+    for (int i = 0; i < predicted->count && given < count; i++) {
+        if (predicted->list[i].row >= 0) {
+            chosen[given++] = i;
+        }
+    }
     const int baseline = dip_report_find_predicted(predicted, &report->options.baseline);
-    if (baseline >= 0 && count > 0) {
-        chosen[0] = baseline;
-        given = 1;
+    if (given == 0 && baseline >= 0 && count > 0) {
+        chosen[given++] = baseline;
     }
     dip_design_choose(matrix, predicted->count, terms, given, count, chosen);
     free(matrix);
@@ -186,22 +101,23 @@ static double usual_p95(const DipCostReport *report, const int *rows, int count)
     return dip_median(ratios, count);
 }
 
-void dip_cost_predict_others(DipCostReport *report) {
-    DipCostPredictions *predicted = &report->predicted;
+DipCostModels dip_cost_models_of(const DipCostReport *report) {
     int rows[DIP_COST_MAX_ROWS];
-    const int count = list_rows(predicted, rows);
-    if (count == 0) {
-        return;
-    }
-    const DipCostModel times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count);
-    const DipCostModel errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count);
-    const double p95 = usual_p95(report, rows, count);
-    for (int i = 0; i < predicted->count; i++) {
-        DipCostPrediction *p = &predicted->list[i];
+    const int count = list_rows(&report->predicted, rows);
+    return (DipCostModels){
+        .times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count),
+        .errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count),
+        .p95 = usual_p95(report, rows, count),
+    };
+}
+
+void dip_cost_predict_others(DipCostReport *report, const DipCostModels *models) {
+    for (int i = 0; i < report->predicted.count; i++) {
+        DipCostPrediction *p = &report->predicted.list[i];
         if (p->row < 0) {
-            p->ms = dip_cost_model_value(&times, p->counters, &p->quality);
-            p->p95_ms = p95 * p->ms;
-            p->flip = dip_cost_model_value(&errors, p->counters, &p->quality);
+            p->ms = dip_cost_model_value(&models->times, p->counters, &p->quality);
+            p->p95_ms = models->p95 * p->ms;
+            p->flip = dip_cost_model_value(&models->errors, p->counters, &p->quality);
         }
     }
 }
@@ -242,15 +158,17 @@ int dip_cost_list_promising(const DipCostReport *report, int most, int *list, Di
     }
     qsort(all.list, (size_t)all.count, sizeof *all.list, compare_losses);
     for (int b = 0; b < options->budget_count; b++) {
-        // Adds the PER_BUDGET candidates of least FLIP among those that may be within the budget.
-        for (int i = 0, seen = 0; i < all.count && seen < PER_BUDGET; i++) {
-            if (all.list[i].time.value <= 1.08 * options->budgets_ms[b]) {
+        // Adds the candidates of least FLIP among those that may be within the budget.
+        for (int i = 0, seen = 0; i < all.count && seen < DIP_COST_PER_BUDGET; i++) {
+            if (all.list[i].time.value <= DIP_COST_MAY_FIT * options->budgets_ms[b]) {
                 add_promising(&promising, all.list[i].row);
                 seen++;
             }
         }
     }
     const int count = dip_front(&all, DIP_CLEARLY_BETTER, front);
+    const int room = promising.count + FRONT_PER_GO;
+    promising.most = room < most ? room : most;
     for (int i = 0; i < count; i++) {
         add_promising(&promising, all.list[front[i]].row);
     }
@@ -260,20 +178,32 @@ int dip_cost_list_promising(const DipCostReport *report, int most, int *list, Di
 
 // --- the whole -----------------------------------------------------------------------------------
 
-// Adds rows for some combinations of report->predicted, and lists the rows.
+// Adds rows for those combinations of report->predicted that have none, and lists the rows of all.
 static bool add_rows(DipCostReport *report, const int *list, int count, int *rows, DipError *err) {
     for (int i = 0; i < count; i++) {
         DipCostPrediction *p = &report->predicted.list[list[i]];
-        rows[i] = dip_cost_report_add_row(report, &p->quality, 0, err);
+        p->row = p->row >= 0 ? p->row : dip_cost_report_add_row(report, &p->quality, 0, err);
+        rows[i] = p->row;
         if (rows[i] < 0) {
             return false;
         }
-        p->row = rows[i];
     }
     return true;
 }
 
-// Measures the combinations that tell most about all others, and predicts the others.
+// Predicts all combinations without a row from those that have one. If the combinations are too
+// many to be listed, searches them all.
+static bool predict(DipCostContext *cost, DipError *err) {
+    DipCostReport *report = cost->report;
+    const DipCostModels models = dip_cost_models_of(report);
+    if (report->predicted.searched > DIP_COST_MAX_ROWS && !dip_cost_search(cost, &models, err)) {
+        return false;
+    }
+    dip_cost_predict_others(report, &models);
+    return true;
+}
+
+// Measures the combinations that tell most about all others.
 static bool measure_training(DipCostContext *cost, DipError *err) {
     DipCostReport *report = cost->report;
     DipCostPredictions *predicted = &report->predicted;
@@ -281,8 +211,15 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
     const int count = dip_cost_training_count(report->options.combined, predicted->count);
     predicted->trained = count;
     if (!dip_cost_choose_training(report, count, chosen, err) ||
-        !add_rows(report, chosen, count, rows, err) || !dip_cost_judge(cost, err) ||
-        !dip_cost_time_rows(cost, err) || !dip_cost_time_smaller(cost, err)) {
+        !add_rows(report, chosen, count, rows, err)) {
+        return false;
+    }
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_TRAINING);
+    if (!dip_cost_judge(cost, err)) {
+        return false;
+    }
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_TIMES);
+    if (!dip_cost_time_rows(cost, err) || !dip_cost_time_smaller(cost, err)) {
         return false;
     }
     dip_cost_scale_counters(report);
@@ -295,7 +232,6 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
         p->p95_ms = report->rows[p->row].time.p95_ms.value;
         p->flip = dip_cost_row_metrics(report, p->row, 0).flip;
     }
-    dip_cost_predict_others(report);
     return true;
 }
 
@@ -319,27 +255,54 @@ static void judge_predictions(DipCostReport *report, int first_row) {
     predicted->errors = dip_cost_misses_of(errors, error_count);
 }
 
-bool dip_cost_predict(DipCostContext *cost, DipError *err) {
-    DipCostReport *report = cost->report;
-    if (!dip_cost_count_combinations(cost, err) || !measure_training(cost, err)) {
+// Lists the combinations, once the pictures of the sweeps tell which settings change any.
+static bool list_combinations(DipCostContext *cost, DipError *err) {
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_SWEEPS);
+    if (!dip_cost_judge(cost, err)) {
         return false;
     }
+    dip_cost_drop_idle_settings(cost->report);
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_COUNTING);
+    if (!dip_cost_list_predictions(cost->report, err) || !dip_cost_count_combinations(cost, err)) {
+        return false;
+    }
+    dip_cost_drop_slow_sample(cost->report);
+    return true;
+}
+
+// Measures some of the predicted combinations, and predicts the others anew.
+static bool measure_best(DipCostContext *cost, const int *list, int count, DipError *err) {
+    DipCostReport *report = cost->report;
+    int rows[MOST_PROMISING];
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_BEST_ERRORS);
+    if (!add_rows(report, list, count, rows, err) || !dip_cost_judge(cost, err)) {
+        return false;
+    }
+    dip_cost_begin_phase(cost, DIP_COST_PHASE_BEST_TIMES);
+    return dip_cost_time_more(cost, rows, count, 0, err) && dip_cost_estimate_times(report, err) &&
+           predict(cost, err);
+}
+
+bool dip_cost_predict(DipCostContext *cost, DipError *err) {
+    DipCostReport *report = cost->report;
+    if (!list_combinations(cost, err) || !measure_training(cost, err) || !predict(cost, err)) {
+        return false;
+    }
+    if (report->verdict == DIP_COST_RED) { // No settings will be advised, so none are looked for.
+        return true;
+    }
     const int first_row = report->row_count;
-    for (int go = 0; go < MOST_GOES; go++) {
-        int list[MOST_PROMISING], rows[MOST_PROMISING];
+    const int goes = report->options.rounds < FEW_ROUNDS ? MOST_GOES - 1 : MOST_GOES;
+    for (int go = 0; go < goes; go++) {
+        int list[MOST_PROMISING];
         const int count = dip_cost_list_promising(report, MOST_PROMISING, list, err);
-        if (count < 0) {
+        cost->forecast.goes = go;
+        if (count < 0 || (count > 0 && !measure_best(cost, list, count, err))) {
             return false;
         }
         if (count == 0) {
             break;
         }
-        if (!add_rows(report, list, count, rows, err) || !dip_cost_judge(cost, err) ||
-            !dip_cost_time_more(cost, rows, count, 0, err) ||
-            !dip_cost_estimate_times(report, err)) {
-            return false;
-        }
-        dip_cost_predict_others(report);
     }
     judge_predictions(report, first_row);
     return true;

@@ -5,6 +5,38 @@
 #define DIP_APP_COST_STEPS_H
 
 #include "app/cost/context.h"
+#include "app/report/fit.h"
+
+// Times the baseline for about a second, twice in turn, and warns if the verdict on the machine
+// would not be green (verdict.h). The verdict of the report comes from all of its times. Sets
+// cost->baseline_ms. Warns at most once for a context, here and in dip_cost_look_at_times.
+bool dip_cost_look_at_machine(DipCostContext *cost, DipError *err);
+
+// Warns if the threads waited so long for a core while these frames were drawn that the verdict on
+// the machine would not be green.
+void dip_cost_look_at_times(DipCostContext *cost, const DipTimed *timed, int count);
+
+// The phases of a run, in order. Some have no work in some runs.
+typedef enum DipCostPhase {
+    DIP_COST_PHASE_TRUTHS,
+    DIP_COST_PHASE_SWEEPS,      // Errors of the rows that are planned.
+    DIP_COST_PHASE_COUNTING,    // This phase and the next are those of predictions.
+    DIP_COST_PHASE_TRAINING,    // Errors of the rows that tell most about all others.
+    DIP_COST_PHASE_TIMES,       // Times of all rows so far.
+    DIP_COST_PHASE_BEST_ERRORS, // Errors of the best combinations, in one go (predict.c).
+    DIP_COST_PHASE_BEST_TIMES,
+    DIP_COST_PHASE_MORE_BEST, // All further goes.
+    DIP_COST_PHASE_ADVICE,
+    DIP_COST_PHASE_PAGE,
+    DIP_COST_PHASE_COUNT
+} DipCostPhase;
+
+// Begins the forecast, once cost->baseline_ms is known.
+void dip_cost_forecast_begin(DipCostContext *cost);
+
+// Begins a phase: tells the progress display how long the later phases will take. Returns this time
+// in seconds.
+double dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase);
 
 // Makes the truths (converged pictures) that are not in the cache, and fills in the noise floor of
 // each truth, which tells how far the truth itself may be wrong.
@@ -30,10 +62,11 @@ bool dip_cost_time_smaller(DipCostContext *cost, DipError *err);
 bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int times_before,
                         DipError *err);
 
-// Ranks the combinations of report->predicted: counts their work on a few frames, measures the few
-// that tell most about all others, predicts the times and errors of all, and measures those that
-// the prediction puts on the Pareto front or near a budget (predict.c). Takes the place of
-// dip_cost_judge and dip_cost_time_rows.
+// Ranks all combinations of the combined settings: judges the sweeps and drops the settings that
+// change no picture, counts the work of combinations on a few frames, measures those that tell most
+// about all others, predicts the times and errors of all, and measures those that the prediction
+// puts on the Pareto front or near a budget. Takes the place of dip_cost_judge and
+// dip_cost_time_rows.
 bool dip_cost_predict(DipCostContext *cost, DipError *err);
 
 // Times again the rows of which it is unclear whether they are within a budget. Does nothing if the
@@ -51,13 +84,29 @@ bool dip_cost_serve(DipCostContext *cost, DipError *err);
 bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames, double *counters,
                     DipError *err);
 
+// Takes those settings out of options.combined of which all steps of the sweep draw the same
+// pictures. They keep their step of the baseline.
+void dip_cost_drop_idle_settings(DipCostReport *report);
+
+// Lists the combinations of the combined settings in report->predicted, and sets `searched`. If
+// there are more than DIP_COST_MAX_ROWS, lists only those that differ from the baseline in one
+// group of settings (combinations.h) and a sample of the others. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_list_predictions(DipCostReport *report, DipError *err);
+
 // Fills in the counters of every combination in report->predicted: means over a few frames. Draws
-// every combination if there are at most DIP_COST_MOST_COUNTED. Otherwise draws only combinations
-// with the baseline's antialiasing or the baseline's filtering, and composes the counters of any
-// other combination C from three that were drawn: counters(C's antialiasing, baseline's filtering)
-// * counters(baseline's antialiasing, C's filtering) / counters(baseline). Shows its progress on
-// standard error.
+// every combination if there are at most DIP_COST_MOST_COUNTED. Otherwise draws those that differ
+// from the baseline in one group of settings, and composes the counters of the others. Shows its
+// progress on standard error.
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
+
+// If report->predicted has only a sample of the combinations, takes those out of the list that will
+// take about four times as long as the baseline or longer, and differ from it in several groups of
+// settings. They would tell much about prices, but take too long to measure.
+void dip_cost_drop_slow_sample(DipCostReport *report);
+
+// Composes the counters of a combination from the counted ones of report->predicted
+// (combinations.h). Returns false if one that is needed is not listed.
+bool dip_cost_compose_counters(const DipCostReport *report, DipCostPrediction *prediction);
 
 // The counters of report->predicted come from a few frames, the counters of rows from all timed
 // frames. Scales each counter of the combinations without a row by the ratio of the two. This ratio
@@ -65,20 +114,39 @@ bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
 // with a row the counters of that row.
 void dip_cost_scale_counters(DipCostReport *report);
 
-// Returns how many combinations are measured to predict `count` combinations of these settings.
-// Bit s of `settings` stands for setting s. Antialiasing and anisotropic filtering need 16. Every
-// other setting needs two more for each step after its first. Returns at most `count`.
+enum { DIP_COST_COUNTED_FRAMES = 8 }; // Frames of path 0, spread evenly, whose work is counted.
+
+// Returns how many combinations are measured to predict `count` combinations of these settings,
+// with those of the sweeps. Bit s of `settings` stands for setting s. Antialiasing and anisotropic
+// filtering need 16. Every other setting needs two more for each step after its first. Returns at
+// most `count`.
 int dip_cost_training_count(unsigned settings, int count);
 
 // Chooses the combinations to measure: those that tell most about the price of each kind of work
 // (fit.h) and about FLIP, by a D-optimal design. `chosen` has room for `count` indices of
-// report->predicted; the first is the baseline if it is one of the combinations. Fails with
-// DIP_ERROR_MEMORY.
+// report->predicted. First come the combinations that have a row, or if there are none, the
+// baseline. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err);
 
-// Predicts the time and FLIP of every combination of report->predicted that has no row, from all
-// combinations that have one.
-void dip_cost_predict_others(DipCostReport *report);
+// The models of the combinations that have a row.
+typedef struct DipCostModels {
+    DipCostModel times;
+    DipCostModel errors;
+    double p95; // The usual ratio of the 95th percentile of the frames' times to their mean.
+} DipCostModels;
+
+DipCostModels dip_cost_models_of(const DipCostReport *report);
+
+// Predicts the time and FLIP of every combination of report->predicted that has no row.
+void dip_cost_predict_others(DipCostReport *report, const DipCostModels *models);
+
+// Predicts all combinations of the combined settings, and adds the best to report->predicted: for
+// each budget DIP_COST_PER_BUDGET of least FLIP whose time is at most DIP_COST_MAY_FIT times the
+// budget, and those on the thinned Pareto front of times that differ by 2 % or more. The work is
+// composed of the counted combinations of the list. Fails with DIP_ERROR_MEMORY.
+enum { DIP_COST_PER_BUDGET = 8 };
+#define DIP_COST_MAY_FIT 1.08
+bool dip_cost_search(DipCostContext *cost, const DipCostModels *models, DipError *err);
 
 // Lists the combinations without a row that should be measured: those on the thinned Pareto front
 // (dip_front, choice.h) of predicted or measured time and FLIP. For each budget of the options,

@@ -51,6 +51,7 @@ typedef struct Timing {
     DipDriverMachine machine;
     DipTimesFit *fit; // Times of the subjects of dip_cost_time_elsewhere, otherwise NULL.
     DipChild *child;  // The process that draws; NULL if this process draws.
+    bool kept;        // The journal gets the times.
 } Timing;
 
 static void close_timing(Timing *t) {
@@ -111,8 +112,10 @@ static bool average_work(const Timing *t, DipError *err) {
             if (t->counted[s * frames + f]) {
                 continue;
             }
-            if (dip_cost_interrupted(err) || !dip_cost_draw_timed(subject->cost, subject->quality,
-                                                                  subject->path, f, &drawn, err)) {
+            if (dip_cost_interrupted(err) ||
+                !dip_cost_prepare_timed(subject->cost, subject->quality, subject->path, f, err) ||
+                !dip_cost_draw_timed(subject->cost, subject->quality, subject->path, f, &drawn,
+                                     err)) {
                 return false;
             }
             count_work(t, s, f, &drawn.counters);
@@ -139,6 +142,13 @@ static bool draw_in_child(const Timing *t, const Subject *s, int frame, DipCount
     }
     *counters = sample.counters;
     return true;
+}
+
+// The process that is asked prepares a frame itself.
+static bool prepare(void *context, const DipDriverTurn *turn, DipError *err) {
+    const Timing *t = context;
+    const Subject *s = &t->subjects[turn->subject];
+    return t->child || dip_cost_prepare_timed(s->cost, s->quality, s->path, turn->frame, err);
 }
 
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
@@ -179,8 +189,9 @@ static bool start(void *context, int index, DipError *err) {
 
 static bool keep_round(void *context, const DipTimed *timed, int count, DipError *err) {
     const Timing *t = context;
-    return dip_cost_journal_add_round(t->cost->journal, t->cost->report->options.seed, timed, count,
-                                      err);
+    dip_cost_look_at_times(t->cost, timed, count);
+    return !t->kept || dip_cost_journal_add_round(t->cost->journal, t->cost->report->options.seed,
+                                                  timed, count, err);
 }
 
 // Hands the rounds of the journal to the driver, which refuses a round that is not its next one.
@@ -211,11 +222,13 @@ typedef enum Where {
 static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const char *progress,
                   DipError *err) {
     DipCostReport *report = t->cost->report;
+    t->kept = where == KEPT;
     const bool starts = report->options.starts > 1 && t->cost->start && where != ELSEWHERE;
     const DipDriverCalls calls = {
+        .prepare = prepare,
         .draw = draw,
         .start = starts ? start : NULL,
-        .keep = where == KEPT ? keep_round : NULL,
+        .keep = where == ELSEWHERE ? NULL : keep_round,
         .context = t,
     };
     const int rounds = report->options.rounds;
@@ -374,37 +387,4 @@ bool dip_cost_time_smaller(DipCostContext *cost, DipError *err) {
         cost, &context, report->smaller, report->smaller_count, "smaller frames timed", &wait, err);
     dip_cost_context_close(&context);
     return done;
-}
-
-// --- the process that is asked -------------------------------------------------------------------
-
-// Draws the frame that a request names. Takes the time of the whole call that draws, as a
-// measurement without --starts does.
-static bool serve_draw(void *context, const char *request, DipBenchSample *sample, DipError *err) {
-    DipCostContext *cost = context;
-    char settings[REQUEST_SIZE];
-    DipQuality quality;
-    DipFrame frame;
-    int path, index;
-    if (sscanf(request, "draw %d %d %255s", &path, &index, settings) != 3 || path < 0 ||
-        path >= cost->report->path_count || index < 0 ||
-        index >= dip_cost_frame_count(cost->report) ||
-        !dip_quality_parse(settings, &quality, NULL)) {
-        return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
-                                     "'%.60s' is not a request; give draw PATH FRAME SETTINGS",
-                                     request);
-    }
-    const int64_t begin_ns = dip_clock_ns();
-    if (!dip_cost_draw_timed(cost, &quality, path, index, &frame, err)) {
-        return false;
-    }
-    const int64_t ns = dip_clock_ns() - begin_ns;
-    dip_bench_sample_set(sample, &frame, false);
-    sample->ms[DIP_BENCH_STAGE_total] = 1e-6 * (double)ns;
-    return true;
-}
-
-bool dip_cost_serve(DipCostContext *cost, DipError *err) {
-    return dip_child_serve("cost", cost->report->path_count, dip_cost_frame_count(cost->report),
-                           serve_draw, cost, err);
 }

@@ -6,6 +6,20 @@
 #include <math.h>
 #include <string.h>
 
+// The groups of settings. The first group decides which samples and fragments are drawn.
+static const unsigned groups[] = {
+    1u << DIP_SETTING_AA | 1u << DIP_SETTING_TAA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
+    1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
+    1u << DIP_SETTING_OPT,
+    1u << DIP_SETTING_MIPLOD,
+    1u << DIP_SETTING_SCALE | 1u << DIP_SETTING_UPSCALE,
+    1u << DIP_SETTING_POST,
+    1u << DIP_SETTING_SHARPEN,
+    1u << DIP_SETTING_SHADOWS,
+    1u << DIP_SETTING_GI,
+};
+_Static_assert(sizeof groups / sizeof *groups == DIP_WORK_GROUPS, "the number of groups");
+
 typedef struct List {
     unsigned settings;
     DipQuality *items;
@@ -44,6 +58,16 @@ int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, Di
     return all.count;
 }
 
+// Whether a setting has an effect depends only on the settings of its group, so the numbers of all
+// groups multiply.
+int64_t dip_cost_count_combinations_of(const DipQuality *baseline, unsigned settings) {
+    int64_t count = 1;
+    for (int g = 0; g < DIP_WORK_GROUPS; g++) {
+        count *= dip_cost_list_combinations(baseline, settings & groups[g], NULL, 0);
+    }
+    return count * (settings >> DIP_SETTING_MIPDEBUG & 1 ? 2 : 1);
+}
+
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask) {
     DipQuality taken = *from;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
@@ -56,28 +80,14 @@ DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with
 
 // --- composed work -------------------------------------------------------------------------------
 
-// The groups of settings. The first group decides which samples and fragments are drawn.
-static const unsigned groups[] = {
-    1u << DIP_SETTING_AA | 1u << DIP_SETTING_TAA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
-    1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF,
-    1u << DIP_SETTING_OPT,
-    1u << DIP_SETTING_MIPLOD,
-    1u << DIP_SETTING_SCALE | 1u << DIP_SETTING_UPSCALE,
-    1u << DIP_SETTING_POST,
-    1u << DIP_SETTING_SHARPEN,
-    1u << DIP_SETTING_SHADOWS,
-    1u << DIP_SETTING_GI,
-};
-enum { GROUPS = sizeof groups / sizeof *groups };
-
-unsigned dip_cost_sampling_settings(void) {
-    return groups[0];
+unsigned dip_work_group(int group) {
+    return groups[group];
 }
 
 int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
     DipQuality rest = *quality;
     int count = 0;
-    for (int g = 0; g < GROUPS; g++) {
+    for (int g = 0; g < DIP_WORK_GROUPS; g++) {
         const DipQuality without = dip_cost_take_settings(&rest, base, groups[g]);
         count += !dip_quality_equal(&without, &rest);
         rest = without;
@@ -97,20 +107,19 @@ double dip_cost_pixels_filtered(const DipQuality *quality) {
 
 // Multiplies each counter by the ratio of a combination's counter (`of`) to the base's counter.
 // Where the base's counter is 0, there is no ratio, and the combination's own counter is taken.
-// Returns false if the combination was not counted.
-static bool apply(const double *of, const double *base, double *counters) {
-    for (int c = 0; of && c < DIP_COST_COUNTER_COUNT; c++) {
+static void apply(const double *of, const double *base, double *counters) {
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);
     }
-    return of != NULL;
 }
 
 // Returns the number of pixels of a frame, as it follows from a combination's counters; 0 if the
-// combination filters none or was not counted. Filters of the finished picture are applied one
-// after the other to pictures of known sizes, so their pixels need not be composed.
+// combination filters none.
+// Filters of the finished picture are applied one after the other to pictures of known sizes, so
+// their pixels need not be composed.
 static double pixels_of_frame(const double *of, const DipQuality *quality) {
     const double filtered = dip_cost_pixels_filtered(quality);
-    return of && filtered > 0.0 ? of[DIP_COST_COUNTER_pixels_filtered] / filtered : 0.0;
+    return filtered > 0.0 ? of[DIP_COST_COUNTER_pixels_filtered] / filtered : 0.0;
 }
 
 // Adds the work of shadows. The shadow map is drawn by itself, so its work does not depend on the
@@ -124,50 +133,60 @@ static void add_shadows(const double *of, const double *base, double *counters) 
     }
 }
 
-// Composes the counters of a combination that has the base's shadows.
-static bool compose_without_shadows(DipWorkFind *find, const void *context, const DipQuality *base,
-                                    const DipQuality *quality, const double *of_base,
-                                    double counters[DIP_COST_COUNTER_COUNT]) {
-    memcpy(counters, of_base, DIP_COST_COUNTER_COUNT * sizeof *counters);
-    const DipQuality sampling = dip_cost_take_settings(base, quality, groups[0]);
-    const DipQuality filtering = dip_cost_take_settings(base, quality, ~groups[0]);
-    if (!apply(find(context, &sampling), of_base, counters)) {
-        return false;
+DipWorkSum dip_work_begin(const DipQuality *base, const double *of_base) {
+    DipWorkSum sum = {.base = base, .of_base = of_base, .pixels = pixels_of_frame(of_base, base)};
+    memcpy(sum.counters, of_base, sizeof sum.counters);
+    return sum;
+}
+
+void dip_work_add(DipWorkSum *sum, const DipQuality *part, const double *of_part) {
+    if (part->step[DIP_SETTING_SHADOWS] != sum->base->step[DIP_SETTING_SHADOWS]) {
+        sum->of_shadows = of_part;
+        return;
     }
-    const double *of_filtering = find(context, &filtering);
-    double pixels =
-        fmax(pixels_of_frame(of_base, base), pixels_of_frame(find(context, &sampling), &sampling));
-    bool known = true;
-    if (of_filtering) {
-        pixels = fmax(pixels, pixels_of_frame(of_filtering, &filtering));
-        known = apply(of_filtering, of_base, counters);
+    apply(of_part, sum->of_base, sum->counters);
+    sum->pixels = fmax(sum->pixels, pixels_of_frame(of_part, part));
+}
+
+void dip_work_end(const DipWorkSum *sum, const DipQuality *quality,
+                  double counters[DIP_COST_COUNTER_COUNT]) {
+    memcpy(counters, sum->counters, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    counters[DIP_COST_COUNTER_pixels_filtered] = sum->pixels * dip_cost_pixels_filtered(quality);
+    if (sum->of_shadows) {
+        add_shadows(sum->of_shadows, sum->of_base, counters);
     }
-    for (int g = 1; !of_filtering && known && g < GROUPS; g++) {
-        const DipQuality alone = dip_cost_take_settings(base, quality, groups[g]);
-        const double *of_alone = find(context, &alone);
-        pixels = fmax(pixels, pixels_of_frame(of_alone, &alone));
-        known = apply(of_alone, of_base, counters);
+}
+
+// Adds the part of a combination that differs from the base in the settings of a mask. Returns
+// false if it was not counted.
+static bool add_part(DipWorkSum *sum, DipWorkFind *find, const void *context,
+                     const DipQuality *quality, unsigned settings) {
+    const DipQuality part = dip_cost_take_settings(sum->base, quality, settings);
+    const double *of_part = find(context, &part);
+    if (of_part) {
+        dip_work_add(sum, &part, of_part);
     }
-    counters[DIP_COST_COUNTER_pixels_filtered] = pixels * dip_cost_pixels_filtered(quality);
-    return known;
+    return of_part != NULL;
 }
 
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
                       const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]) {
     const unsigned shadows = 1u << DIP_SETTING_SHADOWS;
-    const DipQuality rest = dip_cost_take_settings(quality, base, shadows);
-    const DipQuality alone = dip_cost_take_settings(base, quality, shadows);
     const double *of_base = find(context, base);
-    if (!of_base || dip_work_count_groups(base, quality) < 0 ||
-        !compose_without_shadows(find, context, base, &rest, of_base, counters)) {
+    if (!of_base || dip_work_count_groups(base, quality) < 0) {
         return false;
     }
-    if (dip_quality_equal(&rest, quality)) {
-        return true;
+    DipWorkSum sum = dip_work_begin(base, of_base);
+    bool known = add_part(&sum, find, context, quality, groups[0]) &&
+                 (quality->step[DIP_SETTING_SHADOWS] == base->step[DIP_SETTING_SHADOWS] ||
+                  add_part(&sum, find, context, quality, shadows));
+    if (known && !add_part(&sum, find, context, quality, ~groups[0] & ~shadows)) {
+        for (int g = 1; known && g < DIP_WORK_GROUPS; g++) {
+            known = groups[g] == shadows || add_part(&sum, find, context, quality, groups[g]);
+        }
     }
-    const double *of_alone = find(context, &alone);
-    if (of_alone) {
-        add_shadows(of_alone, of_base, counters);
+    if (known) {
+        dip_work_end(&sum, quality, counters);
     }
-    return of_alone != NULL;
+    return known;
 }

@@ -5,6 +5,8 @@
 
 #include "app/report/report.h"
 
+#include <stdint.h>
+
 // Lists every combination of the steps of the settings in the mask `settings` (bit s for setting
 // s). All other settings are those of the baseline. Leaves out combinations that the renderer
 // refuses, and those in which an enabled setting has no effect, since another combination draws the
@@ -12,6 +14,10 @@
 // group of samples. Returns the number of combinations; the list has the first `room` of them.
 int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, DipQuality *list,
                                int room);
+
+// Returns how many combinations dip_cost_list_combinations would list. They need not be listed to
+// be counted, so millions may be counted.
+int64_t dip_cost_count_combinations_of(const DipQuality *baseline, unsigned settings);
 
 // Returns `from` with the settings of `mask` (bit s for setting s) taken from `with`.
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask);
@@ -34,9 +40,11 @@ enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE 
 // Returns how many pixels all filters of the finished picture write, per pixel of the frame.
 double dip_cost_pixels_filtered(const DipQuality *quality);
 
-// Returns the mask of the settings of samples (bit s for setting s). They decide which samples and
-// fragments are drawn.
-unsigned dip_cost_sampling_settings(void);
+enum { DIP_WORK_GROUPS = 9 };
+
+// Returns the mask of the settings of a group, 0 to DIP_WORK_GROUPS - 1. Group 0 is that of
+// samples.
+unsigned dip_work_group(int group);
 
 // Returns the counters [DIP_COST_COUNTER_COUNT] of a combination, or NULL if it was not counted.
 // They are borrowed until dip_work_compose returns.
@@ -49,6 +57,25 @@ typedef const double *DipWorkFind(const void *context, const DipQuality *quality
 // to no group.
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
                       const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]);
+
+// Composes the counters of one combination after another that share some parts. A part is the base
+// with the settings of one or more groups taken from the combination; each group belongs to one
+// part. Parts of other settings must not change the shadows. A DipWorkSum may be copied at any
+// time, to go on in several ways. It borrows all counters.
+typedef struct DipWorkSum {
+    const DipQuality *base;
+    const double *of_base;
+    const double *of_shadows; // Counters of the base with the combination's shadows, or NULL.
+    double counters[DIP_COST_COUNTER_COUNT];
+    double pixels; // Pixels of a frame; 0 if no part filters them.
+} DipWorkSum;
+
+DipWorkSum dip_work_begin(const DipQuality *base, const double *of_base);
+void dip_work_add(DipWorkSum *sum, const DipQuality *part, const double *of_part);
+
+// Writes the counters of the combination `quality`, whose parts have all been added.
+void dip_work_end(const DipWorkSum *sum, const DipQuality *quality,
+                  double counters[DIP_COST_COUNTER_COUNT]);
 
 // Returns the number of groups in which a combination differs from the base, or -1 if it differs in
 // a setting that belongs to no group.

@@ -24,7 +24,7 @@
 enum {
     DIP_COST_PART_FLIP = DIP_COST_STAGE_COUNT,
     DIP_COST_PART_COUNT,
-    DIP_COST_MAX_TERMS = 52 // Greatest number of terms of one part.
+    DIP_COST_MAX_TERMS = 64 // Greatest number of terms of one part.
 };
 
 int dip_cost_term_count(int part);

@@ -145,11 +145,13 @@ typedef struct DipCostPrediction {
     int row;       // The row that measured the combination later; -1 if there is none.
 } DipCostPrediction;
 
-// All combinations that --predict ranks, and how far the predictions lie from measurements.
+// The combinations that --predict lists, and how far the predictions lie from measurements. If
+// there are more than DIP_COST_MAX_ROWS, the list has only those that were measured or looked best.
 typedef struct DipCostPredictions {
     DipCostPrediction *list; // Owned; NULL if nothing was predicted.
     int count;
-    int trained; // Number of rows that were measured to predict all others.
+    int searched; // Number of all combinations that were predicted.
+    int trained;  // Number of rows that were measured to predict all others.
     // Misses of the mean times and of the FLIP of these rows, each predicted from the others.
     DipCostMisses times_left_out;
     DipCostMisses errors_left_out;
@@ -247,6 +249,12 @@ int dip_report_find(const DipCostReport *report, const DipQuality *quality, int 
 // Returns the first row from `first` on with these settings on path 0. If there is none, returns
 // the row that stands for them because it draws the same pictures (report->same), or -1.
 int dip_report_find_same(const DipCostReport *report, const DipQuality *quality, int first);
+
+// Returns the number of all combinations that were predicted; 0 if none were.
+static inline int dip_cost_searched(const DipCostReport *report) {
+    const DipCostPredictions *predicted = &report->predicted;
+    return predicted->searched > predicted->count ? predicted->searched : predicted->count;
+}
 
 // Returns the index of the prediction of these settings, or -1 if there is none.
 int dip_report_find_predicted(const DipCostPredictions *predicted, const DipQuality *quality);

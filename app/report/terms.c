@@ -28,6 +28,7 @@ typedef struct Work {
     double sharp[2];    // 1 if miplod is at least as sharp as `sharp` (the first value), as
                         // `sharper` (the second).
     double scaled;      // 1 if a larger picture is drawn and averaged.
+    double below;       // 1 if a smaller picture is drawn and enlarged.
     double scale;       // Width of the drawn picture divided by that of the frame.
     double drawn_part;  // Pixels that are drawn per pixel of a frame, if scale is below 1; else 1.
     double enlarged[3]; // 1 with a scale below 1 and upscale=bilinear (the first value), =bicubic
@@ -175,6 +176,16 @@ typedef struct Work {
     X("miplod=sharper, per probe", w->sharp[1] / w->probes)                                        \
     X("compressed textures, per probe", w->compressed / w->probes)                                 \
     X("opt=advanced, per probe", w->advanced / w->probes)                                          \
+    X("scale above 1, several samples", w->scaled * w->several * (1.0 - 1.0 / w->scale))           \
+    X("scale above 1, per probe", w->scaled / w->probes * (1.0 - 1.0 / w->scale))                  \
+    X("scale above 1, miplod=sharp", w->scaled * w->sharp[0] * (1.0 - 1.0 / w->scale))             \
+    X("scale above 1, miplod=sharper", w->scaled * w->sharp[1] * (1.0 - 1.0 / w->scale))           \
+    X("scale above 1, taa=history", w->scaled * w->history * (1.0 - 1.0 / w->scale))               \
+    X("scale below 1, several samples", w->below * w->several * (1.0 / w->scale - 1.0))            \
+    X("scale below 1, per probe", w->below / w->probes * (1.0 / w->scale - 1.0))                   \
+    X("scale below 1, sharpening", w->below * w->sharpness * (1.0 / w->scale - 1.0))               \
+    X("taa=history, sharpening", w->history * w->sharpness)                                        \
+    X("taa=history, miplod=sharp", w->history * w->sharp[0])                                       \
     X("compressed textures, miplod=quality", w->compressed * w->biased[0])                         \
     X("compressed textures, miplod=high-performance", w->compressed * w->biased[2])
 
@@ -240,6 +251,7 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
                    level <= DIP_MIPLOD_HIGH_PERFORMANCE},
         .sharp = {level >= DIP_MIPLOD_SHARP, level >= DIP_MIPLOD_SHARPER},
         .scaled = scale > 1.0,
+        .below = enlarges,
         .scale = scale,
         .drawn_part = fmin(1.0, scale * scale),
         .enlarged = {enlarges && upscale == DIP_UPSCALE_BILINEAR,

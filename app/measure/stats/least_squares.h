@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-enum { DIP_LEAST_SQUARES_MAX_TERMS = 108 };
+enum { DIP_LEAST_SQUARES_MAX_TERMS = 120 };
 
 // The normal equations of a set of rows. Rows can be added and removed. A caller can thus predict
 // each row from all others without adding up those others each time.

@@ -252,6 +252,7 @@ static void answer(const DipBenchSample *sample, const DipTimed *timed) {
 }
 
 bool dip_child_serve(const char *what, int count, int frames,
+                     bool (*prepare)(void *context, const char *request, DipError *err),
                      bool (*draw)(void *context, const char *request, DipBenchSample *sample,
                                   DipError *err),
                      void *context, DipError *err) {
@@ -263,8 +264,9 @@ bool dip_child_serve(const char *what, int count, int frames,
     while (done && fgets(line, sizeof line, stdin)) {
         DipBenchSample sample;
         line[strcspn(line, "\n")] = '\0';
+        done = !prepare || prepare(context, line, err);
         const DipThreadUse before = dip_thread_watch_read(watch);
-        done = draw(context, line, &sample, err);
+        done = done && draw(context, line, &sample, err);
         if (done) {
             const DipThreadUse after = dip_thread_watch_read(watch);
             DipTimed timed;

@@ -12,7 +12,11 @@
 #include <string.h>
 #include <time.h>
 
-enum { SETTLE_RUNS = 5, SETTLE_TRIES = 20 };
+enum {
+    SETTLE_RUNS = 5,
+    SETTLE_TRIES = 20,
+    MOST_IN_VAIN = 2 // So many repetitions in vain, one after another, are the last.
+};
 static const double settle_tolerance = 0.02;
 
 // A frame to draw, in a plan.
@@ -85,6 +89,7 @@ struct DipDriver {
     double wait_ms, cpu_ms, run_ms; // Sums over all timed frames.
     bool has_wait, settled;
     int repeated;
+    int in_vain; // Number of last repetitions in which most frames were disturbed again.
 };
 
 static bool out_of_memory(DipError *err) {
@@ -340,6 +345,15 @@ static void keep_better(DipDriver *d) {
     }
 }
 
+// Returns whether more than half of the fresh frames are disturbed.
+static bool is_mostly_disturbed(const DipDriver *d) {
+    int disturbed = 0;
+    for (int i = 0; i < d->fresh_count; i++) {
+        disturbed += is_disturbed(d, d->fresh[i].wait, d->fresh[find_beside(d, i)].wait);
+    }
+    return 2 * disturbed > d->fresh_count;
+}
+
 // Adds the fresh frames to the log.
 static void end_round(DipDriver *d) {
     for (int i = 0; i < d->fresh_count; i++) {
@@ -351,6 +365,7 @@ static void end_round(DipDriver *d) {
     if (repeats(d)) {
         keep_better(d);
         d->repeated += d->fresh_count;
+        d->in_vain = is_mostly_disturbed(d) ? d->in_vain + 1 : 0;
     } else {
         d->log_begin[d->round] = d->log_count;
         for (int i = 0; i < d->fresh_count; i++) {
@@ -450,6 +465,9 @@ static bool draw_frame(DipDriver *d, const Draw *draw, DipTimed *timed, DipError
         .round = in_round ? round % d->def.rounds : -1,
         .frame = draw->frame,
     };
+    if (d->calls.prepare && !d->calls.prepare(d->calls.context, &turn, err)) {
+        return false;
+    }
     if (draw->phase == DIP_DRIVER_TIMED && d->def.rest_ns > 0) {
         rest(d->def.rest_ns);
     }
@@ -522,7 +540,8 @@ static bool draw_settling(DipDriver *d, DipError *err) {
 static bool begin_round(DipDriver *d, DipError *err) {
     const int rounds = round_count(d);
     do {
-        if (d->round == 2 * rounds || (repeats(d) && !(d->has_wait && d->def.most_wait > 0.0))) {
+        if (d->round == 2 * rounds || d->in_vain == MOST_IN_VAIN ||
+            (repeats(d) && !(d->has_wait && d->def.most_wait > 0.0))) {
             d->stage = DONE;
             return true;
         }

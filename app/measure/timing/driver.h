@@ -19,7 +19,8 @@
 //      base, waited too long for a core. While fewer than three quarters of a subject's frames are
 //      undisturbed, the driver draws the subject again in the rounds that have disturbed frames,
 //      next to its base, each round at most once. It keeps the new time of a frame if its threads
-//      waited less.
+//      waited less. The phase ends when most frames of two rounds in a row are disturbed again,
+//      since the machine is still busy.
 //
 // A driver draws one frame per step, so the preview can stop between any two frames. Commands step
 // until the driver is done.
@@ -91,6 +92,10 @@ typedef struct DipDriverCalls {
     // machine does not tell it. If this process draws the frame, the function leaves ms NAN, and
     // the driver takes the time itself.
     bool (*draw)(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err);
+
+    // Does what must come before a frame and is not timed, such as drawing the frame before it. May
+    // be NULL.
+    bool (*prepare)(void *context, const DipDriverTurn *turn, DipError *err);
 
     // Begins a start, for example by starting a process. May be NULL.
     bool (*start)(void *context, int start, DipError *err);

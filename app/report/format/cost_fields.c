@@ -771,6 +771,10 @@ const DipRecord dip_cost_prediction_of_report_record = DIP_RECORD(
     prediction_fields, DipCostPrediction, check_prediction);
 
 static const DipField predictions_fields[] = {
+    {"searched", NULL, NULL,
+     "Number of all combinations that were predicted; 0 if it is not known. If there are more than "
+     "`combinations` has, only those that were measured or looked best were kept.",
+     DIP_FACT(WHOLE, DipCostPredictions, searched), .most = INT_MAX},
     {"trained", NULL, NULL, "Number of rows that were measured to predict all others.",
      DIP_FACT(WHOLE, DipCostPredictions, trained), .most = DIP_COST_MAX_ROWS},
     {"misses", NULL, NULL, "How far the predictions lie from measurements.", PART,

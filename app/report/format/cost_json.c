@@ -66,6 +66,13 @@ static void add_counters_of(cJSON *items) {
     }
 }
 
+// Adds the number of searched combinations that files of older versions lack, with the value 0.
+static void add_searched(cJSON *predicted) {
+    if (cJSON_IsObject(predicted)) {
+        add_missing(predicted, "searched", add_zero);
+    }
+}
+
 // Adds the members that format 3 always has and format 2 leaves out: they are null or empty.
 static void upgrade(cJSON *root) {
     static const char *const nulls[] = {"machine", "predicted", "smaller"};
@@ -202,6 +209,7 @@ static bool read_report(cJSON *root, size_t size_bytes, DipCostReport *report, c
     add_counters_of(cJSON_GetObjectItemCaseSensitive(root, "rows"));
     add_counters_of(cJSON_GetObjectItemCaseSensitive(
         cJSON_GetObjectItemCaseSensitive(root, "smaller"), "combinations"));
+    add_searched(cJSON_GetObjectItemCaseSensitive(root, "predicted"));
     if (!times_fit(root, size_bytes)) {
         return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, "rows",
                              "are fewer than their number of rounds and frames says");

@@ -52,6 +52,52 @@ void dip_section_ini(DipForm *form, const DipQuality *quality) {
     dip_form_code(form, "Line for ini", text);
 }
 
+// Returns the settings in which the combinations differ (bit s for setting s).
+static unsigned varied_settings(const DipCostReport *report) {
+    const DipCostPredictions *predicted = &report->predicted;
+    const int rows = report->row_count - report->combined_first;
+    unsigned varied = 0;
+    for (int i = 0; i < (predicted->count > 0 ? predicted->count : rows); i++) {
+        const DipQuality *quality = predicted->count > 0
+                                        ? &predicted->list[i].quality
+                                        : &report->rows[report->combined_first + i].quality;
+        for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+            varied |= (unsigned)(quality->step[s] != report->options.baseline.step[s]) << s;
+        }
+    }
+    return varied;
+}
+
+// Writes among which combinations the advice was chosen.
+static void write_searched(DipForm *form, const DipCostReport *report) {
+    const DipCostPredictions *predicted = &report->predicted;
+    const unsigned varied = varied_settings(report);
+    const int measured = report->choice.candidates.count;
+    char idle[DIP_COST_TEXT] = "";
+    int settings = 0;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        settings += (int)(varied >> s & 1);
+    }
+    for (int i = 0; predicted->count > 0 && i < report->sweep_count; i++) {
+        const DipSetting setting = report->sweeps[i].setting;
+        if (!(varied >> setting & 1)) {
+            const size_t length = strlen(idle);
+            snprintf(idle + length, sizeof idle - length, "%s%s", length > 0 ? ", " : "",
+                     dip_setting_info(setting)->key);
+        }
+    }
+    if (predicted->count > 0) {
+        dip_form_fact(form, "Best of", "%d combinations of %d settings: all predicted, %d measured",
+                      dip_cost_searched(report), settings, measured);
+    } else {
+        dip_form_fact(form, "Best of", "%d combinations of %d settings: all measured", measured,
+                      settings);
+    }
+    if (idle[0]) {
+        dip_form_fact(form, "Not combined", "%s: no step changes a picture here", idle);
+    }
+}
+
 static void write_chosen(DipForm *form, const DipCostReport *report, const DipAdvice *advice) {
     const DipCandidates *candidates = &report->choice.candidates;
     const DipCandidate *chosen = &candidates->list[advice->chosen];
@@ -70,6 +116,7 @@ static void write_chosen(DipForm *form, const DipCostReport *report, const DipAd
         snprintf(against, sizeof against, ", %s %% against the baseline's %.4f", fits, base);
     }
     dip_form_fact(form, "Error", "FLIP %.4f%s", chosen->flip, against);
+    write_searched(form, report);
     dip_section_ties(form, candidates, advice);
     write_next(form, candidates, advice);
     dip_section_ini(form, &chosen->quality);
@@ -147,6 +194,11 @@ void dip_section_answer(DipForm *form, const DipCostReport *report) {
                            "The machine was too busy: the times are wrong, so no settings are "
                            "advised. %s",
                            report->verdict_reason);
+        dip_form_paragraph(form, NULL,
+                           "What to do: close other programs and give the same command again. With "
+                           "--quick, the machine must be quiet for a shorter time. If nothing else "
+                           "runs here, other users of the same computer may, as on a virtual "
+                           "machine: try again later. All errors below are right.");
         return;
     }
     for (int i = 0; i < choice->advice_count; i++) {
@@ -172,6 +224,17 @@ void dip_section_front(DipForm *form, const DipCostReport *report) {
     const DipCostChoice *choice = &report->choice;
     DipCostLine lines[DIP_COST_MAX_ROWS];
     char caption[512], columns[160];
+    if (choice->candidates.disturbed) {
+        DIP_FORM_TABLE(
+            form, .id = "pareto-front", .set = "front",
+            .caption = "Combinations from the fastest to the one with the least FLIP. Each has "
+                       "at least 1 % less FLIP than the line before. The order comes from times "
+                       "of a busy machine: neighbours may be in the wrong order.",
+            .columns = "settings; number; row.figures.all.flip; "
+                       "row.over_time.flicker_rms_lin; change_flip",
+            DIP_COST_LINES(report, lines, dip_cost_front_lines(report, lines)));
+        return;
+    }
     snprintf(
         columns, sizeof columns,
         "settings; number; time.value=%s; row.figures.all.flip; row.over_time.flicker_rms_lin; "
@@ -280,10 +343,10 @@ void dip_section_predictions(DipForm *form, const DipCostReport *report) {
         "measured ones. The %d combinations that the prediction found best were then "
         "measured; beneath, each of the first ones is predicted from the others, "
         "too.%s",
-        p->count, report->paths[0], p->trained, p->times.rows,
+        dip_cost_searched(report), report->paths[0], p->trained, p->times.rows,
         p->count > DIP_COST_MOST_COUNTED
-            ? " The work of combinations of antialiasing and filtering was composed "
-              "from the work of either."
+            ? " The work of combinations was composed from the work of those that change fewer "
+              "settings."
             : "");
     dip_section_misses(form, "Times", &p->times);
     dip_section_misses(form, "FLIP", &p->errors);

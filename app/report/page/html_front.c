@@ -161,7 +161,7 @@ static void write_predictions(DipForm *form, const DipCostReport *report,
                               const DipCandidates *listed) {
     DipCostLine lines[DIP_CANDIDATES_LISTED];
     char caption[300];
-    const bool is_part = listed->count < report->predicted.count;
+    const bool is_part = listed->count < dip_cost_searched(report);
     if (report->predicted.count == 0) {
         return;
     }
@@ -170,7 +170,7 @@ static void write_predictions(DipForm *form, const DipCostReport *report,
     }
     snprintf(caption, sizeof caption,
              "%d of %d predicted combinations on path %s, in order of the predicted time.%s",
-             listed->count, report->predicted.count, report->paths[0],
+             listed->count, dip_cost_searched(report), report->paths[0],
              is_part ? " The others are beaten in both predicted time and predicted FLIP, and were "
                        "not measured."
                      : "");

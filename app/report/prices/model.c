@@ -40,7 +40,7 @@ static bool compose(const DipPriceView *view, const DipQuality *normal,
 // a combination is predicted.
 static bool are_alike(const DipQuality *a, const DipQuality *b) {
     const unsigned mask =
-        dip_cost_sampling_settings() | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF;
+        dip_work_group(0) | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF;
     const DipQuality other = dip_cost_take_settings(b, a, mask);
     return dip_quality_equal(&other, b);
 }

@@ -128,7 +128,8 @@ static void train(DipCostReport *report, DipCostMisses *times, DipCostMisses *er
     for (int i = 0; i < TRAINED; i++) {
         report->predicted.list[chosen[i]].row = chosen[i];
     }
-    dip_cost_predict_others(report);
+    const DipCostModels models = dip_cost_models_of(report);
+    dip_cost_predict_others(report, &models);
     for (int i = 0; i < COMBINATIONS; i++) {
         const DipCostPrediction *p = &report->predicted.list[i];
         if (p->row < 0) {
@@ -249,7 +250,8 @@ static void the_front_is_found(void **state) {
             assert_true(report.predicted.list[list[i]].row < 0);
             report.predicted.list[list[i]].row = list[i];
         }
-        dip_cost_predict_others(&report);
+        const DipCostModels models = dip_cost_models_of(&report);
+        dip_cost_predict_others(&report, &models);
     }
     int measured = 0;
     for (int i = 0; i < COMBINATIONS; i++) {
@@ -573,7 +575,7 @@ typedef struct Counted {
 static const double *find_counted(const void *context, const DipQuality *quality) {
     Counted *counted = (Counted *)context;
     const DipQuality filtering =
-        dip_cost_take_settings(&counted->base, quality, ~dip_cost_sampling_settings());
+        dip_cost_take_settings(&counted->base, quality, ~dip_work_group(0));
     const bool known = dip_work_count_groups(&counted->base, quality) <= counted->most_groups ||
                        (counted->has_filtering && dip_quality_equal(&filtering, quality));
     double *counters = counted->counters[counted->next++ % 16];

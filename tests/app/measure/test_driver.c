@@ -42,6 +42,7 @@ typedef struct Machine {
     int busy_round;   // In this round of all starts, frames wait for half of their time; -1: none.
     int busy_subject; // Only this subject waits; -1: all do.
     bool busy_again;  // The first repetition waits longer.
+    bool busy_always;
     bool busy_at_first; // All frames wait, until the rounds are repeated.
     double slow_down;   // Per frame: the machine becomes slower all the time.
     double start_ms;
@@ -49,6 +50,7 @@ typedef struct Machine {
     int fail_at;       // The turn that fails; -1 for none.
     bool is_elsewhere; // Another process draws, and tells its times.
     bool tells_no_wait;
+    int prepared; // Number of frames that were prepared.
 } Machine;
 
 static Machine m;
@@ -61,7 +63,7 @@ static double true_ms(int subject, int frame) {
 static bool is_busy(const DipDriverTurn *turn) {
     return turn->round >= 0 && (m.busy_subject < 0 || turn->subject == m.busy_subject) &&
            (turn->start * ROUNDS + turn->round == m.busy_round ||
-            (m.busy_at_first && m.kept_rounds < ALL_ROUNDS));
+            (m.busy_at_first && m.kept_rounds < ALL_ROUNDS) || m.busy_always);
 }
 
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
@@ -97,6 +99,18 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
         timed->cpu_ms = 2.0 * ms;
         m.now_ns += 1000000; // Telling takes time, too.
     }
+    return true;
+}
+
+// Takes long, and its threads wait.
+static bool prepare(void *context, const DipDriverTurn *turn, DipError *err) {
+    (void)context;
+    (void)turn;
+    (void)err;
+    m.prepared++;
+    m.now_ns += 70000000;
+    m.use.cpu_ns += 50000000;
+    m.use.wait_ns += 20000000;
     return true;
 }
 
@@ -142,7 +156,7 @@ static DipDriverDef path_def(void) {
     };
 }
 
-static const DipDriverCalls calls = {
+static DipDriverCalls calls = {
     .draw = draw, .start = start, .keep = keep, .clock_ns = clock_ns, .thread_use = thread_use};
 
 static void begin(const DipDriverDef *def) {
@@ -171,6 +185,7 @@ static int set_up(void **state) {
     m.busy_round = m.fail_at = m.busy_subject = -1;
     m.use.has_wait = true;
     m.now_ns = 1000;
+    calls.prepare = NULL;
     return 0;
 }
 
@@ -230,6 +245,22 @@ static void every_frame_is_timed_once_beside_its_base(void **state) {
                                        2 * (COPIES - 1) * PATH);
     const DipDriverMachine machine = dip_driver_machine(driver, 1);
     assert_true(machine.settled && machine.has_wait && machine.wait == 0.0 && !machine.repeated);
+}
+
+static void what_is_prepared_is_not_timed(void **state) {
+    (void)state;
+    const DipDriverDef def = path_def();
+    calls.prepare = prepare;
+    work_until_done(&def);
+    const DipTimes times = dip_driver_times(driver);
+    assert_true(times.count > 0);
+    for (int i = 0; i < times.count; i++) {
+        const DipTimed *timed = &times.list[i];
+        const double ms = true_ms(timed->subject, timed->frame);
+        assert_true(fabs(timed->ms - ms) < 1e-5 && fabs(timed->cpu_ms - ms) < 1e-5);
+        assert_true(timed->wait == 0.0);
+    }
+    assert_int_equal(m.prepared, m.turn_count);
 }
 
 // The frames of each block in the order in which they were drawn: whole visits, each with an
@@ -413,6 +444,15 @@ static void worse_repetitions_are_not_kept(void **state) {
     assert_int_equal(m.kept_rounds, ALL_ROUNDS + 9);
 }
 
+// The first repetitions show that the machine is still busy, so there are no more.
+static void a_machine_that_stays_busy_repeats_little(void **state) {
+    (void)state;
+    const DipDriverDef def = path_def();
+    m.busy_always = true;
+    work_until_done(&def);
+    assert_int_equal(m.kept_rounds, ALL_ROUNDS + 2);
+}
+
 // A base is drawn first, last and between in about equally many of its blocks.
 static void visits_of_a_block_have_no_fixed_order(void **state) {
     (void)state;
@@ -525,6 +565,10 @@ static void resumed_repetitions_are_those_of_the_whole(void **state) {
     (void)state;
     const DipDriverDef def = path_def();
     m.busy_at_first = true;
+    check_resume(&def);
+    tear_down(NULL);
+    set_up(NULL);
+    m.busy_always = true;
     check_resume(&def);
 }
 
@@ -787,6 +831,7 @@ int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         TEST(every_frame_is_timed_once_beside_its_base),
+        TEST(what_is_prepared_is_not_timed),
         TEST(visits_begin_untimed_and_lie_beside_the_base),
         TEST(visits_of_a_log_begin_in_order),
         TEST(order_follows_the_seed),
@@ -797,6 +842,7 @@ int main(void) {
         TEST(many_disturbed_frames_are_drawn_again),
         TEST(frames_beside_a_disturbed_base_are_drawn_again),
         TEST(worse_repetitions_are_not_kept),
+        TEST(a_machine_that_stays_busy_repeats_little),
         TEST(visits_of_a_block_have_no_fixed_order),
         TEST(without_a_limit_nothing_is_disturbed),
         TEST(resumed_rounds_are_those_of_the_whole),

@@ -1,0 +1,419 @@
+// Tests the choice among all combinations: how many there are, which are kept, which settings are
+// dropped; and what the user is told meanwhile: that the machine is busy, and the time left.
+#include "app/cli/log.h"
+#include "app/cli/progress.h"
+#include "app/cost/steps.h"
+#include "app/report/combinations.h"
+#include "app/report/format/formats.h"
+#include "renderer/base/clock.h"
+#include "renderer/catalogue/random.h"
+#include "tests/app/cost/made_report.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define BIT(NAME) (1u << DIP_SETTING_##NAME)
+
+static const unsigned all_settings = ((1u << DIP_SETTING_COUNT) - 1) & ~BIT(MIPDEBUG);
+static const unsigned some_settings = BIT(AA) | BIT(AAA) | BIT(ASD) | BIT(AF) | BIT(MIPLOD) |
+                                      BIT(SCALE) | BIT(UPSCALE) | BIT(SHADOWS);
+
+// --- how many ------------------------------------------------------------------------------------
+
+static void combinations_are_counted_without_a_list(void **state) {
+    (void)state;
+    const unsigned masks[] = {0, BIT(AF), BIT(AF) | BIT(AAF), BIT(MIPDEBUG) | BIT(OPT),
+                              some_settings};
+    const DipQuality baseline = dip_quality_default();
+    for (size_t i = 0; i < sizeof masks / sizeof *masks; i++) {
+        assert_int_equal(dip_cost_count_combinations_of(&baseline, masks[i]),
+                         dip_cost_list_combinations(&baseline, masks[i], NULL, 0));
+    }
+    // Samples 65 (none: history or not; 2: 4, 4: 5, 6 and 8: 6 kinds of adaptive AA, each with 3
+    // of temporal AA), filtering 1 + 4 * 2, opt 3, miplod 6, scale 4 + 4 * 3, post 3, sharpen 4,
+    // shadows 4, instancing 2.
+    assert_int_equal(dip_cost_count_combinations_of(&baseline, all_settings),
+                     (2 + 3 * (4 + 5 + 6 + 6)) * 9 * 3 * 6 * 16 * 3 * 4 * 4 * 2);
+}
+
+// --- what is kept --------------------------------------------------------------------------------
+
+// Every group of settings multiplies the work by a factor of its own.
+static void make_work(const DipQuality *quality, double *counters) {
+    const uint8_t *step = quality->step;
+    const double scale = dip_quality_scale(quality);
+    const double samples = dip_quality_sample_count(quality);
+    const double probes = 1.0 + 0.5 * step[DIP_SETTING_AF];
+    memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    counters[DIP_COST_COUNTER_triangles_in] = 2e4;
+    counters[DIP_COST_COUNTER_samples_shown] = 3e5 * samples * scale * scale;
+    counters[DIP_COST_COUNTER_fragments_shaded] = 3e5 * scale * scale;
+    counters[DIP_COST_COUNTER_fragments_clip_tested] =
+        4e4 * scale * scale * (1.0 + step[DIP_SETTING_AAA]);
+    counters[DIP_COST_COUNTER_texture_probes] = 3e5 * scale * scale * probes;
+    counters[DIP_COST_COUNTER_texels_fetched] =
+        2e6 * scale * scale * probes * (1.0 + 0.1 * step[DIP_SETTING_MIPLOD]);
+    counters[DIP_COST_COUNTER_shadow_texels] = 1e5 * step[DIP_SETTING_SHADOWS];
+    counters[DIP_COST_COUNTER_pixels_filtered] = 3e5 * dip_cost_pixels_filtered(quality);
+}
+
+static DipCostModels make_models(uint64_t seed) {
+    DipCostModels models = {.times = {.what = DIP_COST_TIME, .rows = 1},
+                            .errors = {.what = DIP_COST_FLIP_ERROR, .rows = 1},
+                            .p95 = 1.2};
+    Random random = {seed};
+    for (int part = 0; part < DIP_COST_PART_COUNT; part++) {
+        for (int t = 0; t < dip_cost_term_count(part); t++) {
+            if (part == DIP_COST_PART_FLIP) {
+                models.errors.prices[part][t] = t == 0 ? 0.1 : random_real(&random, -0.01, 0.01);
+            } else {
+                models.times.prices[part][t] = random_real(&random, 0.0, 2e-6);
+            }
+        }
+    }
+    return models;
+}
+
+static const double *find_listed(const void *context, const DipQuality *quality) {
+    const DipCostReport *report = context;
+    const int found = dip_work_count_groups(&report->options.baseline, quality) <= 1
+                          ? dip_report_find_predicted(&report->predicted, quality)
+                          : -1;
+    return found >= 0 ? report->predicted.list[found].counters : NULL;
+}
+
+static void make_report(DipCostReport *report, unsigned combined) {
+    *report = (DipCostReport){.path_count = 1};
+    report->options = (DipCostOptions){.baseline = dip_quality_default(),
+                                       .places = 1,
+                                       .rounds = 2,
+                                       .timed_frames = 1,
+                                       .combined = combined};
+    assert_true(dip_cost_report_alloc(report, NULL));
+    assert_true(dip_cost_list_predictions(report, NULL));
+    for (int i = 0; i < report->predicted.count; i++) {
+        make_work(&report->predicted.list[i].quality, report->predicted.list[i].counters);
+    }
+}
+
+// The search is asked about combinations of eight settings, and the same combinations are predicted
+// one by one: what it keeps is as good, for each budget and along the whole front.
+static void the_search_finds_the_best_of_all(void **state) {
+    (void)state;
+    static DipQuality list[1 << 17];
+    DipSession session = {.pool = NULL};
+    DipCostReport report;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        const DipCostModels models = make_models(seed);
+        make_report(&report, some_settings);
+        DipCostContext cost = {.session = &session, .report = &report};
+        const int count =
+            dip_cost_list_combinations(&report.options.baseline, some_settings, list, 1 << 17);
+        const double *base = find_listed(&report, &report.options.baseline);
+        const double base_ms = dip_cost_model_value(&models.times, base, &report.options.baseline);
+        assert_true(count > DIP_COST_MAX_ROWS && count <= 1 << 17);
+        assert_int_equal(report.predicted.searched, count);
+        report.options.budgets_ms[0] = 1.5 * base_ms;
+        report.options.budgets_ms[1] = 4.0 * base_ms;
+        report.options.budget_count = 2;
+        const int before = report.predicted.count;
+        assert_true(dip_cost_search(&cost, &models, NULL));
+        assert_true(report.predicted.count > before);
+        dip_cost_predict_others(&report, &models);
+        double best[2] = {INFINITY, INFINITY};
+        for (int i = 0; i < count; i++) {
+            double counters[DIP_COST_COUNTER_COUNT];
+            assert_true(dip_work_compose(find_listed, &report, &report.options.baseline, &list[i],
+                                         counters));
+            const double ms = dip_cost_model_value(&models.times, counters, &list[i]);
+            const double flip = dip_cost_model_value(&models.errors, counters, &list[i]);
+            bool is_matched = false;
+            for (int k = 0; k < report.predicted.count && !is_matched; k++) {
+                const DipCostPrediction *p = &report.predicted.list[k];
+                is_matched = p->ms <= 1.021 * ms && p->flip <= 1.011 * flip + 1e-12;
+            }
+            assert_true(is_matched);
+            for (int b = 0; b < 2; b++) {
+                const bool fits = 1.2 * ms <= DIP_COST_MAY_FIT * report.options.budgets_ms[b];
+                best[b] = fits ? fmin(best[b], flip) : best[b];
+            }
+        }
+        for (int b = 0; b < 2; b++) {
+            double found = INFINITY;
+            for (int k = before; k < report.predicted.count; k++) {
+                const DipCostPrediction *p = &report.predicted.list[k];
+                const bool fits = p->p95_ms <= DIP_COST_MAY_FIT * report.options.budgets_ms[b];
+                found = fits ? fmin(found, p->flip) : found;
+            }
+            assert_true(found <= best[b] + 1e-12);
+        }
+        dip_cost_report_free(&report);
+    }
+}
+
+static void combinations_that_fit_a_list_are_all_listed(void **state) {
+    (void)state;
+    DipCostReport report;
+    const unsigned few = BIT(AA) | BIT(AF) | BIT(SCALE);
+    make_report(&report, few);
+    assert_int_equal(report.predicted.count, 5 * 5 * 8);
+    assert_int_equal(report.predicted.searched, 5 * 5 * 8);
+    dip_cost_report_free(&report);
+}
+
+// --- what is dropped -----------------------------------------------------------------------------
+
+static void settings_that_change_no_picture_are_dropped(void **state) {
+    (void)state;
+    DipCostReport report = {.path_count = 1};
+    report.options =
+        (DipCostOptions){.baseline = dip_quality_default(), .places = 2, .combined = all_settings};
+    report.rows = calloc(DIP_COST_MAX_ROWS, sizeof *report.rows);
+    assert_non_null(report.rows);
+    assert_true(dip_cost_report_alloc(&report, NULL));
+    const DipSetting settings[] = {DIP_SETTING_AA, DIP_SETTING_AAA, DIP_SETTING_SHADOWS};
+    for (int s = 0; s < 3; s++) {
+        DipCostSweep *sweep = &report.sweeps[report.sweep_count++];
+        *sweep = (DipCostSweep){.setting = settings[s]};
+        for (int step = 0; step < 3; step++) {
+            DipQuality quality = report.options.baseline;
+            quality.step[settings[s]] = (uint8_t)step;
+            const int row = dip_cost_report_add_row(&report, &quality, 0, NULL);
+            sweep->base = step == 0 ? row : sweep->base;
+            sweep->rows[sweep->row_count++] = row;
+            for (int p = 0; p < 2; p++) {
+                report.rows[row].judged[p] = true;
+                // The last step of AA changes one picture. The others change none.
+                const bool changes = s == 0 && step == 2 && p == 1;
+                snprintf(report.rows[row].pictures[p], 33, changes ? "other" : "same");
+            }
+        }
+    }
+    dip_cost_drop_idle_settings(&report);
+    assert_int_equal(report.options.combined, all_settings & ~(BIT(AAA) | BIT(ASD) | BIT(SHADOWS)));
+    dip_cost_report_free(&report);
+}
+
+// --- what the user is told -----------------------------------------------------------------------
+
+static int count_in_file(const char *file, const char *text) {
+    char line[1024];
+    int count = 0;
+    FILE *in = fopen(file, "r");
+    assert_non_null(in);
+    while (fgets(line, sizeof line, in)) {
+        count += strstr(line, text) != NULL;
+    }
+    fclose(in);
+    return count;
+}
+
+static void a_busy_machine_is_told_once(void **state) {
+    (void)state;
+    const char *const log = "test_search.log";
+    DipCostReport report = {.threads = 2};
+    remove(log);
+    assert_true(dip_log_open(log, NULL));
+    const double shares[] = {0.09, 0.19, 0.50};
+    const char *const texts[] = {NULL, "less exact", "wrong and no settings will be advised"};
+    for (int i = 0; i < 3; i++) {
+        DipCostContext cost = {.report = &report};
+        const DipTimed timed[2] = {{.ms = 1.0, .wait = 0.0},
+                                   {.ms = 3.0, .wait = shares[i] * 4 / 3}};
+        const int before = count_in_file(log, "the machine is busy");
+        dip_cost_look_at_times(&cost, timed, 2);
+        dip_cost_look_at_times(&cost, timed, 2); // Not again.
+        assert_int_equal(count_in_file(log, "the machine is busy") - before, texts[i] != NULL);
+        assert_true(!texts[i] || count_in_file(log, texts[i]) == 1);
+    }
+    assert_int_equal(count_in_file(log, "Close other programs"), 2);
+    assert_int_equal(count_in_file(log, "--quick"), 2);
+    dip_log_close();
+    remove(log);
+}
+
+// Shows the progress of a part that has run 10 s and done some of 100 things. Returns the text.
+static const char *show_progress(int done) {
+    static char text[256];
+    const char *const file = "test_search.txt";
+    DipProgress progress = dip_progress_begin("things", 100);
+    progress.terminal = false;
+    progress.begin_ns = dip_clock_ns() - INT64_C(10000000000);
+    progress.shown_ns = 0;
+    fflush(stderr);
+    const int kept = dup(STDERR_FILENO);
+    assert_non_null(freopen(file, "w", stderr));
+    dip_progress_show(&progress, done);
+    fflush(stderr);
+    assert_true(dup2(kept, STDERR_FILENO) >= 0);
+    close(kept);
+    FILE *in = fopen(file, "r");
+    assert_non_null(in);
+    text[0] = '\0';
+    assert_non_null(fgets(text, sizeof text, in));
+    fclose(in);
+    remove(file);
+    return text;
+}
+
+static void the_time_left_is_that_of_the_whole_run(void **state) {
+    (void)state;
+    dip_progress_expect(0.0, 0.0);
+    assert_string_equal(show_progress(50), "50 of 100 things, 10 s left\n");
+    dip_progress_expect(0.0, 40.0);
+    assert_string_equal(show_progress(50), "50 of 100 things, about 50 s left in all\n");
+    dip_progress_expect(0.0, 290.0);
+    assert_string_equal(show_progress(50), "50 of 100 things, about 5 min left in all\n");
+    // At first the expectation counts: 10 s for one of 100 things do not mean 990 s for the others.
+    dip_progress_expect(20.0, 40.0);
+    assert_string_equal(show_progress(1), "1 of 100 things, about 4 min left in all\n");
+    assert_string_equal(show_progress(1), "1 of 100 things, about 17 min left in all\n");
+    dip_progress_expect(20.0, 40.0);
+    assert_string_equal(show_progress(50), "50 of 100 things, about 50 s left in all\n");
+    dip_progress_expect(0.0, 0.0);
+}
+
+// Returns the seconds of all phases after this one.
+static double later_than(DipCostContext *cost, DipCostPhase phase) {
+    return dip_cost_begin_phase(cost, phase);
+}
+
+static void each_phase_forecasts_less_than_the_one_before(void **state) {
+    (void)state;
+    DipCostReport report = {.threads = 2, .width = 640, .height = 480, .path_count = 1};
+    report.row_count = 45;
+    report.options = (DipCostOptions){.baseline = dip_quality_default(),
+                                      .places = 3,
+                                      .burst = 2,
+                                      .rounds = 16,
+                                      .starts = 4,
+                                      .timed_frames = 4,
+                                      .predict = true,
+                                      .combined = all_settings,
+                                      .budgets_ms = {16.7},
+                                      .budget_count = 1};
+    DipCostContext cost = {.report = &report, .baseline_ms = 4.0};
+    dip_cost_forecast_begin(&cost);
+    double before = INFINITY;
+    for (int p = 0; p < DIP_COST_PHASE_COUNT; p++) {
+        const double later = later_than(&cost, (DipCostPhase)p);
+        assert_true(later < before || p == DIP_COST_PHASE_COUNT - 1);
+        before = later;
+    }
+    assert_true(before == 0.0);
+    // Each go that is done leaves one less.
+    const double first = later_than(&cost, DIP_COST_PHASE_BEST_ERRORS);
+    cost.forecast.goes = 1;
+    assert_true(later_than(&cost, DIP_COST_PHASE_BEST_ERRORS) < first);
+    // Pictures that take longer to judge than was guessed make the whole run longer.
+    const double guessed = later_than(&cost, DIP_COST_PHASE_TRUTHS);
+    cost.forecast.picture_s *= 2.0;
+    assert_true(later_than(&cost, DIP_COST_PHASE_TRUTHS) > guessed);
+    // Without times, only errors are left.
+    report.options.errors_only = true;
+    report.options.predict = false;
+    assert_true(later_than(&cost, DIP_COST_PHASE_TRUTHS) > 0.0);
+    assert_true(later_than(&cost, DIP_COST_PHASE_SWEEPS) == 0.0);
+    dip_progress_expect(0.0, 0.0);
+}
+
+// Makes a report of three measured combinations, of which 5000000 more were predicted, and returns
+// what is printed of it. `wait` is the share of the time that the threads waited for a core.
+static char *print_answer(bool predicted, double wait) {
+    static char text[1 << 16];
+    const char *const file = "test_search.txt";
+    DipCostReport report;
+    dip_made_report(&report, 4);
+    report.machine.wait = wait;
+    report.options.budgets_ms[0] = 1000.0 / 60.0;
+    const char *const sets[] = {"aa=none", "aa=4", "aa=4,af=16"};
+    for (int i = 0; i < 3; i++) {
+        DipQuality quality;
+        assert_true(dip_quality_parse(sets[i], &quality, NULL));
+        dip_made_combination(&report, &quality, 2.0 + i, 0.05 - 0.01 * i);
+    }
+    if (!predicted) {
+        report.predicted.count = 0;
+    } else {
+        free(report.predicted.list);
+        report.predicted = (DipCostPredictions){
+            .list = calloc(2, sizeof *report.predicted.list), .count = 2, .searched = 5000000};
+        assert_non_null(report.predicted.list);
+        assert_true(
+            dip_quality_parse("aa=8,af=8,scale=2", &report.predicted.list[0].quality, NULL));
+        assert_true(dip_quality_parse("opt=standard", &report.predicted.list[1].quality, NULL));
+        // This setting was swept and then not combined.
+        report.sweeps[report.sweep_count++] =
+            (DipCostSweep){.setting = DIP_SETTING_SHADOWS, .rows = {0}, .row_count = 1};
+    }
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    FILE *out = fopen(file, "w");
+    assert_non_null(out);
+    dip_cost_print(&report, out);
+    fclose(out);
+    FILE *in = fopen(file, "r");
+    assert_non_null(in);
+    text[fread(text, 1, sizeof text - 1, in)] = '\0';
+    fclose(in);
+    remove(file);
+    dip_cost_report_free(&report);
+    return text;
+}
+
+static void assert_has(const char *text, const char *part) {
+    if (!strstr(text, part)) {
+        fail_msg("'%s' is not in\n%s", part, text);
+    }
+}
+
+static void the_answer_says_what_was_searched(void **state) {
+    (void)state;
+    const char *text = print_answer(true, 0.0);
+    assert_true(strncmp(text, "At 60 frames a second (16.7 ms) on this machine:\n", 49) == 0);
+    assert_has(text,
+               "  Best of        5000000 combinations of 4 settings: all predicted, 3 measured\n");
+    assert_has(text, "  Not combined   shadows: no step changes a picture here\n");
+    text = print_answer(false, 0.0);
+    assert_has(text, "  Best of        3 combinations of 2 settings: all measured\n");
+    assert_null(strstr(text, "Not combined"));
+}
+
+static void a_busy_machine_gets_no_times_but_errors(void **state) {
+    (void)state;
+    const char *text = print_answer(true, 0.9);
+    assert_true(strncmp(text, "No advice:\n", 11) == 0);
+    assert_has(text, "What to do: close other programs");
+    assert_has(text, "--quick");
+    // The front has the errors, without times.
+    char *front = strstr(text, "Combinations from the fastest");
+    assert_non_null(front);
+    *strstr(front, "\n\n") = '\0';
+    assert_has(front, "aa=4,af=16");
+    assert_has(front, ".03");
+    assert_null(strstr(front, "ms"));
+    assert_null(strstr(text, "Line for ini"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(combinations_are_counted_without_a_list),
+        cmocka_unit_test(the_search_finds_the_best_of_all),
+        cmocka_unit_test(combinations_that_fit_a_list_are_all_listed),
+        cmocka_unit_test(settings_that_change_no_picture_are_dropped),
+        cmocka_unit_test(a_busy_machine_is_told_once),
+        cmocka_unit_test(the_answer_says_what_was_searched),
+        cmocka_unit_test(a_busy_machine_gets_no_times_but_errors),
+        cmocka_unit_test(the_time_left_is_that_of_the_whole_run),
+        cmocka_unit_test(each_phase_forecasts_less_than_the_one_before),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
