@@ -69,7 +69,6 @@
     X(PixelStorei, PIXELSTOREI)                                                                    \
     X(ReadPixels, READPIXELS)                                                                      \
     X(RenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE)                              \
-    X(SampleMaski, SAMPLEMASKI)                                                                    \
     X(SamplerParameterf, SAMPLERPARAMETERF)                                                        \
     X(SamplerParameteri, SAMPLERPARAMETERI)                                                        \
     X(Scissor, SCISSOR)                                                                            \

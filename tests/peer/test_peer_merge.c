@@ -1,7 +1,6 @@
 // Draws random lists of draws with blending, depth and stencil states by our pipeline and by Mesa's
-// llvmpipe, and compares the pictures. The target has four floats per sample, where llvmpipe rounds
-// no intermediate result to bytes, and one or four samples per pixel, which lie at the same places
-// in both. Exit code 77 means that there is no llvmpipe.
+// llvmpipe, and compares the pictures. The target has four floats per pixel and one sample, where
+// llvmpipe rounds no intermediate result to bytes. Exit code 77 means that there is no llvmpipe.
 //
 //     test_peer_merge [--lists N]    (default 30; the long run draws 300)
 #include "tests/peer/gl.h"
@@ -25,7 +24,6 @@ static int list_count = 30;
 static DipGl gl;
 static GLuint program;
 static GLint colour_place, clips_place, reads_front_place;
-static GLuint framebuffers[2]; // with one and with four samples per pixel
 
 // --- our pipeline --------------------------------------------------------------------------------
 
@@ -91,7 +89,7 @@ static void draw_ours(DipPipeline *pipeline, const ModelList *list, Picture pict
     const DipPass pass = {
         .draws = draws,
         .draw_count = MODEL_DRAWS,
-        .sample_count = list->sample_count,
+        .sample_count = 1,
         .clear_lin = {list->clear[0], list->clear[1], list->clear[2]},
         .target = {.floats = &picture[0][0][0],
                    .stride_bytes = sizeof picture[0],
@@ -156,31 +154,20 @@ static void make_program(void) {
     gl.UseProgram(program);
 }
 
-static void make_framebuffer(GLuint framebuffer, int sample_count) {
-    const GLsizei samples = sample_count > 1 ? sample_count : 0;
-    GLuint names[2];
+static void make_buffers(void) {
+    GLuint names[2], framebuffer, array, buffer;
+    gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.GenRenderbuffers(2, names);
     gl.BindRenderbuffer(GL_RENDERBUFFER, names[0]);
-    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA32F, MODEL_WIDTH,
-                                      MODEL_HEIGHT);
+    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_RGBA32F, MODEL_WIDTH, MODEL_HEIGHT);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, names[0]);
     gl.BindRenderbuffer(GL_RENDERBUFFER, names[1]);
-    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH32F_STENCIL8, MODEL_WIDTH,
+    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_DEPTH32F_STENCIL8, MODEL_WIDTH,
                                       MODEL_HEIGHT);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                                names[1]);
     assert_int_equal(gl.CheckFramebufferStatus(GL_FRAMEBUFFER), GL_FRAMEBUFFER_COMPLETE);
-    GLint made = 0;
-    gl.GetIntegerv(GL_SAMPLES, &made);
-    assert_int_equal(made, samples);
-}
-
-static void make_buffers(void) {
-    GLuint array, buffer;
-    gl.GenFramebuffers(2, framebuffers);
-    make_framebuffer(framebuffers[0], 1);
-    make_framebuffer(framebuffers[1], 4);
     gl.GenVertexArrays(1, &array);
     gl.BindVertexArray(array);
     gl.GenBuffers(1, &buffer);
@@ -282,20 +269,12 @@ static void set_state(const ModelDraw *draw) {
     gl.DepthFunc(depth_tests[state->depth_test]);
     gl.DepthMask(!state->keep_depth);
     set_stencil(&state->stencil);
-    set_enabled(GL_SAMPLE_MASK, state->kept_samples != 0);
-    gl.SampleMaski(0, (GLbitfield)~state->kept_samples & 255);
     set_enabled(GL_CULL_FACE, draw->cull != DIP_CULL_NONE);
     gl.CullFace(draw->cull == DIP_CULL_FRONT ? GL_FRONT : GL_BACK);
 }
 
-static float clamped(float depth) {
-    return depth < 0.0f ? 0.0f : depth > 1.0f ? 1.0f : depth;
-}
-
 static void draw_theirs(const ModelList *list, Picture picture) {
     const DipTargetRegion *s = &list->scissor[0];
-    const bool multisampled = list->sample_count > 1;
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers[multisampled]);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.DepthMask(GL_TRUE);
     gl.StencilMask(255);
@@ -310,14 +289,10 @@ static void draw_theirs(const ModelList *list, Picture picture) {
         // A plain draw writes the alpha 1.
         const bool plain = !dip_state_is_ordered(&draw->state);
         float vertices[VERTICES][3];
-        if (!multisampled && draw->state.kept_samples & 1) {
-            continue; // OpenGL has a mask for several samples only. The draw changes nothing.
+        if (draw->state.kept_samples & 1) {
+            continue; // With one sample per pixel, the draw changes nothing.
         }
         vertices_of(draw, vertices);
-        for (int i = 0; i < VERTICES; i++) {
-            // OpenGL counts the constant part of a depth bias in units that depend on the depth.
-            vertices[i][2] = clamped(vertices[i][2] + draw->state.depth_bias.constant);
-        }
         gl.BufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STREAM_DRAW);
         set_state(draw);
         gl.Uniform4fv(colour_place, 1, draw->colour);
@@ -328,13 +303,6 @@ static void draw_theirs(const ModelList *list, Picture picture) {
         }
         gl.DrawArrays(GL_TRIANGLES, 0, VERTICES);
     }
-    if (multisampled) {
-        gl.Disable(GL_SCISSOR_TEST);
-        gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffers[0]);
-        gl.BlitFramebuffer(0, 0, MODEL_WIDTH, MODEL_HEIGHT, 0, 0, MODEL_WIDTH, MODEL_HEIGHT,
-                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers[0]);
-    }
     gl.Finish();
     gl.ReadPixels(0, 0, MODEL_WIDTH, MODEL_HEIGHT, GL_RGBA, GL_FLOAT, picture);
     assert_int_equal(gl.GetError(), GL_NO_ERROR);
@@ -343,17 +311,18 @@ static void draw_theirs(const ModelList *list, Picture picture) {
 // --- comparing -----------------------------------------------------------------------------------
 
 // The lists for OpenGL: draws that write another alpha than their shader's do not exist there, so
-// every draw is ordered. llvmpipe has one or four samples.
-static void adapt_list(ModelList *list) {
-    list->sample_count = list->sample_count < 4 ? 1 : 4;
+// every draw is ordered. OpenGL counts the constant part of a depth bias in units that depend on
+// the depth, so no draw has one.
+static void order_all(ModelList *list) {
     for (int d = 0; d < MODEL_DRAWS; d++) {
         list->draws[0][d].state.ordered = true;
+        list->draws[0][d].state.depth_bias.constant = 0.0f;
     }
 }
 
-// Whether an edge of some triangle passes within 1/64 pixel of a sample. llvmpipe rounds positions
-// in floats of its own, so such a sample may fall to either side.
-static bool is_ambiguous_at(const ModelList *list, double x, double y) {
+// Whether an edge of some triangle passes within 1/64 pixel of a pixel's centre. llvmpipe rounds
+// positions in floats of its own, so such a pixel may fall to either side.
+static bool is_ambiguous(const ModelList *list, int x, int y) {
     for (int d = 0; d < MODEL_DRAWS; d++) {
         for (int t = 0; t < MODEL_TRIANGLES; t++) {
             const DipOracleTriangle *triangle = &list->draws[0][d].triangle[t];
@@ -362,21 +331,11 @@ static bool is_ambiguous_at(const ModelList *list, double x, double y) {
                 const double ay = triangle->y[i] / 256.0;
                 const double dx = triangle->x[(i + 1) % 3] / 256.0 - ax;
                 const double dy = triangle->y[(i + 1) % 3] / 256.0 - ay;
-                const double side = dx * (y - ay) - dy * (x - ax);
+                const double side = dx * (y + 0.5 - ay) - dy * (x + 0.5 - ax);
                 if (fabs(side) <= sqrt(dx * dx + dy * dy) / 64.0) {
                     return true;
                 }
             }
-        }
-    }
-    return false;
-}
-
-static bool is_ambiguous(const ModelList *list, int x, int y) {
-    const DipSamplePattern *pattern = dip_sample_pattern(list->sample_count);
-    for (int s = 0; s < pattern->count; s++) {
-        if (is_ambiguous_at(list, x + pattern->x[s] / 256.0, y + pattern->y[s] / 256.0)) {
-            return true;
         }
     }
     return false;
@@ -394,7 +353,7 @@ static void same_pictures(void **state) {
     int differ = 0;
     for (int i = 0; i < list_count; i++) {
         model_random_list(&random, &list);
-        adapt_list(&list);
+        order_all(&list);
         memset(ours, 0, sizeof ours);
         draw_ours(pipeline, &list, ours);
         draw_theirs(&list, theirs);
