@@ -190,7 +190,7 @@ VEC_INLINE Colour sample_at(const DipHistoryRow *row, const Place *place, const 
     weights_of(place->part_x, weights_x);
     weights_of(place->part_y, weights_y);
     for (int c = 0; c < 3; c++) {
-        Vf sum;
+        Vf sum = vf_splat(0.0f);
         for (int j = 0; j < 4; j++) {
             Vf values[4];
             read_four(row->past[c] + (ptrdiff_t)(j - 2) * row->plane_stride - 2, reach, lie,
@@ -199,7 +199,7 @@ VEC_INLINE Colour sample_at(const DipHistoryRow *row, const Place *place, const 
             for (int i = 1; i < 4; i++) {
                 line += values[i] * weights_x[i];
             }
-            sum = j ? sum + line * weights_y[j] : line * weights_y[j];
+            sum += line * weights_y[j];
         }
         past.channel[c] = sum * row->past_scale;
     }
