@@ -102,7 +102,7 @@ static double usual_p95(const DipCostReport *report, const int *rows, int count)
 }
 
 DipCostModels dip_cost_models_of(const DipCostReport *report) {
-    int rows[DIP_COST_MAX_ROWS];
+    int rows[DIP_COST_MAX_ROWS] = {0};
     const int count = list_rows(&report->predicted, rows);
     return (DipCostModels){
         .times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count),
