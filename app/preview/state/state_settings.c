@@ -64,6 +64,22 @@ void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
     dip_preview_notice(state, now_ns, reverse ? "Made the change again" : "Took the change back");
 }
 
+// Shows a notice with the step that a setting has now. While the camera follows a path, switches to
+// the path that shows the setting best. A camera that rests or is free stays where it is.
+static void follow_setting(DipPreviewState *state, DipSetting setting, const char *step,
+                           int64_t now_ns) {
+    const int category = dip_preview_category_of(setting);
+    const DipCamPath *before = dip_preview_playing_path(state);
+    if (category >= 0 && !state->manual && !state->paused) {
+        dip_camtrack_switch(state->track, category, state->play_ns);
+    }
+    const bool moved = dip_preview_playing_path(state) != before;
+    dip_preview_notice(state, now_ns, "%s: %s%s%s", dip_setting_info(setting)->title, step,
+                       moved ? ", on the path " : "",
+                       moved ? dip_preview_path_title(state, state->track->active) : "");
+    ++state->scene_changes;
+}
+
 // Gives a setting a step. If a new number of samples does not fit the group size of adaptive AA,
 // resets the group size to its default. Returns whether the settings are valid.
 static bool take_step(DipQuality *quality, DipSetting setting, int step, DipError *err) {
@@ -91,16 +107,14 @@ static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     return false;
 }
 
-// Gives the panes new settings if they differ from the old ones, and says so. The camera stays on
-// its path, so that the pictures before and after the change can be compared. `step` is the name of
-// the new step of `setting`.
+// Gives the panes new settings if they differ from the old ones. `step` is the name of the new step
+// of `setting`.
 static void take_settings(DipPreviewState *state, const DipQuality wanted[DIP_PANE_COUNT],
                           DipSetting setting, const char *step, int64_t now_ns) {
     if (memcmp(wanted, state->quality, sizeof state->quality) != 0) {
         remember(state);
         memcpy(state->quality, wanted, sizeof state->quality);
-        dip_preview_notice(state, now_ns, "%s: %s", dip_setting_info(setting)->title, step);
-        ++state->scene_changes;
+        follow_setting(state, setting, step, now_ns);
     }
 }
 
