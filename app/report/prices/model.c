@@ -39,8 +39,7 @@ static bool compose(const DipPriceView *view, const DipQuality *normal,
 // Returns whether two combinations have the same antialiasing and filtering, which decide how well
 // a combination is predicted.
 static bool are_alike(const DipQuality *a, const DipQuality *b) {
-    const unsigned mask =
-        dip_work_group(0) | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF;
+    const unsigned mask = dip_work_group(0) | 1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF;
     const DipQuality other = dip_cost_take_settings(b, a, mask);
     return dip_quality_equal(&other, b);
 }
