@@ -23,7 +23,8 @@ extern const char *const dip_time_kind_names[DIP_TIME_KIND_COUNT]; // "p95", "me
 typedef struct DipCandidate {
     DipQuality quality;
     DipEstimate time;    // Milliseconds per frame.
-    double common_error; // Standard error of the time's logarithm, shared by all candidates.
+    double common_error; // An error that the times of all candidates share, as the standard error
+                         // of the time's logarithm. `time` does not include it.
     double loss;         // FLIP for ranking: at least the FLIP that the noise of the converged
                          // picture makes.
     double flip;         // FLIP as it was measured.
@@ -58,10 +59,10 @@ int dip_next_better(const DipCandidates *candidates, double loss, double step);
 // have room for all candidates. Returns the number of indices.
 int dip_front(const DipCandidates *candidates, double step, int *list);
 
-// Returns the index in `front` (in order of time) of the front's knee: the candidate beyond which
-// more time buys least. In a plot of log time against log loss, the knee is the point farthest
-// below the line from the first to the last candidate (Satopaa et al. 2011). Returns -1 if there
-// are fewer than three candidates or if none lies below the line.
+// Returns the index in `front` (in order of time) of the front's knee: the candidate after which
+// more time lowers the loss much less than before. In a plot of log time against log loss, the knee
+// is the point farthest below the line from the first to the last candidate (Satopaa et al. 2011).
+// Returns -1 if there are fewer than three candidates or if none lies below the line.
 int dip_front_knee(const DipCandidates *candidates, const int *front, int count);
 
 enum { DIP_ADVICE_TIES = 8 };

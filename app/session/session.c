@@ -306,9 +306,10 @@ static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_n
     return drawn;
 }
 
-// Chooses the pane that copies from the other one in the next frame. The panes take turns, so that
-// each pane is often drawn without copying and its own time can be measured then. A turn lasts two
-// frames, since temporal antialiasing alternates between two sample patterns.
+// Chooses the pane that copies shaded pixels from the other one in the next frame
+// (dip_renderer_copy_shading). The panes take turns, so that each pane is often drawn without
+// copying and its own time can be measured then. A turn lasts two frames, since temporal
+// antialiasing alternates between two sample patterns.
 static void choose_copying_pane(DipSession *session) {
     const int turn = (int)(session->shared_frames / 2 % DIP_PANE_COUNT);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {

@@ -227,7 +227,8 @@ static bool take_event(DipPreview *preview, int timeout_ms) {
         return false;
     }
     const int64_t now_ns = dip_loop_clock_ns(preview);
-    if (dip_controllers_concern(&event)) { // A button has an action or stands for a key.
+    if (dip_controllers_concern(&event)) {
+        // A button of a controller has an action or stands for a key of the keyboard.
         DipEvent key;
         if (dip_controllers_handle(&preview->controllers, &preview->state, &event, now_ns, &key)) {
             handle_event(preview, &key, now_ns);

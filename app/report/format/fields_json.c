@@ -52,8 +52,8 @@ static void print_numbers(const DipField *field, const double *values, FILE *out
     fputs(field->names ? "}" : "]", out);
 }
 
-// Returns an item of a list. If the list's items are single values, returns the struct or array
-// that has the value.
+// Returns where an item of a list lies. If the list's items are single values, returns instead the
+// array that holds all of them, or what list->item returns, together with the item's index.
 static DipFieldAt list_item(const DipFieldList *list, const DipFieldAt *at, int index,
                             DipFieldScratch *scratch) {
     DipFieldAt within = {at->context, NULL, index, at};
