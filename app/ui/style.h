@@ -22,7 +22,6 @@ static const DipColour dip_style_well = {12, 14, 17, 255};     // Background of 
 static const DipColour dip_style_glass = {10, 12, 15, 199};    // Background of labels on pictures.
 static const DipColour dip_style_dim = {152, 162, 174, 255};   // Notes on the dock.
 static const DipColour dip_style_off = {139, 149, 162, 255};   // Disabled steps; dots of plots.
-static const DipColour dip_style_switch = {64, 72, 84, 255};   // A switch that is off.
 static const DipColour dip_style_over = {74, 42, 42, 255};     // In plots: what exceeds a budget.
 static const DipColour dip_style_gain = {95, 214, 189, 255};   // A figure with less error.
 static const DipColour dip_style_worse = {255, 154, 139, 255}; // A figure with more error.
