@@ -23,8 +23,9 @@ extern const char *const dip_time_kind_names[DIP_TIME_KIND_COUNT]; // "p95", "me
 typedef struct DipCandidate {
     DipQuality quality;
     DipEstimate time;    // Milliseconds per frame.
-    double common_error; // An error that the times of all candidates share, as the standard error
-                         // of the time's logarithm. `time` does not include it.
+    double common_error; // Standard error of the logarithm of the unknown factor by which all
+                         // candidates' times are too long or too short. time.log_error leaves this
+                         // error out.
     double loss;         // FLIP for ranking: at least the FLIP that the noise of the converged
                          // picture makes.
     double flip;         // FLIP as it was measured.
@@ -84,9 +85,10 @@ typedef struct DipAdvice {
 } DipAdvice;
 
 // Chooses among the candidates that surely fit and whose loss is at most 1 % above the least loss
-// of those that surely fit. Of these, it compares the fastest one with those whose times cannot be
-// told from it, since the intervals overlap, and chooses the one with the fewest settings off their
-// defaults. If the times are disturbed, `chosen` and `next` are -1.
+// of those that surely fit. Keeps the fastest of these, and those whose time has an interval that
+// overlaps the fastest one's, since their times cannot be told apart. Chooses the one of them with
+// the fewest settings off their defaults; if several have equally few, the fastest. If the times
+// are disturbed, `chosen` and `next` are -1.
 DipAdvice dip_advise(const DipCandidates *candidates, double budget_ms);
 
 #endif

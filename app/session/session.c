@@ -164,9 +164,10 @@ bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
     return made;
 }
 
-// Reads the pictures that the ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... show as mip levels, and
-// gives them to the painters. A level without a picture keeps its debug colour. If a picture cannot
-// be read, the error has the line of the ini that names this picture.
+// Reads the pictures that stand for mip levels in mip debugging, and gives them to the painters.
+// The ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... name the files of these pictures. A level
+// without a picture keeps its debug colour. If a picture cannot be read, the error has the line of
+// the ini that names this picture.
 static bool load_mip_pictures(DipSession *session, DipErrorList *faults) {
     DipPicture pictures[DIP_MIP_LEVEL_COUNT] = {{0}};
     DipTextureDef defs[DIP_MIP_LEVEL_COUNT];
