@@ -16,10 +16,10 @@ extern const StabilityHash stability_hashes[];
 extern const size_t stability_hash_count;
 
 // Draws a scene of 97x61 pixels, with the frames before it if the settings have a history, with the
-// run's instruction set and pool, and writes the hash. Returns false, with the reason in the run,
-// if it cannot be drawn. Not thread-safe.
+// run's instruction set and pool, and writes the hash. force_all: see StabilityShot. Returns false,
+// with the reason in the run, if it cannot be drawn. Not thread-safe.
 bool stability_draw_hash(StabilityRun *run, DipTestSceneKind kind, const char *settings,
-                         char hash[33]);
+                         bool force_all, char hash[33]);
 
 // Draws the pictures with the run's instruction set and pool and compares their hashes: each
 // picture is one case of the run. A short run draws every seventh picture. Calls progress, if it is
