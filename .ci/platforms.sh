@@ -69,12 +69,13 @@ test_platform() {
     esac && measure "$1" full --row N48
 }
 
-# emulate NAME PROGRAM [ARGUMENT]...
+# emulate NAME PROGRAM [ARGUMENT]... A kernel that starts no 32-bit programs needs an emulator for i686.
 emulate() {
     name=$1
     shift
     case $name in
     aarch64) qemu-aarch64 -L /usr/aarch64-linux-gnu "$@" ;;
+    i686) "$@" || { [ $? = 126 ] && qemu-i386 "$@"; } ;;
     windows) WINEPREFIX="$TOP/build/platforms/wine" WINEDEBUG=-all /usr/lib/wine/wine64 "$@" ;;
     *) "$@" ;;
     esac
