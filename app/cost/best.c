@@ -10,7 +10,7 @@ enum {
     FEW_GOES = 2, // With fewer rounds than FEW_ROUNDS, since the user is in a hurry.
     FEW_ROUNDS = 8,
     MOST_PROMISING = 24, // Greatest number of combinations of one go.
-    FRONT_PER_GO = 3     // Of these, so many may be measured because they are on the front.
+    FRONT_PER_GO = 5     // Of these, so many may be measured because they are on the front.
 };
 
 int dip_cost_most_goes(const DipCostOptions *options) {

@@ -10,7 +10,7 @@
 enum {
     RACES = 2,      // A usual number of races (advice.c).
     RACED_ROWS = 4, // A usual number of rows in each.
-    GO_ROWS = 16    // A usual number of combinations in a go (best.c).
+    GO_ROWS = 12    // A usual number of combinations in a go (best.c).
 };
 
 // What takes the place of measurements that have not been made yet.

@@ -21,10 +21,9 @@ int dip_cost_training_count(unsigned settings, int count) {
     int training = settings >> DIP_SETTING_AAA & 1 ? 20 : 16;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         if (settings >> s & 1 && !(main >> s & 1)) {
-            training += 2 * (dip_setting_info((DipSetting)s)->step_count - 1);
+            training += (3 * (dip_setting_info((DipSetting)s)->step_count - 1) + 1) / 2;
         }
     }
-    if (getenv("T")) training = (int)(training * atof(getenv("T")));
     return training < count ? training : count;
 }
 

@@ -118,8 +118,8 @@ enum { DIP_COST_COUNTED_FRAMES = 8 }; // Frames of path 0, spread evenly, whose 
 
 // Returns how many combinations are measured to predict `count` combinations of these settings,
 // with those of the sweeps. Bit s of `settings` stands for setting s. Antialiasing and anisotropic
-// filtering need 16. Every other setting needs two more for each step after its first. Returns at
-// most `count`.
+// filtering need 16. Every other setting needs three more for each two steps after its first.
+// Returns at most `count`.
 int dip_cost_training_count(unsigned settings, int count);
 
 // Chooses the combinations to measure: those that tell most about the price of each kind of work

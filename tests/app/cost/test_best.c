@@ -18,7 +18,7 @@
 
 #define BIT(NAME) (1u << DIP_SETTING_##NAME)
 
-enum { MOST = 1 << 16, MACHINES = 60 };
+enum { MOST = 1 << 16, MACHINES = 40, LEAST_GOOD = 36 };
 
 static const unsigned combined = BIT(AA) | BIT(AAA) | BIT(ASD) | BIT(AF) | BIT(MIPLOD) |
                                  BIT(SCALE) | BIT(UPSCALE) | BIT(SHADOWS);
@@ -138,7 +138,7 @@ static double together(const DipQuality *base, const DipQuality *quality, uint64
             }
         }
     }
-    return sum / sqrt(6.0);
+    return sum / sqrt(10.0);
 }
 
 static const double *find_listed(const void *context, const DipQuality *quality) {
@@ -260,8 +260,8 @@ static void measure_training(Machine *machine) {
 }
 
 // Returns by what share the FLIP of the advised settings lies above that of the best ones of all
-// that fit.
-static double search(uint64_t seed, double miss, int *measured, double *trained_miss) {
+// that fit. Adds to *measured how many combinations were measured in the search.
+static double search(uint64_t seed, double miss, int *measured) {
     Machine machine;
     open_machine(&machine, seed, miss);
     measure_training(&machine);
@@ -275,34 +275,27 @@ static double search(uint64_t seed, double miss, int *measured, double *trained_
         const bool fits = 1.01 * machine.all[i].p95_ms <= budget_ms;
         best = fits ? fmin(best, machine.all[i].flip) : best;
     }
-    const double share = chosen ? chosen->flip / best - 1.0 : 1.0;
-    assert_true(!chosen || find_true(&machine, &chosen->quality)->p95_ms < 1.005 * budget_ms);
+    assert_non_null(chosen);
+    assert_true(find_true(&machine, &chosen->quality)->p95_ms < 1.005 * budget_ms);
+    const double share = chosen->flip / best - 1.0;
     *measured += machine.measured;
-    *trained_miss = report->predicted.times.p90;
     dip_cost_report_free(report);
     return share;
 }
 
-// On machines that the models miss by 5 to 10 %, no other combination that fits the budget is
-// better than the advised one by more than 1 % FLIP.
+// Times are missed by 5 to 10 %. On most machines no other combination that fits the budget is
+// better than the advised one by more than 1 % FLIP. No search that measures few of them finds the
+// best on all: what two settings do together is known only where both were measured.
 static void none_that_fits_is_clearly_better(void **state) {
     (void)state;
-    int good = 0, near = 0, measured = 0;
-    double sum = 0.0;
+    int good = 0, measured = 0;
     for (int i = 0; i < MACHINES; i++) {
-        double p90;
-        int before = measured;
-        const double share =
-            search((uint64_t)i + 1, 0.05 + 0.05 * i / (MACHINES - 1), &measured, &p90);
-        good += share <= 0.01;
-        near += share <= 0.0201;
-        sum += share;
-        if (getenv("VERBOSE"))
-            printf("%d: %.4f %d p90 %.3f\n", i, share, measured - before, p90);
+        const double miss = 0.05 + 0.05 * i / (MACHINES - 1);
+        good += search((uint64_t)i + 1, miss, &measured) <= DIP_CLEARLY_BETTER;
     }
-    printf("%d of %d within 1 %%, %d within 2 %%, mean %.4f, %.1f measured\n", good, MACHINES, near,
-           sum / MACHINES, (double)measured / MACHINES);
-    assert_true(good >= MACHINES * 9 / 10);
+    print_message("none is clearly better on %d of %d machines, %.1f measured\n", good, MACHINES,
+                  (double)measured / MACHINES);
+    assert_true(good >= LEAST_GOOD);
 }
 
 int main(void) {

@@ -249,7 +249,7 @@ static void the_front_is_found(void **state) {
     report.options.budget_count = 1;
     report.options.budgets_ms[0] = 6.0;
     train(&report, &times, &errors);
-    for (int go = 0; go < 3; go++) {
+    for (int go = 0; go < 4; go++) {
         int list[24];
         const int count = dip_cost_list_promising(&report, 24, list, NULL);
         for (int i = 0; i < count; i++) {

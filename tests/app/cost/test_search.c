@@ -312,6 +312,13 @@ static void each_phase_forecasts_less_than_the_one_before(void **state) {
     const double first = later_than(&cost, DIP_COST_PHASE_BEST_ERRORS);
     cost.forecast.goes = 1;
     assert_true(later_than(&cost, DIP_COST_PHASE_BEST_ERRORS) < first);
+    // In the last go, no other one is expected, however few rounds there are.
+    for (int rounds = 6; rounds <= 16; rounds += 10) {
+        report.options.rounds = rounds;
+        cost.forecast.goes = dip_cost_most_goes(&report.options) - 1;
+        assert_true(later_than(&cost, DIP_COST_PHASE_BEST_TIMES) ==
+                    later_than(&cost, DIP_COST_PHASE_MORE_BEST));
+    }
     // Pictures that take longer to judge than was guessed make the whole run longer.
     const double guessed = later_than(&cost, DIP_COST_PHASE_TRUTHS);
     cost.forecast.picture_s *= 2.0;
