@@ -162,15 +162,9 @@ double dip_cost_model_value(const DipCostModel *model,
                             const double counters[DIP_COST_COUNTER_COUNT],
                             const DipQuality *quality) {
     const bool is_time = model->what == DIP_COST_TIME;
-    double value = 0.0;
-    for (int part = is_time ? 0 : DIP_COST_PART_FLIP;
-         part < (is_time ? DIP_COST_STAGE_COUNT : DIP_COST_PART_COUNT); part++) {
-        double amounts[DIP_COST_MAX_TERMS];
-        dip_cost_terms(part, counters, quality, amounts);
-        for (int t = 0; t < dip_cost_term_count(part); t++) {
-            value += amounts[t] * model->prices[part][t];
-        }
-    }
+    const double value = dip_cost_sum_terms(is_time ? 0 : DIP_COST_PART_FLIP,
+                                            is_time ? DIP_COST_STAGE_COUNT : DIP_COST_PART_COUNT,
+                                            model->prices, counters, quality);
     return is_time ? value : fmax(value, 0.0);
 }
 

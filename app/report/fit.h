@@ -38,6 +38,11 @@ const char *dip_cost_term_name(int part, int term);
 void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
                     const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
 
+// Returns the sum of amounts times prices of all terms of the parts `first` to `end` - 1.
+// prices[part][term].
+double dip_cost_sum_terms(int first, int end, const double (*prices)[DIP_COST_MAX_TERMS],
+                          const double counters[DIP_COST_COUNTER_COUNT], const DipQuality *quality);
+
 // --- models --------------------------------------------------------------------------------------
 
 typedef enum DipCostModelled {

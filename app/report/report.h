@@ -12,6 +12,7 @@
 #include "app/measure/stats/rounds.h"
 #include "app/measure/timing/driver.h"
 #include "app/report/choice.h"
+#include "app/report/words.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
 
@@ -381,6 +382,11 @@ static inline bool dip_cost_is_view(const DipCostReport *report) {
 // Returns the number of frames that are timed along a path.
 static inline int dip_cost_frame_count(const DipCostReport *report) {
     return dip_cost_is_view(report) ? 1 : report->options.rounds * report->options.timed_frames;
+}
+
+// Returns the report's time budgets, which no rounded time crosses (words.h).
+static inline DipLimits dip_cost_budgets(const DipCostReport *report) {
+    return (DipLimits){report->options.budgets_ms, report->options.budget_count};
 }
 
 // Adds timed frames to the report's log, which must have as many rounds and starts as `times`.

@@ -13,6 +13,17 @@ enum { DIP_NUMBER_BYTES = 24, DIP_BUDGET_BYTES = 64 };
 void dip_number_text(double value, int decimals, bool change, const char *minus,
                      char text[DIP_NUMBER_BYTES]);
 
+// Values that rounding must not cross, such as the time budgets of a report.
+typedef struct DipLimits {
+    const double *values;
+    int count;
+} DipLimits;
+
+// Writes a value with this number of decimals, or with more, up to three, if rounding would carry
+// it over a limit. The text has no plus sign.
+void dip_limited_number(double value, int decimals, DipLimits limits, const char *minus,
+                        char text[DIP_NUMBER_BYTES]);
+
 // Writes a time as it is shown beside a limit, such as the budget of a frame: "8.4", or with one
 // digit and a question mark if it is doubtful: "8?", "70?". Rounding never carries the time over
 // the limit: if fewer digits would, more are written ("15?" rather than "10?" beside a limit of 12,

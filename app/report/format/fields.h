@@ -8,6 +8,7 @@
 #define DIP_APP_REPORT_FORMAT_FIELDS_H
 
 #include "app/measure/stats/estimate.h"
+#include "app/report/words.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
@@ -186,8 +187,8 @@ void dip_fields_print_csv(const DipRecord *record, const DipFieldAt *at, const c
 
 enum { DIP_CELL_BYTES = 512 };
 
-// Writes an estimate's interval, "1.23 to 1.45", or "".
-void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
+// Writes an estimate's interval, "1.23 to 1.45", or "". Rounding crosses no limit.
+void dip_field_interval_text(const DipField *field, DipLimits limits, const DipEstimate *estimate,
                              char text[DIP_CELL_BYTES]);
 
 // A table of items of one record. Terminals and pages print the same columns. They leave out
@@ -205,6 +206,7 @@ typedef struct DipTable {
     void *context;
     const void *items;
     int count;
+    DipLimits limits; // Milliseconds that no rounded time crosses: the budgets beside the table.
     bool (*shows)(const DipFieldAt *at); // Returns whether to show an item; NULL shows all items.
     // Items may have an int member with the index of the row of the report that the item shows, or
     // -1 if it shows none. This points to that member of the first item. The other items have it at

@@ -45,7 +45,7 @@ DipCostLine dip_cost_prediction_line(const DipCostReport *report, int prediction
 
 // Initialisers of a DipTable whose items are lines.
 #define DIP_COST_LINES(REPORT, LINES, COUNT)                                                       \
-    .record = &dip_cost_line_record, .context = (void *)(REPORT), .row = &(LINES)->row,            \
-    .items = LINES, .count = COUNT
+    .record = &dip_cost_line_record, .context = (void *)(REPORT),                                  \
+    .limits = dip_cost_budgets(REPORT), .row = &(LINES)->row, .items = LINES, .count = COUNT
 
 #endif

@@ -118,6 +118,13 @@ static void make_report(DipCostReport *report, const double *flip, double noise,
     }
 }
 
+static void predict_others(DipCostReport *report) {
+    DipCostModels models;
+    assert_true(dip_cost_models_of(report, &models, NULL));
+    assert_true(dip_cost_predict_others(report, &models, NULL));
+    dip_cost_models_free(&models);
+}
+
 // Trains on TRAINED combinations and predicts the others. Returns the misses of times and of FLIP.
 static void train(DipCostReport *report, DipCostMisses *times, DipCostMisses *errors) {
     int chosen[TRAINED];
@@ -128,8 +135,7 @@ static void train(DipCostReport *report, DipCostMisses *times, DipCostMisses *er
     for (int i = 0; i < TRAINED; i++) {
         report->predicted.list[chosen[i]].row = chosen[i];
     }
-    const DipCostModels models = dip_cost_models_of(report);
-    dip_cost_predict_others(report, &models);
+    predict_others(report);
     for (int i = 0; i < COMBINATIONS; i++) {
         const DipCostPrediction *p = &report->predicted.list[i];
         if (p->row < 0) {
@@ -243,15 +249,14 @@ static void the_front_is_found(void **state) {
     report.options.budget_count = 1;
     report.options.budgets_ms[0] = 6.0;
     train(&report, &times, &errors);
-    for (int go = 0; go < 3; go++) {
+    for (int go = 0; go < 4; go++) {
         int list[24];
         const int count = dip_cost_list_promising(&report, 24, list, NULL);
         for (int i = 0; i < count; i++) {
             assert_true(report.predicted.list[list[i]].row < 0);
             report.predicted.list[list[i]].row = list[i];
         }
-        const DipCostModels models = dip_cost_models_of(&report);
-        dip_cost_predict_others(&report, &models);
+        predict_others(&report);
     }
     int measured = 0;
     for (int i = 0; i < COMBINATIONS; i++) {
