@@ -2,8 +2,8 @@
 // says what a seed is.
 //
 // The fragment shader replaces the smooth intensity of the light by steps: the seed's four, or a
-// number of equal bands. The highlight has steps, too. Outlines need no stencil: each object's back
-// faces are drawn once more, a little larger and in a dark colour.
+// number of equal bands. The highlight has steps, too. Outlines need no stencil: the back faces
+// of each object but the floor are drawn once more, a little larger and in a dark colour.
 #include "app/gallery/kit/kit.h"
 
 #include <string.h>
