@@ -13,7 +13,7 @@
 typedef struct DipBenchResult {
     const DipBenchPlan *plan;
     double *ms;            // times, [combination][stage][round][frame]
-    double *scratch;       // room for the times of a combination's stage
+    double *scratch;       // room for the times of one combination in one stage
     DipBenchSample *first; // samples of the warm-up, [combination][frame]
     // [combination]: the ratio of the combination's mean time to that of the plan's base. With
     // two programs, the second one's ratios are to the mean times of the first one, and the
