@@ -120,7 +120,7 @@ typedef struct DipAlong {
     // Standard error of the logarithm of the base's mean time, which all subjects of one base
     // share. The errors of the estimates above include it. NAN if it is not known.
     double level_error;
-    int timed; // Number of the subject's times.
+    int timed; // Number of the subject's times beside a time of its base; 0 for a base.
     int kept;  // Number of these times that were not disturbed.
 } DipAlong;
 

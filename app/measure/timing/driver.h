@@ -119,8 +119,8 @@ typedef enum DipDriverStep {
     DIP_DRIVER_FAILED
 } DipDriverStep;
 
-// Makes a driver, which watches the threads of this process. The threads that draw must exist
-// before. Fails with DIP_ERROR_MEMORY.
+// Makes a driver. Unless calls->thread_use is set, it watches the threads of this process; those
+// that draw must then exist before. Fails with DIP_ERROR_MEMORY.
 DIP_API DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCalls *calls,
                                      DipError *err);
 DIP_API void dip_driver_destroy(DipDriver **driver);

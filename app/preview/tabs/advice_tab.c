@@ -169,7 +169,7 @@ static void declare_advised(DipUi *ui, DipWindow *window, DipRect room) {
 
 // --- one step up and down ------------------------------------------------------------------------
 
-// Writes what changes from one combination of settings to another: "asd=1 -> asd=2".
+// Writes what changes from one combination of settings to another: "asd 1 → 2".
 static void format_change(const DipQuality *from, const DipQuality *to, char text[160]) {
     size_t length = 0;
     text[0] = '\0';
