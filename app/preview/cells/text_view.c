@@ -5,11 +5,12 @@
 #include <string.h>
 
 enum {
-    MIN_PANE_ROWS = 8,    // Least height of the panes above settings, times or costs that the user
-                          // opened.
-    ROOMY_PANE_ROWS = 14, // Least height of the panes above settings that show without being asked
-                          // for.
-    LEAST_ROWS = 6        // A screen with fewer rows shows the panes and their labels only.
+    // If what the user opened (settings, times or costs) would leave the panes fewer rows than
+    // this, it gets at most half of the rows.
+    MIN_PANE_ROWS = 8,
+    // Settings that the user has not opened show only if they leave the panes as many rows.
+    ROOMY_PANE_ROWS = 14,
+    LEAST_ROWS = 6 // A screen with fewer rows shows the panes and their labels only.
 };
 
 static const DipTextColours bar = {{196, 202, 210, 255}, {32, 36, 43, 255}};

@@ -48,7 +48,8 @@ typedef struct DipTaaPace {
     int64_t since_ns; // If `on`, when temporal antialiasing was turned on.
 } DipTaaPace;
 
-// Says whether frames come fast enough for temporal antialiasing.
+// Says whether frames come fast enough for temporal antialiasing. All members are 0 while no pane
+// uses it.
 typedef struct DipTaaSpeed {
     bool too_slow;
     int shown;  // Frames presented in the last second.

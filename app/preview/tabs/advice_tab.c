@@ -1,6 +1,7 @@
 // Declares the advice tab: the best settings for a time budget, what the next better settings cost,
-// and a plot of all settings that can be chosen. Everything comes from the preview's choice
-// (prices/choice.h), which is computed from a cost report or from live prices (prices.h).
+// and a plot of all settings that can be chosen. With live prices, words about cost reports take
+// the place of the last two. Everything else comes from the preview's choice (prices/choice.h),
+// which is computed from a cost report or from live prices (prices.h).
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"

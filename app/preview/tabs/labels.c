@@ -1,5 +1,5 @@
-// Draws the labels over the panes, and notices. Finds a pane's frame time, which the labels and the
-// panel show.
+// Draws the labels over the panes, and notices. Finds the time of a pane (tabs.h), which the labels
+// and the panel show.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
