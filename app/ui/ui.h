@@ -61,7 +61,8 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
 // Ends the pass. After an event pass, returns whether the event was used; then it must not do
 // anything else. A control may have taken it. Tab and Shift+Tab move the focus, and so do arrow
 // keys that the control with the focus does not take. Escape hides a tip. In a drawing pass, draws
-// the tip of the control under the pointer above everything else, and returns false.
+// the tip of the control under the pointer, once it is due, above everything else, and returns
+// false.
 bool dip_ui_end(DipUi *ui);
 
 // Returns the time at which a tip is due to appear. The caller must draw the window again at that

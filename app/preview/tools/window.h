@@ -39,7 +39,8 @@ void dip_maps_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DI
 // Lets the mouse fly the camera. `panes`: what the user did with each pane's control in this pass.
 // Dragging with the right button turns the camera, and frees it from the path. Dragging with the
 // left button turns a camera that is free already, unless a tool uses the button. The wheel changes
-// the speed of the free camera, or zooms.
+// the speed of the free camera, or the distance of a free camera that orbits. With Ctrl, the wheel
+// is left to the loupe.
 //
 // Removes from `panes` the input that has flown the camera, so that no tool acts on it: the wheel's
 // steps and the press of the right button. If the button is released without a drag, its press is
