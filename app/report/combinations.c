@@ -97,7 +97,8 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
 
 double dip_cost_pixels_filtered(const DipQuality *quality) {
     const double scale = dip_quality_scale(quality);
-    // A history and antialiasing filter the picture that is drawn, before it is enlarged.
+    // A history and antialiasing filter a small picture (scale below 1) before it is enlarged, and
+    // a large one (scale above 1) after it is averaged.
     const double drawn = fmin(1.0, scale * scale);
     return (dip_quality_has_history(quality) ? drawn : 0.0) +
            (quality->step[DIP_SETTING_POST] ? drawn : 0.0) +
@@ -106,7 +107,8 @@ double dip_cost_pixels_filtered(const DipQuality *quality) {
 }
 
 // Multiplies each counter by the ratio of a combination's counter (`of`) to the base's counter.
-// Where the base's counter is 0, there is no ratio, and the combination's own counter is taken.
+// Where the base's counter is 0, there is no ratio, and the counter becomes the combination's own
+// counter if this is greater.
 static void apply(const double *of, const double *base, double *counters) {
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);
@@ -114,9 +116,8 @@ static void apply(const double *of, const double *base, double *counters) {
 }
 
 // Returns the number of pixels of a frame, as it follows from a combination's counters; 0 if the
-// combination filters none.
-// Filters of the finished picture are applied one after the other to pictures of known sizes, so
-// their pixels need not be composed.
+// combination filters none. Filters of the finished picture are applied one after the other to
+// pictures of known sizes, so their pixels need not be composed.
 static double pixels_of_frame(const double *of, const DipQuality *quality) {
     const double filtered = dip_cost_pixels_filtered(quality);
     return filtered > 0.0 ? of[DIP_COST_COUNTER_pixels_filtered] / filtered : 0.0;
