@@ -41,6 +41,7 @@ typedef struct Search {
     const DipCostReport *report;
     const DipCostModels *models;
     Options groups[DIP_WORK_GROUPS];
+    DipWorkCorners corners;
     double floor_flip;
     double base_ms;
     Best *tasks; // [option of group 0]
@@ -149,6 +150,7 @@ static void run_task(void *context, int index, int worker) {
     Best *best = &search->tasks[index];
     DipWorkSum sum = dip_work_begin(baseline, search->groups[0].list[0]->counters);
     (void)worker;
+    sum.corners = &search->corners;
     dip_work_add(&sum, &samples->quality, samples->counters);
     for (int c = 0; c < search->models->correction_count; c++) {
         best->likeness[c] = 1.0;
@@ -182,6 +184,10 @@ static bool list_options(Search *search, const DipCostPrediction **all) {
                 options->list[options->count++] = &predicted->list[i];
             }
         }
+    }
+    for (int i = 0; base >= 0 && i < predicted->count; i++) {
+        const DipCostPrediction *p = &predicted->list[i];
+        dip_work_note_corner(&search->corners, baseline, &p->quality, p->counters);
     }
     return base >= 0;
 }

@@ -36,6 +36,10 @@ enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE 
 // picture, and instancing. A composed counter is the base combination's counter, times the factors
 // by which each group alone changes it. The pixels that filters write follow from the settings
 // instead, and the work of shadows is added.
+//
+// Antialiasing and render scale depend on each other: which small triangles are drawn follows from
+// the samples on them, and how many pixels show several fragments from both. Their pairs are
+// therefore counted, too (corners), and correct the product of the two.
 
 // Returns how many pixels all filters of the finished picture write, per pixel of the frame.
 double dip_cost_pixels_filtered(const DipQuality *quality);
@@ -49,6 +53,22 @@ unsigned dip_work_group(int group);
 // Returns the counters [DIP_COST_COUNTER_COUNT] of a combination, or NULL if it was not counted.
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
+
+// Counters of the base with other steps of AA and of the render scale, [AA][scale]; NULL where they
+// were not counted.
+enum { DIP_WORK_MOST_STEPS = 8 };
+typedef struct DipWorkCorners {
+    const double *of[DIP_WORK_MOST_STEPS][DIP_WORK_MOST_STEPS];
+} DipWorkCorners;
+
+// Returns whether a combination is a corner: it differs from the base in AA and in the render
+// scale, and in nothing else.
+bool dip_work_is_corner(const DipQuality *base, const DipQuality *quality);
+
+// Notes the counters of a combination, which are borrowed, if it differs from the base at most in
+// AA and in the render scale.
+void dip_work_note_corner(DipWorkCorners *corners, const DipQuality *base,
+                          const DipQuality *quality, const double *counters);
 
 // Composes the counters of a combination. The settings of samples and those of shadows are always
 // groups of their own. All other groups are treated as one group if the base with the settings of
@@ -65,7 +85,8 @@ bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *
 typedef struct DipWorkSum {
     const DipQuality *base;
     const double *of_base;
-    const double *of_shadows; // Counters of the base with the combination's shadows, or NULL.
+    const double *of_shadows;      // Counters of the base with the combination's shadows, or NULL.
+    const DipWorkCorners *corners; // Borrowed; NULL if there are none.
     double counters[DIP_COST_COUNTER_COUNT];
     double pixels; // Pixels of a frame; 0 if no part filters them.
 } DipWorkSum;
