@@ -17,7 +17,8 @@ enum {
     MARGIN = 1
 };
 
-// Columns of blocks on a wide screen, from left to right; settings that belong together share one.
+// Columns of blocks on a wide screen, from left to right. Settings that belong together share a
+// column.
 static const int block_columns[MAX_BLOCK_COLUMNS][6] = {
     {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST, -1},
     {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_MIPLOD, DIP_SETTING_SHARPEN, -1},
