@@ -75,7 +75,7 @@ typedef struct DipTruthJob DipTruthJob;
 // step, which takes a few milliseconds. It does not write the truth if the folder already holds
 // more than 1 GiB of truths, and it does not fail if the truth cannot be written. Other jobs draw
 // the last level only, and many tiles per step on the pool; if `pool` is NULL, the calling thread
-// draws alone.
+// draws alone. If the def has a function `draw`, a step draws a whole half instead of tiles.
 DIP_API DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, DipPool *pool,
                                           bool live, DipError *err);
 DIP_API void dip_truth_job_destroy(DipTruthJob **job);

@@ -7,7 +7,7 @@
 enum {
     BLOCK_COLUMNS = 44,  // Width of a column of blocks; a block shows one setting.
     SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
-    ROW_COLUMNS = 60,    // Least width of a setting that takes one row.
+    ROW_COLUMNS = 60,    // Least width of a row that shows one setting.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
     BRIEF_COLUMNS = 11,  // The same, if a setting has so many steps that its name must be short.
     STEP_COLUMNS = 6,    // Least width of a step in its row.
@@ -17,7 +17,8 @@ enum {
     MARGIN = 1
 };
 
-// Columns of blocks on a wide screen, from left to right; settings that belong together share one.
+// Columns of blocks on a wide screen, from left to right. Settings that belong together share a
+// column.
 static const int block_columns[MAX_BLOCK_COLUMNS][6] = {
     {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST, -1},
     {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_MIPLOD, DIP_SETTING_SHARPEN, -1},

@@ -2,7 +2,8 @@
 // that shows characters (display.h). The panes' pictures fill the cells that hold no text.
 //
 // The screen has, from top to bottom: a row of labels, the panes, a bar with the camera path, the
-// settings (or the times, or the costs), and a row of keys.
+// settings (or the times, or the costs), and a row of keys. A low screen has only the labels and
+// the panes.
 #ifndef DIP_APP_PREVIEW_CELLS_TEXT_VIEW_H
 #define DIP_APP_PREVIEW_CELLS_TEXT_VIEW_H
 

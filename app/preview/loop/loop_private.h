@@ -28,8 +28,8 @@ typedef struct DipPrefetch {
     bool running;
 } DipPrefetch;
 
-// Everything that decides what the panes' pictures show, except the sample pattern that temporal
-// antialiasing uses in this frame.
+// Everything that decides what the panes' pictures show, except what temporal antialiasing takes
+// from the frame's number and from earlier frames.
 typedef struct Drawn {
     DipPose pose;
     int64_t play_ns;
@@ -109,8 +109,8 @@ void dip_prefetch_end(DipPrefetch *prefetch);
 
 // Tells the prices which scene the session shows now.
 void dip_loop_enter_scene(DipPreview *preview);
-// Shows the scene that the user has asked for. If it cannot be opened, a notice says why and
-// the old scene stays.
+// Shows the scene, or the variant of the scene, that the user has asked for. If a scene cannot be
+// opened, a notice says why and the old scene stays.
 void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns);
 // Replaces the session or the cost report by the one that was opened last (reload.h).
 void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns);

@@ -45,7 +45,7 @@ typedef struct DipReloadNews {
     DipReloadKind kind;
     bool dropped;                 // The news is about a file that the user dropped.
     bool animated;                // The news is about the animation that the user chose last.
-    bool warns;                   // With SESSION: the notice names what does not show.
+    bool warns;                   // With SESSION: the notice has warnings about the new session.
     char notice[DIP_NOTICE_SIZE]; // What to tell the user.
     const DipCostReport *costs;   // With COSTS, the report. Valid until the next one is loaded.
 } DipReloadNews;

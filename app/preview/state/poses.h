@@ -1,9 +1,9 @@
 // Helps to save files from the window: finds a free name, words the notice that names a saved file,
 // and appends poses to a file.
 //
-// The file of poses is a camera path in the text format (campaths/campath.h), with one second from
-// key to key. `--path poses.pth` flies from pose to pose, and the seven numbers of a line are what
-// --pose takes.
+// The file of poses is a camera path in the text format (campaths/campath.h). A new file has one
+// second from key to key. `--path poses.pth` flies from pose to pose, and the seven numbers of a
+// line are what --pose takes.
 #ifndef DIP_APP_PREVIEW_STATE_POSES_H
 #define DIP_APP_PREVIEW_STATE_POSES_H
 

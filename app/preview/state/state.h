@@ -46,7 +46,7 @@ typedef enum DipAction {
     DIP_ACTION_BARE,   // Shows nothing but the panes, or shows everything again.
     DIP_ACTION_UNDO,   // Takes the last change of settings back or, reversed, makes it again.
     DIP_ACTION_PRESET, // Gives the requested pane a preset; the argument is a DipPreset.
-    DIP_ACTION_SEEK,   // Moves the time on the path by `argument` milliseconds.
+    DIP_ACTION_SEEK,   // Moves play_ns forward by `argument` milliseconds or, reversed, back.
     DIP_ACTION_LOUPE,
     DIP_ACTION_ZOOM,       // Chooses the loupe's next zoom.
     DIP_ACTION_COMPARISON, // Chooses the next comparison.
@@ -78,7 +78,7 @@ typedef enum DipPreset {
 typedef struct DipFlight {
     bool orbits;               // Dragging turns the camera about a point; the wheel zooms.
     bool reset;                // The user wants the pose of the camera path. Cleared when done.
-    int speed_steps;           // Steps of the wheel, which change the speed (pilot.h).
+    int speed_steps;           // Steps by which the user has changed the speed (pilot.h).
     double base_speed_m_per_s; // Speed at 0 steps. Set by the loop.
     // What the mouse has done since the last turn of the loop. `drag_right` and `drag_up` are in
     // heights of a pane. `zoom_steps` counts the wheel's steps away from the user.
@@ -103,11 +103,12 @@ typedef struct DipPreviewState {
     DipQuality ini_quality;      // Settings that the requested pane began with.
     bool edited[DIP_PANE_COUNT]; // The panes whose settings the keys change.
     DipCamTrack *track;          // Borrowed.
-    int64_t play_ns;             // Time on the path, never below 0.
+    int64_t play_ns;             // Time that path and scene follow, never below 0. A path begins at
+                                 // track->start_ns.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
     bool stands;        // Neither the path nor the scene moves the picture, so time does not run.
-    bool scene_moves;   // The scene moves.
+    bool scene_moves;   // Something in the scene moves. True for every scene of the gallery.
     bool lacks_shadows; // Nothing in the scene casts a shadow that `shadows` could draw.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
@@ -117,7 +118,7 @@ typedef struct DipPreviewState {
     int scene_step;     // Scenes to go forward (below 0: back), as the user asked.
     const DipSessionAnimations
         *animations;         // Those of the models. Borrowed; NULL if there are none.
-    bool wants_animation;    // The user asked for an animation. Cleared when it begins to open.
+    bool wants_animation;    // The user asked for an animation. Cleared in the next turn.
     int wanted_animation;    // Its index, or -1 for none.
     bool opens_animation;    // An animation is being opened. Until it is open, the previous one
                              // plays.
@@ -151,9 +152,9 @@ typedef struct DipPreviewState {
     DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT];
     int undo_count;
     int redo_count;
-    bool screenshot;         // The user asked for a screenshot. Cleared when it is saved.
-    bool plain_screenshot;   // The screenshot shows the panes without overlays.
-    bool save_pose;          // The user asked to save the pose. Cleared when it is saved.
+    bool screenshot; // The user asked for a screenshot. Cleared when it is saved or has failed.
+    bool plain_screenshot; // The screenshot shows the panes without overlays.
+    bool save_pose; // The user asked to save the pose. Cleared when it is saved or has failed.
     DipSetting open_setting; // The setting whose steps the settings tab shows.
     bool shows_presets;      // A narrow settings tab shows presets in place of settings.
     bool copy_settings;      // The user asked to copy the requested settings. Cleared when done.
@@ -219,7 +220,7 @@ void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms);
 // change of state->tools.
 void dip_preview_follow_dock(DipPreviewState *state);
 
-// Sets the time on the path; a time below 0 becomes 0.
+// Sets state->play_ns; a time below 0 becomes 0.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
 
 // Returns the path that plays: that of the active category or, if it has none, of category 0.

@@ -68,8 +68,8 @@ void dip_flow_text(DipFlow *flow, DipColour colour, const char *text);
 
 // --- labels and the bar ---------------------------------------------------------------------
 
-// Draws a label over each pane: the pane's name, its frame time and its settings. The label has one
-// line if that fits.
+// Draws a label over each pane, unless the difference of the panes shows: the pane's name, its time
+// and its settings. The label has one line if that fits.
 void dip_labels_draw(DipUi *ui, DipWindow *window);
 
 // Draws the notice, which says what just happened, over the lower edge of the panes.
