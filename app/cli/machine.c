@@ -18,7 +18,8 @@ void dip_machine_processor(char *name, size_t size_bytes) {
         const char *colon = strchr(line, ':');
         if (strncmp(line, "model name", strlen("model name")) == 0 && colon) {
             line[strcspn(line, "\n")] = '\0';
-            snprintf(name, size_bytes, "%s", colon + 2);
+            const char *value = colon + 1 + strspn(colon + 1, " ");
+            snprintf(name, size_bytes, "%s", *value ? value : "unknown processor");
             break;
         }
     }

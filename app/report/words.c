@@ -62,7 +62,7 @@ void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_
 }
 
 void dip_budget_ms_text(double budget_ms, char text[DIP_NUMBER_BYTES]) {
-    if (budget_ms < 1000.0) {
+    if (budget_ms < 999.5) { // From there on, three digits would be written with an exponent.
         snprintf(text, DIP_NUMBER_BYTES, "%.3g", budget_ms);
     } else {
         snprintf(text, DIP_NUMBER_BYTES, "%.0f", budget_ms);

@@ -199,7 +199,8 @@ static bool prepare_chars(const DipGalleryView *view, DipError *err) {
     const int cell = height / 60 > CELL ? height / 60 : CELL;
     const int columns = (width + cell - 1) / cell;
     const int rows = (height + cell - 1) / cell;
-    if (target->chars && columns == target->columns && rows == target->rows) {
+    if (target->chars && content->char_pipeline && columns == target->columns &&
+        rows == target->rows) {
         target->cell = cell;
         return true;
     }

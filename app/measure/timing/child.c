@@ -77,11 +77,14 @@ static bool close_on_exec(const int pipe_ends[2]) {
 static bool start(DipChild *child, DipError *err) {
     int down[2] = {-1, -1};
     int up[2] = {-1, -1};
-    int failure = ENFILE;
+    int failure = 0;
     if (pipe(down) == 0 && pipe(up) == 0 && close_on_exec(down) && close_on_exec(up)) {
         failure = spawn(child, down[0], up[1]);
         child->to = fdopen(down[1], "w");
         child->from = fdopen(up[0], "r");
+        failure = failure == 0 && !(child->to && child->from) ? ENOMEM : failure;
+    } else {
+        failure = errno;
     }
     const int unused[] = {down[0], up[1], child->to ? -1 : down[1], child->from ? -1 : up[0]};
     for (int i = 0; i < 4; i++) {

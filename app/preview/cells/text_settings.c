@@ -186,7 +186,8 @@ static void draw_blocks(DipTextView *view, DipTextArea body) {
         for (int i = 0; i < 5 && block_columns[c][i] >= 0; ++i) {
             const DipSetting setting = (DipSetting)block_columns[c][i];
             const int rows = block_rows(setting, view->state->costs != NULL);
-            if (row + rows <= body.row + body.rows + 1) { // The last row may be blank.
+            const int blank = is_switch(setting) ? 0 : 1; // The blank row need not fit.
+            if (row + rows - blank <= body.row + body.rows) {
                 draw_block(view, setting, row, body.column + MARGIN + c * BLOCK_COLUMNS);
             }
             row += rows;

@@ -286,6 +286,6 @@ bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEve
     if (event->kind == DIP_EVENT_KEY_DOWN) {
         return press_key(view, state, event, now_ns);
     }
-    return event->kind == DIP_EVENT_MOUSE_DOWN && event->button == DIP_MOUSE_LEFT &&
+    return event->kind == DIP_EVENT_MOUSE_DOWN && event->button == DIP_MOUSE_LEFT && !state->help &&
            click(view, state, event, now_ns);
 }

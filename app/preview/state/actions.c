@@ -185,7 +185,8 @@ static void edit_path(const Act *act) {
 
 static void open_tab(DipPreviewState *state, DipTab tab) {
     DipToolState *tools = &state->tools;
-    tools->open = !(tools->open && tools->tab == tab);
+    const bool shows = tools->open && !tools->bare && tools->tab == tab;
+    tools->open = !shows;
     tools->bare = false;
     tools->tab = tab;
 }
@@ -213,6 +214,7 @@ static void use_loupe(const Act *act) {
     DipToolState *tools = &act->state->tools;
     tools->loupe = !tools->loupe;
     tools->open = tools->loupe || tools->open;
+    tools->bare = tools->bare && !tools->loupe;
     tools->tab = tools->loupe ? DIP_TAB_LOUPE : DIP_TAB_SETTINGS;
 }
 

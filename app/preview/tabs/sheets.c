@@ -21,7 +21,7 @@ enum {
 static const char costs_note[] =
     "1x: the baseline and its FLIP. Other steps: relative time (?: doubtful) and change of FLIP";
 static const char help_note[] =
-    "0 to 9: the path that was made to show a setting; a change of a setting moves no camera";
+    "0 to 9: the path made to show a setting. While time runs, a change of it plays that path";
 
 // --- a table on a sheet --------------------------------------------------------------------------
 

@@ -232,6 +232,8 @@ static void budgets_and_probabilities_are_named(void **state) {
     assert_string_equal(text, "Within 16.6 ms a frame");
     dip_budget_text(1000.0 / 120.0, text);
     assert_string_equal(text, "At 120 frames a second (8.33 ms)");
+    dip_budget_text(999.7, text);
+    assert_string_equal(text, "Within 1000 ms a frame");
     dip_budget_text(100000.0, text);
     assert_string_equal(text, "Within 100000 ms a frame");
     dip_fits_text(0.9969, text);
