@@ -177,6 +177,7 @@ static void read_pbr(Maker *maker) {
         // Without the picture that belongs to it, the factor 1 would make a mirror.
         const bool is_mirror = from->gloss.index >= 0 && plan->gloss.picture < 0;
         pbr->f0_lin[i] = is_mirror ? dielectric_specular : (float)from->f0[i];
+        pbr->f90 = is_mirror ? 1.0f : (float)from->f90;
         pbr->emission_lin[i] = (float)from->emission[i];
     }
     plan->metal_rough = use(maker, &from->metal_rough, "metallic-roughness map");

@@ -534,6 +534,7 @@ static void wrong_numbers_are_refused(void **state) {
     } rows[] = {{offsetof(DipPbrDef, metallic), "metallic"},
                 {offsetof(DipPbrDef, roughness), "roughness"},
                 {offsetof(DipPbrDef, f0_lin), "f0_lin"},
+                {offsetof(DipPbrDef, f90), "f90"},
                 {offsetof(DipPbrDef, occlusion_strength), "occlusion_strength"},
                 {offsetof(DipPbrDef, emission_lin), "emission_lin"},
                 {offsetof(DipPbrDef, normal_scale), "normal_scale"},
