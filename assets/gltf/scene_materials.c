@@ -80,7 +80,8 @@ static DipTextureUse use(Maker *maker, const DipGltfTexture *texture, const char
     return (DipTextureUse){.picture = register_picture(maker, source.image),
                            .uv_channel = set,
                            .wrap_u = source.wrap_u,
-                           .wrap_v = source.wrap_v};
+                           .wrap_v = source.wrap_v,
+                           .hard = source.is_nearest};
 }
 
 // --- texture coordinates -------------------------------------------------------------------------

@@ -274,7 +274,6 @@ def losses():
     m = Model()
     m.json["extensionsUsed"] = ["KHR_materials_sheen", "KHR_materials_variants", "ACME_smell"]
     m.json["scenes"].append({"nodes": []})
-    m.add("samplers", {"magFilter": 9728})
     one = m.texture(png(1, 1, [(10, 20, 30)]))
     coat = {"clearcoatFactor": 1, "clearcoatTexture": one}
     for name in ("first", "second"):
