@@ -4,7 +4,7 @@
 Usage: make_gltf.py FOLDER
 
 The numbers that the test expects stand in the test; they follow from the numbers here by hand.
-pack_gltf.mjs packs plain.gltf in four ways.
+pack_gltf.mjs packs plain.gltf.
 """
 import base64
 import json
