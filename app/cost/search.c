@@ -11,11 +11,11 @@
 #include <string.h>
 
 enum {
-    BINS = 512, // Times of the front: each bin holds the best combination of a range of times.
+    BINS = 512, // Each bin holds the best combination of a range of times, for the Pareto front.
     MIDDLE_BIN = 128, // The bin of the baseline's time.
     MOST_OPTIONS = 96 // Greatest number of combinations of the settings of one group.
 };
-static const double bin_width = 0.02; // Difference of the logarithms of the times.
+static const double bin_width = 0.02; // Width of a bin's range on the scale of log time.
 
 typedef struct Found {
     DipQuality quality;
@@ -128,7 +128,8 @@ static void run_task(void *context, int index, int worker) {
 
 // --- what a search begins and ends with ----------------------------------------------------------
 
-// Lists the options of each group among the counted combinations. Option 0 is the baseline.
+// Lists the options of each group. They are combinations whose work was counted (report->predicted
+// holds these before the search). Option 0 is the baseline.
 static bool list_options(Search *search) {
     const DipCostReport *report = search->report;
     const DipCostPredictions *predicted = &report->predicted;

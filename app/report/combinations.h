@@ -9,9 +9,9 @@
 
 // Lists every combination of the steps of the settings in the mask `settings` (bit s for setting
 // s). All other settings are those of the baseline. Leaves out combinations that the renderer
-// refuses, and those in which an enabled setting has no effect, since another combination draws the
-// same picture: advanced AF without AF, temporal AA without samples, and adaptive AA with a single
-// group of samples. Returns the number of combinations; the list has the first `room` of them.
+// refuses, and those in which an enabled setting has no effect (dip_quality_effective), since
+// another combination draws the same picture. Advanced AF without AF is an example. Returns the
+// number of combinations; the list has the first `room` of them.
 int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, DipQuality *list,
                                int room);
 
@@ -22,10 +22,10 @@ int64_t dip_cost_count_combinations_of(const DipQuality *baseline, unsigned sett
 // Returns `from` with the settings of `mask` (bit s for setting s) taken from `with`.
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask);
 
-// Temporal AA does nothing without AA, advanced AF does nothing without AF, and an upscaling filter
-// does nothing without a scale below 1. If AA or AF is off, or the scale is not below 1, reports
-// and prices measure temporal AA together with this step of AA, advanced AF together with this step
-// of AF, and upscaling filters together with this step of scale.
+// Alternating temporal AA does nothing without AA, advanced AF does nothing without AF, and an
+// upscaling filter does nothing without a scale below 1. If AA or AF is off, or the scale is not
+// below 1, reports and prices measure temporal AA together with this step of AA, advanced AF
+// together with this step of AF, and upscaling filters together with this step of scale.
 enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE = DIP_SCALE_1_1_5 };
 
 // --- composed work -------------------------------------------------------------------------------
@@ -60,8 +60,8 @@ bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *
 
 // Composes the counters of one combination after another that share some parts. A part is the base
 // with the settings of one or more groups taken from the combination; each group belongs to one
-// part. Parts of other settings must not change the shadows. A DipWorkSum may be copied at any
-// time, to go on in several ways. It borrows all counters.
+// part. A part that changes the shadows must change no other setting. A DipWorkSum may be copied at
+// any time, to go on in several ways. It borrows all counters.
 typedef struct DipWorkSum {
     const DipQuality *base;
     const double *of_base;
