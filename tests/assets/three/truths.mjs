@@ -57,17 +57,23 @@ function encode(x) {
 
 let chromium = null;
 let watch = null;
+let finishing = false;
 const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'truths-'));
 
 function finish(code) {
+  if (finishing) return;
+  finishing = true;
   const leave = () => {
     fs.rmSync(profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 100 });
     process.exit(code);
   };
-  if (!chromium || chromium.exitCode !== null) return leave();
-  chromium.on('exit', leave);
-  chromium.kill('SIGTERM');
-  return setTimeout(leave, 5000);
+  if (!chromium || chromium.exitCode !== null) {
+    leave();
+  } else {
+    chromium.on('exit', leave);
+    chromium.kill('SIGTERM');
+    setTimeout(leave, 5000);
+  }
 }
 
 function restartWatch() {
@@ -141,6 +147,10 @@ server.listen(0, '127.0.0.1', () => {
     `http://127.0.0.1:${server.address().port}/truths.html`], { stdio: 'ignore' });
   chromium.on('error', (error) => {
     console.error(error.message);
+    finish(1);
+  });
+  chromium.on('exit', () => {
+    if (!finishing) console.error('Chromium has ended early');
     finish(1);
   });
 });
