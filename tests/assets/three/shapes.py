@@ -215,5 +215,3 @@ def turn(geo, angle, axis=1):
 def checker(n=8, size=256, a=(230, 230, 230), b=(40, 60, 110)):
     y, x = np.indices((size, size)) * n // size
     return np.where(((x + y) % 2)[..., None], np.uint8(a), np.uint8(b)).astype(np.uint8)
-
-
