@@ -327,11 +327,12 @@ static const DipPicture *decoded(const DipModel *model, int picture) {
 }
 
 // Returns the picture of a texture: the colour picture, with the alpha of the opacity picture if
-// there is one.
+// there is one, or enlarged. Opacity pictures belong to formats without hard texels.
 static const DipPicture *merged_picture(DipModel *model, const DipTextureKey *key) {
     const DipPicture *colour = decoded(model, key->picture);
     const DipPicture *opacity = decoded(model, key->opacity_picture);
-    if (!opacity || (opacity == colour && colour->has_alpha)) {
+    const bool merges = opacity && (opacity != colour || !colour->has_alpha);
+    if (!merges && key->enlargement == 1) {
         return colour;
     }
     DipPicture *merged = dip_array_grow(model->merged, model->merged_count, sizeof *merged);
@@ -340,8 +341,22 @@ static const DipPicture *merged_picture(DipModel *model, const DipTextureKey *ke
     }
     model->merged = merged;
     DipPicture *to = &merged[model->merged_count];
-    model->merged_count += dip_picture_with_opacity(colour, opacity, to);
-    return to->rgba8 ? to : NULL;
+    const bool made = merges ? dip_picture_with_opacity(colour, opacity, to)
+                             : dip_picture_enlarge(colour, key->enlargement, to);
+    model->merged_count += made;
+    return made ? to : NULL;
+}
+
+// Returns by how much the texels of a picture are enlarged so that filtering leaves their edges
+// hard: 8, but less where more than HARD_SIDE texels would be in a row.
+static int enlargement_of(const DipPicture *picture) {
+    enum { HARDNESS = 8, HARD_SIDE = 1024 };
+    const int side = picture->width > picture->height ? picture->width : picture->height;
+    int factor = HARDNESS;
+    while (factor > 1 && factor * side > HARD_SIDE) {
+        factor /= 2;
+    }
+    return factor;
 }
 
 static int add_texture(DipModel *model, const DipTextureKey *key, const DipTextureDef *wanted) {
@@ -351,8 +366,8 @@ static int add_texture(DipModel *model, const DipTextureKey *key, const DipTextu
         const DipTextureKey *other_key = &model->texture_keys[i];
         if (other_key->picture == key->picture &&
             other_key->opacity_picture == key->opacity_picture &&
-            other->encoding == wanted->encoding && other->wrap_u == wanted->wrap_u &&
-            other->wrap_v == wanted->wrap_v) {
+            other_key->enlargement == key->enlargement && other->encoding == wanted->encoding &&
+            other->wrap_u == wanted->wrap_u && other->wrap_v == wanted->wrap_v) {
             return i;
         }
     }
@@ -377,10 +392,12 @@ static int add_texture(DipModel *model, const DipTextureKey *key, const DipTextu
 // *ok to false when memory runs out.
 static int texture_of(DipModel *model, const DipTextureUse *use, const DipTextureUse *opacity,
                       DipEncoding encoding, bool *ok) {
-    const DipTextureKey key = {
-        .picture = decoded(model, use->picture) ? use->picture : DIP_NO_TEXTURE,
-        .opacity_picture =
-            opacity && decoded(model, opacity->picture) ? opacity->picture : DIP_NO_TEXTURE};
+    const DipPicture *picture = decoded(model, use->picture);
+    const DipTextureKey key = {.picture = picture ? use->picture : DIP_NO_TEXTURE,
+                               .opacity_picture = opacity && decoded(model, opacity->picture)
+                                                      ? opacity->picture
+                                                      : DIP_NO_TEXTURE,
+                               .enlargement = picture && use->hard ? enlargement_of(picture) : 1};
     const int named = key.picture >= 0 ? key.picture : key.opacity_picture;
     if (named < 0) {
         return DIP_NO_TEXTURE;
@@ -390,7 +407,13 @@ static int texture_of(DipModel *model, const DipTextureUse *use, const DipTextur
                                   .encoding = encoding,
                                   .wrap_u = wraps->wrap_u,
                                   .wrap_v = wraps->wrap_v};
+    const int known = model->def.texture_count;
     const int index = add_texture(model, &key, &wanted);
+    if (use->hard && key.enlargement == 1 && index == known) {
+        dip_model_warn(model, wanted.name, "magFilter",
+                       "the texels have hard edges (NEAREST) in the file, but are drawn smoothly, "
+                       "because the picture is larger than 512x512");
+    }
     *ok = *ok && index >= 0;
     return index;
 }

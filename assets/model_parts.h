@@ -62,6 +62,7 @@ typedef struct DipTextureUse {
     int uv_channel; // set of texture coordinates in the file
     DipWrap wrap_u;
     DipWrap wrap_v;
+    bool hard; // true: the file asks for texels with hard edges
 } DipTextureUse;
 
 // Describes one DipMaterialDef: the values that distinguish it from other materials, and the values
@@ -98,6 +99,7 @@ typedef struct DipMaterialPlan {
 typedef struct DipTextureKey {
     int picture;
     int opacity_picture;
+    int enlargement; // a texel of the picture is so many texels wide and high
     bool has_alpha;
 } DipTextureKey;
 

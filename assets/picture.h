@@ -71,6 +71,10 @@ DIP_API bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_
 DIP_API bool dip_picture_copy(const DipTextureDef *levels, int level_count, DipPicture *picture,
                               DipError *err);
 
+// Makes a new picture in which factor x factor texels stand for each texel of a picture's largest
+// level. Returns false when memory runs out.
+DIP_API bool dip_picture_enlarge(const DipPicture *picture, int factor, DipPicture *enlarged);
+
 // Makes a new picture from the colours of one picture (NULL: white) and the opacity of another. The
 // opacity is the alpha channel of the opacity picture if it has one, otherwise its brightness. If
 // the sizes differ, the nearest texel of the opacity picture is used. Returns false when memory

@@ -199,19 +199,6 @@ static void warn_of_scenes(const DipGltf *gltf, DipModel *model) {
     }
 }
 
-static void warn_of_filters(const DipGltf *gltf, DipModel *model) {
-    static const double nearest = 9728.0;
-    const DipGltfItems *samplers = &gltf->tables[DIP_GLTF_samplers];
-    for (int i = 0; i < samplers->count; ++i) {
-        if (dip_gltf_number_of(samplers->items[i], "magFilter", 0.0) == nearest) {
-            dip_model_warn(model, gltf->path, "magFilter",
-                           "the texels of near textures have hard edges (NEAREST) in the file, but "
-                           "are drawn smoothly");
-            return;
-        }
-    }
-}
-
 bool dip_gltf_check_extensions(const DipGltf *gltf, DipModel *model) {
     Names required = {.count = 0};
     add_listed(&required, cJSON_GetObjectItemCaseSensitive(gltf->json, "extensionsRequired"));
@@ -230,6 +217,5 @@ bool dip_gltf_check_extensions(const DipGltf *gltf, DipModel *model) {
     warn_of_maps(gltf, model);
     warn_of_attributes(gltf, model);
     warn_of_scenes(gltf, model);
-    warn_of_filters(gltf, model);
     return true;
 }

@@ -118,6 +118,7 @@ static const cJSON *glossy_of(const cJSON *json) {
 // The shading of old files: a diffuse colour, and a specular colour that is f0.
 static bool read_glossy(const DipGltf *gltf, const cJSON *glossy, DipGltfMaterial *material) {
     double specular[3] = {1.0, 1.0, 1.0};
+    double greatest = 0.0;
     for (int i = 0; i < 4; ++i) {
         material->base[i] = 1.0;
     }
@@ -133,7 +134,9 @@ static bool read_glossy(const DipGltf *gltf, const cJSON *glossy, DipGltfMateria
     material->roughness = 1.0 - unit_of(glossy, "glossinessFactor", 1.0);
     for (int i = 0; i < 3; ++i) {
         material->f0[i] = clamp(specular[i], 0.0, 1.0);
+        greatest = material->f0[i] > greatest ? material->f0[i] : greatest;
     }
+    material->f90 = clamp(50.0 * greatest, 0.0, 1.0); // Black reflects nothing.
     return true;
 }
 
@@ -146,7 +149,8 @@ static bool read_metallic(const DipGltf *gltf, const cJSON *json, DipGltfMateria
            read_texture(gltf, shading, "metallicRoughnessTexture", &material->metal_rough);
 }
 
-// Computes f0 from KHR_materials_ior and KHR_materials_specular. An ior of 0 stands for infinity.
+// Computes f0 and f90 from KHR_materials_ior and KHR_materials_specular. An ior of 0 stands for
+// infinity.
 static bool read_specular(const DipGltf *gltf, const cJSON *json, DipGltfMaterial *material) {
     const cJSON *specular = dip_gltf_extension(json, "KHR_materials_specular");
     const double ior =
@@ -160,6 +164,7 @@ static bool read_specular(const DipGltf *gltf, const cJSON *json, DipGltfMateria
     for (int i = 0; i < 3; ++i) {
         material->f0[i] = strength * clamp(ratio * ratio * colour[i], 0.0, 1.0);
     }
+    material->f90 = strength;
     return true;
 }
 

@@ -30,6 +30,7 @@ typedef struct DipGltfMaterial {
     double metallic;
     double roughness;
     double f0[3]; // reflected share at normal incidence where metallic is 0
+    double f90;   // The same at grazing incidence.
     double emission[3];
     double normal_scale;
     double occlusion_strength;

@@ -80,7 +80,8 @@ static DipTextureUse use(Maker *maker, const DipGltfTexture *texture, const char
     return (DipTextureUse){.picture = register_picture(maker, source.image),
                            .uv_channel = set,
                            .wrap_u = source.wrap_u,
-                           .wrap_v = source.wrap_v};
+                           .wrap_v = source.wrap_v,
+                           .hard = source.is_nearest};
 }
 
 // --- texture coordinates -------------------------------------------------------------------------
@@ -177,6 +178,7 @@ static void read_pbr(Maker *maker) {
         // Without the picture that belongs to it, the factor 1 would make a mirror.
         const bool is_mirror = from->gloss.index >= 0 && plan->gloss.picture < 0;
         pbr->f0_lin[i] = is_mirror ? dielectric_specular : (float)from->f0[i];
+        pbr->f90 = is_mirror ? 1.0f : (float)from->f90;
         pbr->emission_lin[i] = (float)from->emission[i];
     }
     plan->metal_rough = use(maker, &from->metal_rough, "metallic-roughness map");

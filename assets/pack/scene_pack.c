@@ -67,12 +67,13 @@ static bool read_texture(DipPackReader *reader, uint64_t index, DipTextureDef *d
 static bool read_pbr(const DipPackReader *reader, const PackPbr *record, DipPbrDef *def) {
     *def = (DipPbrDef){.metallic = record->metallic,
                        .roughness = record->roughness,
+                       .f90 = record->f90,
                        .metal_rough_map = record->metal_rough_map,
                        .occlusion_map = record->occlusion_map,
-                       .occlusion_at_uv1 = record->occlusion_at_uv1 == 1,
+                       .occlusion_at_uv1 = (record->maps_at_uv1 & 1) != 0,
                        .occlusion_strength = record->occlusion_strength,
                        .emission_map = record->emission_map,
-                       .emission_at_uv1 = record->emission_at_uv1 == 1,
+                       .emission_at_uv1 = (record->maps_at_uv1 & 2) != 0,
                        .normal_scale = record->normal_scale,
                        .coat = record->coat,
                        .coat_roughness = record->coat_roughness};
@@ -80,11 +81,10 @@ static bool read_pbr(const DipPackReader *reader, const PackPbr *record, DipPbrD
     memcpy(def->emission_lin, record->emission_lin, sizeof def->emission_lin);
     const float *f0 = record->f0_lin;
     return within_unit(record->metallic) && within_unit(record->roughness) && within_unit(f0[0]) &&
-           within_unit(f0[1]) && within_unit(f0[2]) && within_unit(record->occlusion_strength) &&
-           within_unit(record->coat) && within_unit(record->coat_roughness) &&
-           are_light(record->emission_lin) && isfinite(record->normal_scale) &&
-           dip_pack_is_boolean(record->occlusion_at_uv1) &&
-           dip_pack_is_boolean(record->emission_at_uv1) &&
+           within_unit(f0[1]) && within_unit(f0[2]) && within_unit(record->f90) &&
+           within_unit(record->occlusion_strength) && within_unit(record->coat) &&
+           within_unit(record->coat_roughness) && are_light(record->emission_lin) &&
+           isfinite(record->normal_scale) && record->maps_at_uv1 <= 3 &&
            is_texture(reader, record->metal_rough_map) &&
            is_texture(reader, record->occlusion_map) && is_texture(reader, record->emission_map);
 }

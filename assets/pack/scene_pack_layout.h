@@ -82,10 +82,10 @@ typedef struct PackPbr {
     float f0_lin[3];
     int32_t metal_rough_map;
     int32_t occlusion_map;
-    uint32_t occlusion_at_uv1;
+    uint32_t maps_at_uv1; // 1: the occlusion map; 2: the emission map; 3: both
     float occlusion_strength;
     int32_t emission_map;
-    uint32_t emission_at_uv1;
+    float f90;
     float emission_lin[3];
     float normal_scale;
     float coat;

@@ -108,12 +108,13 @@ static bool add_textures(Writer *writer, const DipSceneDef *scene) {
 static PackPbr pbr_of(const DipPbrDef *def) {
     PackPbr record = {.metallic = def->metallic,
                       .roughness = def->roughness,
+                      .f90 = def->f90,
                       .metal_rough_map = def->metal_rough_map,
                       .occlusion_map = def->occlusion_map,
-                      .occlusion_at_uv1 = def->occlusion_at_uv1,
+                      .maps_at_uv1 =
+                          (def->occlusion_at_uv1 ? 1U : 0U) | (def->emission_at_uv1 ? 2U : 0U),
                       .occlusion_strength = def->occlusion_strength,
                       .emission_map = def->emission_map,
-                      .emission_at_uv1 = def->emission_at_uv1,
                       .normal_scale = def->normal_scale,
                       .coat = def->coat,
                       .coat_roughness = def->coat_roughness};

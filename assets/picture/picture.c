@@ -355,6 +355,23 @@ bool dip_picture_copy(const DipTextureDef *levels, int level_count, DipPicture *
     return true;
 }
 
+bool dip_picture_enlarge(const DipPicture *picture, int factor, DipPicture *enlarged) {
+    const int width = picture->width * factor;
+    const int height = picture->height * factor;
+    if (!allocate(enlarged, width, height, 1)) {
+        return false;
+    }
+    for (int y = 0; y < height; ++y) {
+        const uint8_t *row = picture->rgba8 + 4 * (size_t)(y / factor) * (size_t)picture->width;
+        uint8_t *to = enlarged->rgba8 + 4 * (size_t)y * (size_t)width;
+        for (int x = 0; x < width; ++x) {
+            memcpy(to + 4 * (size_t)x, row + 4 * (size_t)(x / factor), 4);
+        }
+    }
+    enlarged->has_alpha = picture->has_alpha;
+    return true;
+}
+
 bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture *opacity,
                               DipPicture *picture) {
     const DipPicture *size_of = colour ? colour : opacity;

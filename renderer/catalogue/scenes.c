@@ -117,6 +117,7 @@ DipPbrDef *dip_test_scene_add_pbr(DipTestScene *scene, int material, float metal
     *pbr = (DipPbrDef){.metallic = metallic,
                        .roughness = roughness,
                        .f0_lin = {0.04f, 0.04f, 0.04f},
+                       .f90 = 1.0f,
                        .metal_rough_map = DIP_NO_TEXTURE,
                        .occlusion_map = DIP_NO_TEXTURE,
                        .occlusion_strength = 1.0f,

@@ -374,7 +374,7 @@ void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter 
         surface.f0_greatest = fmax(surface.f0_greatest, pbr->f0_lin[i]);
         lobe.to_eye[i] = -surface.place[i];
     }
-    surface.f90 = fmin(1.0, 50.0 * surface.f0_greatest);
+    surface.f90 = pbr->f90;
     surface.sunlit = dip_reference_sunlit(&triangle->lit, surface.place);
     normalise(lobe.to_eye);
     const double spread = 2.0 * fmax(0.0, 1.0 / fmax(length, 0.1) - 1.0);

@@ -42,6 +42,7 @@ typedef struct DipPbrDef {
     float metallic;           // 0..1: 1 is a metal. It multiplies the blue of the metal_rough_map.
     float roughness;          // 0..1: it multiplies the green of the metal_rough_map
     float f0_lin[3];          // 0..1: reflected share at normal incidence where metallic is 0
+    float f90;                // 0..1: reflected share at grazing incidence where metallic is 0
     int metal_rough_map;      // linear encoding
     int occlusion_map;        // linear encoding; its red is the share of ambient light that arrives
     bool occlusion_at_uv1;    // true: the occlusion map is read at uv1

@@ -1,5 +1,6 @@
-// Packs plain.gltf in the ways that test_gltf.c reads.
-// Usage: node pack_gltf.mjs FOLDER
+// Packs a glTF file in five ways: PREFIXdraco.glb, PREFIXmeshopt.glb and so on.
+// Usage: node pack_gltf.mjs FILE PREFIX
+// test_gltf.c reads data/gltf/packed_*.glb, which are made of plain.gltf.
 // npm: @gltf-transform/core @gltf-transform/extensions @gltf-transform/functions draco3dgltf
 // meshoptimizer sharp ktx2-encoder
 import { NodeIO } from '@gltf-transform/core';
@@ -10,7 +11,7 @@ import { MeshoptEncoder, MeshoptDecoder } from 'meshoptimizer';
 import { encodeToKTX2 } from 'ktx2-encoder';
 import sharp from 'sharp';
 
-const folder = process.argv[2];
+const [file, prefix] = process.argv.slice(2);
 await MeshoptEncoder.ready;
 const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({
   'draco3d.encoder': await draco3d.createEncoderModule(),
@@ -38,8 +39,8 @@ const ways = {
   ktx2: [ktx2],
 };
 for (const [name, steps] of Object.entries(ways)) {
-  const document = await io.read(`${folder}/plain.gltf`);
+  const document = await io.read(file);
   await document.transform(...steps);
   for (const e of document.getRoot().listExtensionsUsed()) e.setRequired(true);
-  await io.write(`${folder}/packed_${name}.glb`, document);
+  await io.write(`${prefix}${name}.glb`, document);
 }

@@ -34,6 +34,7 @@ static void assert_same_pbr(const DipPbrDef *one, const DipPbrDef *other) {
     assert_memory_equal(&one->metallic, &other->metallic, sizeof(float));
     assert_memory_equal(&one->roughness, &other->roughness, sizeof(float));
     assert_memory_equal(one->f0_lin, other->f0_lin, sizeof one->f0_lin);
+    assert_memory_equal(&one->f90, &other->f90, sizeof(float));
     assert_int_equal(one->metal_rough_map, other->metal_rough_map);
     assert_int_equal(one->occlusion_map, other->occlusion_map);
     assert_int_equal(one->occlusion_at_uv1, other->occlusion_at_uv1);
@@ -154,6 +155,7 @@ static void check_pbr(const DipPbrDef *pbr, int texture_count) {
     for (int i = 0; i < 3; ++i) {
         assert_true(textures[i] >= DIP_NO_TEXTURE && textures[i] < texture_count);
         assert_in_unit(pbr->f0_lin[i]);
+        assert_in_unit(pbr->f90);
         assert_true(pbr->emission_lin[i] >= 0.0f && isfinite(pbr->emission_lin[i]));
     }
     assert_in_unit(pbr->metallic);

@@ -262,6 +262,23 @@ static void an_opacity_picture_becomes_the_alpha(void **state) {
     dip_picture_free(&merged);
 }
 
+static void an_enlarged_picture_repeats_its_texels(void **state) {
+    (void)state;
+    uint8_t texels[16] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
+    const DipPicture small = {
+        .rgba8 = texels, .width = 2, .height = 2, .has_alpha = true, .level_count = 1};
+    DipPicture large;
+    assert_true(dip_picture_enlarge(&small, 3, &large));
+    assert_int_equal(large.width, 6);
+    assert_int_equal(large.height, 6);
+    assert_true(large.has_alpha);
+    for (int i = 0; i < 36; i++) {
+        const int from = i / 6 / 3 * 2 + i % 6 / 3;
+        assert_memory_equal(large.rgba8 + 4 * i, texels + 4 * from, 4);
+    }
+    dip_picture_free(&large);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_png_has_its_texels),
@@ -276,6 +293,7 @@ int main(void) {
         cmocka_unit_test(bgra_texels_are_reordered),
         cmocka_unit_test(errors_say_what_is_wrong_with_a_file),
         cmocka_unit_test(an_opacity_picture_becomes_the_alpha),
+        cmocka_unit_test(an_enlarged_picture_repeats_its_texels),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

@@ -16,8 +16,8 @@ without_floats='
     dip_config_file_fault dip_config_free dip_config_key_name dip_config_same_file
     dip_model_cameras_destroy dip_model_destroy dip_model_times
     dip_name_list_add dip_name_list_end
-    dip_picture_copy dip_picture_free dip_picture_from_bgra dip_picture_level dip_picture_levels
-    dip_picture_with_opacity
+    dip_picture_copy dip_picture_enlarge dip_picture_free dip_picture_from_bgra dip_picture_level
+    dip_picture_levels dip_picture_with_opacity
     dip_scene_pack_free dip_scene_pack_note dip_scene_pack_read_note'
 
 # Declarations, not mentions in comments.

@@ -229,7 +229,8 @@ VEC_INLINE Lobe surface_lobe(const DipPbrUniforms *pbr, int i, const Facing *fac
     }
     Vf roughness = vf_splat(pbr->roughness);
     if (maps->metal_rough) {
-        roughness = roughness * vf_load(maps->metal_rough[1] + i);
+        // A filtered texel can be an ulp above 1, and the lean of a lobe has the root of 1 - alpha.
+        roughness = vf_min(roughness * vf_load(maps->metal_rough[1] + i), vf_splat(1.0f));
     }
     Width width = width_of(roughness);
     if (maps->normal) {

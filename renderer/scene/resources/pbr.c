@@ -96,6 +96,7 @@ DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
         .tables = tables,
         .metallic = pbr->metallic,
         .roughness = pbr->roughness,
+        .f90 = pbr->f90,
         .normal_scale = pbr->normal_scale,
         .metal_rough_varying = pbr->metal_rough_map != DIP_NO_TEXTURE ? uv0 : DIP_ABSENT,
         .occlusion_varying = DIP_ABSENT,
@@ -122,7 +123,5 @@ DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
         surface.f0_greatest =
             pbr->f0_lin[c] > surface.f0_greatest ? pbr->f0_lin[c] : surface.f0_greatest;
     }
-    const float grazing = surface.f0_greatest * 50.0f;
-    surface.f90 = grazing < 1.0f ? grazing : 1.0f;
     return surface;
 }

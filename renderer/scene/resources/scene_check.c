@@ -47,6 +47,7 @@ static bool check_pbr(const DipSceneDef *def, const DipMaterialDef *material, Di
            (check_range(&pbr->metallic, 1, 0.0, 1.0, name, "metallic", err) &&
             check_range(&pbr->roughness, 1, 0.0, 1.0, name, "roughness", err) &&
             check_range(pbr->f0_lin, 3, 0.0, 1.0, name, "f0_lin", err) &&
+            check_range(&pbr->f90, 1, 0.0, 1.0, name, "f90", err) &&
             check_range(&pbr->occlusion_strength, 1, 0.0, 1.0, name, "occlusion_strength", err) &&
             check_range(pbr->emission_lin, 3, 0.0, (double)DIP_MAX_LIGHT_LIN, name, "emission_lin",
                         err) &&

@@ -44,6 +44,7 @@ int author_add_pbr(AuthorScene *scene, float metallic, float roughness) {
     scene->pbrs[index] = (DipPbrDef){.metallic = metallic,
                                      .roughness = roughness,
                                      .f0_lin = {0.04f, 0.04f, 0.04f},
+                                     .f90 = 1.0f,
                                      .metal_rough_map = DIP_NO_TEXTURE,
                                      .occlusion_map = DIP_NO_TEXTURE,
                                      .occlusion_strength = 1.0f,

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""Compares the hashes of Diptych's pictures of the models of make_models.py with a list.
+
+Usage: hashes.py DIPTYCH LIST [--write]
+
+The list holds the pictures that beside.py has compared with those of three.js. They are drawn with
+the scalar kernels on one thread and with the best instruction set on three. --write writes the
+list; then run beside_models.sh, too. The exit code is 77 if numpy is missing.
+"""
+import pathlib
+import sys
+
+import ours
+
+WAYS = (("--isa", "scalar", "--threads", "1"), ("--isa", "auto", "--threads", "3"))
+
+
+def draw_all(diptych, way):
+    """Returns the lines of the list."""
+    lines = []
+    with ours.make_models() as folder:
+        for model in ours.find_models(folder):
+            for n, view in enumerate(model.views):
+                found, said, _ = ours.draw(diptych, model, view, way)
+                lines.append(f"{model.name} {n} {found or said}".strip())
+    return lines
+
+
+def main():
+    try:
+        import numpy  # pylint: disable=unused-import,import-outside-toplevel
+    except ImportError as missing:
+        print(f"skipped: {missing}")
+        return 77
+    diptych, file = sys.argv[1], pathlib.Path(sys.argv[2])
+    if sys.argv[3:] == ["--write"]:
+        file.write_text("\n".join(draw_all(diptych, WAYS[0])) + "\n")
+        return 0
+    expected = file.read_text().splitlines()
+    faults = 0
+    for way in WAYS:
+        lines = draw_all(diptych, way)
+        differ = [f"drawn:  {line}" for line in lines if line not in expected]
+        differ += [f"listed: {line}" for line in expected if line not in lines]
+        faults += len(differ)
+        print("\n".join([" ".join(way), f"{len(lines)} pictures", *differ]))
+    return 1 if faults else 0
+
+
+sys.exit(main())
