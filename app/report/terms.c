@@ -28,6 +28,7 @@ typedef struct Work {
     double sharp[2];    // 1 if miplod is at least as sharp as `sharp` (the first value), as
                         // `sharper` (the second).
     double scaled;      // 1 if a larger picture is drawn and averaged.
+    double fraction;    // 1 if its width is no whole multiple of that of the frame.
     double below;       // 1 if a smaller picture is drawn and enlarged.
     double scale;       // Width of the drawn picture divided by that of the frame.
     double drawn_part;  // Pixels that are drawn per pixel of a frame, if scale is below 1; else 1.
@@ -106,6 +107,8 @@ typedef struct Work {
     X("pixel resolved, per sample", C(pixels_resolved) * w->samples)                               \
     X("pixel resolved, aaa=all", C(pixels_resolved) * w->all)                                      \
     X("byte of a picture that is averaged", C(target_bytes) * w->scaled)                           \
+    X("pixel averaged from parts of pixels",                                                       \
+      C(target_bytes) / (4.0 * w->scale * w->scale) * w->fraction)                                 \
     X("texel of the shadow map", C(shadow_texels))
 
 #define REST_TERMS(X)                                                                              \
@@ -250,6 +253,7 @@ static Work work_of(const double counters[DIP_COST_COUNTER_COUNT], const DipQual
                    level <= DIP_MIPLOD_HIGH_PERFORMANCE},
         .sharp = {level >= DIP_MIPLOD_SHARP, level >= DIP_MIPLOD_SHARPER},
         .scaled = scale > 1.0,
+        .fraction = scale > 1.0 && scale > floor(scale),
         .below = enlarges,
         .scale = scale,
         .drawn_part = fmin(1.0, scale * scale),

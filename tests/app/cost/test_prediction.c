@@ -196,6 +196,37 @@ static void posed_vertices_have_a_price(void **state) {
     dip_cost_report_free(&report);
 }
 
+// A larger picture that is twice as wide as the frame is averaged faster than one that is 1.25 or
+// 1.5 times as wide, whose pixels count in part for two pixels of the frame.
+static void averaging_parts_of_pixels_has_a_price(void **state) {
+    (void)state;
+    const int first = DIP_SCALE_1, count = DIP_SCALE_2 - DIP_SCALE_1 + 1;
+    int rows[] = {0, 1, 2, 3};
+    DipCostReport report;
+    make_report(&report, courtyard_flip, 0.0, 1);
+    assert_int_equal(count, sizeof rows / sizeof *rows);
+    for (int i = 0; i < count; i++) {
+        DipCostRow *row = &report.rows[i];
+        row->quality = dip_quality_default();
+        row->quality.step[DIP_SETTING_SCALE] = (uint8_t)(first + i);
+        const double scale = dip_quality_scale(&row->quality);
+        const double bytes = 1e6 * scale * scale;
+        memset(row->counters, 0, sizeof row->counters);
+        memset(row->stage_ms, 0, sizeof row->stage_ms);
+        row->counters[DIP_COST_COUNTER_target_bytes] = bytes;
+        row->stage_ms[DIP_COST_STAGE_resolve] =
+            0.1 + (scale > 1.0 ? 3e-6 * bytes : 0.0) + (scale > 1.0 && scale < 2.0 ? 4.0 : 0.0);
+    }
+    report.smaller_count = 0;
+    const DipCostModel model = dip_cost_model_fit(&report, DIP_COST_TIME, rows, count);
+    for (int i = 0; i < count; i++) {
+        const DipCostRow *row = &report.rows[i];
+        const double ms = dip_cost_model_value(&model, row->counters, &row->quality);
+        assert_true(fabs(ms / row->stage_ms[DIP_COST_STAGE_resolve] - 1.0) < 1e-6);
+    }
+    dip_cost_report_free(&report);
+}
+
 static void flip_follows_from_settings(void **state) {
     (void)state;
     const double *const scenes[] = {courtyard_flip, city_flip};
@@ -736,6 +767,7 @@ int main(void) {
         cmocka_unit_test(composed_filters_write_the_pixels_of_their_pictures),
         cmocka_unit_test(times_follow_from_work),
         cmocka_unit_test(posed_vertices_have_a_price),
+        cmocka_unit_test(averaging_parts_of_pixels_has_a_price),
         cmocka_unit_test(flip_follows_from_settings),
         cmocka_unit_test(leaving_one_out_does_not_promise_too_much),
         cmocka_unit_test(the_front_is_found),
