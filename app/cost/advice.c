@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_AGAIN = 8, MOST_RACES = 6 };
+enum { MOST_AGAIN = 4, MOST_RACES = 6 };
 
 // True if it is unclear whether the candidate fits the budget: if the probability that it fits lies
 // between 1 - DIP_SURELY_FITS and DIP_SURELY_FITS.

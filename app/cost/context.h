@@ -22,7 +22,7 @@ typedef struct DipCostForecast {
     int swept_rows;     // Rows whose errors are measured first.
     int timed_rows;     // Rows that are timed first.
     int counted_frames; // Frames that are drawn to count work.
-    int goes;           // How often the best combinations have been measured (predict.c).
+    int goes;           // How often the best combinations have been measured (best.c).
 } DipCostForecast;
 
 // All pointers are borrowed, except the reference renderer, the gallery and the renderers. Not

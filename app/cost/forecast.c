@@ -10,8 +10,7 @@
 enum {
     RACES = 2,      // A usual number of races (advice.c).
     RACED_ROWS = 4, // A usual number of rows in each.
-    GOES = 3,       // A usual number of goes that measure the best combinations (predict.c).
-    GO_ROWS = 16    // A usual number of combinations in each.
+    GO_ROWS = 12    // A usual number of combinations in a go (best.c).
 };
 
 // What takes the place of measurements that have not been made yet.
@@ -66,7 +65,8 @@ static double predicting_s(const DipCostContext *cost, DipCostPhase phase) {
     case DIP_COST_PHASE_BEST_TIMES:
         return go_times_s(cost);
     case DIP_COST_PHASE_MORE_BEST:
-        return (GOES - 1 - forecast->goes) * (go_errors_s(cost) + go_times_s(cost));
+        return (dip_cost_most_goes(&cost->report->options) - 1 - forecast->goes) *
+               (go_errors_s(cost) + go_times_s(cost));
     default:
         return 0.0;
     }

@@ -4,18 +4,16 @@
 #include "app/cost/steps.h"
 
 #include "app/report/combinations.h"
-#include "renderer/base/assert.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    BINS = 512, // Times of the front: each bin holds the best combination of a range of times.
-    MIDDLE_BIN = 128, // The bin of the baseline's time.
-    MOST_OPTIONS = 96 // Greatest number of combinations of the settings of one group.
+    BINS = 512, // Each bin holds the best combination of a range of times, for the Pareto front.
+    MIDDLE_BIN = 128 // The bin of the baseline's time.
 };
-static const double bin_width = 0.02; // Difference of the logarithms of the times.
+static const double bin_width = 0.02; // Width of a bin's range on the scale of log time.
 
 typedef struct Found {
     DipQuality quality;
@@ -24,16 +22,18 @@ typedef struct Found {
     bool is_found;
 } Found;
 
-// What one task found: for each budget the best DIP_COST_PER_BUDGET combinations, best first, and
-// for each range of times the best one.
+// What one task found: for each budget and each limit the best DIP_COST_PER_LIMIT combinations,
+// best first, and for each range of times the best one.
 typedef struct Best {
-    Found (*budgets)[DIP_COST_PER_BUDGET];
+    Found (*limits)[DIP_COST_PER_LIMIT]; // [budget * DIP_COST_LIMITS + limit]
     Found bins[BINS];
+    double *likeness; // [group][correction]: see try_groups.
 } Best;
 
 // The combinations that differ from the baseline in the settings of one group, and the baseline.
 typedef struct Options {
-    const DipCostPrediction *list[MOST_OPTIONS];
+    const DipCostPrediction **list;
+    double *alike; // [option][correction]: likeness of their settings of this group.
     int count;
 } Options;
 
@@ -41,6 +41,7 @@ typedef struct Search {
     const DipCostReport *report;
     const DipCostModels *models;
     Options groups[DIP_WORK_GROUPS];
+    DipWorkCorners corners;
     double floor_flip;
     double base_ms;
     Best *tasks; // [option of group 0]
@@ -52,25 +53,24 @@ static bool is_better(const Found *a, const Found *b) {
 }
 
 // Puts the combination into a list of the best ones, if it is one of them.
-static void insert(Found list[DIP_COST_PER_BUDGET], const Found *found) {
-    int at = DIP_COST_PER_BUDGET;
+static void insert(Found list[DIP_COST_PER_LIMIT], const Found *found) {
+    int at = DIP_COST_PER_LIMIT;
     while (at > 0 && is_better(found, &list[at - 1])) {
         at--;
-        if (at < DIP_COST_PER_BUDGET - 1) {
+        if (at < DIP_COST_PER_LIMIT - 1) {
             list[at + 1] = list[at];
         }
         list[at] = *found;
     }
 }
 
-// Puts the combination among the best of each budget that it may fit, and into its bin.
-static void keep(const Search *search, Best *best, const Found *found) {
-    const DipCostOptions *options = &search->report->options;
-    const double ms =
-        options->budget_of == DIP_TIME_MEAN ? found->ms : found->ms * search->models->p95;
-    for (int b = 0; b < options->budget_count; b++) {
-        if (ms <= DIP_COST_MAY_FIT * options->budgets_ms[b]) {
-            insert(best->budgets[b], found);
+// Puts the combination among the best of each limit that it keeps, and into its bin. `ms` is its
+// time of the budgets' kind.
+static void keep(const Search *search, Best *best, const Found *found, double ms) {
+    const int budgets = search->report->options.budget_count;
+    for (int i = 0; i < budgets * DIP_COST_LIMITS; i++) {
+        if (ms <= dip_cost_limit_ms(search->report, i / DIP_COST_LIMITS, i % DIP_COST_LIMITS)) {
+            insert(best->limits[i], found);
         }
     }
     const int bin = MIDDLE_BIN + (int)floor(log(found->ms / search->base_ms) / bin_width);
@@ -80,27 +80,52 @@ static void keep(const Search *search, Best *best, const Found *found) {
     }
 }
 
+static bool is_measured(const Search *search, const double *likeness) {
+    bool measured = false;
+    for (int c = 0; c < search->models->correction_count && !measured; c++) {
+        measured = likeness[c] >= 1.0;
+    }
+    return measured;
+}
+
+// Predicts a combination, and keeps it if it may be worth measuring.
 static void predict(const Search *search, Best *best, const DipWorkSum *sum,
-                    const DipQuality *quality) {
+                    const DipQuality *quality, const double *likeness) {
     double counters[DIP_COST_COUNTER_COUNT];
+    if (is_measured(search, likeness)) {
+        return;
+    }
     dip_work_end(sum, quality, counters);
-    const double flip = dip_cost_model_value(&search->models->errors, counters, quality);
+    double values[DIP_COST_PREDICTED];
+    dip_cost_predict_one(search->models, counters, quality, likeness, values);
     const Found found = {
         .quality = *quality,
-        .ms = dip_cost_model_value(&search->models->times, counters, quality),
-        .loss = fmax(flip, search->floor_flip),
+        .ms = values[DIP_COST_PREDICTED_MS],
+        .loss = fmax(values[DIP_COST_PREDICTED_FLIP], search->floor_flip),
         .is_found = true,
     };
     if (found.ms > 0.0) {
-        keep(search, best, &found);
+        const bool is_mean = search->report->options.budget_of == DIP_TIME_MEAN;
+        keep(search, best, &found, is_mean ? found.ms : values[DIP_COST_PREDICTED_P95]);
     }
 }
 
-// Tries all options of this group and of those after it.
+// Writes how alike each measured combination is in the settings of all groups up to this one.
+// `likeness` holds this for the groups before it, and has room for it behind.
+static void compare(const Search *search, const Options *options, int option, double *likeness) {
+    const int count = search->models->correction_count;
+    const double *alike = options->alike + (size_t)option * (size_t)count;
+    for (int c = 0; c < count; c++) {
+        likeness[count + c] = likeness[c] * alike[c];
+    }
+}
+
+// Tries all options of this group and of those after it. `likeness` holds how alike each measured
+// combination is in the settings of the groups before it, and has room for those of all groups.
 static void try_groups(const Search *search, Best *best, int group, const DipWorkSum *sum,
-                       const DipQuality *quality) {
+                       const DipQuality *quality, double *likeness) {
     if (group == DIP_WORK_GROUPS) {
-        predict(search, best, sum, quality);
+        predict(search, best, sum, quality, likeness);
         return;
     }
     const Options *options = &search->groups[group];
@@ -112,7 +137,9 @@ static void try_groups(const Search *search, Best *best, int group, const DipWor
         if (i > 0) {
             dip_work_add(&more, &option->quality, option->counters);
         }
-        try_groups(search, best, group + 1, &more, &with);
+        compare(search, options, i, likeness);
+        try_groups(search, best, group + 1, &more, &with,
+                   likeness + search->models->correction_count);
     }
 }
 
@@ -120,22 +147,32 @@ static void run_task(void *context, int index, int worker) {
     const Search *search = context;
     const DipQuality *baseline = &search->report->options.baseline;
     const DipCostPrediction *samples = search->groups[0].list[index];
+    Best *best = &search->tasks[index];
     DipWorkSum sum = dip_work_begin(baseline, search->groups[0].list[0]->counters);
     (void)worker;
+    sum.corners = &search->corners;
     dip_work_add(&sum, &samples->quality, samples->counters);
-    try_groups(search, &search->tasks[index], 1, &sum, &samples->quality);
+    for (int c = 0; c < search->models->correction_count; c++) {
+        best->likeness[c] = 1.0;
+    }
+    compare(search, &search->groups[0], index, best->likeness);
+    try_groups(search, best, 1, &sum, &samples->quality,
+               best->likeness + search->models->correction_count);
 }
 
 // --- what a search begins and ends with ----------------------------------------------------------
 
-// Lists the options of each group among the counted combinations. Option 0 is the baseline.
-static bool list_options(Search *search) {
+// Lists the options of each group. They are combinations whose work was counted (report->predicted
+// holds these before the search). Option 0 is the baseline. `all` has room for every combination in
+// each group. Returns false if the baseline is not counted.
+static bool list_options(Search *search, const DipCostPrediction **all) {
     const DipCostReport *report = search->report;
     const DipCostPredictions *predicted = &report->predicted;
     const DipQuality *baseline = &report->options.baseline;
     const int base = dip_report_find_predicted(predicted, baseline);
     for (int g = 0; base >= 0 && g < DIP_WORK_GROUPS; g++) {
         Options *options = &search->groups[g];
+        options->list = all + (size_t)g * (size_t)predicted->count;
         options->list[options->count++] = &predicted->list[base];
         for (int i = 0; i < predicted->count; i++) {
             const DipQuality *quality = &predicted->list[i].quality;
@@ -144,10 +181,13 @@ static bool list_options(Search *search) {
                 dip_cost_take_settings(baseline, quality, report->options.combined);
             if (i != base && dip_quality_equal(&alone, quality) &&
                 dip_quality_equal(&combined, quality)) {
-                DIP_ASSERT(options->count < MOST_OPTIONS);
                 options->list[options->count++] = &predicted->list[i];
             }
         }
+    }
+    for (int i = 0; base >= 0 && i < predicted->count; i++) {
+        const DipCostPrediction *p = &predicted->list[i];
+        dip_work_note_corner(&search->corners, baseline, &p->quality, p->counters);
     }
     return base >= 0;
 }
@@ -165,27 +205,27 @@ static void add_found(DipCostReport *report, const Found *found) {
 }
 
 // Joins what all tasks found, and adds it to the predicted combinations: first the best of each
-// budget, then those of the bins that are on the front.
+// limit, then those of the bins that are on the front.
 static void end_search(const Search *search, DipCostReport *report) {
     Best *all = &search->tasks[0];
-    const int budgets = report->options.budget_count;
+    const int limits = report->options.budget_count * DIP_COST_LIMITS;
     for (int t = 1; t < search->groups[0].count; t++) {
-        for (int i = 0; i < budgets * DIP_COST_PER_BUDGET; i++) {
-            const int b = i / DIP_COST_PER_BUDGET;
-            const Found *found = &search->tasks[t].budgets[b][i % DIP_COST_PER_BUDGET];
+        for (int i = 0; i < limits * DIP_COST_PER_LIMIT; i++) {
+            const int limit = i / DIP_COST_PER_LIMIT;
+            const Found *found = &search->tasks[t].limits[limit][i % DIP_COST_PER_LIMIT];
             if (found->is_found) {
-                insert(all->budgets[b], found);
+                insert(all->limits[limit], found);
             }
         }
         for (int b = 0; b < BINS; b++) {
-            if (search->tasks[t].bins[b].is_found &&
-                is_better(&search->tasks[t].bins[b], &all->bins[b])) {
-                all->bins[b] = search->tasks[t].bins[b];
+            const Found *found = &search->tasks[t].bins[b];
+            if (found->is_found && is_better(found, &all->bins[b])) {
+                all->bins[b] = *found;
             }
         }
     }
-    for (int i = 0; i < budgets * DIP_COST_PER_BUDGET; i++) {
-        add_found(report, &all->budgets[i / DIP_COST_PER_BUDGET][i % DIP_COST_PER_BUDGET]);
+    for (int i = 0; i < limits * DIP_COST_PER_LIMIT; i++) {
+        add_found(report, &all->limits[i / DIP_COST_PER_LIMIT][i % DIP_COST_PER_LIMIT]);
     }
     double least = INFINITY;
     for (int b = 0; b < BINS; b++) {
@@ -197,29 +237,75 @@ static void end_search(const Search *search, DipCostReport *report) {
     }
 }
 
-bool dip_cost_search(DipCostContext *cost, const DipCostModels *models, DipError *err) {
-    DipCostReport *report = cost->report;
-    const size_t budgets = (size_t)report->options.budget_count;
+// What a search allocates.
+typedef struct Room {
+    const DipCostPrediction **options;  // [group][option]
+    double *alike;                      // [group][option][correction]
+    Best *tasks;                        // [option of group 0]
+    Found (*found)[DIP_COST_PER_LIMIT]; // [task][budget][limit]
+    double *likeness;                   // [task][group]: before the first group, and after each.
+} Room;
+
+static void free_room(Room *room) {
+    free(room->options);
+    free(room->alike);
+    free(room->tasks);
+    free(room->found);
+    free(room->likeness);
+}
+
+// Computes how alike the options of each group are to the measured combinations.
+static bool compare_options(Search *search, Room *room) {
+    const size_t count = (size_t)search->models->correction_count;
+    size_t options = 0;
+    for (int g = 0; g < DIP_WORK_GROUPS; g++) {
+        options += (size_t)search->groups[g].count;
+    }
+    double *alike = room->alike = malloc((options * count + 1) * sizeof *alike);
+    for (int g = 0; alike && g < DIP_WORK_GROUPS; g++) {
+        search->groups[g].alike = alike;
+        for (int i = 0; i < search->groups[g].count; i++) {
+            for (size_t c = 0; c < count; c++) {
+                *alike++ = dip_cost_alike(&search->models->corrections[c].quality,
+                                          &search->groups[g].list[i]->quality, dip_work_group(g));
+            }
+        }
+    }
+    return room->alike != NULL;
+}
+
+// Makes a task for each option of group 0.
+static bool make_tasks(Search *search, Room *room) {
+    const size_t limits = (size_t)search->report->options.budget_count * DIP_COST_LIMITS;
+    const size_t likenesses = (size_t)search->models->correction_count * (DIP_WORK_GROUPS + 1);
+    const size_t tasks = (size_t)search->groups[0].count;
+    search->tasks = room->tasks = calloc(tasks, sizeof *room->tasks);
+    room->found = calloc(tasks * limits + 1, sizeof *room->found);
+    room->likeness = malloc((tasks * likenesses + 1) * sizeof *room->likeness);
+    const bool made = room->tasks && room->found && room->likeness;
+    for (size_t t = 0; made && t < tasks; t++) {
+        search->tasks[t].limits = room->found + t * limits;
+        search->tasks[t].likeness = room->likeness + t * likenesses;
+    }
+    return made;
+}
+
+bool dip_cost_search(DipCostReport *report, DipPool *pool, const DipCostModels *models,
+                     DipError *err) {
+    const size_t count = (size_t)report->predicted.count;
     Search search = {
         .report = report, .models = models, .floor_flip = dip_cost_floor_flip(report, 0)};
-    if (!list_options(&search)) {
-        return true;
-    }
-    const size_t tasks = (size_t)search.groups[0].count;
-    Found(*found)[DIP_COST_PER_BUDGET] = calloc(tasks * budgets + 1, sizeof *found);
-    search.tasks = calloc(tasks, sizeof *search.tasks);
-    const bool made = found && search.tasks;
-    if (made) {
+    Room room = {.options = calloc(count * DIP_WORK_GROUPS + 1, sizeof *room.options)};
+    bool made = room.options != NULL;
+    if (made && list_options(&search, room.options)) {
         const DipCostPrediction *base = search.groups[0].list[0];
-        search.base_ms =
-            dip_cost_model_value(&search.models->times, base->counters, &base->quality);
-        for (size_t t = 0; t < tasks; t++) {
-            search.tasks[t].budgets = found + t * budgets;
+        search.base_ms = dip_cost_model_value(&models->times, base->counters, &base->quality);
+        made = compare_options(&search, &room) && make_tasks(&search, &room);
+        if (made) {
+            dip_pool_run(pool, search.groups[0].count, run_task, &search);
+            end_search(&search, report);
         }
-        dip_pool_run(cost->session->pool, (int)tasks, run_task, &search);
-        end_search(&search, report);
     }
-    free(found);
-    free(search.tasks);
+    free_room(&room);
     return made || dip_cost_out_of_memory(err);
 }

@@ -118,8 +118,8 @@ enum { DIP_COST_COUNTED_FRAMES = 8 }; // Frames of path 0, spread evenly, whose 
 
 // Returns how many combinations are measured to predict `count` combinations of these settings,
 // with those of the sweeps. Bit s of `settings` stands for setting s. Antialiasing and anisotropic
-// filtering need 16. Every other setting needs two more for each step after its first. Returns at
-// most `count`.
+// filtering need 16. Every other setting needs three more for each two steps after its first.
+// Returns at most `count`.
 int dip_cost_training_count(unsigned settings, int count);
 
 // Chooses the combinations to measure: those that tell most about the price of each kind of work
@@ -128,31 +128,78 @@ int dip_cost_training_count(unsigned settings, int count);
 // baseline. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err);
 
-// The models of the combinations that have a row.
+// What is predicted of a combination.
+enum {
+    DIP_COST_PREDICTED_MS,
+    DIP_COST_PREDICTED_P95,
+    DIP_COST_PREDICTED_FLIP,
+    DIP_COST_PREDICTED // Number of values.
+};
+
+// A measured combination's shares in the corrections of the logarithms of all predictions.
+typedef struct DipCostCorrection {
+    DipQuality quality;
+    double shares[DIP_COST_PREDICTED];
+} DipCostCorrection;
+
+// The models of the combinations that have a row, and corrections by what they miss there.
 typedef struct DipCostModels {
     DipCostModel times;
     DipCostModel errors;
     double p95; // The usual ratio of the 95th percentile of the frames' times to their mean.
+    DipCostCorrection *corrections; // Owned.
+    int correction_count;
 } DipCostModels;
 
-DipCostModels dip_cost_models_of(const DipCostReport *report);
+// Fits the models. Free them even after a failure. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_models_of(const DipCostReport *report, DipCostModels *models, DipError *err);
+void dip_cost_models_free(DipCostModels *models);
 
-// Predicts the time and FLIP of every combination of report->predicted that has no row.
-void dip_cost_predict_others(DipCostReport *report, const DipCostModels *models);
+// Returns how alike two combinations are in the settings of a mask: 1 if these are the same, and
+// half for each setting that differs. The likeness in all settings is the product of those in parts
+// of them.
+double dip_cost_alike(const DipQuality *a, const DipQuality *b, unsigned settings);
+
+// Predicts a combination with these counters: the models' values, times exp(c). The correction c is
+// the sum of the shares of all measured combinations, each times its likeness to this one: the mean
+// of a Gaussian process whose covariance is the likeness (Rasmussen and Williams 2006, eq. 2.25).
+void dip_cost_predict_one(const DipCostModels *models, const double *counters,
+                          const DipQuality *quality, const double *likeness,
+                          double values[DIP_COST_PREDICTED]);
+
+// Predicts every combination of report->predicted that has no row. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_predict_others(DipCostReport *report, const DipCostModels *models, DipError *err);
+
+// Up to which predicted time combinations are measured for a budget: up to that at which nine of
+// ten fit it, and up to that at which one of ten does, by how far times are predicted wrong so far.
+enum { DIP_COST_LIMIT_SURE, DIP_COST_LIMIT_MAY, DIP_COST_LIMITS };
+double dip_cost_limit_ms(const DipCostReport *report, int budget, int limit);
 
 // Predicts all combinations of the combined settings, and adds the best to report->predicted: for
-// each budget DIP_COST_PER_BUDGET of least FLIP whose time is at most DIP_COST_MAY_FIT times the
-// budget, and those on the thinned Pareto front of times that differ by 2 % or more. The work is
-// composed of the counted combinations of the list. Fails with DIP_ERROR_MEMORY.
-enum { DIP_COST_PER_BUDGET = 8 };
-#define DIP_COST_MAY_FIT 1.08
-bool dip_cost_search(DipCostContext *cost, const DipCostModels *models, DipError *err);
+// each limit of each budget DIP_COST_PER_LIMIT of least FLIP, and those on the thinned Pareto front
+// of times that differ by 2 % or more. The work is composed of the counted combinations of the
+// list. Fails with DIP_ERROR_MEMORY.
+enum { DIP_COST_PER_LIMIT = 8 };
+bool dip_cost_search(DipCostReport *report, DipPool *pool, const DipCostModels *models,
+                     DipError *err);
 
-// Lists the combinations without a row that should be measured: those on the thinned Pareto front
-// (dip_front, choice.h) of predicted or measured time and FLIP. For each budget of the options,
-// also lists the few of least FLIP whose time is at most 8 % above the budget. Returns their
-// number, at most `most`, or -1 and fills *err.
+// Lists the combinations without a row that should be measured: for each limit of each budget the
+// few of least FLIP, and those on the thinned Pareto front (dip_front, choice.h) of predicted or
+// measured time and FLIP. Returns their number, at most `most`, or -1 and fills *err.
 int dip_cost_list_promising(const DipCostReport *report, int most, int *list, DipError *err);
+
+// Adds rows for those of these combinations (indices of report->predicted) that have none, and
+// lists the rows of all.
+bool dip_cost_add_rows(DipCostReport *report, const int *list, int count, int *rows, DipError *err);
+
+// Measures the errors, times and work of new rows of path 0, and estimates the times of all rows.
+typedef bool DipCostMeasure(void *context, const int *rows, int count, DipError *err);
+
+// Predicts all combinations, measures the best ones and predicts the others anew, at most
+// dip_cost_most_goes times. If the verdict is red, only predicts.
+bool dip_cost_measure_best(DipCostReport *report, DipPool *pool, DipCostMeasure *measure,
+                           void *context, DipError *err);
+int dip_cost_most_goes(const DipCostOptions *options);
 
 // --- elsewhere -----------------------------------------------------------------------------------
 

@@ -219,8 +219,7 @@ const char *dip_cost_term_name(int part, int term) {
     return names[part][term];
 }
 
-void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
-                    const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]) {
+static Work work_of(const double counters[DIP_COST_COUNTER_COUNT], const DipQuality *quality) {
     static const double sharpness[] = {0.0, 0.25, 0.5, 1.0};
     const int level = quality->step[DIP_SETTING_MIPLOD];
     const int post = quality->step[DIP_SETTING_POST];
@@ -232,7 +231,7 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
     const bool enlarges = dip_quality_upscales(quality);
     const int upscale = quality->step[DIP_SETTING_UPSCALE];
     const double filters = dip_cost_pixels_filtered(quality);
-    const Work work = {
+    return (Work){
         .counters = counters,
         .samples = samples,
         .several = samples > 1.0,
@@ -267,10 +266,32 @@ void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
         .shadow_step = shadow_size ? 512.0 / shadow_size : 0.0,
         .filters = filters > 0.0 ? filters : 1.0,
     };
-    const Work *const w = &work;
+}
+
+static void write_amounts(int part, const Work *w, double amounts[DIP_COST_MAX_TERMS]) {
     switch (part) {
         PARTS(ADD_PART)
     default:
         DIP_ASSERT(false);
     }
+}
+
+void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
+                    const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]) {
+    const Work work = work_of(counters, quality);
+    write_amounts(part, &work, amounts);
+}
+
+double dip_cost_sum_terms(int first, int end, const double (*prices)[DIP_COST_MAX_TERMS],
+                          const double counters[DIP_COST_COUNTER_COUNT],
+                          const DipQuality *quality) {
+    const Work work = work_of(counters, quality);
+    double amounts[DIP_COST_MAX_TERMS], sum = 0.0;
+    for (int part = first; part < end; part++) {
+        write_amounts(part, &work, amounts);
+        for (int t = 0; t < counts[part]; t++) {
+            sum += amounts[t] * prices[part][t];
+        }
+    }
+    return sum;
 }

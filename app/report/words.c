@@ -28,18 +28,26 @@ static double round_to(double value, int decimals) {
     return decimals < 0 ? power * round(value / power) : round(value * power) / power;
 }
 
+void dip_limited_number(double value, int decimals, DipLimits limits, const char *minus,
+                        char text[DIP_NUMBER_BYTES]) {
+    enum { MOST_DECIMALS = 3 };
+    for (int i = 0; i < limits.count; i++) {
+        while (decimals < MOST_DECIMALS &&
+               !keeps_side(round_to(value, decimals), value, limits.values[i])) {
+            decimals++;
+        }
+    }
+    dip_number_text(round_to(value, decimals), decimals > 0 ? decimals : 0, false, minus, text);
+}
+
 void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
                    char text[DIP_NUMBER_BYTES]) {
-    enum { MOST_DECIMALS = 3 };
     const double size = fabs(ms);
     int decimals = 1;
     if (doubtful) {
         decimals = size < 0.05 ? 0 : -(int)floor(log10(fmin(fmax(size, 0.1), 1e9)));
     }
-    while (decimals < MOST_DECIMALS && !keeps_side(round_to(ms, decimals), ms, limit_ms)) {
-        decimals++;
-    }
-    dip_number_text(round_to(ms, decimals), decimals > 0 ? decimals : 0, false, minus, text);
+    dip_limited_number(ms, decimals, (DipLimits){&limit_ms, 1}, minus, text);
     if (doubtful) {
         strcat(text, "?");
     }

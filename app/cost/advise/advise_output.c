@@ -312,20 +312,21 @@ static void print_chosen(DipForm *form, const Advised *advised, const DipCostCom
     dip_form_table(form, &(DipTable){.record = &line_record,
                                      .context = (void *)advised,
                                      .columns = "number; ms; flip; loss; other",
+                                     .limits = {&advice->all.budget_ms, 1},
                                      .items = lines,
                                      .count = common->report_count});
 }
 
 static void print_nothing(DipForm *form, const DipCostCommon *common, const DipAdvice *advice) {
-    char settings[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES];
+    char settings[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES], ms[DIP_NUMBER_BYTES];
     const DipCandidate *fastest = &common->candidates.list[advice->next];
     dip_cost_settings_text(&fastest->quality, settings);
     dip_fits_text(advice->next_fits, fits);
-    dip_form_paragraph(
-        form, NULL,
-        "No common combination surely fits. The fastest, %s, takes %.2f ms in report "
-        "%d and fits with %s.",
-        settings, fastest->time.value, fastest->report + 1, fits);
+    dip_limited_number(fastest->time.value, 2, (DipLimits){&advice->budget_ms, 1}, "-", ms);
+    dip_form_paragraph(form, NULL,
+                       "No common combination surely fits. The fastest, %s, takes %s ms in report "
+                       "%d and fits with %s.",
+                       settings, ms, fastest->report + 1, fits);
 }
 
 void dip_cost_common_print(const DipCostCommon *common, const DipCostCommonAdvice *advice,

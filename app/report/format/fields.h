@@ -8,6 +8,7 @@
 #define DIP_APP_REPORT_FORMAT_FIELDS_H
 
 #include "app/measure/stats/estimate.h"
+#include "app/report/words.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
@@ -186,17 +187,17 @@ void dip_fields_print_csv(const DipRecord *record, const DipFieldAt *at, const c
 
 enum { DIP_CELL_BYTES = 512 };
 
-// Writes an estimate's interval, "1.23 to 1.45", or "".
-void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
+// Writes an estimate's interval, "1.23 to 1.45", or "". Rounding crosses no limit.
+void dip_field_interval_text(const DipField *field, DipLimits limits, const DipEstimate *estimate,
                              char text[DIP_CELL_BYTES]);
 
 // A table of items of one record. Terminals and pages print the same columns. They leave out
-// columns whose values are all unknown, and the numbers of an object that are the same in all
-// lines. A value has its field's digits, its unit in the head, and, if it is a change, its sign. An
-// estimated change whose interval holds 0 is marked with '?'. An estimate has a second column for
-// its interval. A flag that is true is shown as its title. The cell of a value that is not known,
-// or of a flag that is false, is empty; terminals show '-' for an unknown number. All members are
-// borrowed.
+// columns whose cells are all empty and, in a table of several lines, the numbers of an object that
+// are the same in all lines. A value has its field's digits, its unit in the head, and, if it is a
+// change, its sign. An estimated change whose interval holds 0 is marked with '?'. An estimate has
+// a second column for its interval. A flag that is true is shown as its title. The cell of a value
+// that is not known, or of a flag that is false, is empty; terminals show '-' for an unknown
+// number. All members are borrowed.
 typedef struct DipTable {
     const char *id; // Id of the table in a page, and the name of the file that its CSV is saved to.
     const char *caption; // NULL or "" if there is none.
@@ -205,6 +206,7 @@ typedef struct DipTable {
     void *context;
     const void *items;
     int count;
+    DipLimits limits; // Milliseconds that no rounded time crosses: the budgets beside the table.
     bool (*shows)(const DipFieldAt *at); // Returns whether to show an item; NULL shows all items.
     // Items may have an int member with the index of the row of the report that the item shows, or
     // -1 if it shows none. This points to that member of the first item. The other items have it at

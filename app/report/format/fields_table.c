@@ -1,7 +1,6 @@
 // Lays out tables of fields, and prints them for a terminal and for a page.
 #include "app/files/put.h"
 #include "app/report/format/fields.h"
-#include "app/report/words.h"
 #include "renderer/base/assert.h"
 #include "renderer/scene/quality.h"
 
@@ -30,7 +29,12 @@ typedef struct Layout {
 
 // --- cells ---------------------------------------------------------------------------------------
 
-static void format_number(const DipField *field, double value, char text[DIP_NUMBER_BYTES]) {
+static bool is_time(const DipField *field) {
+    return field->unit && strcmp(field->unit, "ms") == 0 && !(field->show & DIP_SHOW_SIGN);
+}
+
+static void format_number(const DipField *field, DipLimits limits, double value,
+                          char text[DIP_NUMBER_BYTES]) {
     value *= field->scale != 0.0 ? field->scale : 1.0;
     if (!isfinite(value)) {
         text[0] = '\0';
@@ -41,24 +45,27 @@ static void format_number(const DipField *field, double value, char text[DIP_NUM
         for (size_t end = strlen(text); strchr(text, '.') && strchr("0.", text[end - 1]); end--) {
             text[end - 1] = '\0';
         }
+    } else if (is_time(field)) {
+        dip_limited_number(value, field->digits, limits, "-", text);
     } else {
         dip_number_text(value, field->digits, field->show & DIP_SHOW_SIGN, "-", text);
     }
 }
 
-void dip_field_interval_text(const DipField *field, const DipEstimate *estimate,
+void dip_field_interval_text(const DipField *field, DipLimits limits, const DipEstimate *estimate,
                              char text[DIP_CELL_BYTES]) {
     char low[DIP_NUMBER_BYTES], high[DIP_NUMBER_BYTES];
     text[0] = '\0';
     if (dip_field_has_interval(estimate)) {
-        format_number(field, estimate->low, low);
-        format_number(field, estimate->high, high);
+        format_number(field, limits, estimate->low, low);
+        format_number(field, limits, estimate->high, high);
         snprintf(text, DIP_CELL_BYTES, "%s to %s", low, high);
     }
 }
 
-static void format_estimate(const DipField *field, const DipEstimate *estimate, char *text) {
-    format_number(field, estimate->value, text);
+static void format_estimate(const DipField *field, DipLimits limits, const DipEstimate *estimate,
+                            char *text) {
+    format_number(field, limits, estimate->value, text);
     if (*text && field->show & DIP_SHOW_SIGN) { // A blank in place of '?' keeps digits aligned.
         const bool doubtful =
             dip_field_has_interval(estimate) && estimate->low <= 0.0 && estimate->high >= 0.0;
@@ -67,7 +74,8 @@ static void format_estimate(const DipField *field, const DipEstimate *estimate, 
 }
 
 // Formats a known value as people read it, without its unit.
-static void format_value(const DipField *field, const void *value, char text[DIP_CELL_BYTES]) {
+static void format_value(const DipField *field, DipLimits limits, const void *value,
+                         char text[DIP_CELL_BYTES]) {
     if (field->kind == DIP_FIELD_TEXT) {
         snprintf(text, DIP_CELL_BYTES, "%s", (const char *)value);
     } else if (field->kind == DIP_FIELD_NAMED) {
@@ -79,9 +87,9 @@ static void format_value(const DipField *field, const void *value, char text[DIP
     } else if (field->kind == DIP_FIELD_FLAG) {
         snprintf(text, DIP_CELL_BYTES, "%s", *(const bool *)value ? field->title : "");
     } else if (field->kind == DIP_FIELD_ESTIMATE) {
-        format_estimate(field, value, text);
+        format_estimate(field, limits, value, text);
     } else {
-        format_number(field, *(const double *)value, text);
+        format_number(field, limits, *(const double *)value, text);
     }
 }
 
@@ -100,8 +108,8 @@ static bool shows(const DipTable *table, int line) {
 }
 
 // Fills in the cells of a column, and returns their number.
-static int fill_column(const DipColumn *column, const DipFieldFound *found, bool is_head,
-                       Cell *cells) {
+static int fill_column(const DipColumn *column, const DipFieldFound *found, DipLimits limits,
+                       bool is_head, Cell *cells) {
     const DipField *field = &found->field;
     const bool is_object = field->kind == DIP_FIELD_NUMBERS;
     const bool is_estimate = field->kind == DIP_FIELD_ESTIMATE;
@@ -126,9 +134,9 @@ static int fill_column(const DipColumn *column, const DipFieldFound *found, bool
                 *c = *c == '_' ? ' ' : *c; // Pages may break a title into lines at blanks.
             }
         } else if (found->value && is_estimate && i == 1) {
-            dip_field_interval_text(field, found->value, cell->text);
+            dip_field_interval_text(field, limits, found->value, cell->text);
         } else if (found->value) {
-            format_value(field, (const double *)found->value + i, cell->text);
+            format_value(field, limits, (const double *)found->value + i, cell->text);
         }
     }
     return count;
@@ -143,7 +151,7 @@ static int fill_cells(const DipTable *table, int line, Cell cells[MOST_CELLS]) {
     for (DipColumn column; dip_column_take(&columns, &column);) {
         DipFieldFound found;
         dip_field_find(table->record, &at, column.path, &found);
-        count += fill_column(&column, &found, line < 0, &cells[count]);
+        count += fill_column(&column, &found, table->limits, line < 0, &cells[count]);
         DIP_ASSERT(count <= MOST_CELLS);
     }
     return count;

@@ -5,7 +5,8 @@
 
 #include "app/report/format/cost_fields.h"
 
-// A line of a table. All members are borrowed. DipFieldAt.context is the report.
+// A line of a table. All members are borrowed. When fields of a line are wanted, the member
+// `context` of the DipFieldAt (fields.h) must be the report.
 typedef struct DipCostLine {
     const char *kind; // "a/a", "step", "combination", "predicted", "front" or "floor".
     int row;          // Row of the report; -1 if the combination was only predicted.
@@ -44,7 +45,7 @@ DipCostLine dip_cost_prediction_line(const DipCostReport *report, int prediction
 
 // Initialisers of a DipTable whose items are lines.
 #define DIP_COST_LINES(REPORT, LINES, COUNT)                                                       \
-    .record = &dip_cost_line_record, .context = (void *)(REPORT), .row = &(LINES)->row,            \
-    .items = LINES, .count = COUNT
+    .record = &dip_cost_line_record, .context = (void *)(REPORT),                                  \
+    .limits = dip_cost_budgets(REPORT), .row = &(LINES)->row, .items = LINES, .count = COUNT
 
 #endif

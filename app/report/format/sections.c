@@ -52,7 +52,7 @@ void dip_section_ini(DipForm *form, const DipQuality *quality) {
     dip_form_code(form, "Line for ini", text);
 }
 
-// Returns the settings in which the combinations differ (bit s for setting s).
+// Returns the settings in which some combination differs from the baseline (bit s for setting s).
 static unsigned varied_settings(const DipCostReport *report) {
     const DipCostPredictions *predicted = &report->predicted;
     const int rows = report->row_count - report->combined_first;
@@ -103,12 +103,16 @@ static void write_chosen(DipForm *form, const DipCostReport *report, const DipAd
     const DipCandidate *chosen = &candidates->list[advice->chosen];
     const DipEstimate time = dip_estimate_widen(&chosen->time, chosen->common_error);
     const double base = flip_of(report, report->base_rows[0]);
-    char text[300], fits[DIP_NUMBER_BYTES], against[96] = "";
+    const DipLimits budget = {&advice->budget_ms, 1};
+    char text[300], fits[DIP_NUMBER_BYTES], against[96] = "", ms[DIP_NUMBER_BYTES];
+    char interval[DIP_CELL_BYTES], mean[DIP_NUMBER_BYTES];
     dip_cost_settings_text(&chosen->quality, text);
     dip_form_paragraph(form, "chosen", "%s", text);
-    dip_form_fact(form, "Time", "%.2f ms %s along the path (%.2f to %.2f), mean %.2f ms",
-                  time.value, dip_time_kind_names[candidates->kind], time.low, time.high,
-                  dip_cost_ms(report, chosen->row));
+    dip_limited_number(time.value, 2, budget, "-", ms);
+    dip_field_interval_text(&(DipField){.unit = "ms", .digits = 2}, budget, &time, interval);
+    dip_limited_number(dip_cost_ms(report, chosen->row), 2, budget, "-", mean);
+    dip_form_fact(form, "Time", "%s ms %s along the path (%s), mean %s ms", ms,
+                  dip_time_kind_names[candidates->kind], interval, mean);
     dip_fits_text(advice->fits, fits);
     dip_form_fact(form, "Fits", "with %s", fits);
     if (base > 0.0) {
@@ -123,14 +127,15 @@ static void write_chosen(DipForm *form, const DipCostReport *report, const DipAd
 }
 
 static void write_nothing(DipForm *form, const DipCandidates *candidates, const DipAdvice *advice) {
-    char text[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES];
+    char text[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES], ms[DIP_NUMBER_BYTES];
     const DipCandidate *fastest = &candidates->list[advice->next];
     dip_cost_settings_text(&fastest->quality, text);
+    dip_limited_number(fastest->time.value, 2, (DipLimits){&advice->budget_ms, 1}, "-", ms);
     dip_fits_text(advice->next_fits, fits);
     dip_form_paragraph(form, NULL,
-                       "Nothing that was measured surely fits. The fastest settings, %s, take %.2f "
+                       "Nothing that was measured surely fits. The fastest settings, %s, take %s "
                        "ms %s and fit with %s.",
-                       text, fastest->time.value, dip_time_kind_names[candidates->kind], fits);
+                       text, ms, dip_time_kind_names[candidates->kind], fits);
 }
 
 static const char *const tier_names[DIP_COST_TIER_COUNT] = {"low", "medium", "high", "ultra"};

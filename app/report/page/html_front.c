@@ -73,11 +73,13 @@ static void add_predicted(const DipCostReport *report, Parts *parts) {
         const DipCandidate *c = &parts->listed.list[i];
         const DipCostPrediction *p = &report->predicted.list[c->row];
         if (p->row < 0) {
-            char settings[DIP_COST_TEXT];
+            char settings[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], p95[DIP_NUMBER_BYTES];
             dip_cost_settings_text(&p->quality, settings);
+            dip_limited_number(p->ms, 2, dip_cost_budgets(report), "-", ms);
+            dip_limited_number(p->p95_ms, 2, dip_cost_budgets(report), "-", p95);
             snprintf(add_point(&parts->predicted, -1, c), DIP_HTML_TITLE_BYTES,
-                     "%s: predicted %.2f ms, 95th percentile %.2f ms; predicted FLIP %.4f",
-                     settings, p->ms, p->p95_ms, p->flip);
+                     "%s: predicted %s ms, 95th percentile %s ms; predicted FLIP %.4f", settings,
+                     ms, p95, p->flip);
         }
     }
 }

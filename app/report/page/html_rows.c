@@ -9,12 +9,14 @@ static void format_time(const DipCostReport *report, int row, char text[DIP_COST
     const DipPathEstimate *time = &report->rows[row].time;
     text[0] = '\0';
     if (dip_cost_is_timed(report, row)) {
-        const DipField digits = {.digits = 2};
-        char interval[DIP_CELL_BYTES];
-        dip_field_interval_text(&digits, &time->mean_ms, interval);
-        snprintf(text, DIP_COST_TEXT, "%.2f ms%s%.64s%s, 95th percentile %.2f ms",
-                 time->mean_ms.value, *interval ? " (" : "", interval, *interval ? ")" : "",
-                 time->p95_ms.value);
+        const DipField digits = {.unit = "ms", .digits = 2};
+        const DipLimits budgets = dip_cost_budgets(report);
+        char interval[DIP_CELL_BYTES], mean[DIP_NUMBER_BYTES], p95[DIP_NUMBER_BYTES];
+        dip_field_interval_text(&digits, budgets, &time->mean_ms, interval);
+        dip_limited_number(time->mean_ms.value, 2, budgets, "-", mean);
+        dip_limited_number(time->p95_ms.value, 2, budgets, "-", p95);
+        snprintf(text, DIP_COST_TEXT, "%s ms%s%.64s%s, 95th percentile %s ms", mean,
+                 *interval ? " (" : "", interval, *interval ? ")" : "", p95);
     }
 }
 

@@ -47,14 +47,17 @@ static void combinations_are_counted_without_a_list(void **state) {
 
 // --- what is kept --------------------------------------------------------------------------------
 
-// Every group of settings multiplies the work by a factor of its own.
+// Every group of settings multiplies the work by a factor of its own, but which triangles of a fine
+// mesh are drawn follows from antialiasing and render scale together.
 static void make_work(const DipQuality *quality, double *counters) {
     const uint8_t *step = quality->step;
     const double scale = dip_quality_scale(quality);
     const double samples = dip_quality_sample_count(quality);
     const double probes = 1.0 + 0.5 * step[DIP_SETTING_AF];
     memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    const double density = samples * scale * scale;
     counters[DIP_COST_COUNTER_triangles_in] = 2e4;
+    counters[DIP_COST_COUNTER_triangles_drawn] = 2e4 * density / (1.0 + density);
     counters[DIP_COST_COUNTER_samples_shown] = 3e5 * samples * scale * scale;
     counters[DIP_COST_COUNTER_fragments_shaded] = 3e5 * scale * scale;
     counters[DIP_COST_COUNTER_fragments_clip_tested] =
@@ -85,9 +88,10 @@ static DipCostModels make_models(uint64_t seed) {
 
 static const double *find_listed(const void *context, const DipQuality *quality) {
     const DipCostReport *report = context;
-    const int found = dip_work_count_groups(&report->options.baseline, quality) <= 1
-                          ? dip_report_find_predicted(&report->predicted, quality)
-                          : -1;
+    const DipQuality *base = &report->options.baseline;
+    const bool is_part =
+        dip_work_count_groups(base, quality) <= 1 || dip_work_is_corner(base, quality);
+    const int found = is_part ? dip_report_find_predicted(&report->predicted, quality) : -1;
     return found >= 0 ? report->predicted.list[found].counters : NULL;
 }
 
@@ -110,25 +114,29 @@ static void make_report(DipCostReport *report, unsigned combined) {
 static void the_search_finds_the_best_of_all(void **state) {
     (void)state;
     static DipQuality list[1 << 17];
-    DipSession session = {.pool = NULL};
     DipCostReport report;
     for (uint64_t seed = 1; seed <= 3; seed++) {
         const DipCostModels models = make_models(seed);
         make_report(&report, some_settings);
-        DipCostContext cost = {.session = &session, .report = &report};
         const int count =
             dip_cost_list_combinations(&report.options.baseline, some_settings, list, 1 << 17);
         const double *base = find_listed(&report, &report.options.baseline);
         const double base_ms = dip_cost_model_value(&models.times, base, &report.options.baseline);
         assert_true(count > DIP_COST_MAX_ROWS && count <= 1 << 17);
+        int corners = 0;
+        for (int i = 0; i < report.predicted.count; i++) {
+            corners +=
+                dip_work_is_corner(&report.options.baseline, &report.predicted.list[i].quality);
+        }
+        assert_int_equal(corners, 4 * 7); // the other steps of AA times those of the scale
         assert_int_equal(report.predicted.searched, count);
         report.options.budgets_ms[0] = 1.5 * base_ms;
         report.options.budgets_ms[1] = 4.0 * base_ms;
         report.options.budget_count = 2;
         const int before = report.predicted.count;
-        assert_true(dip_cost_search(&cost, &models, NULL));
+        assert_true(dip_cost_search(&report, NULL, &models, NULL));
         assert_true(report.predicted.count > before);
-        dip_cost_predict_others(&report, &models);
+        assert_true(dip_cost_predict_others(&report, &models, NULL));
         double best[2] = {INFINITY, INFINITY};
         for (int i = 0; i < count; i++) {
             double counters[DIP_COST_COUNTER_COUNT];
@@ -143,7 +151,7 @@ static void the_search_finds_the_best_of_all(void **state) {
             }
             assert_true(is_matched);
             for (int b = 0; b < 2; b++) {
-                const bool fits = 1.2 * ms <= DIP_COST_MAY_FIT * report.options.budgets_ms[b];
+                const bool fits = 1.2 * ms <= dip_cost_limit_ms(&report, b, DIP_COST_LIMIT_MAY);
                 best[b] = fits ? fmin(best[b], flip) : best[b];
             }
         }
@@ -151,7 +159,7 @@ static void the_search_finds_the_best_of_all(void **state) {
             double found = INFINITY;
             for (int k = before; k < report.predicted.count; k++) {
                 const DipCostPrediction *p = &report.predicted.list[k];
-                const bool fits = p->p95_ms <= DIP_COST_MAY_FIT * report.options.budgets_ms[b];
+                const bool fits = p->p95_ms <= dip_cost_limit_ms(&report, b, DIP_COST_LIMIT_MAY);
                 found = fits ? fmin(found, p->flip) : found;
             }
             assert_true(found <= best[b] + 1e-12);
@@ -314,6 +322,13 @@ static void each_phase_forecasts_less_than_the_one_before(void **state) {
     const double first = later_than(&cost, DIP_COST_PHASE_BEST_ERRORS);
     cost.forecast.goes = 1;
     assert_true(later_than(&cost, DIP_COST_PHASE_BEST_ERRORS) < first);
+    // In the last go, no other one is expected, however few rounds there are.
+    for (int rounds = 6; rounds <= 16; rounds += 10) {
+        report.options.rounds = rounds;
+        cost.forecast.goes = dip_cost_most_goes(&report.options) - 1;
+        assert_true(later_than(&cost, DIP_COST_PHASE_BEST_TIMES) ==
+                    later_than(&cost, DIP_COST_PHASE_MORE_BEST));
+    }
     // Pictures that take longer to judge than was guessed make the whole run longer.
     const double guessed = later_than(&cost, DIP_COST_PHASE_TRUTHS);
     cost.forecast.picture_s *= 2.0;
@@ -327,8 +342,8 @@ static void each_phase_forecasts_less_than_the_one_before(void **state) {
 }
 
 // Makes a report of three measured combinations, of which 5000000 more were predicted, and returns
-// what is printed of it. `wait` is the share of the time that the threads waited for a core.
-static char *print_answer(bool predicted, double wait) {
+// what is printed of it. The fastest takes `ms`, and each other one 1 ms more. `wait` is the share of the time that the threads waited for a core.
+static char *print_answer(bool predicted, double wait, double ms) {
     static char text[1 << 16];
     const char *const file = "test_search.txt";
     DipCostReport report;
@@ -339,7 +354,7 @@ static char *print_answer(bool predicted, double wait) {
     for (int i = 0; i < 3; i++) {
         DipQuality quality;
         assert_true(dip_quality_parse(sets[i], &quality, NULL));
-        dip_made_combination(&report, &quality, 2.0 + i, 0.05 - 0.01 * i);
+        dip_made_combination(&report, &quality, ms + i, 0.05 - 0.01 * i);
     }
     if (!predicted) {
         report.predicted.count = 0;
@@ -377,19 +392,19 @@ static void assert_has(const char *text, const char *part) {
 
 static void the_answer_says_what_was_searched(void **state) {
     (void)state;
-    const char *text = print_answer(true, 0.0);
+    const char *text = print_answer(true, 0.0, 2.0);
     assert_true(strncmp(text, "At 60 frames a second (16.7 ms) on this machine:\n", 49) == 0);
     assert_has(text,
                "  Best of        5000000 combinations of 4 settings: all predicted, 3 measured\n");
     assert_has(text, "  Not combined   shadows: no step changes a picture here\n");
-    text = print_answer(false, 0.0);
+    text = print_answer(false, 0.0, 2.0);
     assert_has(text, "  Best of        3 combinations of 2 settings: all measured\n");
     assert_null(strstr(text, "Not combined"));
 }
 
 static void a_busy_machine_gets_no_times_but_errors(void **state) {
     (void)state;
-    const char *text = print_answer(true, 0.9);
+    const char *text = print_answer(true, 0.9, 2.0);
     assert_true(strncmp(text, "No advice:\n", 11) == 0);
     assert_has(text, "What to do: close other programs");
     assert_has(text, "--quick");
@@ -403,6 +418,16 @@ static void a_busy_machine_gets_no_times_but_errors(void **state) {
     assert_null(strstr(text, "Line for ini"));
 }
 
+// 16.666 ms are within 16.667 ms. With two digits, both the answer and the front would show 16.67.
+static void no_time_is_rounded_across_the_budget(void **state) {
+    (void)state;
+    const char *text = print_answer(true, 0.0, 16.666);
+    assert_null(strstr(text, "16.67"));
+    const char *answer = strstr(text, "16.666 ms");
+    assert_non_null(answer);
+    assert_non_null(strstr(answer + 1, "16.666"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(combinations_are_counted_without_a_list),
@@ -411,6 +436,7 @@ int main(void) {
         cmocka_unit_test(settings_that_change_no_picture_are_dropped),
         cmocka_unit_test(a_busy_machine_is_told_once),
         cmocka_unit_test(the_answer_says_what_was_searched),
+        cmocka_unit_test(no_time_is_rounded_across_the_budget),
         cmocka_unit_test(a_busy_machine_gets_no_times_but_errors),
         cmocka_unit_test(the_time_left_is_that_of_the_whole_run),
         cmocka_unit_test(each_phase_forecasts_less_than_the_one_before),
