@@ -1,8 +1,9 @@
 # ./test platforms: builds renderer/, campaths/ and their tests for other platforms, and runs them
 # in emulators. ./test sources this file.
 #
-# On every platform: the catalogue of hard cases with its shipped hashes of 64 pictures, in its
-# short form. On aarch64 also all unit tests of renderer/ and campaths/ that are not labelled slow.
+# On every platform: the catalogue of hard cases in its short form, and all pictures that have
+# shipped hashes. On aarch64 also all unit tests of renderer/ and campaths/ that are not labelled
+# slow.
 
 PACKAGES_PLATFORMS="gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user musl-tools
     gcc-mingw-w64-x86-64-posix wine64 gcc-i686-linux-gnu libc6-dev-i386-cross"
@@ -44,7 +45,18 @@ build_platform() {
         cmake --build "build/platform-$name" --target "$target"
 }
 
-# test_platform NAME: builds and runs the tests of a platform.
+# measure NAME DEPTH [OPTION]...: runs the catalogue's program on a platform.
+measure() {
+    measured=$1
+    depth=$2
+    shift 2
+    emulate "$measured" \
+        "build/platform-$measured/tests/stability/stability$([ "$measured" != windows ] || echo .exe)" \
+        --depth "$depth" "$@"
+}
+
+# test_platform NAME: builds and runs the tests of a platform. The short form of the catalogue draws
+# every seventh picture of row N48, so all pictures are drawn after it.
 test_platform() {
     case $1 in
     aarch64)
@@ -53,19 +65,17 @@ test_platform() {
             ctest --test-dir "build/platform-$1" -LE 'long|slow' -j "$(nproc)" \
                 --output-on-failure --no-tests=error
         ;;
-    *)
-        build_platform "$1" stability -DBUILD_TESTING=OFF &&
-            emulate "$1" "build/platform-$1/tests/stability/stability$([ "$1" != windows ] || echo .exe)" \
-                --depth short
-        ;;
-    esac
+    *) build_platform "$1" stability -DBUILD_TESTING=OFF && measure "$1" short ;;
+    esac && measure "$1" full --row N48
 }
 
-# emulate NAME PROGRAM [ARGUMENT]...
+# emulate NAME PROGRAM [ARGUMENT]... A kernel that starts no 32-bit programs needs an emulator for i686.
 emulate() {
     name=$1
     shift
     case $name in
+    aarch64) qemu-aarch64 -L /usr/aarch64-linux-gnu "$@" ;;
+    i686) "$@" || { [ $? = 126 ] && qemu-i386 "$@"; } ;;
     windows) WINEPREFIX="$TOP/build/platforms/wine" WINEDEBUG=-all /usr/lib/wine/wine64 "$@" ;;
     *) "$@" ;;
     esac

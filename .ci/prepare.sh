@@ -9,7 +9,7 @@ PACKAGES_TEST="$PACKAGES_RUN git doxygen clang clang-format libcmocka-dev xvfb x
 # The cost report's page; one machine that acts as several.
 PACKAGES_LONG="chromium chromium-driver python3-selenium poppler-utils parallel munge slurm-wlm"
 PACKAGES_LINT="clang-tidy cppcheck"
-PACKAGES_SANITIZERS="clang libclang-rt-dev llvm" # llvm: names of functions in the findings
+PACKAGES_SANITIZERS="clang libclang-rt-dev lld llvm" # llvm: names of functions in the findings
 
 is_installed() {
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]

@@ -53,7 +53,7 @@ STUDY = {
     "aa=4,scale=1/2,upscale=easu": .0897, "post=fxaa": .0652, "post=smaa": .0608,
     "aa=4,post=smaa": .0543, "aa=4,sharpen=low": .0508, "taa=history": .0481,
 }
-STUDY_RUNS = (["--combine", "none"], ["--baseline", "aa=4", "--combine", "scale,upscale"])
+STUDY_RUNS = (["--combine", "taa"], ["--baseline", "aa=4", "--combine", "scale,upscale"])
 STUDY_OPTIONS = "--errors-only --burst 1 --size 640x480 --pictures none".split()
 # For each place, the left top corner of a detail in a picture of 640x480, and settings.
 DETAILS = {
@@ -161,7 +161,7 @@ def study_flip(diptych, folder, options):
     """The FLIP of each set at each viewpoint."""
     root = pathlib.Path(__file__).resolve().parent.parent
     ini = (root / "config" / "courtyard.ini").read_text().replace("../", f"{root}/")
-    ini = re.sub(r"(?m)^CAMPATH_[A-Z]+(_FOV)?:.*\n", "", ini)
+    ini = re.sub(r"(?m)^CAMPATH_(?!DEFAULT)[A-Z]+(_FOV)?:.*\n", "", ini)
     found = {}
     for name, (path, fov, place, places) in VIEWPOINTS.items():
         config = pathlib.Path(folder, f"{name}.ini")
@@ -169,7 +169,8 @@ def study_flip(diptych, folder, options):
         config.write_text(re.sub("(CAMPATH_DEFAULT_FOV:).*", rf"\1 {fov}", ini))
         for number, run in enumerate(STUDY_RUNS):
             report = cost(diptych, pathlib.Path(folder, f"{name}-{number}"), "--config", config,
-                          "--places", str(places), "--part", f"{place}:{place + 1}",
+                          "--path", root / "campaths" / f"{path}.pth", "--places", str(places),
+                          "--part", f"{place}:{place + 1}",
                           *STUDY_OPTIONS, *run, *options)
             for row in json.loads((report / "cost.json").read_text())["rows"]:
                 if "all" in row["figures"]:

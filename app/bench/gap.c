@@ -1,4 +1,5 @@
-// Prints the gap between the stages' times and their floors (gap.h).
+// Prints the cycles that each stage takes per unit of its work, and these cycles divided by the
+// unit's floor: the fewest cycles in which a core can do a unit of this work (gap.h).
 #include "app/bench/gap.h"
 
 #include "renderer/base/assert.h"
@@ -9,8 +10,8 @@ typedef struct Unit {
     const char *name;
     DipBenchStage stage; // the stage in which the unit's work is done
     int counter;         // counts the units
-    double floors[4];    // for 1, 2, 4 and 8 samples; if the last three are 0, the first holds for
-                         // any number
+    double floors[4];    // cycles per unit with 1, 2, 4 and 8 samples; if the last three are 0, the
+                         // first holds for any number of samples
 } Unit;
 
 static const Unit units[] = {

@@ -81,7 +81,7 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 
 // --- measuring -----------------------------------------------------------------------------------
 
-enum { BLOCK_SUBJECTS = 4 }; // Subjects per block (driver.h), as many as `diptych cost` has.
+enum { BLOCK_SUBJECTS = 4 }; // Subjects per block (driver.h), as in app/cost/times.c.
 
 // The driver's subject i (driver.h) is combination i / source_count of source i % source_count. If
 // there are two sources, each combination of the second is compared with the same combination of
@@ -131,8 +131,8 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
-// Stores the times in the results. A base is drawn in every block of a round; the times of the last
-// block are kept.
+// Stores the times in the results. The plan's base is drawn in every block of a round; the times
+// of the last block are kept.
 static void keep_times(const BenchTiming *t, const DipTimes *times) {
     for (int i = 0; i < times->count; i++) {
         const DipTimed *timed = &times->list[i];

@@ -1,5 +1,6 @@
 // Measures every combination of a plan (plan.h) in interleaved rounds
-// (app/measure/timing/driver.h). Each round draws every frame of every combination once. The
+// (app/measure/timing/driver.h). Each round draws every frame of every combination at least
+// once; the base, with which others are compared, is drawn again beside each few of them. The
 // results are the times of every frame in every round, and the work of every frame.
 #ifndef DIP_APP_BENCH_MEASURE_H
 #define DIP_APP_BENCH_MEASURE_H
@@ -12,10 +13,11 @@
 typedef struct DipBenchResult {
     const DipBenchPlan *plan;
     double *ms;            // times, [combination][stage][round][frame]
-    double *scratch;       // room for the times of a combination's stage
+    double *scratch;       // room for the times of one combination in one stage
     DipBenchSample *first; // samples of the warm-up, [combination][frame]
-    // [combination]: the ratio of the combination's mean time to that of the plan's base. In the
-    // result of the second of two programs, it is the ratio to the mean time of the first program.
+    // [combination]: the ratio of the combination's mean time to that of the plan's base. With
+    // two programs, the second one's ratios are to the mean times of the first one, and the
+    // first one's ratios are 1.
     DipEstimate *ratios;
     // [combination]: how many times as fast the combination is as with the fewest threads. Filled
     // in only if there is one program.

@@ -29,8 +29,8 @@ typedef struct DipBenchPlan {
     int base;
 } DipBenchPlan;
 
-// Makes the plan. For an axis without an option on the command line, the session provides the
-// value.
+// Makes the plan. The session provides the number of threads, the instruction set and the size
+// if the command line does not give them. The default render scale is 1.
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
                          const DipBenchOptions *options);
 
@@ -66,7 +66,7 @@ void dip_bench_value_name(const DipBenchPlan *plan, int combination, DipBenchAxi
                           size_t size_bytes);
 
 // Writes a combination's values on all axes that vary, except `without` (DIP_BENCH_AXIS_COUNT for
-// no exception). If no axis varies, writes the settings.
+// no exception). If this leaves no value, writes the settings.
 enum { DIP_BENCH_LABEL_SIZE = 192 };
 void dip_bench_label(const DipBenchPlan *plan, int combination, DipBenchAxis without,
                      char label[DIP_BENCH_LABEL_SIZE]);

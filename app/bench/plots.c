@@ -31,8 +31,8 @@ static double value_of(const DipBenchPlan *plan, int combination, DipBenchAxis a
                                           : v.threads;
 }
 
-// The points of one series, one for each of its combinations. All of these have the same values
-// except on the plot's axis.
+// The points of one series. Each shows a combination; all of these combinations have the same
+// values except on the plot's axis.
 typedef struct Series {
     char name[DIP_BENCH_LABEL_SIZE];
     int first; // Index of the first combination.

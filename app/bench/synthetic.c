@@ -17,7 +17,8 @@ static uint32_t hash(uint32_t x, uint32_t y) {
     return h ^ h >> 15;
 }
 
-// Paints squares of 64, 16 and 4 texels in random shades, so that every mip level has detail.
+// Paints squares of 64, 16 and 4 texels in random shades, so that the larger mip levels have
+// detail.
 static void paint(uint8_t *rgba8) {
     for (uint32_t y = 0; y < TEXTURE_SIZE; y++) {
         for (uint32_t x = 0; x < TEXTURE_SIZE; x++) {
@@ -138,8 +139,8 @@ DipSynthetic *dip_synthetic_relief(int triangle_count, double fov_y_deg, double 
     if (!s) {
         return NULL;
     }
-    // The relief is 5 % smaller than the picture, because the crests of its waves are nearer to the
-    // camera and the camera sways by 1 %.
+    // The relief is 5 % smaller than the picture, because the crests of its waves are nearer to
+    // the camera, and the camera sways by 1 % of half the relief's height.
     const double half_height = 0.95 * RELIEF_DISTANCE_M * dip_tan(fov_y_deg * (DIP_PI / 360.0));
     set_relief(s, columns, rows, half_height * aspect, half_height);
     s->material.lit = true;

@@ -72,9 +72,9 @@ static bool unknown_second_word(const DipCommandList *list, const char *first, c
                                   "nothing to do; give one of %s", known);
 }
 
-// Finds the command that argv names, and sets line->command or line->group. A two-word command has
-// precedence over a one-word command. Sets *used to the number of words in the command's name, or
-// to 0 if no command is named.
+// Finds the command that argv names, and sets line->command or line->group. Sets neither if argv
+// names no command. A two-word command has precedence over a one-word command. Sets *used to the
+// number of words in the command's name, or to 0 if no command is named.
 static bool find_command(const DipCommandList *list, int argc, char *const *argv,
                          DipCommandLine *line, int *used, DipError *err) {
     const char *first = argc > 1 ? argv[1] : "-";
@@ -111,7 +111,8 @@ static bool find_command(const DipCommandList *list, int argc, char *const *argv
             *used = 1;
         }
     }
-    // A word without a dot or a slash is taken for a mistyped command, not for the name of a model.
+    // A word without a dot, slash or backslash is taken for a mistyped command, not for the name
+    // of a model.
     return *used || first[0] == '-' || strpbrk(first, "./\\") || unknown_command(list, first, err);
 }
 

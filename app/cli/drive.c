@@ -23,7 +23,8 @@ bool dip_drive(DipDriver *driver, const char *things, const char *command, const
         dip_progress_show(&progress, searches ? now.searched : now.drawn);
     }
     dip_progress_end(&progress, searches ? now.searched : now.drawn);
-    // Ctrl-C also ends child processes, so a frame that fails after Ctrl-C is not an error.
+    // Ctrl-C also ends child processes, so a frame may fail after Ctrl-C. The message then still
+    // says only that the command was interrupted.
     return dip_interrupted()
                ? dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, command, "%s", interrupted)
                : step == DIP_DRIVER_DONE;

@@ -7,9 +7,9 @@
 
 #include <stdbool.h>
 
-// From now on, also appends every line that the functions below print to this file. Fails with
-// DIP_ERROR_IO if the file cannot be opened, or with DIP_ERROR_RUNTIME if the machine is the cause,
-// for example because too many files are open.
+// From now on, also appends every line that the functions below print to this file, without
+// "diptych: ". Fails with DIP_ERROR_IO if the file cannot be opened, or with DIP_ERROR_RUNTIME
+// if the machine is the cause, for example because too many files are open.
 bool dip_log_open(const char *file, DipError *err);
 void dip_log_close(void);
 

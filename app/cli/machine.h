@@ -7,14 +7,15 @@
 // Copies the name of the processor, as Linux gives it, or "unknown processor".
 void dip_machine_processor(char *name, size_t size_bytes);
 
-// Writes a hash of this program's file, which differs between any two builds, or "" if the file
-// cannot be read.
+// Writes a hash of this program's file, or "" if the file cannot be read. Files that differ have
+// different hashes.
 void dip_machine_build(char hex[33]);
 
 // Returns the number of processors that are online, at least 1.
 int dip_machine_processor_count(void);
 
-// Measures the length of a cycle of this processor, in nanoseconds. Takes a twentieth of a second.
+// Measures the length of a cycle of this processor, in nanoseconds. Takes about a twentieth of a
+// second.
 double dip_machine_ns_per_cycle(void);
 
 // Returns the greatest resident memory of this process so far, in bytes, or 0 if it is unknown.

@@ -17,9 +17,10 @@ typedef struct DipProgress {
 
 DipProgress dip_progress_begin(const char *things, int64_t total);
 
-// Sets how long the work that begins next is expected to take, and all parts of the command that
-// come after it. From now on, the time left that is shown is that of the whole command. At first it
-// follows the expectation, and then what the work really takes. 0 for what is not known.
+// Sets how long the work that begins next is expected to take, and how long all later parts of
+// the command are; a time is 0 if it is not known. The time left that is shown includes the
+// later parts from now on. At first it follows the expectation, and then what the work really
+// takes.
 void dip_progress_expect(double own_s, double later_s);
 
 // Shows "7 of 12 frames, 3 s left", or "7 of 12 frames, about 4 min left in all". On a terminal,
@@ -34,14 +35,15 @@ void dip_progress_end(DipProgress *progress, int64_t done);
 // Returns the seconds since the work began.
 double dip_progress_elapsed_s(const DipProgress *progress);
 
-// Clears the line of the display on a terminal, so that another text can be printed there.
+// Clears the line that shows the progress, so that another text can be printed there. Does
+// nothing if standard error is not a terminal.
 void dip_progress_clear(void);
 
-// From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second one ends the
-// program at once.
+// From now on, the first SIGINT (Ctrl-C) and the first SIGTERM only set a flag. A second one of
+// the same kind ends the program at once.
 void dip_interrupt_watch(void);
 
-// Returns whether the first of these signals has come.
+// Returns whether one of these signals has come.
 bool dip_interrupted(void);
 
 #endif

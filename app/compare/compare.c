@@ -35,8 +35,8 @@ typedef struct CompareOptions {
 // How much two pictures differ.
 typedef struct Comparison {
     DipMetrics metrics;
-    uint64_t other_pixels; // Number of pixels whose codes differ.
-    int greatest;          // Greatest difference of two codes.
+    uint64_t other_pixels; // Number of pixels whose sRGB codes differ; alpha is ignored.
+    int greatest;          // Greatest difference of a channel's codes in the two pictures.
     DipPostWork work;      // What the filter did.
 } Comparison;
 

@@ -41,8 +41,9 @@ struct DipControl {
     unsigned subscriptions;
 };
 
-// Diptych sends no_memory instead of a reply when memory runs out. It sends too_many to a client
-// that connects when DIP_CONTROL_MAX_CLIENTS are connected already.
+// Diptych sends no_memory instead of any other line if memory runs out or the output buffer has
+// no room for that line. It sends too_many to a client that connects when
+// DIP_CONTROL_MAX_CLIENTS are connected already, or when there is no memory for one more.
 static const char no_memory[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"MEMORY\","
                                 "\"field\":\"\",\"message\":\"out of memory\"}}";
 static const char too_many[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"BUSY\","
@@ -82,7 +83,7 @@ static bool skip(Client *client) {
 typedef enum Line {
     NO_LINE,
     WHOLE_LINE,
-    LONG_LINE // A line was too long. It has been removed, and is reported once.
+    LONG_LINE // A line is too long. It is skipped, also what still arrives of it; reported once.
 } Line;
 
 // Finds the first line. Its text is not terminated, and is valid until remove_line is called.
@@ -144,7 +145,8 @@ static void write_output(Client *client) {
 
 // --- sending -------------------------------------------------------------------------------------
 
-// Sends an object or, if memory has run out, the line that says so. Deletes the object.
+// Sends an object, or the line no_memory if memory or the room in the output buffer does not
+// suffice. Deletes the object.
 static void send_object(Client *client, cJSON *object) {
     char *line = object ? cJSON_PrintUnformatted(object) : NULL;
     if (!line || !send_line(client, line, strlen(line))) {
@@ -280,8 +282,8 @@ static void refuse_long_line(Client *client) {
     send_error(client, &no_id, &err);
 }
 
-// Answers the lines that have arrived. Stops early if the client has not read the earlier replies
-// and the output buffer is full.
+// Answers the lines that have arrived. Stops early if the output buffer is full because the
+// client does not read, or if the owner puts off a request.
 static void answer_lines(DipControl *control, Client *client) {
     const char *line;
     size_t length;

@@ -129,7 +129,7 @@ static bool remove_stale(const struct sockaddr_un *address, DipError *err) {
     struct stat status;
     const char *path = address->sun_path;
     if (lstat(path, &status) != 0) {
-        return true; // The caller's bind() reports what is wrong.
+        return true; // There is no file, or the caller's bind() fails and tells why.
     }
     if (!S_ISSOCK(status.st_mode)) {
         return refuse_path(DIP_ERROR_CONFLICT, path,

@@ -23,7 +23,8 @@ ptrdiff_t dip_wire_read(const DipWire *wire, void *bytes, size_t size);
 // Writes as many bytes as fit now. Returns their number, or -1 if nobody reads any more.
 ptrdiff_t dip_wire_write(const DipWire *wire, const void *bytes, size_t size);
 
-// Returns whether the other side has closed both directions.
+// Returns whether nothing can reach the other side any more: it has closed a socket in both
+// directions, or it no longer reads standard output.
 bool dip_wire_is_cut(const DipWire *wire);
 
 void dip_wire_close(DipWire *wire);

@@ -388,8 +388,8 @@ static bool refuse_line(size_t at, const char *found, DipError *err) {
                          "%s at byte %zu, accepted one JSON object in UTF-8", found, at);
 }
 
-// Refuses bytes that are not UTF-8, control characters, and the escape \u0000, which would end a
-// text early.
+// Refuses bytes that are not UTF-8, control characters below U+0020 other than a tab, and the
+// escape \u0000, which would end a text early.
 static bool check_bytes(const char *line, size_t length, DipError *err) {
     const size_t valid = dip_utf8_valid_bytes(line, length);
     if (valid < length) {

@@ -111,7 +111,7 @@ typedef struct DipControlId {
     char text[DIP_CONTROL_NAME_SIZE];
 } DipControlId;
 
-// A request. A field that the request does not have is zero. Texts are UTF-8.
+// A request. A field that the request does not have is zero (but see `parts`). Texts are UTF-8.
 typedef struct DipControlRequest {
     DipControlId id;
     DipControlVerb verb;
@@ -133,7 +133,8 @@ typedef struct DipControlRequest {
     int x; // PICK: position of a pixel in a pane.
     int y;
     unsigned topics; // SUBSCRIBE and UNSUBSCRIBE: bits 1 << DipControlTopic, at least one.
-    unsigned parts;  // GET: bits 1 << DipControlPart, at least one.
+    unsigned parts;  // GET: bits 1 << DipControlPart, at least one. If the request names no part,
+                     // these are state, settings, times and errors.
 } DipControlRequest;
 
 // Reads a request from a line without its line feed. On failure, *err says what was found and what

@@ -104,8 +104,8 @@ typedef struct Judge {
     int burst_room;    // Greatest number of bursts: two per thread.
     int burst_count;
     DipProgress progress;
-    int64_t done;
-    int64_t computed; // Bursts among these that were not in the journal.
+    int64_t done;     // Number of bursts drawn so far.
+    int64_t computed; // Number of bursts whose errors were measured, since the journal lacked them.
 } Judge;
 
 static size_t picture_bytes(const Judge *j) {

@@ -39,8 +39,9 @@ bool dip_cost_journal_find(const DipCostJournal *journal, const char *key,
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
                           const DipCostBurstErrors *errors, DipError *err);
 
-// Returns the number of rounds with the journal's own plan hash that it had when it was opened.
-// Sets *seed to the seed of the first of these rounds, if there are any. `seed` may be NULL.
+// Returns how many rounds the journal had when it was opened, counting only rounds that were stored
+// with its own plan hash. Sets *seed to the seed of the first of these rounds, if there are any.
+// `seed` may be NULL.
 int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed);
 
 // Returns the frames of a round, in the order in which they were stored. `round` is

@@ -10,10 +10,10 @@
 #include <string.h>
 
 enum {
-    BINS = 512,      // Times of the front: each bin holds the best combination of a range of times.
+    BINS = 512, // Each bin holds the best combination of a range of times, for the Pareto front.
     MIDDLE_BIN = 128 // The bin of the baseline's time.
 };
-static const double bin_width = 0.02; // Difference of the logarithms of the times.
+static const double bin_width = 0.02; // Width of a bin's range on the scale of log time.
 
 typedef struct Found {
     DipQuality quality;
@@ -41,6 +41,7 @@ typedef struct Search {
     const DipCostReport *report;
     const DipCostModels *models;
     Options groups[DIP_WORK_GROUPS];
+    DipWorkCorners corners;
     double floor_flip;
     double base_ms;
     Best *tasks; // [option of group 0]
@@ -149,6 +150,7 @@ static void run_task(void *context, int index, int worker) {
     Best *best = &search->tasks[index];
     DipWorkSum sum = dip_work_begin(baseline, search->groups[0].list[0]->counters);
     (void)worker;
+    sum.corners = &search->corners;
     dip_work_add(&sum, &samples->quality, samples->counters);
     for (int c = 0; c < search->models->correction_count; c++) {
         best->likeness[c] = 1.0;
@@ -160,8 +162,9 @@ static void run_task(void *context, int index, int worker) {
 
 // --- what a search begins and ends with ----------------------------------------------------------
 
-// Lists the options of each group among the counted combinations. Option 0 is the baseline. `all`
-// has room for every combination in each group. Returns false if the baseline is not counted.
+// Lists the options of each group. They are combinations whose work was counted (report->predicted
+// holds these before the search). Option 0 is the baseline. `all` has room for every combination in
+// each group. Returns false if the baseline is not counted.
 static bool list_options(Search *search, const DipCostPrediction **all) {
     const DipCostReport *report = search->report;
     const DipCostPredictions *predicted = &report->predicted;
@@ -181,6 +184,10 @@ static bool list_options(Search *search, const DipCostPrediction **all) {
                 options->list[options->count++] = &predicted->list[i];
             }
         }
+    }
+    for (int i = 0; base >= 0 && i < predicted->count; i++) {
+        const DipCostPrediction *p = &predicted->list[i];
+        dip_work_note_corner(&search->corners, baseline, &p->quality, p->counters);
     }
     return base >= 0;
 }

@@ -62,6 +62,20 @@ static void list_groups(DipCostReport *report, int end[DIP_WORK_GROUPS]) {
     }
 }
 
+// Adds the corners (combinations.h).
+static void add_corners(DipCostReport *report) {
+    const DipQuality *baseline = &report->options.baseline;
+    const unsigned combined =
+        report->options.combined & (1u << DIP_SETTING_AA | 1u << DIP_SETTING_SCALE);
+    DipQuality list[DIP_COST_MOST_COUNTED];
+    const int count = dip_cost_list_combinations(baseline, combined, list, DIP_COST_MOST_COUNTED);
+    for (int i = 0; i < count; i++) {
+        if (dip_work_is_corner(baseline, &list[i])) {
+            add_prediction(report, &list[i]);
+        }
+    }
+}
+
 // Adds combinations that differ from the baseline in several groups of settings, at random. Each
 // group has the baseline's settings in half of them.
 static void add_pool(DipCostReport *report, const int end[DIP_WORK_GROUPS]) {
@@ -94,6 +108,7 @@ bool dip_cost_list_predictions(DipCostReport *report, DipError *err) {
     int end[DIP_WORK_GROUPS];
     list_groups(report, end);
     if (all > DIP_COST_MAX_ROWS) {
+        add_corners(report);
         add_pool(report, end);
         return true;
     }
@@ -130,18 +145,24 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
     return true;
 }
 
-// Returns whether the work of a combination is counted by drawing it. If there are many
-// combinations, only those are drawn that differ from the baseline in one group of settings.
-static bool is_counted(const DipCostReport *report, const DipQuality *quality) {
-    return report->predicted.count <= DIP_COST_MOST_COUNTED ||
-           dip_work_count_groups(&report->options.baseline, quality) <= 1;
+// Whether others are composed of a combination: it differs from the baseline in one group of
+// settings at most, or is a corner.
+static bool is_part(const DipCostReport *report, const DipQuality *quality) {
+    const DipQuality *baseline = &report->options.baseline;
+    return dip_work_count_groups(baseline, quality) <= 1 || dip_work_is_corner(baseline, quality);
 }
 
-// Returns the counters of a listed combination that differs from the baseline in one group of
-// settings at most, or NULL. dip_work_compose calls it.
+// Returns whether the work of a combination is counted by drawing it. If there are many
+// combinations, only those are drawn of which others are composed.
+static bool is_counted(const DipCostReport *report, const DipQuality *quality) {
+    return report->predicted.count <= DIP_COST_MOST_COUNTED || is_part(report, quality);
+}
+
+// Returns the counters of a listed combination of which others are composed, or NULL.
+// dip_work_compose calls it.
 static const double *find_counted(const void *context, const DipQuality *quality) {
     const DipCostReport *report = context;
-    if (dip_work_count_groups(&report->options.baseline, quality) > 1) {
+    if (!is_part(report, quality)) {
         return NULL;
     }
     const int found = dip_report_find_predicted(&report->predicted, quality);

@@ -1,9 +1,9 @@
 // Declares the interface between the preview and the display that shows it: pixels go out, events
 // come in.
 //
-// A display is a struct of functions and a context. A back end (a folder beside this file) fills in
-// the struct; the preview uses nothing else of a back end. All functions of one display must be
-// called on one thread. Their first argument is the context:
+// A display is a struct of functions and a context. A back end (a folder beside this file) fills
+// in the struct, and the preview's loop uses nothing else of a back end. All functions of one
+// display must be called on one thread. Their first argument is the context:
 //
 //     display.present(display.context, &picture, rects, 1, err);
 #ifndef DIP_APP_DISPLAY_DISPLAY_H

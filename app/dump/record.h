@@ -7,9 +7,9 @@
 // "requested":{..}},..],"load_ms":{"ini":0.3,..},"peak_rss_bytes":123456}
 //
 // If both panes have the same settings, the requested pane is a copy of the current one ("copied"
-// is true), and all its times and counters are 0. A frame's "ms" is the wall-clock time of both
-// panes together. The sum of the panes' times can exceed the frame's "ms", because the time of
-// shared geometry is included in both panes' times.
+// is true), and all its times and counters are 0. With --force-all-effects, no pane is a copy. A
+// frame's "ms" is the wall-clock time of both panes together. The sum of the panes' times can
+// exceed the frame's "ms", because the time of shared geometry is included in both panes' times.
 #ifndef DIP_APP_DUMP_RECORD_H
 #define DIP_APP_DUMP_RECORD_H
 

@@ -13,8 +13,8 @@ extern "C" {
 #endif
 
 // Writes to a temporary file beside `file` and renames it, so that a half-written file never has
-// the final name. On failure, *err has DIP_ERROR_IO, the file's name and the system's reason, and
-// no temporary file is left. Thread-safe for different files.
+// the final name. Fails with DIP_ERROR_IO and the system's reason, or with DIP_ERROR_MEMORY.
+// *err then has the file's name, and no temporary file is left. Thread-safe for different files.
 DIP_API bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes,
                                   DipError *err);
 

@@ -108,9 +108,10 @@ DipQuality dip_gallery_pane_quality(const DipGalleryPane *pane);
 void dip_gallery_pane_set_frame_index(DipGalleryPane *pane, uint64_t frame_index);
 
 // Draws the scene from a pose at a time. The frame is the same to the bit for any number of threads
-// and any instruction set. The pane owns the frame's pixels until it draws again. Fails with RANGE
-// (a pose that is not finite or has no orientation, a field of view out of range), MEMORY, or the
-// error of an asset that the tour's next scene needs.
+// and any instruction set. The pane owns the frame's pixels, which are valid until it draws again,
+// changes its size or is destroyed. Fails with RANGE (a pose that is not finite or has no
+// orientation, a field of view out of range), MEMORY, or the error of an asset that the tour's next
+// scene needs.
 bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t time_ns,
                            DipFrame *frame, DipError *err);
 

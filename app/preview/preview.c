@@ -47,9 +47,9 @@ static bool open_terminal(DipDisplay *display, const DipPreviewOptions *options,
     return dip_terminal_display_open(display, options->terminal_colours, err);
 }
 
-// Opens the terminal or the window that the options ask for. If there is no display to open
-// a window on, `auto` opens the terminal, except with --window-id or --control. Sets *notice to a
-// text that tells the user about this replacement, or to NULL.
+// Opens the terminal or the window that the options ask for. If there is no display to open a
+// window on, `auto` opens the terminal, except with --window-id or --control or without a terminal.
+// Sets *notice to a text that tells the user about this replacement, or to NULL.
 static bool open_display(DipDisplay *display, const DipSession *session,
                          const DipPreviewOptions *options, const char **notice, DipError *err) {
     static const char no_window[] =

@@ -10,7 +10,7 @@
 
 // The display that the user asks for.
 typedef enum DipDisplayChoice {
-    DIP_DISPLAY_AUTO, // A window if one can be opened, otherwise the terminal.
+    DIP_DISPLAY_AUTO, // A window or, if there is no display for one, the terminal.
     DIP_DISPLAY_WINDOW,
     DIP_DISPLAY_TERMINAL
 } DipDisplayChoice;
@@ -33,7 +33,8 @@ typedef struct DipPreviewOptions {
 } DipPreviewOptions;
 
 // Shows the session until the user quits. Fails if there is no display (RUNTIME) or no font
-// (MISSING), or if drawing fails.
+// (MISSING), if the cost report, the cache of --cache or the control channel cannot be opened, or
+// if drawing fails.
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err);
 
 #endif

@@ -40,8 +40,9 @@ bool dip_cost_analyse(DipCostReport *report, DipError *err);
 
 // Writes a sentence about a sweep (all steps of one setting). If error and work follow theory, the
 // sentence says what falls or rises from step to step. Otherwise it names the step that departs
-// from theory and gives a likely reason. Times are not checked, because they depend on the machine.
-// Returns false if the steps' errors are unknown or theory says nothing about the setting.
+// from theory and gives a likely reason. If all steps draw the same pictures, it says what the path
+// lacks. Times are not checked, because they depend on the machine. Returns false if the sweep has
+// one step, if the steps' errors are unknown, or if theory says nothing about the setting.
 bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep, char *text,
                          size_t size_bytes);
 

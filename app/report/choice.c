@@ -119,7 +119,8 @@ static int choose(const Alike *alike, int fastest) {
     return best;
 }
 
-// Lists the alike candidates that were not chosen, the fastest first.
+// Counts the alike candidates that were not chosen, and lists the first DIP_ADVICE_TIES of them,
+// the fastest first.
 static void list_ties(const Alike *alike, DipAdvice *advice) {
     const DipCandidate *list = alike->all->list;
     for (int i = 0; i < alike->all->count; i++) {

@@ -23,7 +23,9 @@ extern const char *const dip_time_kind_names[DIP_TIME_KIND_COUNT]; // "p95", "me
 typedef struct DipCandidate {
     DipQuality quality;
     DipEstimate time;    // Milliseconds per frame.
-    double common_error; // Standard error of the time's logarithm, shared by all candidates.
+    double common_error; // Standard error of the logarithm of the unknown factor by which all
+                         // candidates' times are too long or too short. time.log_error leaves this
+                         // error out.
     double loss;         // FLIP for ranking: at least the FLIP that the noise of the converged
                          // picture makes.
     double flip;         // FLIP as it was measured.
@@ -58,10 +60,10 @@ int dip_next_better(const DipCandidates *candidates, double loss, double step);
 // have room for all candidates. Returns the number of indices.
 int dip_front(const DipCandidates *candidates, double step, int *list);
 
-// Returns the index in `front` (in order of time) of the front's knee: the candidate beyond which
-// more time buys least. In a plot of log time against log loss, the knee is the point farthest
-// below the line from the first to the last candidate (Satopaa et al. 2011). Returns -1 if there
-// are fewer than three candidates or if none lies below the line.
+// Returns the index in `front` (in order of time) of the front's knee: the candidate after which
+// more time lowers the loss much less than before. In a plot of log time against log loss, the knee
+// is the point farthest below the line from the first to the last candidate (Satopaa et al. 2011).
+// Returns -1 if there are fewer than three candidates or if none lies below the line.
 int dip_front_knee(const DipCandidates *candidates, const int *front, int count);
 
 enum { DIP_ADVICE_TIES = 8 };
@@ -83,9 +85,10 @@ typedef struct DipAdvice {
 } DipAdvice;
 
 // Chooses among the candidates that surely fit and whose loss is at most 1 % above the least loss
-// of those that surely fit. Of these, it compares the fastest one with those whose times cannot be
-// told from it, since the intervals overlap, and chooses the one with the fewest settings off their
-// defaults. If the times are disturbed, `chosen` and `next` are -1.
+// of those that surely fit. Keeps the fastest of these, and those whose time has an interval that
+// overlaps the fastest one's, since their times cannot be told apart. Chooses the one of them with
+// the fewest settings off their defaults; if several have equally few, the fastest. If the times
+// are disturbed, `chosen` and `next` are -1.
 DipAdvice dip_advise(const DipCandidates *candidates, double budget_ms);
 
 #endif

@@ -3,6 +3,8 @@
 // base only in some groups of settings.
 #include "app/report/combinations.h"
 
+#include "renderer/base/assert.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -97,7 +99,8 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
 
 double dip_cost_pixels_filtered(const DipQuality *quality) {
     const double scale = dip_quality_scale(quality);
-    // A history and antialiasing filter the picture that is drawn, before it is enlarged.
+    // A history and antialiasing filter a small picture (scale below 1) before it is enlarged, and
+    // a large one (scale above 1) after it is averaged.
     const double drawn = fmin(1.0, scale * scale);
     return (dip_quality_has_history(quality) ? drawn : 0.0) +
            (quality->step[DIP_SETTING_POST] ? drawn : 0.0) +
@@ -106,7 +109,8 @@ double dip_cost_pixels_filtered(const DipQuality *quality) {
 }
 
 // Multiplies each counter by the ratio of a combination's counter (`of`) to the base's counter.
-// Where the base's counter is 0, there is no ratio, and the combination's own counter is taken.
+// Where the base's counter is 0, there is no ratio, and the counter becomes the combination's own
+// counter if this is greater.
 static void apply(const double *of, const double *base, double *counters) {
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);
@@ -114,9 +118,8 @@ static void apply(const double *of, const double *base, double *counters) {
 }
 
 // Returns the number of pixels of a frame, as it follows from a combination's counters; 0 if the
-// combination filters none.
-// Filters of the finished picture are applied one after the other to pictures of known sizes, so
-// their pixels need not be composed.
+// combination filters none. Filters of the finished picture are applied one after the other to
+// pictures of known sizes, so their pixels need not be composed.
 static double pixels_of_frame(const double *of, const DipQuality *quality) {
     const double filtered = dip_cost_pixels_filtered(quality);
     return filtered > 0.0 ? of[DIP_COST_COUNTER_pixels_filtered] / filtered : 0.0;
@@ -130,6 +133,53 @@ static void add_shadows(const double *of, const double *base, double *counters) 
     const double growth = base[all] > 0.0 ? counters[all] / base[all] : 1.0;
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         counters[c] = c == reading ? of[c] * growth : counters[c] + (of[c] - base[c]);
+    }
+}
+
+// --- corners -------------------------------------------------------------------------------------
+
+static const unsigned corner_settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_SCALE;
+
+// Returns whether a combination differs from the base at most in AA and in the render scale.
+static bool is_near_corner(const DipQuality *base, const DipQuality *quality) {
+    const DipQuality alone = dip_cost_take_settings(base, quality, corner_settings);
+    return dip_quality_equal(&alone, quality);
+}
+
+bool dip_work_is_corner(const DipQuality *base, const DipQuality *quality) {
+    return is_near_corner(base, quality) &&
+           quality->step[DIP_SETTING_AA] != base->step[DIP_SETTING_AA] &&
+           quality->step[DIP_SETTING_SCALE] != base->step[DIP_SETTING_SCALE];
+}
+
+void dip_work_note_corner(DipWorkCorners *corners, const DipQuality *base,
+                          const DipQuality *quality, const double *counters) {
+    const int aa = quality->step[DIP_SETTING_AA], scale = quality->step[DIP_SETTING_SCALE];
+    DIP_ASSERT(aa < DIP_WORK_MOST_STEPS && scale < DIP_WORK_MOST_STEPS);
+    if (is_near_corner(base, quality)) {
+        corners->of[aa][scale] = counters;
+    }
+}
+
+// Corrects counters that were composed as if AA and the render scale did not depend on each other.
+static void join_corner(const DipWorkSum *sum, const DipQuality *quality, double *counters) {
+    const int aa = quality->step[DIP_SETTING_AA], scale = quality->step[DIP_SETTING_SCALE];
+    const int base_aa = sum->base->step[DIP_SETTING_AA];
+    const int base_scale = sum->base->step[DIP_SETTING_SCALE];
+    if (!sum->corners || aa == base_aa || scale == base_scale) {
+        return;
+    }
+    const double *corner = sum->corners->of[aa][scale];
+    const double *of_aa = sum->corners->of[aa][base_scale];
+    const double *of_scale = sum->corners->of[base_aa][scale];
+    if (!corner || !of_aa || !of_scale) {
+        return;
+    }
+    double composed[DIP_COST_COUNTER_COUNT];
+    memcpy(composed, of_aa, sizeof composed);
+    apply(of_scale, sum->of_base, composed);
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        counters[c] *= composed[c] > 0.0 ? corner[c] / composed[c] : 1.0;
     }
 }
 
@@ -151,6 +201,7 @@ void dip_work_add(DipWorkSum *sum, const DipQuality *part, const double *of_part
 void dip_work_end(const DipWorkSum *sum, const DipQuality *quality,
                   double counters[DIP_COST_COUNTER_COUNT]) {
     memcpy(counters, sum->counters, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    join_corner(sum, quality, counters);
     counters[DIP_COST_COUNTER_pixels_filtered] = sum->pixels * dip_cost_pixels_filtered(quality);
     if (sum->of_shadows) {
         add_shadows(sum->of_shadows, sum->of_base, counters);
@@ -169,6 +220,17 @@ static bool add_part(DipWorkSum *sum, DipWorkFind *find, const void *context,
     return of_part != NULL;
 }
 
+// Notes the corner of a combination and what it is made of, as far as they were counted.
+static void find_corners(DipWorkFind *find, const void *context, const DipQuality *base,
+                         const DipQuality *quality, DipWorkCorners *corners) {
+    static const unsigned settings[] = {1u << DIP_SETTING_AA, 1u << DIP_SETTING_SCALE,
+                                        1u << DIP_SETTING_AA | 1u << DIP_SETTING_SCALE};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        const DipQuality part = dip_cost_take_settings(base, quality, settings[i]);
+        dip_work_note_corner(corners, base, &part, find(context, &part));
+    }
+}
+
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
                       const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]) {
     const unsigned shadows = 1u << DIP_SETTING_SHADOWS;
@@ -176,7 +238,13 @@ bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *
     if (!of_base || dip_work_count_groups(base, quality) < 0) {
         return false;
     }
+    DipWorkCorners corners = {0};
+    const DipQuality corner = dip_cost_take_settings(base, quality, corner_settings);
+    if (dip_work_is_corner(base, &corner)) {
+        find_corners(find, context, base, quality, &corners);
+    }
     DipWorkSum sum = dip_work_begin(base, of_base);
+    sum.corners = &corners;
     bool known = add_part(&sum, find, context, quality, groups[0]) &&
                  (quality->step[DIP_SETTING_SHADOWS] == base->step[DIP_SETTING_SHADOWS] ||
                   add_part(&sum, find, context, quality, shadows));

@@ -9,9 +9,9 @@
 
 // Lists every combination of the steps of the settings in the mask `settings` (bit s for setting
 // s). All other settings are those of the baseline. Leaves out combinations that the renderer
-// refuses, and those in which an enabled setting has no effect, since another combination draws the
-// same picture: advanced AF without AF, temporal AA without samples, and adaptive AA with a single
-// group of samples. Returns the number of combinations; the list has the first `room` of them.
+// refuses, and those in which an enabled setting has no effect (dip_quality_effective), since
+// another combination draws the same picture. Advanced AF without AF is an example. Returns the
+// number of combinations; the list has the first `room` of them.
 int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, DipQuality *list,
                                int room);
 
@@ -22,10 +22,10 @@ int64_t dip_cost_count_combinations_of(const DipQuality *baseline, unsigned sett
 // Returns `from` with the settings of `mask` (bit s for setting s) taken from `with`.
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask);
 
-// Temporal AA does nothing without AA, advanced AF does nothing without AF, and an upscaling filter
-// does nothing without a scale below 1. If AA or AF is off, or the scale is not below 1, reports
-// and prices measure temporal AA together with this step of AA, advanced AF together with this step
-// of AF, and upscaling filters together with this step of scale.
+// Alternating temporal AA does nothing without AA, advanced AF does nothing without AF, and an
+// upscaling filter does nothing without a scale below 1. If AA or AF is off, or the scale is not
+// below 1, reports and prices measure temporal AA together with this step of AA, advanced AF
+// together with this step of AF, and upscaling filters together with this step of scale.
 enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE = DIP_SCALE_1_1_5 };
 
 // --- composed work -------------------------------------------------------------------------------
@@ -36,6 +36,10 @@ enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE 
 // picture, and instancing. A composed counter is the base combination's counter, times the factors
 // by which each group alone changes it. The pixels that filters write follow from the settings
 // instead, and the work of shadows is added.
+//
+// Antialiasing and render scale depend on each other: which small triangles are drawn follows from
+// the samples on them, and how many pixels show several fragments from both. Their pairs are
+// therefore counted, too (corners), and correct the product of the two.
 
 // Returns how many pixels all filters of the finished picture write, per pixel of the frame.
 double dip_cost_pixels_filtered(const DipQuality *quality);
@@ -50,6 +54,22 @@ unsigned dip_work_group(int group);
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
+// Counters of the base with other steps of AA and of the render scale, [AA][scale]; NULL where they
+// were not counted.
+enum { DIP_WORK_MOST_STEPS = 8 };
+typedef struct DipWorkCorners {
+    const double *of[DIP_WORK_MOST_STEPS][DIP_WORK_MOST_STEPS];
+} DipWorkCorners;
+
+// Returns whether a combination is a corner: it differs from the base in AA and in the render
+// scale, and in nothing else.
+bool dip_work_is_corner(const DipQuality *base, const DipQuality *quality);
+
+// Notes the counters of a combination, which are borrowed, if it differs from the base at most in
+// AA and in the render scale.
+void dip_work_note_corner(DipWorkCorners *corners, const DipQuality *base,
+                          const DipQuality *quality, const double *counters);
+
 // Composes the counters of a combination. The settings of samples and those of shadows are always
 // groups of their own. All other groups are treated as one group if the base with the settings of
 // all of them was counted; otherwise each is treated by itself. Returns false if a combination that
@@ -60,12 +80,13 @@ bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *
 
 // Composes the counters of one combination after another that share some parts. A part is the base
 // with the settings of one or more groups taken from the combination; each group belongs to one
-// part. Parts of other settings must not change the shadows. A DipWorkSum may be copied at any
-// time, to go on in several ways. It borrows all counters.
+// part. A part that changes the shadows must change no other setting. A DipWorkSum may be copied at
+// any time, to go on in several ways. It borrows all counters.
 typedef struct DipWorkSum {
     const DipQuality *base;
     const double *of_base;
-    const double *of_shadows; // Counters of the base with the combination's shadows, or NULL.
+    const double *of_shadows;      // Counters of the base with the combination's shadows, or NULL.
+    const DipWorkCorners *corners; // Borrowed; NULL if there are none.
     double counters[DIP_COST_COUNTER_COUNT];
     double pixels; // Pixels of a frame; 0 if no part filters them.
 } DipWorkSum;

@@ -7,8 +7,9 @@
 #include <math.h>
 
 // All combinations `there` (dip_cost_model_fit_there) together count this many times as much as all
-// rows of the report. Any value from 3 to 100 does about as well. This was tried in the scene
-// "courtyard", where 6 timed combinations predicted the others at two sizes and on three paths.
+// rows and smaller combinations of the report. Any value from 3 to 100 does about as well. This was
+// tried in the scene "courtyard", where 6 timed combinations predicted the others at two sizes and
+// on three paths.
 static const double there_weight = 30.0;
 
 // The ridge of the fit of FLIP, as a share of the summed weight of the rows. Without a ridge, two
@@ -28,7 +29,7 @@ typedef struct Equations {
     DipCostModelled what;
     int first, end; // The parts from `first` to end - 1.
     DipNormalEquations parts[DIP_COST_PART_COUNT];
-    int known; // Number of rows that were added.
+    int known; // Number of rows, and of combinations timed elsewhere for the fit, that were added.
 } Equations;
 
 static double sum_stages(const double stage_ms[DIP_COST_STAGE_COUNT]) {

@@ -32,8 +32,9 @@ int dip_cost_term_count(int part);
 // Returns the name of a term: "texel fetched". Static storage.
 const char *dip_cost_term_name(int part, int term);
 
-// Computes the amounts of a part's terms. The amount of the first term is always 1. `counters` are
-// those of a frame that was drawn with these settings, or their means over several frames.
+// Computes the amounts of a part's terms. The amount of the first term is 1. Only in the geometry
+// stage of frames that pose vertices, it is 0 (terms.c says why). `counters` are those of a frame
+// that was drawn with these settings, or their means over several frames.
 void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
                     const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
 

@@ -29,7 +29,7 @@ enum {
 extern const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT];
 
 // Parts of a frame's time: the stages of the pipeline, in the order of DIP_STAGE_LIST, and the rest
-// (the choice of effects, the start of the passes).
+// (such as the choice of effects, the start of the passes and the filters of the finished picture).
 typedef enum DipCostStage {
 #define DIP_COST_STAGE(name, text) DIP_COST_STAGE_##name,
     DIP_STAGE_LIST(DIP_COST_STAGE)
@@ -67,7 +67,7 @@ typedef struct DipPathEstimate {
     double worst_error;
     double level_error; // Standard error of the logarithm of the baseline's mean time along the
                         // path; NAN if it is not known.
-    int used;           // Number of frames that were not disturbed.
+    int used;           // Number of the row's times that were not disturbed.
 } DipPathEstimate;
 
 // One measured combination: quality settings on a camera path.
@@ -315,8 +315,8 @@ typedef enum DipCostMetric {
 // possible viewpoints of the path. For FLIP and SSIM, it is a Student's t interval of the values at
 // the viewpoints. The other metrics come from a mean of squares, which is positive and skewed, so
 // they use a Student's t interval of its logarithm. The standard error of this logarithm is the
-// standard error of the mean, divided by the mean. With a single viewpoint there is no interval,
-// and low and high are NAN.
+// standard error of the mean, divided by the mean. With a single viewpoint, or if all viewpoints
+// have exactly the same value, there is no interval, and low and high are NAN.
 DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric);
 
 // Returns by how much a row's metric exceeds the metric of `base`, another row of the same path:
@@ -431,9 +431,9 @@ bool dip_candidates_of_predictions(const DipCostReport *report, DipTimeKind kind
                                    DipCandidates *candidates, DipError *err);
 
 // Lists the predictions that a page shows, in order of predicted time. If there are more than
-// DIP_CANDIDATES_LISTED, lists only those that were measured later and those on the Pareto front of
-// predicted times and errors. A candidate's `row` is the index of the prediction. The caller frees
-// the list even after a failure. Returns false when memory runs out.
+// DIP_CANDIDATES_LISTED, lists at most this many of those that were measured later and those on the
+// Pareto front of predicted times and errors. A candidate's `row` is the index of the prediction.
+// The caller frees the list even after a failure. Returns false when memory runs out.
 enum { DIP_CANDIDATES_LISTED = 500 };
 bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *listed);
 void dip_candidates_free(DipCandidates *candidates);

@@ -62,8 +62,8 @@ static Spread spread_of(const double *values, int count) {
 
 // --- estimates -----------------------------------------------------------------------------------
 
-// Makes an estimate with this interval. An interval without width is left out: it only means that
-// the viewpoints agree to the last bit.
+// Makes an estimate with this interval, unless its ends are NAN. An interval without width is left
+// out, too: it only means that the viewpoints agree to the last bit.
 static DipEstimate between(double value, double low, double high) {
     DipEstimate estimate = dip_estimate_unknown(value);
     if (low < high) {

@@ -25,10 +25,10 @@ void dip_limited_number(double value, int decimals, DipLimits limits, const char
                         char text[DIP_NUMBER_BYTES]);
 
 // Writes a time as it is shown beside a limit, such as the budget of a frame: "8.4", or with one
-// digit and a question mark if it is doubtful: "8?", "70?". Rounding never carries the time over
-// the limit: if fewer digits would, more are written ("15?" rather than "10?" beside a limit of 12,
-// "16.66" rather than "16.7" beside 16.667). A limit of INFINITY is none. The text has no plus
-// sign.
+// digit and a question mark if it is doubtful: "8?", "70?". If rounding would carry the time over
+// the limit, more digits are written, up to three after the point ("15?" rather than "10?" beside a
+// limit of 12, "16.66" rather than "16.7" beside 16.667). A limit of INFINITY is none. The text has
+// no plus sign.
 void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
                    char text[DIP_NUMBER_BYTES]);
 
@@ -36,7 +36,8 @@ void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
 // point: ".0354", "+.0010".
 void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_NUMBER_BYTES]);
 
-// Writes a time budget in three digits: "16.7", "8", "33.3".
+// Writes a time budget in up to three digits: "16.7", "8", "33.3". From 1000 ms on, writes it in
+// whole milliseconds.
 void dip_budget_ms_text(double budget_ms, char text[DIP_NUMBER_BYTES]);
 
 // Writes a time budget as the start of a sentence: "At 60 frames a second (16.7 ms)" for the usual

@@ -9,17 +9,18 @@
 
 #include <stdint.h>
 
-// A scene with a backdrop. Owns the sphere and the arrays of the def; everything else in them
-// belongs to the scene without it.
+// A scene with a backdrop. Owns the sphere and the arrays of `def`. Everything else that these
+// arrays point to belongs to the scene without the backdrop.
 typedef struct DipBackdrop {
     DipSceneDef def;
     uint8_t *rgba8;    // The environment, cut off at 1 and encoded as sRGB.
     float *positions;  // 3 floats for each vertex, and behind them, 2 texture coordinates for each.
-    uint32_t *indices; // Of triangles that face the middle.
+    uint32_t *indices; // Three for each triangle. The triangles face the sphere's middle.
 } DipBackdrop;
 
-// Adds a sphere with the scene's environment around the middle of an extent. Returns NULL and fills
-// *err with DIP_ERROR_MEMORY when memory runs out. The scene must outlive the backdrop.
+// Adds a sphere that shows the scene's environment. `extent` is the extent of the scene's objects;
+// its middle is the sphere's middle, and the sphere's radius follows from its size. Returns NULL
+// and fills *err with DIP_ERROR_MEMORY when memory runs out. The scene must outlive the backdrop.
 DipBackdrop *dip_backdrop_create(const DipSceneDef *def, const DipExtent *extent, DipError *err);
 // *backdrop may be NULL and becomes NULL.
 void dip_backdrop_destroy(DipBackdrop **backdrop);

@@ -1,7 +1,7 @@
 // Makes the ground below a model, and a texture of the shade that the model leaves on the ground.
 // The model's lowest surfaces are drawn into a grid of heights. The heights tell how much light
-// from above the model keeps from each texel. Computes with + - * / alone, so that the texture has
-// the same bits on every machine.
+// from above the model keeps from each texel. Computes with + - * / and square roots alone, so that
+// the texture has the same bits on every machine.
 #include "app/session/ground.h"
 
 #include "app/session/added_surface.h"
@@ -192,7 +192,7 @@ typedef struct Grid {
     double low[2];             // Least x and z.
     double cell;               // Size of a cell.
     double floor;              // The height that counts as 0.
-    double most;               // Surfaces that lie higher are left out.
+    double most;               // Surfaces that lie higher do not count.
     bool facing_up;            // Leaves out surfaces whose winding faces down.
     float height[GRID * GRID]; // Height of each cell's lowest surface; more than `most` if none.
 } Grid;

@@ -9,8 +9,8 @@
 
 #include <stdbool.h>
 
-// The extent of a scene's objects that are not sky, over all moments of the clips (animations) that
-// play.
+// The extent of a scene's objects that are not sky, over DIP_MOTION_MOMENTS moments of the clips
+// (animations) that play.
 typedef struct DipExtent {
     double low[3]; // All 0 if the scene has no such object with a triangle.
     double high[3];
@@ -20,8 +20,8 @@ DipExtent dip_extent_of(const DipSceneDef *def);
 
 // The silhouette that a camera sees on an orbit about the middle of a scene's extent. The scene's
 // height is divided into slices. A slice holds the greatest distance of its vertices from the
-// vertical axis through that middle, over all moments of the clips that play, or -1 if the slice
-// has no vertex.
+// vertical axis through that middle, over the same moments as the extent, or -1 if the slice has no
+// vertex.
 enum { DIP_SILHOUETTE_SLICES = 64 };
 typedef struct DipSilhouette {
     double radius[DIP_SILHOUETTE_SLICES]; // From the lowest slice to the highest.
@@ -31,7 +31,8 @@ DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent)
 
 // Returns whether the scene needs a ground. It needs none if it has no size, if it has a sky or
 // water, if it is flat itself, or if surfaces of its own near its lowest point face up and cover
-// most of the rectangle below it.
+// most of the rectangle below it. It also gets none if it lies very far from the origin or if
+// memory runs out.
 bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent);
 
 // A scene with a ground. Owns the ground and the arrays of `def`. Everything else that these arrays

@@ -21,9 +21,9 @@ bool dip_painter_set_quality(DipPainter *painter, const DipQuality *quality, Dip
 bool dip_painter_resize(DipPainter *painter, int width, int height, DipError *err);
 DipQuality dip_painter_quality(const DipPainter *painter);
 void dip_painter_set_frame_index(DipPainter *painter, uint64_t frame_index);
-// Panes of the gallery have no history.
+// Does nothing in a pane of the gallery, which has no history.
 void dip_painter_cut(DipPainter *painter);
-// Panes of the gallery copy nothing.
+// Does nothing in a pane of the gallery, which never copies pixels from another pane.
 void dip_painter_copy_shading(DipPainter *painter, bool on);
 
 // Fails with UNSUPPORTED if the painter draws a scene of the gallery.

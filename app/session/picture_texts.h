@@ -2,7 +2,8 @@
 //
 //     Software             Diptych 1.0.0
 //     Scene                file of the first model, or name of the gallery's scene
-//     Path                 "AA", a file, "orbit", "pose" or "free camera"
+//     Path                 "AA", a file or a model's camera, "orbit", "pose", "free camera", or
+//                          "scene" for the gallery
 //     Time                 "3.25 s", the time that the picture shows
 //     Pose                 "x y z qx qy qz qw", as --pose takes it
 //     Field of view        "55", vertical, in degrees, as --fov takes it

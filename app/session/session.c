@@ -164,9 +164,10 @@ bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
     return made;
 }
 
-// Reads the pictures that the ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... show as mip levels, and
-// gives them to the painters. A level without a picture keeps its debug colour. If a picture cannot
-// be read, the error has the line of the ini that names this picture.
+// Reads the pictures that stand for mip levels in mip debugging, and gives them to the painters.
+// The ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... name the files of these pictures. A level
+// without a picture keeps its debug colour. If a picture cannot be read, the error has the line of
+// the ini that names this picture.
 static bool load_mip_pictures(DipSession *session, DipErrorList *faults) {
     DipPicture pictures[DIP_MIP_LEVEL_COUNT] = {{0}};
     DipTextureDef defs[DIP_MIP_LEVEL_COUNT];
@@ -306,9 +307,10 @@ static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_n
     return drawn;
 }
 
-// Chooses the pane that copies from the other one in the next frame. The panes take turns, so that
-// each pane is often drawn without copying and its own time can be measured then. A turn lasts two
-// frames, since temporal antialiasing alternates between two sample patterns.
+// Chooses the pane that copies shaded pixels from the other one in the next frame
+// (dip_renderer_copy_shading). The panes take turns, so that each pane is often drawn without
+// copying and its own time can be measured then. A turn lasts two frames, since temporal
+// antialiasing alternates between two sample patterns.
 static void choose_copying_pane(DipSession *session) {
     const int turn = (int)(session->shared_frames / 2 % DIP_PANE_COUNT);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {

@@ -80,7 +80,7 @@ typedef struct DipSessionCamera {
 typedef struct DipSessionAnimations {
     char **names; // Each once, in the order of the files.
     int count;
-    int playing; // Index of the animation that plays, or -1 if the models stand still.
+    int playing; // Index of the animation that the models show, or -1 if they show none.
 } DipSessionAnimations;
 
 typedef struct DipSession {

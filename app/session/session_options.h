@@ -30,12 +30,15 @@ typedef struct DipSessionOptions {
     int look;                // Variant of the gallery's scene, counted from 0.
     // Scene of the gallery to show, "tour", a shipped scene, or "models" for the ini's models.
     const char *scene;
-    const char *animation; // Animation of the models that plays, or "none". NULL plays the first.
+    // Animation of the models that plays, or "none". If it is NULL and there are models of the
+    // command line, the first animation of each of them plays.
+    const char *animation;
     bool has_animation_time;
     double animation_time_s; // Time of the animation at which the models stand still.
     int import_seconds;      // Most seconds that importing the models may take; 0 for the default.
     bool force_all_effects;
-    const char *path;     // File of a camera path that replaces the ini's.
+    // Camera path that replaces the ini's: a file, or the name of a camera of the models.
+    const char *path;
     const char *category; // Which of the ini's paths to fly: "AA", ...
     bool has_pose;
     DipCamKey pose;         // Where the camera stands still, instead of flying a path.

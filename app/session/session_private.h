@@ -1,5 +1,5 @@
-// Declares the functions that open a session and are private to session*.c. Each that returns bool
-// returns false on failure. The list `faults` collects errors and warnings.
+// Declares the functions that open a session and are private to session*.c. Those that make, load
+// or choose something return false on failure. The list `faults` collects errors and warnings.
 #ifndef DIP_APP_SESSION_SESSION_PRIVATE_H
 #define DIP_APP_SESSION_SESSION_PRIVATE_H
 
@@ -45,7 +45,8 @@ bool dip_session_orbits(const DipSession *session);
 bool dip_session_load_paths(DipSession *session, DipErrorList *faults);
 void dip_session_free_paths(DipSession *session);
 
-// Finds out whether the session shows a scene of the gallery, and which one. In session_gallery.c.
+// Finds out whether the session shows a scene of the gallery, and which one. Also finds the folder
+// of the shipped assets. In session_gallery.c.
 bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults);
 
 // Makes the camera path of the gallery's scene and a track that plays it. If the user has given a

@@ -36,7 +36,7 @@ void dip_canvas_fill(DipCanvas *canvas, DipRect rect, DipColour colour);
 // rectangle, or 0 to fill it.
 void dip_canvas_round(DipCanvas *canvas, DipRect rect, int radius, int ring, DipColour colour);
 
-// Copies a picture into a rectangle; the picture's alpha is ignored. If the sizes differ, the
+// Copies an opaque picture into a rectangle, without blending. If the sizes differ, the
 // picture is scaled to the rectangle: each pixel shows the nearest pixel of the picture.
 void dip_canvas_copy(DipCanvas *canvas, DipRect rect, const DipPixels *picture);
 

@@ -30,7 +30,7 @@ typedef struct Frame {
     size_t text_capacity;
     int width;
     int height;
-    bool complete; // False if memory ran out while the frame was recorded.
+    bool complete; // False if memory ran out while the frame was recorded or painted.
 } Frame;
 
 struct DipDrawList {
@@ -219,7 +219,7 @@ static bool same_command(const Frame *a, const Frame *b, size_t index) {
 
 // Finds the rectangles to repaint. They are the boxes of all commands that differ from the command
 // with the same index in the other list. Outside these boxes, both lists draw the same commands in
-// the same order.
+// the same order. If the size has changed or `before` was not painted, everything is repainted.
 static void find_damage(const Frame *before, const Frame *now, DipDamage *damage) {
     const DipRect whole = {0, 0, now->width, now->height};
     const size_t count = before->count > now->count ? before->count : now->count;

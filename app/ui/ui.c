@@ -70,8 +70,9 @@ static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *inpu
     ui->taken = true;
 }
 
-// Adds `turned` steps of a wheel to the part of a step that earlier events have left. Returns the
-// whole steps, from -16 to 16, and keeps the rest. Touch pads send parts of steps.
+// Adds `turned` steps of a wheel to the part of a step that earlier events have left, unless the
+// wheel now turns the other way. Returns the whole steps, from -16 to 16, and keeps the part of a
+// step that is left. Touch pads send parts of steps.
 static int wheel_steps(DipUi *ui, double turned) {
     if (turned * ui->wheel_rest < 0.0) {
         ui->wheel_rest = 0.0;
@@ -215,7 +216,7 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
 }
 
 // Adds the typed key to the number that the user types into a field. Returns the number when Enter
-// ends it, otherwise -1.
+// or Space ends it, otherwise -1.
 static double type_number(DipUi *ui, DipUiId id, const DipUiInput *input) {
     if (ui->typing != id) {
         ui->typing = input->typed ? id : ui->typing;

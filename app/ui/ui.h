@@ -1,11 +1,12 @@
 // Draws controls and hands them the events of mouse and keyboard, in immediate mode.
 //
 // The caller declares every control anew in each pass, in the order in which the Tab key visits
-// them. There are two kinds of passes over the same code:
+// them. There are two main kinds of passes over the same code:
 //
 // - An event pass hands one event to the controls. Nothing is drawn. The function of the control
 //   that the event concerns returns what the user did, and the caller changes its state at once.
-// - A drawing pass records the controls into a draw list. No control reports any input.
+// - A drawing pass records the controls into a draw list. No control reports a press, a step or a
+//   typed key.
 //
 // A pass finds the topmost control under the pointer by the rectangles of the pass before it. The
 // caller therefore runs a pass without event and draw list first if the controls may have moved.
@@ -57,10 +58,11 @@ void dip_ui_destroy(DipUi **ui);
 
 void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
 
-// Ends the pass. After an event pass, returns whether a control took the event; then the event must
-// not do anything else. Tab and Shift+Tab move the focus, and so do arrow keys that the control
-// with the focus does not take. In a drawing pass, draws the tip of the control under the pointer
-// above everything else, and returns false.
+// Ends the pass. After an event pass, returns whether the event was used; then it must not do
+// anything else. A control may have taken it. Tab and Shift+Tab move the focus, and so do arrow
+// keys that the control with the focus does not take. Escape hides a tip. In a drawing pass, draws
+// the tip of the control under the pointer, once it is due, above everything else, and returns
+// false.
 bool dip_ui_end(DipUi *ui);
 
 // Returns the time at which a tip is due to appear. The caller must draw the window again at that
@@ -83,8 +85,8 @@ typedef struct DipUiControl {
                       // Copied. Several lines are separated by '\n'.
     bool disabled;    // The control takes no input. It still shows its tip, which says why; a click
                       // shows it at once.
-    bool skips_focus; // Tab passes the control over.
-    bool takes_arrows; // Left and Right change the control while it has the focus.
+    bool skips_focus; // The control never gets the focus.
+    bool takes_arrows; // Left, Right, Home and End change the control while it has the focus.
     bool takes_wheel;
     bool takes_digits; // Digits, '.' and Backspace go to the control while it has the focus.
                        // A click gives such a control a focus that shows.
@@ -94,8 +96,9 @@ typedef struct DipUiControl {
 typedef struct DipUiInput {
     bool hovered;  // The pointer is over the control.
     bool focused;  // The control has the focus and shows it: draw a ring.
-    bool held;     // A mouse button that was pressed over the control is still down.
-    bool pressed;  // The left button was released over the control, or Enter or Space was pressed.
+    bool held;     // A mouse button that was pressed over the control is down, or is released now.
+    bool pressed;  // The left button went down and up over the control, or Enter or Space was
+                   // pressed.
     bool began;    // The left button was pressed over the control.
     bool moved;    // The pointer moved over the control, or is dragged from it.
     bool right;    // The right button was pressed over the control.
@@ -127,8 +130,8 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
                    const char *tip);
 
 // Declares and draws a field that shows a number as a text. The user types another number and
-// presses Enter, or steps by the wheel or the arrow keys. Returns what the user did. Sets *typed to
-// the number that Enter ended, or to -1.
+// presses Enter or Space, or steps by the wheel or the arrow keys. Returns what the user did. Sets
+// *typed to the number that Enter or Space ended, or to -1.
 DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *text,
                                const char *tip, double *typed);
 
@@ -148,7 +151,7 @@ int64_t dip_ui_now_ns(const DipUi *ui);
 int dip_ui_pointer_x(const DipUi *ui);
 int dip_ui_pointer_y(const DipUi *ui);
 
-// Converts a length at scale 1 to pixels.
+// Converts a length at scale 1 to pixels. A length above 0 becomes at least one pixel.
 int dip_ui_px(const DipUi *ui, int length);
 
 void dip_ui_fill(DipUi *ui, DipRect rect, DipColour colour);
@@ -172,11 +175,11 @@ void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, i
                  const char *line);
 
 // Shows a text in lines that are as wide as `room`; '\n' breaks a line, too. Lines that do not fit
-// are left out. Returns the height of the lines in pixels.
+// are left out, and so are lines after the tenth. Returns the height of the lines in pixels.
 int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text);
 
-// Returns the height that dip_ui_text_block needs for all lines of a text of this width. The result
-// is the same in event passes and drawing passes.
+// Returns the height that dip_ui_text_block needs to show a text at this width. The result is the
+// same in event passes and drawing passes.
 int dip_ui_text_block_height(const DipUi *ui, int size, int width, const char *text);
 
 // Return the width and the height of a line of text in pixels. The results are the same in event

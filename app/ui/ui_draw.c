@@ -88,8 +88,10 @@ void dip_ui_picture(DipUi *ui, DipRect rect, const DipPixels *picture, uint64_t 
 
 // --- the tip -------------------------------------------------------------------------------------
 
-// Breaks a text into lines that are at most `width` pixels wide. '\n' breaks a line, too. Returns
-// the number of lines; what does not fit in TIP_MAX_LINES lines is left out.
+// Breaks a text into lines that are at most `width` pixels wide. A wider word gets a line of its
+// own.
+// '\n' breaks a line, too. Returns the number of lines; what does not fit in TIP_MAX_LINES lines is
+// left out.
 static int break_lines(const DipUi *ui, int size, const char *text, int width,
                        char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES]) {
     int count = 0;
@@ -170,7 +172,8 @@ static bool place_beside(const DipUi *ui, DipRect off, DipRect *box) {
 }
 
 // Draws the tip. If the pointer is in the rectangle of dip_ui_keep_tips_off and the window has room
-// beside this rectangle, the tip stands there. Otherwise it stands beside its control.
+// beside this rectangle, the tip stands there. Otherwise it stands beside its control, or at the
+// top of the window if there is no room either.
 static void draw_tip(DipUi *ui) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
     const int count = break_lines(
@@ -196,8 +199,8 @@ static void draw_tip(DipUi *ui) {
 
 // --- the end of a pass -------------------------------------------------------------------------
 
-// Moves the focus to the next control in the order of declaration. The first control follows the
-// last one.
+// Moves the focus to the next control in the order of declaration that can have the focus, or
+// backwards to the previous one. The first control follows the last one.
 static void move_focus(DipUi *ui, bool backwards) {
     int at = -1;
     for (int i = 0; i < ui->placed_count; ++i) {
@@ -271,7 +274,8 @@ static bool move_focus_by_key(DipUi *ui, const DipEvent *event) {
     return false;
 }
 
-// Forgets a focus whose control is gone, so that keys do not go to a control that nobody sees.
+// Hides a focus whose control is gone or can no longer have the focus, so that keys do not go to a
+// control that nobody sees.
 static void drop_lost_focus(DipUi *ui) {
     bool found = false;
     for (int i = 0; i < ui->placed_count; ++i) {

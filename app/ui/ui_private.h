@@ -34,7 +34,7 @@ struct DipUi {
     DipUiId focus;
     bool focus_shows; // The focus came by the keyboard, or the control takes digits.
     DipUiId typing;   // The number field into which the user types, or 0.
-    char typed[8];    // What the user has typed into it and not yet ended with Enter.
+    char typed[8];    // What the user has typed into it and not yet ended with Enter or Space.
     bool taken;       // A control took the event of this pass.
     bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
     bool tip_seen;    // The tip has been drawn.

@@ -1,6 +1,6 @@
-// Implements the command `diptych verify`. Draws pictures with every instruction set, on one thread
-// and on several, and compares them with the hashes that Diptych ships. Then measures the catalogue
-// of hard cases (docs/stability.md). Prints a table of both.
+// Implements the command `diptych verify`. Draws pictures with every instruction set of the
+// machine, on one thread and on several, and compares them with the hashes that Diptych ships. Then
+// measures the catalogue of hard cases (docs/stability.md). Prints a table of both.
 #include "app/verify/verify.h"
 
 #include "app/cli/machine.h"
@@ -15,14 +15,15 @@
 typedef struct VerifyOptions {
     DipProgramOptions program;
     bool all;     // True to run as many cases of each row of the catalogue as ./test does.
-    int threads;  // The number of threads to compare with one thread; 0 for all processors.
+    int threads;  // The number of threads to compare with one thread; 0 for all processors, at
+                  // least 2.
     bool verbose; // True to print every row of the catalogue.
 } VerifyOptions;
 
 // A verification in progress. A row of the catalogue is one promise, with its hard cases.
 typedef struct Verification {
     const VerifyOptions *options;
-    int threads[2];    // 1, and the number that the options give.
+    int threads[2];    // 1, and the number that the options ask for.
     DipPool *pools[2]; // A pool with each of these numbers of threads.
     DipProgress progress;
     int64_t done;
@@ -40,7 +41,7 @@ static void count_step(void *context) {
 
 // The result of drawing all pictures with one instruction set and one number of threads.
 typedef struct PictureResult {
-    uint64_t differing; // Number of pictures whose hash differs.
+    uint64_t differing; // Number of pictures whose hash differs; all if they could not be drawn.
     char first[200];    // The first case that differs, or why the pictures could not be drawn.
 } PictureResult;
 
@@ -87,7 +88,7 @@ static void verify_pictures(Verification *verification) {
 
 // --- hard cases -------------------------------------------------------------------------------
 
-// The result of a row over all instruction sets.
+// The result of a row over all instruction sets with which it is measured.
 typedef struct RowResult {
     bool holds;
     double worst;  // Greatest error.

@@ -45,6 +45,7 @@ static DipRenderer *create_renderer(const StabilityRun *run, const StabilityShot
     def.isa = run->isa;
     def.width = shot->width;
     def.height = shot->height;
+    def.force_all_effects = shot->force_all;
     if (shot->reflection) {
         def.reflection = *shot->reflection;
     }

@@ -19,6 +19,7 @@ typedef struct StabilityShot {
     // Frames that are drawn before, at most frame_index. Each is taken from 2 cm farther back than
     // the next, so that the picture has a past that moves.
     int frames_before;
+    bool force_all; // run all effects, needed or not (DipRendererDef.force_all_effects)
 } StabilityShot;
 
 // A picture in linear light, width * height * 3 values, top row first. Its owner frees rgb_lin.

@@ -6,55 +6,44 @@
 #include <stdio.h>
 #include <string.h>
 
-// Together, these settings use every step of sampling, filtering and effects, and every filter of
-// the finished picture. Their number and the step of a short run have no common divisor.
-static const char *const all_settings[] = {
-    "aa=none,af=none",
-    "aa=8,aaa=on,asd=2,af=16,aaf=on",
-    "aa=6,taa=on,af=2,miplod=performance,opt=advanced",
-    "aa=4,gi=off,mipdebug=on,opt=standard,af=8",
-    "aa=4,aaa=coverage,miplod=sharp,scale=1/1.5,upscale=easu,post=smaa,sharpen=high",
-    "aa=2,aaa=all,taa=history,miplod=sharper,scale=1.25,post=fxaa,sharpen=low",
-    "taa=history,af=4,scale=1/2,upscale=bicubic,sharpen=medium",
-    "aa=8,aaa=coverage,scale=2,post=smaa",
-    "aa=6,scale=1/1.3,upscale=bilinear,post=fxaa",
-};
+// Frames that a history has before the picture: as many as let the new picture's share be its
+// least one.
+enum { FRAMES_BEFORE = 6 };
 
-// Frames that a history has before the picture.
-enum { FRAMES_BEFORE = 3 };
-
-static bool draw_hash(StabilityRun *run, DipTestScene *scene, const char *settings, char hash[33]) {
+bool stability_draw_hash(StabilityRun *run, DipTestSceneKind kind, const char *settings,
+                         bool force_all, char hash[33]) {
+    static DipTestScene scene;
+    dip_test_scene_make(&scene, kind);
     const int before = strstr(settings, "taa=history") ? FRAMES_BEFORE : 0;
-    const StabilityShot shot = {.def = &scene->def,
-                                .pose = &scene->pose,
-                                .reflection = scene->reflection.width ? &scene->reflection : NULL,
+    const StabilityShot shot = {.def = &scene.def,
+                                .pose = &scene.pose,
+                                .reflection = scene.reflection.width ? &scene.reflection : NULL,
                                 .settings = settings,
                                 .width = 97,
                                 .height = 61,
                                 .time_ns = INT64_C(123456789012),
                                 .frame_index = 1 + (uint64_t)before,
-                                .frames_before = before};
+                                .frames_before = before,
+                                .force_all = force_all};
     StabilityPicture picture;
-    if (!stability_draw(run, &shot, &picture)) {
-        return false;
+    const bool drawn = stability_draw(run, &shot, &picture);
+    if (drawn) {
+        memcpy(hash, picture.hash, sizeof picture.hash);
+        stability_picture_free(&picture);
     }
-    memcpy(hash, picture.hash, sizeof picture.hash);
-    stability_picture_free(&picture);
-    return true;
+    dip_test_scene_free(&scene);
+    return drawn;
 }
 
 void stability_compare_hashes(StabilityRun *run, void (*progress)(void *context), void *context) {
-    static DipTestScene scene;
     const size_t step = (size_t)stability_count(run, 7, 1, 1);
     for (size_t i = 0; i < stability_hash_count && !run->broken; i += step) {
         const StabilityHash *expected = &stability_hashes[i];
         char hash[33];
-        dip_test_scene_make(&scene, expected->scene);
-        if (draw_hash(run, &scene, expected->settings, hash)) {
+        if (stability_draw_hash(run, expected->scene, expected->settings, false, hash)) {
             stability_expect(run, strcmp(hash, expected->hash) == 0, "%s with %s",
                              dip_test_scene_name(expected->scene), expected->settings);
         }
-        dip_test_scene_free(&scene);
         if (progress) {
             progress(context);
         }
@@ -62,17 +51,13 @@ void stability_compare_hashes(StabilityRun *run, void (*progress)(void *context)
 }
 
 bool stability_print_hashes(DipPool *pool) {
-    static DipTestScene scene;
     StabilityRun run = {.isa = DIP_ISA_SCALAR, .pool = pool};
-    for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
-        for (size_t s = 0; s < sizeof all_settings / sizeof *all_settings; s++) {
-            char hash[33];
-            dip_test_scene_make(&scene, (DipTestSceneKind)kind);
-            if (draw_hash(&run, &scene, all_settings[s], hash)) {
-                printf("    {DIP_TEST_SCENE_%s, \"%s\", \"%s\"},\n",
-                       dip_test_scene_name((DipTestSceneKind)kind), all_settings[s], hash);
-            }
-            dip_test_scene_free(&scene);
+    for (size_t i = 0; i < stability_hash_count && !run.broken; i++) {
+        const StabilityHash *row = &stability_hashes[i];
+        char hash[33];
+        if (stability_draw_hash(&run, row->scene, row->settings, false, hash)) {
+            printf("    {DIP_TEST_SCENE_%s, \"%s\", \"%s\"},\n", dip_test_scene_name(row->scene),
+                   row->settings, hash);
         }
     }
     if (run.broken) {

@@ -1,5 +1,5 @@
-// The shipped hashes. `stability --print-hashes` prints this table. A hash may change only together
-// with a change that must change pictures.
+// The shipped hashes. `stability --print-hashes` prints the rows with the hashes of its build. A
+// hash may change only together with a change that must change pictures.
 #include "renderer/catalogue/shipped_hashes.h"
 
 const StabilityHash stability_hashes[] = {

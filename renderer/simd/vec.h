@@ -414,6 +414,20 @@ VEC_INLINE Vi vi_lookup16(const int32_t table[16], Vi index) {
 #endif
 }
 
+// Returns table[index[i]] in lane i, for 0 <= index[i] < 32, as vi_lookup16 does.
+VEC_INLINE Vi vi_lookup32(const int32_t table[32], Vi index) {
+#if VEC_AVX512
+    return (Vi)_mm512_permutex2var_epi32(_mm512_loadu_si512(table), (__m512i)index,
+                                         _mm512_loadu_si512(table + 16));
+#elif VEC_AVX2
+    const Vi in_low = vi_lookup16(table, index & 15);
+    const Vi in_high = vi_lookup16(table + 16, index & 15);
+    return vi_select(index > 15, in_high, in_low);
+#else
+    return vi_gather(table, index);
+#endif
+}
+
 VEC_INLINE Vf vf_lookup16(const float table[16], Vi index) {
 #if VEC_AVX512
     return (Vf)_mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));

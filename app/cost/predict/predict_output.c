@@ -1,5 +1,7 @@
-// Prints predictions of times at another place (predict_elsewhere.h), and writes them as JSON and
-// CSV.
+// Prints the times that combinations of a report are predicted to take under other conditions than
+// the report's, and writes them as JSON and CSV. The conditions are the size of the pictures, the
+// camera path, the threads and the instruction set. Together they are called a place, and the place
+// that the times are predicted for is called "there" (predict_elsewhere.h).
 #include "app/cost/predict/predict_elsewhere.h"
 
 #include "app/files/whole_file.h"

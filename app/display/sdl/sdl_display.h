@@ -6,7 +6,8 @@
 
 // Opens a window with a picture of the given size in pixels, or with a smaller picture if the
 // screen is smaller. Fails with RUNTIME if there is no display, or if the display has too few
-// colours; the message says which. The caller closes the display.
+// colours; the message says which. Fails with MEMORY when memory runs out. The caller closes the
+// display.
 bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err);
 
 // Shows the picture inside an X11 window of another program, the host. The display is a child of

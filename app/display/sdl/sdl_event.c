@@ -38,8 +38,8 @@ static const struct {
     {SDLK_KP_MINUS, '-'},
 };
 
-// If a key types a character, SDL's code of the key is that character's code point, as in
-// DipKeycode.
+// If a key outside the keypad types a character, SDL's code of the key is that character's code
+// point, as in DipKeycode.
 static DipKeycode key_of(SDL_Keycode sdl) {
     for (size_t i = 0; i < sizeof key_names / sizeof key_names[0]; ++i) {
         if (key_names[i].sdl == sdl) {
@@ -55,8 +55,8 @@ static DipKeycode key_of(SDL_Keycode sdl) {
     return sdl >= ' ' && sdl <= 0x10ffff ? (DipKeycode)sdl : DIP_KEYCODE_NONE;
 }
 
-// Returns the code of the letter or digit at the key's place on a US keyboard. Other keys are at
-// the same place in every layout, so their code is returned.
+// Returns the code of the letter or digit that a US keyboard has at the key's place. If a US
+// keyboard has another key there, returns `key`, the key's own code.
 static DipKeycode position_of(SDL_Scancode code, DipKeycode key) {
     if (code >= SDL_SCANCODE_A && code <= SDL_SCANCODE_Z) {
         return (DipKeycode)('a' + (int)(code - SDL_SCANCODE_A));

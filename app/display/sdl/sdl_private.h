@@ -12,7 +12,7 @@
 // Makes SDL send events of game controllers. If SDL cannot, there are no controllers.
 void dip_sdl_controller_init(void);
 
-// Translates an event. An event that display.h has no kind for becomes DIP_EVENT_NONE. A DROP
+// Translates an event. An event that event.h has no kind for becomes DIP_EVENT_NONE. A DROP
 // borrows the file's name from the SDL event; the caller must free that name. Opens a controller
 // that was added and closes one that was removed; SDL_Quit closes the rest.
 DipEvent dip_sdl_event_translate(const SDL_Event *sdl);
@@ -29,7 +29,8 @@ typedef struct DipSdlHost DipSdlHost;
 
 // Makes a child that covers the host's window. SDL must have been initialised with its X11 driver.
 // From then on, errors of the X server no longer end the process, because the host can destroy its
-// window at any time. Fails with MISSING if there is no such window, or with RUNTIME.
+// window at any time. Fails with MISSING if there is no such window, with RUNTIME if there is no
+// X11 display, or with MEMORY.
 DipSdlHost *dip_sdl_host_open(unsigned long window_id, DipError *err);
 
 // Destroys the child and frees the host. *host may be NULL and becomes NULL.
@@ -52,7 +53,7 @@ bool dip_sdl_host_is_gone(DipSdlHost *host);
 void dip_sdl_host_hide_child(const DipSdlHost *host);
 
 // Returns whether the child cannot be seen, because the host's window or a window around it is
-// unmapped. Asks the X server four times a second. now_ns: time on any clock.
+// unmapped. Asks the X server at most four times a second. `now_ns` is the time on any clock.
 bool dip_sdl_host_is_hidden(DipSdlHost *host, int64_t now_ns);
 
 // Gives the child the keyboard focus. Returns whether it did not have the focus before.

@@ -23,7 +23,8 @@ bool dip_terminal_is_there(void);
 // become DIP_EVENT_QUIT; a second one of them ends the process at once.
 //
 // A process may have one such display at a time. Fails with RUNTIME if standard output is no
-// terminal or the terminal cannot be controlled. The caller closes the display.
+// terminal that can show pictures or the terminal cannot be controlled, or with MEMORY. The
+// caller closes the display.
 bool dip_terminal_display_open(DipDisplay *display, DipTerminalColours colours, DipError *err);
 
 #endif

@@ -1,5 +1,6 @@
-// Translates characters and escape sequences. The sequences are those of xterm; the Linux console,
-// rxvt, tmux and screen send the same ones or those listed in the tables below.
+// Translates characters and escape sequences. The sequences are those of xterm. For keys without
+// modifiers, the Linux console, rxvt, tmux and screen send the same ones or those listed in the
+// tables below.
 #include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
@@ -81,8 +82,8 @@ static DipEvent character_event(int character, unsigned modifiers) {
     return key_event(character, modifiers);
 }
 
-// Reads the modifiers of a sequence. xterm sends 1 plus a sum of bits: 1 Shift, 2 Alt, 4 Ctrl, 8
-// Super.
+// Reads the modifiers of a sequence. Terminals send 1 plus a sum of bits: 1 Shift, 2 Alt, 4
+// Ctrl, 8 Super (in xterm Meta).
 static unsigned modifiers_of(int parameter) {
     const unsigned bits = parameter > 1 ? (unsigned)parameter - 1 : 0;
     return (bits & 1 ? DIP_MODIFIER_SHIFT : 0u) | (bits & 2 ? DIP_MODIFIER_ALT : 0u) |
@@ -153,8 +154,7 @@ static DipEvent mouse_event(const Sequence *sequence) {
 
 // --- sequences ---------------------------------------------------------------------------------
 
-// Reads the numbers of a control sequence, which begins after ESC [. Returns false if more bytes
-// must follow.
+// Reads a control sequence from the byte after ESC [ on. Returns false if more bytes must follow.
 static bool read_sequence(const uint8_t *bytes, int count, Sequence *sequence) {
     int index = 0;
     bool detail = false; // A colon has come: details of a number follow, which nobody needs here.

@@ -145,7 +145,8 @@ static void use_signal_stack(void) {
     }
 }
 
-// Takes over the signals. A signal that the process ignores (as under nohup) stays ignored.
+// Takes over the signals. If the process ignores a signal that asks for something (as SIGHUP
+// under nohup), the signal stays ignored.
 static void take_signals(void) {
     struct sigaction polite = {.sa_handler = take_polite_signal};
     struct sigaction crash = {.sa_sigaction = take_crash_signal,

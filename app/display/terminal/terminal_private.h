@@ -18,9 +18,9 @@
 int dip_terminal_keys_read(const uint8_t *bytes, int count, bool ended, DipEvent *event);
 
 // --- terminal_mode.c -----------------------------------------------------------------------------
-// A process has one mode: all these functions concern the same terminal. Whatever ends the process,
-// the terminal gets back its settings, its screen and its cursor, unless the process dies by
-// SIGKILL.
+// A process has one mode: all these functions concern the same terminal. The terminal gets back
+// its settings, its screen and its cursor when the process exits, crashes or is ended by a
+// signal that the mode takes over (terminal_mode.c), but not by SIGKILL, for example.
 
 // What signals have asked for, as bits.
 enum {
@@ -39,7 +39,7 @@ bool dip_terminal_mode_enter(int input, int output, DipError *err);
 void dip_terminal_mode_leave(void);
 
 // Restores the terminal, stops the process as Ctrl+Z does, and enters the mode again when the
-// process goes on.
+// process goes on, unless a signal has asked it to quit.
 void dip_terminal_mode_suspend(void);
 
 // Sets the mode again, because another program may have changed it.
@@ -52,13 +52,15 @@ unsigned dip_terminal_mode_take_signals(void);
 int dip_terminal_mode_signal_fd(void);
 
 // Writes all bytes to the terminal. Returns false if the terminal is gone, and also if a signal
-// asks the program to quit while the terminal takes no bytes.
+// has asked the program to quit and the terminal has not taken all bytes at once.
 bool dip_terminal_mode_write(const char *bytes, size_t count);
 
 // --- terminal_writer.c ---------------------------------------------------------------------------
 // The writer remembers what the terminal shows and encodes only the cells that differ. A cell shows
-// two pixels of the picture, one above the other, as a half block (U+2580). Colours are rounded to
-// those of the terminal before cells are compared, so a change that nobody could see costs nothing.
+// two pixels of the picture, one above the other, as a half block (U+2580) if the terminal has
+// colours and UTF-8, otherwise as their mean. Colours are rounded to the terminal's palette, or
+// in true colour to 64 steps per channel, before cells are compared, so a change that is hard to
+// see costs nothing.
 
 // The environment variables that describe a terminal. A variable that is not set is NULL.
 typedef struct DipTerminalEnvironment {
@@ -75,7 +77,7 @@ DipTerminalEnvironment dip_terminal_environment(void);
 // NONE (no-color.org).
 DipTerminalColours dip_terminal_best_colours(const DipTerminalEnvironment *environment);
 
-// Returns false if the locale names a character set that has no half blocks.
+// Returns whether the locale is not set or its character set is UTF-8, which has half blocks.
 bool dip_terminal_has_utf8(const DipTerminalEnvironment *environment);
 
 // Returns false if the terminal has no escape sequences that place characters.
@@ -84,8 +86,8 @@ bool dip_terminal_can_place(const DipTerminalEnvironment *environment);
 // A cell as the terminal shows it.
 typedef struct DipTerminalCell {
     uint32_t code;  // Code point; 0: not known.
-    uint32_t ink;   // 0xRRGGBB, an index in the palette, or 0 if there are no colours.
-    uint32_t paper; // As `ink`; without colours, 1 means reverse video.
+    uint32_t ink;   // 0xRRGGBB or an index in the palette; 0 for a space and without colours.
+    uint32_t paper; // 0xRRGGBB or an index in the palette; without colours, 1 is reverse video.
 } DipTerminalCell;
 
 // Zero-initialise a writer, set its first two fields, and call dip_terminal_writer_resize.
@@ -98,7 +100,7 @@ typedef struct DipTerminalWriter {
     DipTerminalCell *shown; // Owned: what the terminal shows.
     char *bytes;            // Owned: the bytes of the last frame.
     size_t count;
-    // Colours, column and row at which the terminal writes its next character.
+    // The colours in which, and the place at which, the terminal writes its next character.
     DipTerminalCell pen;
     int column;
     int row;

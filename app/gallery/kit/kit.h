@@ -16,15 +16,15 @@
 // --- meshes --------------------------------------------------------------------------------------
 
 typedef enum DipKitShape {
-    DIP_KIT_NO_SHAPE, // The scene makes the mesh itself.
+    DIP_KIT_NO_SHAPE, // The scene makes the mesh itself or has none.
     DIP_KIT_SPHERE,   // Arguments: radius, slices, stacks.
     DIP_KIT_BOX,      // Arguments: lengths along x, y and z.
     DIP_KIT_PRISM,    // Arguments: radius, height, sides, 1 for smooth normals or 0.
     DIP_KIT_PLANE,    // Arguments: lengths along x and z, columns, rows.
     DIP_KIT_QUAD,     // Arguments: width, height.
-    // The die of seed 001 (gallery.h): a cube with edges of length 1 and no arguments. Each face
-    // shows another sixth of the texture's width, which holds the faces of one to six pips side by
-    // side. The pips of opposite faces add up to seven.
+    // The die of seed 001 (gallery.h): a cube with edges of length 1. It has no arguments. Each
+    // face shows another sixth of the texture's width, which holds the faces of one to six
+    // pips side by side. The pips of opposite faces add up to seven.
     DIP_KIT_DIE
 } DipKitShape;
 
@@ -43,16 +43,16 @@ bool dip_kit_mesh(DipMesh **mesh, const char *name, DipShape *shape, DipError *e
 
 // --- textures ------------------------------------------------------------------------------------
 
-// A texture and its compressed form, which is drawn with the settings opt=standard and
-// opt=advanced.
+// A texture and its compressed form. dip_quality_compresses says with which settings the
+// compressed form is drawn.
 typedef struct DipKitTexture {
     DipTexture *plain;
-    DipTexture *compressed; // NULL for textures that hold no colours.
+    DipTexture *compressed; // NULL if `plain` is drawn with all settings.
 } DipKitTexture;
 
 // A function that computes the sRGB colour and the alpha of the texel with the centre u, v (0..1).
 // All values are 0..1; before the call, rgba is opaque black. The function may use only + - * /,
-// sqrt and functions of the kit, so that all machines have the same texels.
+// sqrt, fabs and functions of the kit, so that all machines have the same texels.
 typedef void DipKitPaint(float u, float v, float rgba[4]);
 
 // A texture that the gallery makes for a scene, by computing each texel.
@@ -192,7 +192,8 @@ DipMatrix dip_kit_chain3(DipMatrix a, DipMatrix b, DipMatrix c);
 DipPass dip_kit_pass(const DipGalleryView *view, const DipDraw *draws, int draw_count,
                      const float clear_lin[3]);
 
-// Draws a pass with a pipeline of the pass's size, and adds its work to the view's counters.
+// Draws a pass with a pipeline of the pass's size. Adds the pass's work and times to the view's
+// counters and times.
 bool dip_kit_draw(const DipGalleryView *view, DipPipeline *pipeline, const DipPass *pass,
                   DipError *err);
 
@@ -334,7 +335,8 @@ static inline float dip_kit_greatest(float a, float b) {
     return a > b ? a : b;
 }
 
-// Returns 0 below `from`, 1 above `to` and a smooth transition between them.
+// Returns 0 if x is at `from` or beyond, 1 if it is at `to` or beyond, and a smooth transition
+// between them. `from` may be greater than `to`.
 static inline float dip_kit_smooth(float from, float to, float x) {
     const float t = dip_kit_clamp((x - from) / (to - from), 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);

@@ -58,9 +58,10 @@ static void find_parallel_rays(const DipKitLight *light, int count, Rays *rays) 
     }
 }
 
-// Multiplies each ray's strength by the diffuse factor, the cosine between the normal and the ray.
-// Writes to `specular` the strength times the specular factor: the cosine between the normal and
-// Blinn's half-way vector, raised to a power.
+// Multiplies each ray's strength by the diffuse factor, the cosine between the normal and the
+// ray. Writes to `specular` the strength times the specular factor: the cosine between the
+// normal and Blinn's half-way vector, raised to a power. Both results are 0 where the surface
+// faces away from the light.
 static void find_factors(const DipKitPoints *points, const DipKitMaterial *material, Rays *rays,
                          float *specular) {
     const DipKitVector eye = dip_kit_vector(points->eye);

@@ -14,7 +14,7 @@ typedef enum DipKitLightKind {
 
 typedef struct DipKitLight {
     DipKitLightKind kind;
-    float position[3];  // Of point and spot lights.
+    float position[3];  // Position of a point or spot light.
     float direction[3]; // Unit vector along which directional and spot lights shine.
     float colour[3];    // May exceed 1.
     float reach;        // Distance at which a point or spot light has half its strength.
@@ -28,7 +28,8 @@ typedef struct DipKitMaterial {
     int exponent_doubled; // The highlight's exponent is 2 to the power of this number.
 } DipKitMaterial;
 
-// Points of a surface. Element i of each array belongs to point i. All arrays are borrowed.
+// Points of a surface. Element i of position[0..2] and normal[0..2] belongs to point i. All
+// arrays are borrowed.
 typedef struct DipKitPoints {
     int count; // At most DIP_FRAGMENT_BATCH.
     const float *position[3];

@@ -31,8 +31,8 @@ static void shade_chequers(DipFragmentBatch *batch) {
     batch->sample_colour(batch, &batch->samplers[0], DIP_KIT_UV, batch->colour);
 }
 
-// Shades a sheet in one colour. The rim is a little more opaque, so that the sheet's shape shows in
-// every mode.
+// Shades a sheet in one colour. The rim is greyer and more opaque, so that the sheet's shape
+// shows in every mode.
 static void shade_sheet(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     for (int i = 0; i < batch->count; i++) {

@@ -3,7 +3,7 @@
 //
 // Two cubes have a colour per corner, and one has texture coordinates; each kind of vertex has its
 // own shaders. Two cubes turn in place, while the long one moves to the right and leaves the view.
-// Before each pass, bounding boxes decide which cubes are drawn. While the long cube is out of
+// Before each frame, bounding boxes decide which cubes are drawn. While the long cube is out of
 // view, the first cube has another mesh. One look draws the cubes into a target of characters: a
 // function of this file stores each pixel as a char, and a second pass shows the chars.
 #include "app/gallery/kit/kit.h"

@@ -1,9 +1,10 @@
 // Draws the gallery scene "model": an MD2 model with key-frame animation, lit in several ways. It
 // comes from seed 000; gallery.h says what a seed is.
 //
-// Flat, Gouraud and Phong shading differ only in their vertex and fragment shaders. A directional,
-// a point and a spot light shine on the model. The looks (the scene's variants) show it textured,
-// plain, and as a lit wireframe. Each vertex of a mesh holds its positions and normals in two
+// Gouraud and Phong shading differ only in their vertex and fragment shaders. Flat shading uses
+// Gouraud's shaders with other meshes, whose triangles share no vertices. A directional, a point
+// and a spot light shine on the model. The looks (the scene's variants) show it textured, plain,
+// and as a lit wireframe. Each vertex of a mesh holds its positions and normals in two
 // successive key frames, and the vertex shader blends them.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"

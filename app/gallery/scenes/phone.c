@@ -4,7 +4,8 @@
 // The phone is a box, as the die is. All faces of the phone show the same texture, which is
 // therefore stretched on the narrow sides. The display is a quad just above the box. In the seed,
 // the display shows a picture that the phone took. Here it shows what the phone's camera sees: a
-// first pass draws the die from there, and the display's shader samples this picture, the photo.
+// first pass draws the die and the table from there, and the display's shader samples this picture,
+// the photo.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "renderer/base/pages.h"
@@ -44,7 +45,7 @@ static void shade(DipFragmentBatch *batch) {
     dip_kit_light_texture(batch, own_colour, light);
 }
 
-// Shows the photo, with a black frame around it and a shutter button over it.
+// Shows the photo, with a shutter button over its lower part, which is darkened.
 static void shade_display(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float *u = batch->varying[DIP_KIT_UV];

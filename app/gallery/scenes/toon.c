@@ -2,8 +2,8 @@
 // says what a seed is.
 //
 // The fragment shader replaces the smooth intensity of the light by steps: the seed's four, or a
-// number of equal bands. The highlight has steps, too. Outlines need no stencil: each object's back
-// faces are drawn once more, a little larger and in a dark colour.
+// number of equal bands. The highlight has steps, too. Outlines need no stencil: the back faces
+// of each object but the floor are drawn once more, a little larger and in a dark colour.
 #include "app/gallery/kit/kit.h"
 
 #include <string.h>
@@ -15,7 +15,7 @@ typedef struct Uniforms {
     float colour[3];
     float light[3]; // Unit vector towards the light.
     int step_size;  // Size of the bands that divide 256 intensities; 0 for the seed's four steps.
-    float grow;     // How far the outline moves vertices along their normals, at distance 1.
+    float grow;     // How far the outline moves vertices along their normals, at depth 1.
 } Uniforms;
 
 static const int step_sizes[] = {0, 32, 52, 16};
@@ -68,8 +68,8 @@ static void shade_outline(DipFragmentBatch *batch) {
     }
 }
 
-// Moves each vertex along its normal, in proportion to its distance from the eye, so that outlines
-// have the same width everywhere in the picture.
+// Moves each vertex along its normal, in proportion to its depth (w in clip space), so that
+// outlines have the same width everywhere in the picture.
 static void outline_vertex(const DipVertexBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float *m = uniforms->object.to_clip;

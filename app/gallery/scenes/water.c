@@ -432,7 +432,8 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.45 * dip_cos(angle), 0.62, -0.45 * dip_sin(angle)}};
 }
 
-// Writes the draws of all objects but the water to content->draws. Returns their number.
+// Writes the draws of the courtyard and the mosaic to content->draws, but not those of the
+// water. Returns their number.
 static int list_court(const DipGalleryView *view, const DipKitCamera *seen,
                       const DipSampler *mosaic) {
     Content *content = view->content;

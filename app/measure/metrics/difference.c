@@ -1,4 +1,4 @@
-// Computes squared differences of pictures, their sums, and the metrics that follow from sums.
+// Computes differences of pictures, sums of their squares, and the metrics that follow from sums.
 #include "app/measure/metrics/difference.h"
 
 #include "app/measure/metrics/metrics.h"

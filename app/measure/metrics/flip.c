@@ -36,8 +36,8 @@ enum {
 
 // --- memory ------------------------------------------------------------------------------------
 
-// The scratch memory holds, for one block with its margin, six planes for filtering and the planes
-// of the analysis.
+// The scratch memory holds, for one block with its margin, six planes for filtering, the planes
+// of the analysis, and then one padded row.
 enum { SCRATCH_PLANES = 6 + PLANE_COUNT };
 
 static int smaller(int a, int b) {

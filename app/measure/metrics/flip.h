@@ -3,9 +3,9 @@
 // Oskarsson, Astrom, Fairchild, "FLIP: A Difference Evaluator for Alternating Images", 2020).
 //
 // Each picture is analysed on its own, so that a picture is filtered once and can be compared with
-// many others. The work is done in blocks (picture.h). Each block is filtered with a margin as wide
-// as the filters, so its pixels get the same bits as if the whole picture were filtered at once. A
-// DipFlip is not thread-safe; use one per thread.
+// many others. The work is done in blocks (picture.h). Each block is filtered with a margin as
+// wide as the filters reach, so its pixels get the same bits as if the whole picture were
+// filtered at once. A DipFlip is not thread-safe; use one per thread.
 #ifndef DIP_APP_MEASURE_METRICS_FLIP_H
 #define DIP_APP_MEASURE_METRICS_FLIP_H
 

@@ -42,8 +42,8 @@ typedef struct DipMeterStandard {
     const uint8_t *classes; // What each pixel shows (DipSeen). Kinds without regions ignore it.
 } DipMeterStandard;
 
-// A meter and the picture that it measures. The fields are private. A meter owns all that its
-// fields point to, except the pictures.
+// A meter and the picture that it measures. The fields are private. A meter borrows the data of
+// the picture and of the standard, and owns all else that its fields point to.
 typedef struct DipMeter {
     DipMeterKind kind;
     int width;
@@ -77,9 +77,10 @@ DIP_API void dip_meter_begin_burst(DipMeter *meter);
 // meter analyses it while it measures the first of these pictures.
 DIP_API void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard);
 
-// Begins the next picture of the burst. If the last picture is not complete, forgets it. test_lin
-// is the picture in linear light, if the caller has values more precise than the 8-bit codes of
-// `test`; otherwise it is NULL. Picture and standard are borrowed until the last step.
+// Begins the next picture of the burst. If the last picture is not complete, forgets it; in a
+// burst of several frames (DIP_METER_BURSTS), the last picture must be complete. test_lin is the
+// picture in linear light, if the caller has values more precise than the 8-bit codes of `test`;
+// otherwise it is NULL. Picture and standard are borrowed until the last step.
 DIP_API void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin);
 
 // Measures the next block or band of the picture. The results have the same bits as if the whole

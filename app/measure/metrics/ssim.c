@@ -7,7 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOMENTS = 5 }; // Planes of a, b, a^2, b^2 and ab; a and b are the lumas of the pictures.
+// Number of the planes of u, v, u^2, v^2 and u v, where u and v are the centred lumas of the two
+// pictures.
+enum { MOMENTS = 5 };
 
 static DipKernel1D window(void) {
     const double sigma = 1.5;

@@ -20,7 +20,7 @@
 
 enum {
     HALVES = 2,
-    TILES_AT_ONCE = 128,       // Tiles that one step of a job with a pool draws.
+    TILES_AT_ONCE = 128,       // Most tiles that one step draws, unless the job is live.
     PIXELS_AT_ONCE = 1 << 14,  // Pixels for which one step computes the mean of the halves.
     LIVE_CACHE_BYTES = 1 << 30 // A live job (truth.h) adds nothing to a cache larger than this.
 };

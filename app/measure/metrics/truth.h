@@ -81,8 +81,8 @@ DIP_API DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *ca
 DIP_API void dip_truth_job_destroy(DipTruthJob **job);
 
 // Takes a step. Returns RESULT when the truth of a level is complete, and DONE when the last one is
-// complete and stored. Fails with MEMORY, with the error of the def's function `draw`, or with IO
-// if the file cannot be written.
+// complete and stored. Fails with MEMORY, with the error of the def's function `draw`, with IO if
+// the file cannot be written, or with OVERSIZED if its name is too long.
 DIP_API DipStep dip_truth_job_step(DipTruthJob *job, DipError *err);
 
 // Returns the truth of the last complete level. Returns NULL if there is none, or while its memory

@@ -10,8 +10,8 @@
 
 // --- Student's t ---------------------------------------------------------------------------------
 
-// Returns the probability that |t| is at most `t`, for a whole number of degrees of freedom
-// (Abramowitz and Stegun 26.7.3 and 26.7.4).
+// Returns the probability that a variable with Student's t distribution lies between -t and t, for
+// a whole number of degrees of freedom (Abramowitz and Stegun 26.7.3 and 26.7.4).
 static double within_whole(double t, int degrees) {
     const double angle = atan(t / sqrt(degrees));
     const double cosine = cos(angle);

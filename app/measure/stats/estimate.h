@@ -36,7 +36,7 @@ DIP_API DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_e
 
 // Returns the probability that the true value is at most `limit`. The logarithm of the value is
 // taken to have Student's t distribution. `common_error` is added to the estimate's log_error in
-// quadrature. Returns NAN if the estimate's error is not known.
+// quadrature. Returns NAN if the estimate's error is not known or its value is not positive.
 DIP_API double dip_estimate_chance_below(const DipEstimate *estimate, double limit,
                                          double common_error);
 

@@ -36,8 +36,9 @@ DIP_API void dip_normal_equations_add(DipNormalEquations *equations, const doubl
                                       double value, double weight);
 
 // Finds the prices >= 0 with the least sum of squared errors, sum_r weight (amounts . price -
-// value)^2. Terms that no row has, and terms that depend linearly on others, get the price 0.
-// Method: active set on the normal equations (Lawson and Hanson 1974, Bro and de Jong 1997).
+// value)^2. Terms that no row has get the price 0. Of terms that depend linearly on each other, at
+// least one gets the price 0. Method: active set on the normal equations (Lawson and Hanson 1974,
+// Bro and de Jong 1997).
 DIP_API void dip_least_squares_nonnegative(const DipNormalEquations *equations, double *prices);
 
 // Finds the prices of either sign with the least sum of squared errors. Adds `ridge` to the

@@ -99,7 +99,8 @@ DIP_API void dip_times_fit_free(DipTimesFit **fit);
 
 // Returns the mean time of a subject's frames divided by the mean time of its base's frames. The
 // ratio is NAN if no block has times of both. It has no interval if there is only one start with
-// one round. The ratio of a base is 1, without an interval.
+// one round, or if a unit that the error needs (a start, or a round of the only start) has no
+// times. The ratio of a base is 1, without an interval.
 DIP_API DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject);
 
 // Returns the mean time of a subject's frames divided by that of another subject with the same
@@ -109,7 +110,7 @@ DIP_API DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int 
 // Returns how much a subject's ratio differs from visit to visit: 1.4826 times the median distance
 // of the visits' log ratios from their median. Changes of the ratio along the path are subtracted
 // before. For a subject that draws the same as its base (A/A), the value tells how noisy the
-// machine is. Returns NAN if there are fewer than two visits.
+// machine is. Returns NAN for a base, or if there are fewer than two visits.
 DIP_API double dip_times_spread(const DipTimesFit *fit, int subject);
 
 // A subject's times along the path, in milliseconds at the machine's usual speed in this log.
@@ -120,7 +121,7 @@ typedef struct DipAlong {
     // Standard error of the logarithm of the base's mean time, which all subjects of one base
     // share. The errors of the estimates above include it. NAN if it is not known.
     double level_error;
-    int timed; // Number of the subject's times.
+    int timed; // Number of the subject's times beside a time of its base; 0 for a base.
     int kept;  // Number of these times that were not disturbed.
 } DipAlong;
 
@@ -130,8 +131,8 @@ DIP_API DipAlong dip_times_along(const DipTimesFit *fit, int subject);
 // borrowed. All are 0 if the log has no times of parts.
 DIP_API const double *dip_times_shares(const DipTimesFit *fit, int subject);
 
-// Returns the time of each frame, in milliseconds, from which dip_times_along computes its values.
-// The array is borrowed.
+// Returns the time of each frame, in milliseconds, from which dip_times_along computes its values;
+// NAN if it is not known. The array is borrowed.
 DIP_API const double *dip_times_frames(const DipTimesFit *fit, int subject);
 
 #ifdef __cplusplus

@@ -248,8 +248,8 @@ static double common_rest(DipTimesWork *w, int count, const int *visits, const d
 }
 
 // Moves the times of frames closer to their mean, so that the variance of their logarithms falls by
-// noise_variance. Noise makes the times differ more than the true times do, so percentiles would be
-// too high. Keeps the mean.
+// noise_variance. If noise_variance is negative, moves them apart. Noise makes the times differ
+// more than the true times do, so percentiles would be too high. Keeps the mean.
 static void take_off_noise(double *ms, int frames, double noise_variance) {
     double mean = 0.0, squares = 0.0, before = 0.0, after = 0.0;
     for (int f = 0; f < frames; f++) {
@@ -348,7 +348,7 @@ static bool find_values(DipTimesWork *w, int set, double logs[DIP_TIMES_VALUE_CO
 // --- a subject -----------------------------------------------------------------------------------
 
 // Computes which share of the subject's time each part of its work takes. Leaves out disturbed
-// frames, unless most are disturbed.
+// frames, unless most are disturbed or the subject is a base.
 static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) {
     const bool all = w->is_base || 2 * subject->kept < subject->timed;
     double total = 0.0;
@@ -370,7 +370,9 @@ static void find_shares(const DipTimesWork *w, int s, DipTimesSubject *subject) 
 // Computes how far each unit moves the values. If find_values leaves out the unit, the move is
 // units - 1 times the difference that this makes (the jackknife). If find_values uses the times of
 // this unit alone, the move is the unit's values minus the mean of the values of all units that
-// have times. If some units have no times, this difference is scaled up.
+// have times. If some units have no times, this difference is scaled up. In the first case, all
+// moves are NAN if the values are not known without one of the units; in the second case, if fewer
+// than two units have times.
 static void find_moves(DipTimesWork *w, int s) {
     DipTimesFit *fit = w->fit;
     const int units = fit->units;

@@ -3,8 +3,9 @@
 //
 // A unit is a start of the program, or a round if there is one start. Each estimate is computed
 // again with each unit left out; how far the results differ shows how well the estimate is known
-// (the jackknife). The level of a base's frame is the logarithm of the time, in ms, that the frame
-// takes at the machine's usual speed.
+// (the jackknife). If every round draws all frames and there are several starts, a subject's
+// values are computed from each unit alone instead. The level of a base's frame is the logarithm of
+// the time, in ms, that the frame takes at the machine's usual speed.
 #ifndef DIP_APP_MEASURE_STATS_ROUNDS_FIT_PRIVATE_H
 #define DIP_APP_MEASURE_STATS_ROUNDS_FIT_PRIVATE_H
 
@@ -46,7 +47,9 @@ typedef struct DipTimesMoment {
     int first_frame; // The first frame that the visits draw.
 } DipTimesMoment;
 
-// What the fit finds for a base. Variances are those of a value's logarithm between units.
+// What the fit finds for a base. `variance` and `pooled` say how much the logarithm of each
+// DipTimesValue varies from unit to unit. The part of this variance that moves all subjects of the
+// base alike belongs to the base; the rest belongs to the single subjects.
 typedef struct DipTimesBase {
     double level_ms;      // Mean time of the base's frames.
     double level_error;   // Standard error of the logarithm of level_ms; NAN if it is not known.
@@ -54,7 +57,7 @@ typedef struct DipTimesBase {
     // Mean of DipTimesSubject.variance over the subjects of the base.
     double pooled[DIP_TIMES_VALUE_COUNT];
     double pooled_degrees;                  // Degrees of freedom for which `pooled` counts.
-    double variance[DIP_TIMES_VALUE_COUNT]; // Part of the variance that the base contributes.
+    double variance[DIP_TIMES_VALUE_COUNT]; // The base's part of the variance.
 } DipTimesBase;
 
 typedef struct DipTimesSubject {
@@ -63,7 +66,7 @@ typedef struct DipTimesSubject {
     double spread;                          // See dip_times_spread.
     double doubt;                           // Variance of the error of one frame's log time.
     double logs[DIP_TIMES_VALUE_COUNT];     // Logarithms of the values.
-    double variance[DIP_TIMES_VALUE_COUNT]; // Part of the variance that the subject contributes.
+    double variance[DIP_TIMES_VALUE_COUNT]; // The subject's part of the variance (DipTimesBase).
     double shares[DIP_TIMED_PARTS];         // See dip_times_shares.
 } DipTimesSubject;
 
@@ -97,7 +100,8 @@ typedef struct DipTimesWork {
     bool repeats;    // True if most frames were timed several times.
     bool is_base;    // True if the subject is the base itself, which has no pairs.
     double *level;   // [(1 + units) * frames]: levels from all units, then with each left out.
-    double *missing; // [1 + units]: variance of the true levels minus that of the fitted levels.
+    double *missing; // [1 + units]: by how much the true levels vary more along the path than the
+                     // fitted levels, which are smoothed: the difference of the two variances.
     double spread;   // As in DipTimesSubject.
     double doubt;    // As in DipTimesSubject.
     DipTimesMoment *moments; // [count]

@@ -9,7 +9,7 @@
 
 enum {
     SWEEPS = 40,     // Number of times that levels and speeds are fitted in turn.
-    SPEED_GROUPS = 4 // If there is one start, this many groups of rounds are compared by speed.
+    SPEED_GROUPS = 4 // If there is one start, at most this many groups of rounds are compared.
 };
 
 static int compare_cells(const void *a, const void *b) {

@@ -15,7 +15,7 @@
 enum {
     SETTLE_RUNS = 5,
     SETTLE_TRIES = 20,
-    MOST_IN_VAIN = 2 // So many repetitions in vain, one after another, are the last.
+    MOST_IN_VAIN = 2 // The driver is done after this many repetitions in vain (in_vain) in a row.
 };
 static const double settle_tolerance = 0.02;
 
@@ -89,7 +89,8 @@ struct DipDriver {
     double wait_ms, cpu_ms, run_ms; // Sums over all timed frames.
     bool has_wait, settled;
     int repeated;
-    int in_vain; // Number of last repetitions in which most frames were disturbed again.
+    int in_vain; // Number of repetitions in a row, up to the last one, in which most frames were
+                 // disturbed again.
 };
 
 static bool out_of_memory(DipError *err) {
@@ -354,7 +355,7 @@ static bool is_mostly_disturbed(const DipDriver *d) {
     return 2 * disturbed > d->fresh_count;
 }
 
-// Adds the fresh frames to the log.
+// Adds the fresh frames to the log. The frames of a repetition only replace worse ones.
 static void end_round(DipDriver *d) {
     for (int i = 0; i < d->fresh_count; i++) {
         const DipTimed *timed = &d->fresh[i];

@@ -18,9 +18,10 @@
 //   4. Repetition. A frame is disturbed if its threads, or those that drew the same frame of the
 //      base, waited too long for a core. While fewer than three quarters of a subject's frames are
 //      undisturbed, the driver draws the subject again in the rounds that have disturbed frames,
-//      next to its base, each round at most once. It keeps the new time of a frame if its threads
-//      waited less. The phase ends when most frames of two rounds in a row are disturbed again,
-//      since the machine is still busy.
+//      next to its base, each round at most once. The new time of a disturbed frame replaces the
+//      old one if its threads and those of the base's frame together waited less than before. The
+//      phase ends early when most frames of two rounds in a row are disturbed again, since the
+//      machine is still busy.
 //
 // A driver draws one frame per step, so the preview can stop between any two frames. Commands step
 // until the driver is done.
@@ -64,8 +65,8 @@ typedef struct DipDriverDef {
     // the frame's time. If it is 0, no frame counts as disturbed.
     double most_wait;
     // If the first start takes more than this share of the time of its rounds (estimated from the
-    // first round), there are only 2 starts with the same total number of rounds. If it is 0, there
-    // are always `starts`.
+    // first round), there are only 2 starts with the same total number of rounds, if that number is
+    // even. If it is 0, there are always `starts`.
     double most_start;
 } DipDriverDef;
 
@@ -119,8 +120,8 @@ typedef enum DipDriverStep {
     DIP_DRIVER_FAILED
 } DipDriverStep;
 
-// Makes a driver, which watches the threads of this process. The threads that draw must exist
-// before. Fails with DIP_ERROR_MEMORY.
+// Makes a driver. Unless calls->thread_use is set, it watches the threads of this process; those
+// that draw must then exist before. Fails with DIP_ERROR_MEMORY.
 DIP_API DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCalls *calls,
                                      DipError *err);
 DIP_API void dip_driver_destroy(DipDriver **driver);

@@ -2,7 +2,7 @@
 // often another thread took their core away.
 //
 // If the threads of a frame waited, other programs disturbed the frame, even if its time looks
-// normal. On Linux, the numbers come from /proc/self/task/*/schedstat (the first number is the time
+// normal. On Linux, the numbers come from /proc/PID/task/*/schedstat (the first number is the time
 // on a core, the second the time on the run queue, both in nanoseconds) and from getrusage. If the
 // system does not tell the waiting time, has_wait is false.
 #ifndef DIP_APP_MEASURE_TIMING_THREAD_USE_H
@@ -17,11 +17,11 @@
 extern "C" {
 #endif
 
-// Sums over the watched threads since they began.
+// Sums over the watched threads since they began, except `switches`.
 typedef struct DipThreadUse {
     int64_t cpu_ns;   // Time on a core.
     int64_t wait_ns;  // Time on the run queue, ready to run; 0 if has_wait is false.
-    int64_t switches; // Involuntary context switches.
+    int64_t switches; // Involuntary context switches of the calling process.
     bool has_wait;
 } DipThreadUse;
 

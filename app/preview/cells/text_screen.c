@@ -45,7 +45,8 @@ void dip_text_screen_fill(DipTextScreen *screen, DipTextArea area, DipColour pap
 }
 
 // Reads the next character and moves on to the one after it. The texts of the preview are valid
-// UTF-8, but a scene's name may hold anything; a byte that is not valid becomes U+FFFD.
+// UTF-8, but a scene's name may hold anything. A control character, and a byte that is not valid,
+// becomes U+FFFD.
 static uint32_t next_code(const char **text) {
     uint32_t code = 0;
     const size_t length = dip_utf8_read(*text, DIP_UTF8_MOST_BYTES, &code);

@@ -51,8 +51,9 @@ int dip_text_length(const char *text);
 int dip_text_put(DipTextScreen *screen, int row, int column, int end, DipTextColours colours,
                  const char *text);
 
-// Writes a text whose last character stands in the column before `end`, but not before `column`.
-// Returns the column of the text's first character.
+// Writes a text so that its last character stands in the column before `end`. A text that is too
+// long begins at `column` and ends in an ellipsis. Returns the column of the text's first
+// character.
 int dip_text_put_right(DipTextScreen *screen, int row, int column, int end, DipTextColours colours,
                        const char *text);
 

@@ -5,13 +5,13 @@
 #include <string.h>
 
 enum {
-    BLOCK_COLUMNS = 44,  // Width of a column of blocks; a setting is a block of several rows.
+    BLOCK_COLUMNS = 44,  // Width of a column of blocks; a block shows one setting.
     SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
     ROW_COLUMNS = 60,    // Least width of a setting that takes one row.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
     BRIEF_COLUMNS = 11,  // The same, if a setting has so many steps that its name must be short.
     STEP_COLUMNS = 6,    // Least width of a step in its row.
-    FIGURE_COLUMNS = 15, // Width of a step's time and error at the end of the row.
+    FIGURE_COLUMNS = 15, // Width of a step's time and change of FLIP at the row's end.
     MAX_BLOCK_COLUMNS = 3,
     MAX_LINE_STEPS = 6, // Most steps of a block on one line.
     MARGIN = 1
@@ -98,8 +98,8 @@ static const DipCostsStep *costs_step(const DipCostsRow *row, DipSetting setting
     return NULL;
 }
 
-// Writes a step's relative time and its error at the right ends of the areas `time` and `flip`.
-// Writes nothing if the report does not have the step.
+// Writes a step's relative time and its change of FLIP at the right ends of the areas `time` and
+// `flip`. Writes nothing if the report does not have the step.
 static void draw_figures(DipTextView *view, const DipCostsRow *costs, DipSetting setting, int step,
                          DipTextArea time, DipTextArea flip) {
     const DipCostsStep *found = costs_step(costs, setting, step);
@@ -121,8 +121,8 @@ static int step_lines(DipSetting setting) {
     return (dip_setting_info(setting)->step_count + MAX_LINE_STEPS - 1) / MAX_LINE_STEPS;
 }
 
-// Returns the number of rows of a block: the title, each line of steps with its figures, and a
-// blank row at the end.
+// Returns the number of rows of a block. A setting with two steps takes one row. Any other block
+// has the title, each line of steps with its figures, and a blank row at the end.
 static int block_rows(DipSetting setting, bool has_costs) {
     return is_switch(setting) ? 1 : 2 + step_lines(setting) * (has_costs ? 3 : 1);
 }
@@ -185,7 +185,7 @@ static void draw_blocks(DipTextView *view, DipTextArea body) {
         for (int i = 0; i < 5 && block_columns[c][i] >= 0; ++i) {
             const DipSetting setting = (DipSetting)block_columns[c][i];
             const int rows = block_rows(setting, view->state->costs != NULL);
-            if (row + rows <= body.row + body.rows + 1) { // The last row of a block is blank.
+            if (row + rows <= body.row + body.rows + 1) { // The last row may be blank.
                 draw_block(view, setting, row, body.column + MARGIN + c * BLOCK_COLUMNS);
             }
             row += rows;
@@ -263,7 +263,7 @@ void dip_text_draw_settings(DipTextView *view, DipTextArea body) {
     const int column_count = columns_of_rows(body.columns);
     const int columns = (body.columns - MARGIN) / column_count;
     const int rows = (DIP_SETTING_COUNT + column_count - 1) / column_count;
-    // If there are fewer rows than settings, the rows around the focused setting show.
+    // If not all rows fit, those around the focused setting show.
     const int focus_row = view->focused ? (int)view->focus % rows : 0;
     const int first = dip_max(0, dip_min(focus_row - body.rows / 2, rows - body.rows));
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {

@@ -5,11 +5,12 @@
 #include <string.h>
 
 enum {
-    MIN_PANE_ROWS = 8,    // Least height of the panes above settings, times or costs that the user
-                          // opened.
-    ROOMY_PANE_ROWS = 14, // Least height of the panes above settings that show without being asked
-                          // for.
-    LEAST_ROWS = 6        // A screen with fewer rows shows the panes and their labels only.
+    // If what the user opened (settings, times or costs) would leave the panes fewer rows than
+    // this, it gets at most half of the rows.
+    MIN_PANE_ROWS = 8,
+    // Settings that the user has not opened show only if they leave the panes as many rows.
+    ROOMY_PANE_ROWS = 14,
+    LEAST_ROWS = 6 // A screen with fewer rows shows the panes and their labels only.
 };
 
 static const DipTextColours bar = {{196, 202, 210, 255}, {32, 36, 43, 255}};
@@ -70,7 +71,7 @@ void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, 
 
 // --- labels, bar and keys ----------------------------------------------------------------------
 
-// Writes a pane's name, its frame time and its settings.
+// Writes a pane's name, its frame time (or that its picture is copied) and its settings.
 static void draw_label(DipTextView *view, const DipPreviewState *state, int pane, DipTextArea area,
                        const DipPaneFigures *figures) {
     static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
@@ -109,7 +110,7 @@ static void draw_labels(DipTextView *view, const DipPreviewState *state,
     }
 }
 
-// Draws a line between the panes, in the accent colour beside the edited pane.
+// Draws a line between the panes.
 static void draw_divider(DipTextView *view, const DipTextLayout *layout) {
     const DipTextArea left = layout->panes[DIP_PANE_CURRENT];
     const DipTextArea right = layout->panes[DIP_PANE_REQUESTED];
@@ -136,7 +137,8 @@ static void format_place(const DipPreviewState *state, char *text, size_t size_b
     }
 }
 
-// Writes the names of what the body can show on the left, and the path and its time on the right.
+// Writes on the left the names of what can show and, on the right, the path or the scene with its
+// time, or that the camera is free.
 static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     const int columns = view->screen.columns;
     const bool settings = !state->panel && !state->show_costs;

@@ -1,4 +1,4 @@
-// Writes the preview's labels, status line, settings and help into character cells, for a display
+// Writes the preview's labels, bar, settings, keys and help into character cells, for a display
 // that shows characters (display.h). The panes' pictures fill the cells that hold no text.
 //
 // The screen has, from top to bottom: a row of labels, the panes, a bar with the camera path, the
@@ -61,7 +61,7 @@ bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEve
 
 // --- for the parts of the view -----------------------------------------------------------------
 
-// Each function writes into the body what it can show: settings, times or costs.
+// Each function fills the body: the first one with settings, the others with times or costs.
 void dip_text_draw_settings(DipTextView *view, DipTextArea body);
 void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextLayout *layout,
                          const DipPaneFigures figures[DIP_PANE_COUNT]);

@@ -16,13 +16,13 @@
 struct DipRemote {
     DipControl *control;
     const DipPreviewMoment *moment; // Valid during a call; NULL between calls.
-    bool acted;                     // A request has been carried out in this turn.
-    bool waits;                     // A request waits for the next picture.
+    bool acted; // A request that may change the pictures was handled in this turn.
+    bool waits; // A request waits for the next picture.
     unsigned topics;
     unsigned subscriptions;
     uint64_t told[DIP_CONTROL_TOPIC_COUNT];   // Hash of each topic's last event.
     int64_t told_ns[DIP_CONTROL_TOPIC_COUNT]; // When this event was sent.
-    int64_t told_notice_ns;                   // When the notice that was sent last ends.
+    int64_t told_notice_ns;                   // When the notice that was seen last ends.
 };
 
 // --- settings, paths and time --------------------------------------------------------------------
@@ -318,7 +318,8 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
 
 // --- events --------------------------------------------------------------------------------------
 
-enum { PERIOD_NS = 250000000 }; // Shortest time between two events of times, prices or polls.
+// Shortest time between two events of times, prices or polls, unless a program subscribes.
+enum { PERIOD_NS = 250000000 };
 
 static bool wants(const DipRemote *remote, DipControlTopic topic) {
     return (remote->topics >> topic & 1) != 0;
@@ -384,7 +385,8 @@ static void send_notice(DipRemote *remote) {
     }
 }
 
-// Sends what has changed. After a subscription, sends everything once.
+// Sends what has changed. After a subscription, also sends once what has not changed, except
+// notices and picks.
 static void send_events(DipRemote *remote) {
     const unsigned topics = dip_control_topics(remote->control);
     const unsigned subscriptions = dip_control_subscriptions(remote->control);

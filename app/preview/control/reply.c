@@ -29,7 +29,8 @@ static double path_time_s(const DipPreviewState *state) {
     return 1e-9 * (double)time_ns;
 }
 
-// Returns the name by which the request `scene` asks for the scene that the session shows.
+// Returns the name of the scene that the session shows. The request `scene` takes all these names
+// except "tour".
 static const char *scene_name(const DipSession *session) {
     if (!session->shows_gallery) {
         return "models";

@@ -23,7 +23,8 @@ void dip_error_thread_destroy(DipErrorThread **thread);
 
 // Begins to measure a still (both panes' pictures of one pose and time) and forgets the previous
 // still. The still's pictures are copied. The caller must change the picture number whenever the
-// pictures change: a call with the same number as the previous call does nothing.
+// pictures change: a call with the same number as the previous call does nothing, unless
+// dip_error_thread_pause was called between them.
 void dip_error_thread_measure(DipErrorThread *thread, const DipStill *still,
                               unsigned picture_number);
 
@@ -64,7 +65,7 @@ typedef struct DipErrorSpread {
 
 // The pictures behind a result: the truth, and the FLIP map of each pane. Rows are packed.
 typedef struct DipErrorPictures {
-    uint64_t version; // Equal versions mean equal pictures; grows with each result.
+    uint64_t version; // Grows with each result. While it stays, only `flip` may change, to NULL.
     int width;
     int height;
     DipErrorJobResult result;
@@ -75,9 +76,10 @@ typedef struct DipErrorPictures {
     DipErrorSpread spread[DIP_PANE_COUNT];
 } DipErrorPictures;
 
-// Returns the newest pictures that belong to the last still, or NULL if there are none (yet). They
-// are valid until the next call of any function of this file except dip_error_thread_read. Only the
-// thread that calls dip_error_thread_measure may call this function.
+// Returns the newest pictures that were made with the truth of the last still. Returns NULL if
+// there are none (yet) or measuring is paused. They are valid until the next call of any function
+// of this file except dip_error_thread_read. Only the thread that calls dip_error_thread_measure
+// may call this function.
 const DipErrorPictures *dip_error_thread_pictures(DipErrorThread *thread);
 
 #endif

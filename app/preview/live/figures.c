@@ -232,7 +232,8 @@ static void add_error(Lines *lines, const DipPaneFigures *figures, int pane) {
     } else {
         add(lines, true, "Error", "refining: %d of %d samples", result->samples, all_samples);
     }
-    // An error within the noise of a coarse truth may prove to be larger against a finer one.
+    // The noise of the truth shrinks with more samples. An error that cannot be told from the noise
+    // so far may stand out later.
     const char *const floor = result->last ? " at floor" : " at floor so far";
     add(lines, false, "RMSE, linear", "%.4f%s", error->rmse_lin, error->at_floor ? floor : "");
     if (isinf(error->psnr_db)) {

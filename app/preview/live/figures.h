@@ -24,7 +24,7 @@ void dip_timing_add(DipTiming *timing, int64_t now_ns, double ms);
 void dip_timing_clear(DipTiming *timing);
 
 // Returns the median of the times added in the last second. If there are none, returns the time
-// added last, or 0 if no time was ever added.
+// added last, or 0 if no time was added since dip_timing_clear.
 double dip_timing_median_ms(const DipTiming *timing, int64_t now_ns);
 
 // Returns the number of times added in the last second, at most DIP_TIMING_SAMPLES.
@@ -48,7 +48,8 @@ typedef struct DipTaaPace {
     int64_t since_ns; // If `on`, when temporal antialiasing was turned on.
 } DipTaaPace;
 
-// Says whether frames come fast enough for temporal antialiasing.
+// Says whether frames come fast enough for temporal antialiasing. All members are 0 while no pane
+// uses it.
 typedef struct DipTaaSpeed {
     bool too_slow;
     int shown;  // Frames presented in the last second.

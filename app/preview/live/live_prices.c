@@ -17,8 +17,8 @@ struct DipLivePrices {
     DipSession *session;
     DipPrices *prices;
     DipPriceJob *job;
-    // One painter for gi=off and one for gi=on, because gi=off makes copies of meshes, which a
-    // renderer then keeps.
+    // The painters for gi=off and gi=on. With gi=off, a painter keeps a copy of the mesh of each
+    // repeated object. A single painter would make these copies again after every change of gi.
     DipPainter *painters[2];
     DipLivePicture picture;
     bool has_picture;
@@ -67,7 +67,8 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
         return false;
     }
     dip_painter_set_frame_index(painter, frame_index);
-    // A frame with which a history begins takes as long as a frame during a movement of the camera.
+    // The cut drops the history of temporal antialiasing. A frame without a history takes as long
+    // as a frame that is drawn while the camera moves.
     dip_painter_cut(painter);
     return dip_painter_set_quality(painter, quality, err) &&
            dip_painter_draw(painter, live->session->scene, &live->picture.pose,

@@ -2,10 +2,10 @@
 // nothing moves. These live prices (app/preview/prices/prices.h) are rough: they come from one
 // picture and few frames.
 //
-// The loop calls dip_live_prices_step in each turn in which camera and scene rest. A step draws one
-// frame or more within its budget. It measures first the times (price_job.h) and then, if the loop
-// has the picture's truth (the converged picture), the errors. Nothing is timed while another
-// thread draws a truth, because that would disturb the times.
+// The loop calls dip_live_prices_step in each turn in which camera and scene rest. A step draws
+// frames or compares pictures within its budget. First come rough times (price_job.h), then, if the
+// loop has the picture's truth (the converged picture), the errors, and then better times. Nothing
+// is timed while another thread draws a truth, because that would disturb the times.
 #ifndef DIP_APP_PREVIEW_LIVE_LIVE_PRICES_H
 #define DIP_APP_PREVIEW_LIVE_LIVE_PRICES_H
 
@@ -49,11 +49,12 @@ typedef struct DipLiveTruth {
     bool waits;       // The thread that draws the next truth waits for a free processor.
 } DipLiveTruth;
 
-// Measures for about budget_ms milliseconds, at least a frame or a part of a comparison. First
-// forgets the prices if the picture has changed. Errors against a coarser truth stay until all
-// errors against `truth` are known, because only errors against one truth can be compared. Returns
-// whether the panel must be drawn again, because prices or the text of their progress
-// (dip_prices_progress) have changed; the text changes four times a second at most.
+// If something is left to measure, measures for about budget_ms milliseconds, at least a frame or a
+// part of a comparison. First forgets the prices if the picture has changed. Errors against a
+// coarser truth stay until all errors against `truth` are known, because only errors against one
+// truth can be compared. Returns whether the panel must be drawn again, because prices or the text
+// of their progress (dip_prices_progress) have changed; the text changes four times a second at
+// most.
 bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
                           const DipQuality quality[DIP_PANE_COUNT], const DipLiveTruth *truth,
                           double budget_ms);

@@ -46,7 +46,7 @@ struct DipPriceJob {
 
     int rounds_of[DIP_PRICES_LIVE_ROWS]; // Rounds in which each row was timed.
     int blocks;                          // Blocks that are complete.
-    double drawn_ms;                     // Time of drawing all frames of this picture.
+    double drawn_ms;                     // Time of drawing all frames since dip_price_job_forget.
     int drawn;                           // Number of these frames.
     double waited;     // Share of a round's time that the threads waited, summed over all rounds.
     int waited_rounds; // Number of these rounds.

@@ -227,7 +227,8 @@ static bool take_event(DipPreview *preview, int timeout_ms) {
         return false;
     }
     const int64_t now_ns = dip_loop_clock_ns(preview);
-    if (dip_controllers_concern(&event)) { // A button has an action or stands for a key.
+    if (dip_controllers_concern(&event)) {
+        // A button of a game controller may stand for a key; `key` is then the event of that key.
         DipEvent key;
         if (dip_controllers_handle(&preview->controllers, &preview->state, &event, now_ns, &key)) {
             handle_event(preview, &key, now_ns);
@@ -402,8 +403,9 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     return true;
 }
 
-// After a picture was shown, waits for the display's next refresh. Otherwise waits up to
-// IDLE_WAIT_MS for an event.
+// After a picture was shown, waits for the display's next refresh and handles the events that
+// arrive. Otherwise waits up to IDLE_WAIT_MS for an event. While prices are being measured, handles
+// an event only if one waits already, so that the next turn can measure on.
 static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
         const bool busy = dip_live_prices_are_working(preview->live_prices) &&

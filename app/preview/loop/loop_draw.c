@@ -118,7 +118,7 @@ bool dip_loop_settles(const DipPreview *preview) {
     return has_history(preview) && preview->settling > 0;
 }
 
-// Lets the histories begin anew after a jump in time or to another path.
+// Lets the renderers' histories (taa=history) begin anew after a jump in time or to another path.
 static void cut_at_jumps(DipPreview *preview) {
     const DipCamPath *path = dip_preview_playing_path(&preview->state);
     const int64_t passed_ns = preview->state.play_ns - preview->drawn.play_ns;
@@ -176,8 +176,8 @@ bool dip_loop_alternates(const DipPreview *preview) {
            pane_alternates(preview, DIP_PANE_REQUESTED);
 }
 
-// Notes in the figures of panes with temporal antialiasing whether frames come fast enough. The
-// note changes only as often as the other figures.
+// Writes into the figures of each pane with temporal antialiasing whether frames come fast enough.
+// This entry changes only as often as the other figures.
 static void judge_taa(DipPreview *preview, int64_t now_ns) {
     const DipTaaSpeed speed =
         dip_taa_pace_update(&preview->taa_pace, dip_loop_alternates(preview),
@@ -210,9 +210,10 @@ static bool join_panes(const DipFrame panes[DIP_PANE_COUNT], DipCanvas *joined, 
     return true;
 }
 
-// Writes what the window shows (or, if the user asked for that, the panes side by side with their
-// gap) to the first of diptych-0001.png, diptych-0002.png, ... that does not exist yet, with texts
-// that tell how the picture was made. Fills in the file's name.
+// Writes what the window shows to a PNG file. If the user asked for a plain picture, writes only
+// the panes side by side, with their gap. The file's name is the first of diptych-0001.png to
+// diptych-9999.png that no file has yet. Text entries in the file tell how the picture was made.
+// Writes the name to `file`.
 static bool save_screenshot(DipPreview *preview, char *file, size_t size_bytes, DipError *err) {
     const bool plain = preview->state.plain_screenshot;
     DipCanvas joined = {0};

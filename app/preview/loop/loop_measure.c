@@ -25,8 +25,9 @@ static bool wants_prices(const DipPreview *preview) {
 }
 
 // Returns whether the settings' price tags or the advice need the truth (the converged picture),
-// against which their errors are measured. The thread that draws the truth is created only
-// when all times are known at least roughly, because it would disturb their measurement.
+// against which their errors are measured. For prices alone, the thread that draws the truth is
+// created only when all times are known at least roughly, because it would disturb their
+// measurement.
 static bool prices_need_truth(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     const bool shown = state->tools.tab == DIP_TAB_SETTINGS || state->tools.tab == DIP_TAB_ADVICE;

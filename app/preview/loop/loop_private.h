@@ -19,7 +19,7 @@
 
 #include <pthread.h>
 
-// The settings opt=standard and opt=advanced need compressed textures. This thread makes the
+// The settings opt=standard and opt=advanced need compressed textures. A thread makes these
 // textures after the first picture shows, while further frames are drawn, so that a change to these
 // settings delays no frame. A frame that needs the textures earlier waits for them.
 typedef struct DipPrefetch {
@@ -112,16 +112,15 @@ void dip_loop_enter_scene(DipPreview *preview);
 // Shows the scene that the user has asked for. If it cannot be opened, a notice says why and
 // the old scene stays.
 void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns);
-// Replaces the session or the cost report by what was loaded from a file that was dropped or has
-// changed.
+// Replaces the session or the cost report by the one that was opened last (reload.h).
 void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns);
 
 // --- loop_measure.c ------------------------------------------------------------------------------
 
 // Gives the maps (app/preview/tools/maps.h) a reading of the error thread and its newest pictures.
 void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading);
-// Measures errors while the window shows them and the camera rests. Returns whether there are new
-// errors to show.
+// Measures errors while the window, another program or the prices need them, and camera and scene
+// rest. Returns whether there are new errors to show.
 bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns);
 // Measures rough prices (live_prices.h) while the camera rests and the open dock (the panel with
 // the controls) or another program shows prices. Returns whether the dock must be drawn again.

@@ -73,8 +73,9 @@ static void follow_track(DipSession *session, DipPreviewState *state, const DipC
 // Puts the reload's new session in the place of the old one and updates the state.
 //
 // The settings that the user has chosen stay, unless the new session begins with other settings
-// than the old one did. They differ if the ini has changed. If a file was dropped, the camera
-// begins the new path. Otherwise it stays on the same path at the same time.
+// than the old one did. This happens only if the ini file has changed or is another one. If a file
+// was dropped, the camera begins the new path. Otherwise it stays on the same path at the same
+// time.
 static void hand_over(DipPreview *preview, bool dropped) {
     DipSession *session = preview->def.session;
     DipPreviewState *state = &preview->state;

@@ -38,13 +38,13 @@ typedef enum DipReloadKind {
     DIP_RELOAD_BEGUN,   // A session is being opened.
     DIP_RELOAD_SESSION, // A new session is open. Call dip_reload_take.
     DIP_RELOAD_COSTS,   // A new cost report is loaded.
-    DIP_RELOAD_FAULT    // Something cannot be opened. The log has all errors.
+    DIP_RELOAD_FAULT    // Something cannot be opened. The log has the errors of its files.
 } DipReloadKind;
 
 typedef struct DipReloadNews {
     DipReloadKind kind;
-    bool dropped;                 // The user dropped a file.
-    bool animated;                // The user chose another animation, and no further one waits.
+    bool dropped;                 // The news is about a file that the user dropped.
+    bool animated;                // The news is about the animation that the user chose last.
     bool warns;                   // With SESSION: the notice names what does not show.
     char notice[DIP_NOTICE_SIZE]; // What to tell the user.
     const DipCostReport *costs;   // With COSTS, the report. Valid until the next one is loaded.

@@ -15,7 +15,7 @@
 static const int64_t period_ns = 250000000;
 enum {
     RESTING_POLLS = 2,  // Polls without a change after which the files count as at rest.
-    MAX_ENTRIES = 2048, // Greatest number of files of a folder that are looked at.
+    MAX_ENTRIES = 2048, // Greatest number of names in a folder that are looked at.
     MAX_DEPTH = 1       // Levels of subfolders that are looked at.
 };
 

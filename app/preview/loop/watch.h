@@ -26,7 +26,7 @@ void dip_watch_end_list(DipWatch *watch);
 void dip_watch_file(DipWatch *watch, const char *file);
 
 // Watches the models, and the files that models use, in the folder of a file and in that folder's
-// subfolders. Ignores other kinds of files and the preview's screenshots.
+// direct subfolders. Ignores other kinds of files and the preview's screenshots.
 void dip_watch_folder(DipWatch *watch, const char *file);
 
 // Looks at the files if a quarter of a second has passed since the last look. Returns true once

@@ -26,8 +26,10 @@ typedef struct DipPreviewChoice {
     DipCandidates candidates; // Measured by the report, or priced from one picture.
     int *front;               // The Pareto front (dip_front): indices of candidates. Owned.
     int front_count;
-    int base;         // Index of the candidate with the settings that prices start from, or -1.
-    DipAdvice advice; // The advice for the budget.
+    // Index of the candidate with the base settings: those of the report's baseline, or the
+    // defaults (dip_prices_base). -1 if no candidate has them.
+    int base;
+    DipAdvice advice;                  // The advice for the budget.
     int presets[DIP_MEASURED_PRESETS]; // Indices of candidates, or -1 while nothing fits.
     // What the members above were computed from.
     bool is_made;           // They have been computed.

@@ -40,10 +40,10 @@ void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 // Returns whether a pane's settings include the given step of the row's setting.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality);
 
-// Reads a cost report from the JSON file that `diptych cost` wrote. `prices`, unless it is NULL,
-// borrows the report until it gets another one. The caller frees the report. Returns NULL on
-// failure: with the errors of dip_cost_read_json, with MEMORY, or with CONFLICT if the report's
-// scene is not `scene`.
+// Reads a cost report that `diptych cost` wrote. `file` is the JSON file, or the folder that has it
+// as cost.json. `prices`, unless it is NULL, borrows the report until it gets another one. The
+// caller frees the report. Returns NULL on failure: with the errors of dip_cost_read_report, with
+// MEMORY, or with CONFLICT if the report's scene is not `scene`.
 DipCostReport *dip_costs_load(DipPrices *prices, const char *file, const char *scene,
                               DipError *err);
 void dip_costs_free(DipCostReport **report); // *report may be NULL.

@@ -33,8 +33,8 @@ void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]);
 // without another setting.
 void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes the tip of a step: what the step does, and its price. why: why the step cannot be chosen,
-// or "" if it can. budget_ms: as in dip_price_ms_text.
+// Writes the tip of a step: what the step does, and its price, which the steps of mipdebug lack.
+// why: why the step cannot be chosen, or "" if it can. budget_ms: as in dip_price_ms_text.
 void dip_step_tip(DipSetting setting, int step, const DipPrice *price, double budget_ms,
                   const char *why, char text[DIP_STEP_TEXT_BYTES]);
 

@@ -5,13 +5,14 @@
 
 #include <string.h>
 
-// A key without modifiers. A second key, `other`, does the same.
+// A key that acts without Ctrl; Shift reverses its action. A second key, `other`, does the same.
 #define KEY(key, other, action, argument, label, text)                                             \
     { key, other, DIP_ACTION_##action, argument, false, false, false, label, text }
 // Keys that go on acting while they are held.
 #define HELD(key, action, argument, reverse, label, text)                                          \
     { key, 0, DIP_ACTION_##action, argument, false, reverse, true, label, text }
-// CTRL and EDIT are keys that act with Ctrl. While held, only CTRL keys repeat their action.
+// CTRL and EDIT are keys that act with Ctrl. Of these two, only CTRL keys repeat their action while
+// they are held.
 #define CTRL(key, action, argument, reverse, label, text)                                          \
     { key, 0, DIP_ACTION_##action, argument, true, reverse, true, label, text }
 #define EDIT(key, edit, label, text)                                                               \
@@ -22,7 +23,7 @@
 #define SETTING(key, other, NAME, label) KEY(key, other, SETTING, DIP_SETTING_##NAME, label, NULL)
 #define PATH(digit)                      KEY('0' + digit, 0, PATH, digit, NULL, NULL)
 
-// W, A, S, D, Q and E fly the camera.
+// W, A, S, D, Q and E have no rows of their own, because they fly the camera (dip_keys_camera).
 const DipKeyRow dip_key_rows[] = {
     SETTING('x', DIP_KEYCODE_F2, AA, "X  F2"),
     SETTING('t', DIP_KEYCODE_F3, TAA, "T  F3"),

@@ -11,7 +11,7 @@ typedef struct DipKeyRow {
     int other; // A second key that does the same, or DIP_KEYCODE_NONE.
     DipAction action;
     int argument;
-    bool ctrl;         // The key acts while Ctrl is held.
+    bool ctrl;         // The key acts only while Ctrl is held.
     bool reverse;      // The action goes backwards, as with Shift.
     bool repeats;      // The action is repeated while the key is held.
     const char *label; // The key's name in the help; NULL if the help leaves the row out.

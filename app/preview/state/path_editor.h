@@ -36,10 +36,12 @@ typedef struct DipPathEditor {
 typedef enum DipPathEdit {
     DIP_PATH_EDIT_ADD,     // Inserts the camera's pose after the chosen key, and chooses it.
     DIP_PATH_EDIT_REPLACE, // Gives the chosen key the camera's pose.
-    DIP_PATH_EDIT_DELETE,  // Deletes the chosen key. The key before it becomes the chosen one.
+    DIP_PATH_EDIT_DELETE,  // Deletes the chosen key. Chooses the key before it, or else the new
+                           // first key.
     DIP_PATH_EDIT_NEXT,    // Chooses the next key and moves the camera there.
     DIP_PATH_EDIT_BEFORE,  // Chooses the key before and moves the camera there.
-    DIP_PATH_EDIT_FLY,     // Flies the path from the chosen key on, or stops flying.
+    DIP_PATH_EDIT_FLY, // Flies the path from the chosen key on, or stops flying. From the last key,
+                       // flies the whole path.
     DIP_PATH_EDIT_SAVE,
     DIP_PATH_EDIT_TAKE,   // Takes the keys of the path that plays, in place of the editor's keys.
     DIP_PATH_EDIT_SLOWER, // Sets the next longer time from key to key.
@@ -54,8 +56,8 @@ void dip_path_editor_destroy(DipPathEditor **editor);
 void dip_path_editor_see(DipPathEditor *editor, const DipPose *pose);
 
 // Carries out an edit. `playing` is the path that the preview plays, or NULL if there is none.
-// `end` says what paths do at their end. Returns false if nothing happened. editor->said tells what
-// happened, or why nothing did.
+// `end` says what paths do at their end. Returns false if the edit failed. editor->said tells what
+// happened, or why the edit failed.
 bool dip_path_editor_edit(DipPathEditor *editor, DipPathEdit edit, const DipCamPath *playing,
                           DipCamPathEnd end);
 
@@ -66,7 +68,7 @@ void dip_path_editor_choose(DipPathEditor *editor, size_t index);
 // returns true.
 bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *pose);
 
-// Stops flying the path.
+// Stops flying the path, and drops a move to the chosen key that has not been made yet.
 void dip_path_editor_stop(DipPathEditor *editor);
 
 #endif

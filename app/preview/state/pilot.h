@@ -19,7 +19,7 @@ void dip_pilot_change_speed(DipPreviewState *state, int steps, int64_t now_ns);
 // Chooses what paths do at their end: goes on by `step` in the ring of DipCamPathEnd.
 void dip_pilot_choose_end(DipPreviewState *state, int step, int64_t now_ns);
 
-// Edits a path. Does nothing without an editor.
+// Carries out an edit in the path editor (path_editor.h). Does nothing if there is no editor.
 void dip_pilot_edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns);
 
 // Chooses a key (a pose on the edited path, path_editor.h), and moves the free camera there.
@@ -61,8 +61,8 @@ typedef struct DipPilotTurn {
 } DipPilotTurn;
 
 // Carries out what mouse, keys, controllers and the path editor have asked of the free camera since
-// the last turn. The path editor stops when the user moves the camera. Returns whether the pose
-// changed.
+// the last turn. The path editor stops flying its path when the user moves the camera. Returns
+// whether the pose changed.
 bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose);
 
 #endif

@@ -15,8 +15,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// What a key can ask for. The argument of SETTING is a DipSetting, that of PATH is a category of
-// camera paths, and that of ANIMATION is the index of an animation of the models, or -1 for none.
+// What a key, a button or another program can ask for. The argument of SETTING is a DipSetting,
+// that of PATH is a category of camera paths, and that of ANIMATION is the index of an animation of
+// the models, or -1 for none.
 typedef enum DipAction {
     DIP_ACTION_SETTING,
     DIP_ACTION_NEXT_PANE,
@@ -105,10 +106,9 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
-    bool stands;           // Neither the path nor the scene moves the picture, even while time
-                           // runs.
-    bool scene_moves;      // The scene moves.
-    bool lacks_shadows;    // Nothing in the scene casts a shadow that `shadows` could draw.
+    bool stands;        // Neither the path nor the scene moves the picture, so time does not run.
+    bool scene_moves;   // The scene moves.
+    bool lacks_shadows; // Nothing in the scene casts a shadow that `shadows` could draw.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
@@ -126,7 +126,7 @@ typedef struct DipPreviewState {
     const char *scene_look;  // Name of the scene's variant; NULL if the panes show models.
     bool help;               // The help shows.
     char help_words[DIP_HELP_WORDS]; // If not empty, the help shows only keys with these words.
-    bool panel;                      // Each pane shows its times, errors and work.
+    bool panel;                      // The times, errors and work of the panes show.
     const DipCostReport *costs;      // Borrowed; NULL if there is no cost report.
     bool show_costs;                 // The table of costs shows.
     DipPreviewChoice *choice;        // What can be chosen now (choice.h). Borrowed; may be NULL.
@@ -158,7 +158,7 @@ typedef struct DipPreviewState {
     bool shows_presets;      // A narrow settings tab shows presets in place of settings.
     bool copy_settings;      // The user asked to copy the requested settings. Cleared when done.
     bool paste_settings;     // The user asked to paste settings. Cleared when done.
-    char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
+    char notice[DIP_NOTICE_SIZE]; // What just happened, for the user; may be empty.
     int64_t notice_end_ns;        // Time at which the notice goes away, on the clock of `now_ns`.
     unsigned scene_changes;       // Grows whenever the panes' pictures have to change.
 } DipPreviewState;
@@ -276,7 +276,8 @@ const char *dip_preview_category_title(int category);
 int dip_preview_category_of(DipSetting setting);
 
 // Writes the names of the settings that differ from their defaults, in full ("Antialiasing 4x,
-// Adaptive AA") or briefly ("AA 4x, adaptive AA"). The text is cut if it does not fit.
+// Adaptive AA") or briefly ("AA 4x, adaptive AA"). Writes "Default settings" if there are none. The
+// text is cut if it does not fit.
 void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes);
 
 #endif

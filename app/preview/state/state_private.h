@@ -1,4 +1,4 @@
-// Declares the actions that change settings. state.c dispatches all actions and calls these
+// Declares the actions that change settings. actions.c carries out all actions and calls these
 // functions, which state_settings.c defines.
 #ifndef DIP_APP_PREVIEW_STATE_STATE_PRIVATE_H
 #define DIP_APP_PREVIEW_STATE_STATE_PRIVATE_H

@@ -65,7 +65,7 @@ void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
 }
 
 // Shows a notice with the step that a setting has now. While the camera follows a path, switches to
-// the path that shows the setting best. A camera that rests or is free stays where it is.
+// the path that shows the setting best. A camera that is paused or free stays where it is.
 static void follow_setting(DipPreviewState *state, DipSetting setting, const char *step,
                            int64_t now_ns) {
     const int category = dip_preview_category_of(setting);
@@ -90,8 +90,8 @@ static bool take_step(DipQuality *quality, DipSetting setting, int step, DipErro
     return dip_quality_check(quality, err);
 }
 
-// Sets a setting to its next step that is valid with the other settings. Returns false if no other
-// step is valid.
+// Sets a setting to its next step, or with `reverse` the step before, that is valid with the other
+// settings. Returns false if no other step is valid.
 static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     const DipSettingInfo *info = dip_setting_info(setting);
     DipQuality candidate;

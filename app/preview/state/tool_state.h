@@ -49,7 +49,7 @@ typedef struct DipToolState {
     bool bare;        // The window shows nothing but the panes.
     double ui_scale;  // 0.75..4; multiplies the display's scale.
     bool fixed_scale; // The user gave a scale, so that the window's size does not change it.
-    bool loupe;       // The loupe follows the pointer or shows the pinned pixel.
+    bool loupe;       // The loupe is in use. It follows the pointer or shows the pinned pixel.
     int zoom;         // 2, 4, 8, 16 or 32.
     bool pinned;
     int x; // The loupe's pixel, in pixels of a pane's picture; below 0 stands for the middle.
@@ -61,7 +61,7 @@ typedef struct DipToolState {
     bool blinked;       // BLINK: shows the requested pane.
     bool blinks;        // BLINK: changes between the panes by itself, twice a second.
     DipMap map;
-    double brightness; // Of a map: divides the value at which its colour scale ends.
+    double brightness; // Divides the value at which a map's colour scale ends.
 } DipToolState;
 
 #endif

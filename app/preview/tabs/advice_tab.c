@@ -1,6 +1,7 @@
 // Declares the advice tab: the best settings for a time budget, what the next better settings cost,
-// and a plot of all settings that can be chosen. Everything comes from the preview's choice
-// (prices/choice.h), which is computed from a cost report or from live prices (prices.h).
+// and a plot of all settings that can be chosen. With live prices, words about cost reports take
+// the place of the last two. Everything else comes from the preview's choice (prices/choice.h),
+// which is computed from a cost report or from live prices (prices.h).
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -169,7 +170,7 @@ static void declare_advised(DipUi *ui, DipWindow *window, DipRect room) {
 
 // --- one step up and down ------------------------------------------------------------------------
 
-// Writes what changes from one combination of settings to another: "asd=1 -> asd=2".
+// Writes what changes from one combination of settings to another: "asd 1 → 2".
 static void format_change(const DipQuality *from, const DipQuality *to, char text[160]) {
     size_t length = 0;
     text[0] = '\0';

@@ -2,8 +2,8 @@
 // the button that folds the dock are on the right.
 //
 // In a narrow bar, the tabs first show symbols instead of their names. Then the bar leaves out
-// parts that keys can replace: the steps by one frame, the time line, the name of the path, and
-// playback.
+// parts that keys can replace: the steps by one frame, the time line, the name of the path,
+// playback, and the buttons for help, for "panes only" and for the full screen.
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"

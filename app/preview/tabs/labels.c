@@ -1,5 +1,5 @@
-// Draws the labels over the panes, and notices. Finds a pane's frame time, which the labels and the
-// panel show.
+// Draws the labels over the panes, and notices. Finds the time of a pane (tabs.h), which the labels
+// and the panel show.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
@@ -110,9 +110,10 @@ static int height_below(const DipUi *ui, int room, const char *text, int above, 
     return 3 * (above + height) > pane_height ? 0 : height;
 }
 
-// Draws a label, in one line if it fits. Otherwise, the settings go to lines of their own. If the
-// time still does not fit, it goes to lines of its own too, above the settings, because it may be a
-// warning, which must not be cut.
+// Draws a label, in one line if it fits, with the settings in brief if need be. Otherwise, the
+// settings go to lines of their own. If the time still does not fit, it goes to lines of its own
+// too, above the settings, because it may be a warning. Lines with which the label would be taller
+// than a third of the pane are left out.
 static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const DipRect rect = dip_compare_visible(window, pane);
     const bool edited = window->state->edited[pane];

@@ -175,8 +175,8 @@ static void draw_box(Part *part, DipRect rect) {
     }
 }
 
-// Shows the figures beside a crop. If there is room, also shows the pixel's box (loupe.h), which is
-// a picture of the pixel with its samples.
+// Shows the figures beside or beneath a crop. If there is room, also shows the pixel's box
+// (loupe.h), which is a picture of the pixel with its samples.
 static void show_details(Part *part, DipRect rect) {
     DipUi *ui = part->ui;
     const DipToolState *tools = &part->window->state->tools;

@@ -1,6 +1,6 @@
 // Explains the map in the maps' tab. Draws a scale of the map's colours with the distribution of
-// the values, or a key of the colours. Also draws tables of the whole frame and of the pixel under
-// the mouse.
+// the values, or a key of the colours. Also draws tables of the whole frame, and of the pixel or
+// the tile under the mouse or at the pinned pixel.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tabs/maps_tab_private.h"
 #include "app/preview/tools/map_colours.h"

@@ -277,7 +277,7 @@ static void draw_pane(const Tab *tab, int pane) {
     draw_words(tab, pane);
 }
 
-// Notes which pixel the pointer is over, in an event pass.
+// Notes which pixel the pointer is over. Only an event pass (ui.h) knows where the pointer is.
 static void follow_pointer(const Tab *tab, const DipUiInput panes[DIP_PANE_COUNT]) {
     DipMapView *view = &tab->maps->view;
     view->pointed = false;

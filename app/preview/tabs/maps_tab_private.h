@@ -44,7 +44,8 @@ static inline bool is_work_map(DipMap map) {
     return map == DIP_MAP_TIME || map == DIP_MAP_FRAGMENTS || map == DIP_MAP_PROBES;
 }
 
-// Returns the pixel that the tab describes: the one under the pointer, or else the pinned one.
+// Finds the pixel that the tab describes: the one under the pointer, or else the pinned one.
+// Returns false if there is none.
 static inline bool described_pixel(const Tab *tab, int *x, int *y) {
     const DipMapView *view = &tab->maps->view;
     const DipPixels *frame = &tab->window->frames[DIP_PANE_CURRENT];

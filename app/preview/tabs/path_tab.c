@@ -1,6 +1,6 @@
-// Declares the camera's tab: the choice of the path that the camera follows and of the animation
-// that the models play, the controls that fly the camera, and the editor of a path that the user
-// makes key by key.
+// Declares the path tab: the choice of the path that the camera follows and of the animation that
+// the models play, the controls that fly the camera, and the editor of a path that the user makes
+// key by key.
 #include "app/preview/state/pilot.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
@@ -121,7 +121,7 @@ static int declare_choices(DipFlow *flow, const Choices *choices) {
     return pressed;
 }
 
-// Declares one row of paths.
+// Declares one row of paths, unless there is only one path or the gallery shows.
 static void declare_paths(DipFlow *flow) {
     const DipPreviewState *state = flow->window->state;
     const char *texts[DIP_CAMTRACK_CATEGORIES], *names[DIP_CAMTRACK_CATEGORIES];

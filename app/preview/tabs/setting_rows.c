@@ -83,7 +83,8 @@ static bool is_valid(const DipPreviewState *state, DipSetting setting, int step,
     return false;
 }
 
-// Draws "none -> 4x", the current and the requested step, at the right end of a row.
+// Draws "none → 4x", the current and the requested step, at the right end of a row. Draws the
+// requested step alone if both are the same or there is no room.
 static void draw_values(DipUi *ui, const DipPreviewState *state, DipSetting setting, int size,
                         DipRect row) {
     const char *const *labels = dip_setting_info(setting)->labels;
@@ -142,7 +143,7 @@ typedef struct Slider {
     double most_ms;                 // The greatest time of a price, which has the longest bar.
     double most_flip;               // The greatest change of FLIP.
     bool rough;  // Some prices come from a few frames only. The word "ms" then gets a mark.
-    bool dimmed; // The setting has no effect with the pane's other settings.
+    bool dimmed; // The setting has no effect in this scene or with the pane's other settings.
 } Slider;
 
 // Draws a bar at the foot of a price. The length of the bar is proportional to `value`, and the
@@ -291,8 +292,8 @@ static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting settin
 }
 
 // Declares a button at the right end of *head that plays the path made to show the setting, and
-// cuts it off. Leaves it out if there is no such path, if it plays already, or if the setting has
-// no effect.
+// cuts it off. Leaves it out if there is no such path, if it plays already, if a scene of the
+// gallery shows, or if the setting has no effect.
 static void declare_path(DipUi *ui, DipWindow *window, DipSetting setting, DipRect *head) {
     DipPreviewState *state = window->state;
     const int category = dip_preview_category_of(setting);

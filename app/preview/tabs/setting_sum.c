@@ -256,7 +256,7 @@ static void draw_budget(DipUi *ui, const Parts *parts, double sum_ms, double bud
 }
 
 // Draws an entry of the legend at the left side of *rest, or in the row below if it does not fit.
-// room: the legend's first row.
+// Leaves out a time that rounds to 0.0. room: the legend's first row.
 static void draw_entry(DipUi *ui, DipRect room, DipRect *rest, const char *name, double ms,
                        DipColour colour, bool rest_of_sum) {
     const int swatch = dip_ui_px(ui, SWATCH), gap = dip_ui_px(ui, 4);
@@ -294,9 +294,9 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 
 // --- the sum -------------------------------------------------------------------------------------
 
-// Writes the note beside the sum. The note says one of three things: that the sum is doubtful, how
-// far it exceeds the budget, or what its 95 % interval is. The last two notes also say so if the
-// sum holds for a path.
+// Writes the note beside the sum. The note says that the sum is doubtful, how far it exceeds the
+// budget, or what its 95 % interval is; it is empty if none of these applies. The last two notes
+// also say so if the sum holds for a path.
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
     const double budget_ms = window->state->budget_ms;
     const char *scope = dip_pane_time_scope(window, sum);
@@ -315,8 +315,8 @@ static void format_note(const DipWindow *window, const DipPriceSum *sum, char no
     }
 }
 
-// Draws the sum and a note beside it. Where room is short, the sum has smaller letters, so that its
-// number is never cut.
+// Draws the sum and a note beside it. Where room is short, the sum has smaller letters, down to
+// those of the note, so that its number is not cut.
 static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum, DipRect rect) {
     const bool over =
         sum->ms > window->state->budget_ms && dip_price_sum_trust(sum) != DIP_PRICE_TRUST_DOUBTFUL;

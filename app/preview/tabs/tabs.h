@@ -16,7 +16,7 @@
 void dip_window_declare(DipUi *ui, DipWindow *window);
 
 // Each function declares and draws one tab in the rectangle `body`, which is never empty. Where the
-// room is too small, a tab leaves out whole parts and cuts none.
+// room is too small, a tab leaves out parts.
 void dip_tab_settings(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_loupe(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_compare(DipUi *ui, DipWindow *window, DipRect body);

@@ -46,8 +46,8 @@ const DipPixels *dip_compare_picture(const DipWindow *window, int pane, uint64_t
     return truth ? window->truth : &window->frames[pane];
 }
 
-// Returns the area in which a comparison of one picture shows: both panes, or the requested pane
-// while a drawer (layout.h) covers the current one.
+// Returns the area of a comparison that shows one picture in place of both panes. This is the area
+// of both panes, or of the requested pane while a drawer (layout.h) covers the current one.
 static DipRect area_of(const DipLayout *layout) {
     if (layout->side == DIP_DOCK_DRAWER && !dip_rect_is_empty(layout->body)) {
         return layout->panes[DIP_PANE_REQUESTED];
@@ -136,7 +136,7 @@ DipRect dip_compare_visible(const DipWindow *window, int pane) {
             shown.width = 0;
         }
         return shown;
-    default: // A difference belongs to both panes; its label says so.
+    default: // The other comparisons hide nothing.
         return shown;
     }
 }

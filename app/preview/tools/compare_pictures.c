@@ -93,9 +93,9 @@ void dip_compare_pictures(DipUi *ui, DipWindow *window) {
 
 // --- over the panes ------------------------------------------------------------------------------
 
-// Moves the divider to a pointer that drags. A drag may begin anywhere in the picture, because it
-// has no other meaning there. While the user flies the camera, only a drag near the divider moves
-// it.
+// Moves the divider to a pointer that drags or, with Shift, to the middle. A drag may begin
+// anywhere in the picture, because it has no other meaning there. While the user flies the camera,
+// only a drag near the divider moves it.
 static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) {
     DipToolState *tools = &window->state->tools;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);

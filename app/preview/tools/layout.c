@@ -3,7 +3,7 @@
 
 #include "app/ui/style.h"
 
-enum { PLAIN_HEIGHT = 1080 }; // Height of a window up to which the scale is 1.
+enum { PLAIN_HEIGHT = 1080 }; // Window height, in pixels, for which scale 1 is made.
 enum { BAR_HEIGHT = 32, BODY_HEIGHT = 208, LEAST_PANE_HEIGHT = 130, LEAST_DOCK_WIDTH = 640 };
 
 int dip_layout_dock_height(void) {

@@ -25,7 +25,7 @@ typedef struct DipLayout {
 } DipLayout;
 
 // Returns the scale of text and controls in a window of this height in pixels. Unless --ui-scale is
-// given, the scale grows by quarters in windows that are taller than 1080 pixels. So text stays
+// given, the scale is at least height / 1080, rounded down to a multiple of 0.25. So text stays
 // legible on a display with small pixels that reports a scale of 1. display_scale: the scale that
 // the display reports.
 double dip_layout_scale(double display_scale, const DipToolState *tools, int height);

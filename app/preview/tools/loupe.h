@@ -19,7 +19,8 @@
 // The part of a picture that the loupe shows. The looked-at pixel lies in the middle. Beyond the
 // picture's edges, the crop is empty.
 typedef struct DipLoupeCrop {
-    DipRect source; // Pixels of the picture that show; empty if the area is smaller than a pixel.
+    DipRect source; // Pixels of the picture that show; empty if the area has no room for one
+                    // enlarged pixel.
     DipRect shown;  // Where `source` shows, in pixels of the window.
     DipRect pixel;  // Where the looked-at pixel shows.
     DipRect frame;  // Where all pixels would show if the picture had no end.
@@ -147,9 +148,9 @@ typedef struct DipCropContent {
     DipLoupeCrop crop;
 } DipCropContent;
 
-// Draws the enlarged pixels of a pane, and marks the samples of pixels that show several patches.
-// *picture has the size of crop.frame and is valid until the next call for the pane. *version lies
-// in a range that no frame uses. Returns false if memory runs out.
+// Draws the enlarged pixels of a pane. From a zoom of 16 on, marks the samples of pixels that show
+// several patches. *picture has the size of crop.frame and is valid until the next call for the
+// pane. *version lies in a range that no frame uses. Returns false if memory runs out.
 bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
                             DipPixels *picture, uint64_t *version);
 

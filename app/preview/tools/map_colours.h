@@ -22,7 +22,7 @@ static inline int dip_map_colour_index(float value, float end) {
 // and below.
 double dip_map_round_up(double value);
 
-// Writes a value of at least 0 in two or three digits: "0", ".043", ".43", "4.30" or "43".
+// Writes a value of at least 0 with a few digits: "0", ".043", ".43", "4.30", "43" or "4321".
 void dip_map_format(double value, char *text, size_t size_bytes);
 
 #endif

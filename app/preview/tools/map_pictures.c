@@ -67,8 +67,8 @@ static void draw_tiles(DipMapPicture *picture, const DipMapWork *work, const Dip
     }
 }
 
-// Draws every pixel with differing samples in the scale's last colour, and darkens all other
-// pixels.
+// Draws every pixel with differing samples in the scale's last colour. All other pixels show the
+// grey picture, tinted with the scale's first colour.
 static void draw_mixed(DipMapPicture *picture, const DipMapWork *work, const DipPixels *frame) {
     uint8_t first[3], last[3];
     dip_cividis(0.0f, first);

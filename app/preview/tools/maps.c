@@ -93,7 +93,7 @@ static double median(const double *values, int count) {
 // replace the earlier ones, since each draw of a frame does the same work.
 static bool add_draw(DipMapWork *work, const DipFrame *frame) {
     if (!frame->tiles.records || (!work->records && !make_arrays(work, frame))) {
-        return false; // A render scale draws a larger picture, whose tiles are not recorded.
+        return false; // With a render scale, tiles are not recorded. Otherwise, memory ran out.
     }
     const int tiles = work->across * work->down;
     const int draw = work->draws++;
@@ -196,8 +196,8 @@ static bool draw(DipMaps *maps, const DipToolsInput *input, int pane) {
                                         : add_draw(&maps->panes[pane], &frame);
 }
 
-// Returns how often a pane must still be drawn to have `wanted_draws` draws for the wanted map. The
-// map of mip levels needs one draw.
+// Returns how often a pane must still be drawn to have `wanted_draws` draws for the wanted map; 0
+// or less if it has them. The map of mip levels needs one draw.
 static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
     const DipMapWork *work = &maps->panes[pane];
     if (pane == DIP_PANE_REQUESTED && maps->key.copied) {

@@ -1,7 +1,8 @@
 // Makes the maps: pictures over each pane that show where its error lies and where its work goes.
 //
 // The FLIP map comes from the thread that measures errors. For the other maps, a renderer of the
-// maps' own draws each pane's frame again with a record of its tiles, while camera and scene rest.
+// maps' own draws each pane's frame again while camera and scene rest: with a record of its tiles,
+// or in mip colours.
 // The panes' own frames are drawn as always and take no more time.
 #ifndef DIP_APP_PREVIEW_TOOLS_MAPS_H
 #define DIP_APP_PREVIEW_TOOLS_MAPS_H
@@ -14,10 +15,11 @@
 
 enum { DIP_MAP_DRAWS = 15 }; // How often a frame is drawn. A tile's time is the median.
 
-// What was measured of a pane's frame. The arrays are owned, NULL until the frame has been drawn,
-// and valid until the next dip_maps_update.
+// What was measured of a pane's frame. The arrays are owned, NULL until the frame has been drawn
+// for them, and valid until the next dip_maps_update.
 typedef struct DipMapWork {
-    int draws;              // Number of draws so far, 0..DIP_MAP_DRAWS. 0 if nothing is known.
+    // Number of draws with records so far, 0..DIP_MAP_DRAWS. The draw for `mips` does not count.
+    int draws;
     int width;              // Width of the frame, in pixels.
     int height;             // Height of the frame, in pixels.
     int across;             // Number of tiles from left to right.
@@ -151,7 +153,9 @@ const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gall
 // and colours of two levels mix where levels are blended.
 int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y);
 
-// Returns the colour of mip level `index` (0..7), which stands for a size of 1024 >> index texels.
+// Returns one of the colours that stand for sizes of mip levels. The colour `index` (0..7) stands
+// for 1024 >> index texels or more, up to the size of the colour before it. Colour 7 also stands
+// for all smaller levels.
 DipColour dip_map_mip_colour(int index);
 
 #endif

@@ -15,7 +15,8 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     return dip_fields_write_json(&dip_cost_report_record, report, file, err);
 }
 
-// --- the last format -----------------------------------------------------------------------------
+// --- the previous format
+// -----------------------------------------------------------------------------
 
 static cJSON *add_empty_text(cJSON *const object, const char *const name) {
     return cJSON_AddStringToObject(object, name, "");
@@ -32,8 +33,8 @@ static void add_missing(cJSON *object, const char *name,
     }
 }
 
-// Replaces the ends of an interval by null if they are equal. Files of format 2 have equal ends
-// where an interval is not known.
+// Replaces the ends of an interval by null if they are missing or equal. Files of format 2 have
+// equal ends where an interval is not known.
 static void forget_no_interval(cJSON *object) {
     static const char *const names[] = {"ms_low", "ms_high"};
     const cJSON *low = cJSON_GetObjectItemCaseSensitive(object, "ms_low");
@@ -73,7 +74,8 @@ static void add_searched(cJSON *predicted) {
     }
 }
 
-// Adds the members that format 3 always has and format 2 leaves out: they are null or empty.
+// Adds the members that format 3 always has and format 2 leaves out: they are null, 0 or empty.
+// Also forgets the intervals that are not known.
 static void upgrade(cJSON *root) {
     static const char *const nulls[] = {"machine", "predicted", "smaller"};
     static const char *const lists[] = {"left_out", "floors", "same_pictures",
@@ -143,7 +145,8 @@ static bool next_number(const cJSON **item, double least, double most, double *v
 
 // Adds the times of a row to the log. Older files have them as pairs: there is an array of the
 // times of the row's frames, and one of the times of the baseline's same frames. Two more arrays
-// have the waiting times. Frame f of a path belongs to round f % rounds.
+// have the waiting times. A pair in which the row's time is 0 is left out. Frame f of a path
+// belongs to round f % rounds.
 static bool add_pairs(const cJSON *pairs, DipCostReport *report, int row, DipTimed *log) {
     static const char *const names[] = {"base_ms", "ms", "base_wait", "wait"};
     const int base = report->base_rows[report->rows[row].path];

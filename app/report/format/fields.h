@@ -192,12 +192,12 @@ void dip_field_interval_text(const DipField *field, DipLimits limits, const DipE
                              char text[DIP_CELL_BYTES]);
 
 // A table of items of one record. Terminals and pages print the same columns. They leave out
-// columns whose values are all unknown, and the numbers of an object that are the same in all
-// lines. A value has its field's digits, its unit in the head, and, if it is a change, its sign. An
-// estimated change whose interval holds 0 is marked with '?'. An estimate has a second column for
-// its interval. A flag that is true is shown as its title. The cell of a value that is not known,
-// or of a flag that is false, is empty; terminals show '-' for an unknown number. All members are
-// borrowed.
+// columns whose cells are all empty and, in a table of several lines, the numbers of an object that
+// are the same in all lines. A value has its field's digits, its unit in the head, and, if it is a
+// change, its sign. An estimated change whose interval holds 0 is marked with '?'. An estimate has
+// a second column for its interval. A flag that is true is shown as its title. The cell of a value
+// that is not known, or of a flag that is false, is empty; terminals show '-' for an unknown
+// number. All members are borrowed.
 typedef struct DipTable {
     const char *id; // Id of the table in a page, and the name of the file that its CSV is saved to.
     const char *caption; // NULL or "" if there is none.

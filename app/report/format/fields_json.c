@@ -52,8 +52,10 @@ static void print_numbers(const DipField *field, const double *values, FILE *out
     fputs(field->names ? "}" : "]", out);
 }
 
-// Returns an item of a list. If the list's items are single values, returns the struct or array
-// that has the value.
+// Returns the DipFieldAt of item `index` of a list. Its member `item` is this item: a struct, or a
+// single value that list->item returned. If there is no such function and the items are no structs
+// of their own, `item` is instead the array or the struct that holds the values of all items, and
+// `index` selects among them.
 static DipFieldAt list_item(const DipFieldList *list, const DipFieldAt *at, int index,
                             DipFieldScratch *scratch) {
     DipFieldAt within = {at->context, NULL, index, at};
@@ -154,8 +156,9 @@ typedef struct Reader {
     DipErrorCode code;
 } Reader;
 
-// Puts a name before the path of the field at fault, and returns false. Each function that reads
-// calls this when it fails, from the innermost to the outermost, so the path grows at its front.
+// Puts a name before the path of the field at fault, and returns false. When a field cannot be
+// read, this function is called for the field, and then for each record, item and list that it lies
+// in, from the innermost to the outermost. So the path grows at its front.
 static bool fail(Reader *reader, DipErrorCode code, const char *name) {
     char rest[PATH_ROOM];
     reader->code = code;

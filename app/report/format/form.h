@@ -31,7 +31,7 @@ void dip_form_fact(DipForm *form, const char *term, const char *format, ...) DIP
 // Writes a fact whose text people copy. It is never broken into lines.
 void dip_form_code(DipForm *form, const char *term, const char *code);
 
-// Writes a table with its caption. A table without lines is left out. DIP_FORM_TABLE takes the
+// Writes a table with its caption. A table without items is left out. DIP_FORM_TABLE takes the
 // initialisers of a DipTable.
 void dip_form_table(DipForm *form, const DipTable *table);
 #define DIP_FORM_TABLE(form, ...) dip_form_table(form, &(DipTable){__VA_ARGS__})

@@ -19,7 +19,8 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err);
 // cost.json.
 bool dip_cost_read_report(const char *name, DipCostReport *report, DipError *err);
 
-// Writes one line per step of each sweep (the steps of one setting) and one per combination.
+// Writes one line per A/A row (the baseline, timed a second time), one per step of each sweep (the
+// steps of one setting), and one per combination, measured or only predicted.
 bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError *err);
 
 // Prints the report for a terminal.

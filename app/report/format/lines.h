@@ -5,7 +5,8 @@
 
 #include "app/report/format/cost_fields.h"
 
-// A line of a table. All members are borrowed. DipFieldAt.context is the report.
+// A line of a table. All members are borrowed. When fields of a line are wanted, the member
+// `context` of the DipFieldAt (fields.h) must be the report.
 typedef struct DipCostLine {
     const char *kind; // "a/a", "step", "combination", "predicted", "front" or "floor".
     int row;          // Row of the report; -1 if the combination was only predicted.

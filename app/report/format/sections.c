@@ -52,7 +52,7 @@ void dip_section_ini(DipForm *form, const DipQuality *quality) {
     dip_form_code(form, "Line for ini", text);
 }
 
-// Returns the settings in which the combinations differ (bit s for setting s).
+// Returns the settings in which some combination differs from the baseline (bit s for setting s).
 static unsigned varied_settings(const DipCostReport *report) {
     const DipCostPredictions *predicted = &report->predicted;
     const int rows = report->row_count - report->combined_first;

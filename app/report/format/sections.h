@@ -1,5 +1,5 @@
 // Writes the sections of a report for people, each for a terminal or for a page (form.h). Both get
-// the same sentences and tables. Pages add plots and pictures (app/report/page/).
+// nearly the same sentences and tables. Pages add plots and pictures (app/report/page/).
 #ifndef DIP_APP_REPORT_FORMAT_SECTIONS_H
 #define DIP_APP_REPORT_FORMAT_SECTIONS_H
 
@@ -7,7 +7,7 @@
 #include "app/report/format/lines.h"
 
 // Writes the best settings for each time budget. If there are four budgets, also writes them as the
-// tiers of a settings menu.
+// tiers of a settings menu. If the machine was too busy, writes instead that nothing is advised.
 void dip_section_answer(DipForm *form, const DipCostReport *report);
 
 // A tier of a game's settings menu, such as "low" or "ultra".
@@ -21,7 +21,8 @@ typedef struct DipCostTier {
 enum { DIP_COST_TIER_COUNT = 4 };
 void dip_section_tiers(DipForm *form, DipCostTier *tiers, int count);
 
-// Writes as a fact the settings that are as good as the chosen ones, if there are any.
+// Writes as a fact the settings that are as good as the chosen ones, if there are any. Names at
+// most DIP_ADVICE_TIES of them.
 void dip_section_ties(DipForm *form, const DipCandidates *candidates, const DipAdvice *advice);
 
 // Writes as a fact the line that puts settings into an ini file.
@@ -30,7 +31,8 @@ void dip_section_ini(DipForm *form, const DipQuality *quality);
 // Writes the Pareto front of time and error.
 void dip_section_front(DipForm *form, const DipCostReport *report);
 
-// Writes the combinations that draw the same pictures as others.
+// Writes the combinations that draw the same pictures as others, or only their number for a
+// terminal.
 void dip_section_same(DipForm *form, const DipCostReport *report);
 
 // Writes what was measured and how, and the verdict on the machine (app/report/verdict.h).
@@ -40,7 +42,7 @@ void dip_section_measured(DipForm *form, const DipCostReport *report);
 // predicted.
 void dip_section_predictions(DipForm *form, const DipCostReport *report);
 
-// Writes misses as a fact: their median and 90th percentile.
+// Writes misses as a fact: their median and 90th percentile. Writes nothing if there are no misses.
 void dip_section_misses(DipForm *form, const char *what, const DipCostMisses *misses);
 
 // Writes how far two settings do more or less together than alone (app/report/analysis.h).

@@ -1,5 +1,6 @@
 // Writes plots of time and error along the default path into the HTML page, for the baseline and
-// the advised combinations. Times are plotted at frames, and errors at viewpoints.
+// the advised combinations (or the knee of the Pareto front). Times are plotted at frames, and
+// errors at viewpoints.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"

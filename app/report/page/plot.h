@@ -15,7 +15,7 @@ enum { DIP_PLOT_MAX_SERIES = 12 };
 // borrowed. A plot of more than four series has no bars, because the bars would hide each other.
 typedef struct DipPlotSeries {
     const char *name; // Name of the line in the legend.
-    const double *x;  // Values in ascending order.
+    const double *x;  // Values, in ascending order unless marks_only is true.
     const double *y;
     const double *low; // Lower ends of the bars; NULL for none.
     const double *high;

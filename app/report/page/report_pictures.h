@@ -1,7 +1,7 @@
 // Makes the pictures of the HTML page. There is a set for each sweep (all steps of one setting),
-// and a set for the combinations on the Pareto front of time and error. A set shows several rows of
-// a report at one viewpoint, beside the truth (the converged picture). A row is one combination of
-// settings on a camera path.
+// and a set for the front: the advised combinations and those on the Pareto front of time and
+// error, as many as a set has room for. A set shows several rows of a report at one viewpoint,
+// beside the truth (the converged picture). A row is one combination of settings on a camera path.
 #ifndef DIP_APP_REPORT_PAGE_REPORT_PICTURES_H
 #define DIP_APP_REPORT_PAGE_REPORT_PICTURES_H
 
@@ -28,7 +28,7 @@ typedef struct DipCostPicture {
 typedef struct DipCostPictureSet {
     DipCostPicture truth;
     DipCostPicture pictures[DIP_COST_SET_ROWS];
-    int count;      // Number of rows; 0 if the set has no pictures at all.
+    int count;      // Number of rows; 0 if no pictures were made for the set.
     int path;       // Index of the camera path in the report.
     int viewpoint;  // Index of the viewpoint on the path.
     int x;          // Left edge of the crops, in pixels.
@@ -56,9 +56,9 @@ typedef struct DipCostPictures {
 // The greatest size of a page, in bytes.
 #define DIP_COST_PAGE_BYTES 10000000.0
 
-// Gets a frame of every row of the sweeps and of the front, at the middle one of the run's
-// viewpoints. Cuts out the crops and, with --pictures full, also keeps whole frames. Leaves out
-// pictures that do not fit in a page. With --pictures none, makes no pictures.
+// Gets a frame of every row of the sets, at the middle one of the run's viewpoints. Cuts out the
+// crops and, with --pictures full, also keeps whole frames. Leaves out pictures that do not fit in
+// a page. With --pictures none, makes no pictures.
 bool dip_cost_pictures_make(DipCostPictures *pictures, const DipCostReport *report,
                             const DipCostFrameSource *source, DipError *err);
 void dip_cost_pictures_free(DipCostPictures *pictures);

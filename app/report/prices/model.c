@@ -6,7 +6,7 @@
 #include <math.h>
 
 enum {
-    MOST_MISSES = 32, // Greatest number of rows whose known times are compared with predictions.
+    MOST_MISSES = 32, // Greatest number of rows that are predicted from composed work as a test.
     LEAST_JUDGED = 16 // Least number of rows with errors for a model of errors.
 };
 
@@ -46,7 +46,8 @@ static bool are_alike(const DipQuality *a, const DipQuality *b) {
 
 // Predicts a row as if its combination had never been run, from the rows that are not like it
 // (are_alike). Returns the miss, or a negative value if the row's work cannot be composed from that
-// of other rows.
+// of other rows, if the row lies on another path than path 0, or if it differs from the base in
+// fewer than two groups of settings.
 static double miss_of(const DipPriceView *view, const int *rows, int count, int row) {
     const DipCostRow *left_out = &view->report->rows[row];
     const DipQuality normal = dip_price_normal(&view->base, &left_out->quality);
@@ -68,8 +69,8 @@ static double miss_of(const DipPriceView *view, const int *rows, int count, int 
 }
 
 // Predicts up to MOST_MISSES rows that differ from the base in two groups of settings or more
-// (combinations.h), and summarises the misses. If there are no such rows, predicts each row from
-// its own counters.
+// (combinations.h), and summarises the misses. If there are no such rows, predicts every row from
+// its own counters, by the prices that fit all other rows.
 static DipCostMisses find_misses(const DipPriceView *view, const int *rows, int count) {
     double misses[MOST_MISSES];
     int known = 0;

@@ -7,12 +7,12 @@
 // that has no effect alone is priced together with its company: the settings that it needs, which
 // are then set both with the step and without it (view.h). AF and advanced AF are also priced
 // together with the antialiasing of the pane (one of the preview's two pictures), so that prices
-// add up. If that price is not known, the price with the same AA but without adaptive AA stands for
-// it, or else the price without antialiasing.
+// add up. If that price was not measured, the price with the same AA but without adaptive AA stands
+// for it if more is known of it, or else the price without antialiasing.
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
-// models of times and errors (fit.h) from its composed work (combinations.h). With too few rows for
-// the models, its time is the sum of prices.
+// models of times and errors (fit.h) from its composed work (combinations.h). If there are too few
+// rows for the models or for composing the work, its time is the sum of prices.
 #ifndef DIP_APP_REPORT_PRICES_PRICES_H
 #define DIP_APP_REPORT_PRICES_PRICES_H
 
@@ -20,7 +20,7 @@
 #include "app/report/report.h"
 
 typedef enum DipPriceState {
-    DIP_PRICE_UNKNOWN,   // The time was not measured, at least not yet.
+    DIP_PRICE_UNKNOWN,   // The time was neither measured nor predicted, at least not yet.
     DIP_PRICE_BASE,      // The step is that of the base: ms and flip are the base's time and error.
     DIP_PRICE_MEASURED,  // Measured along a path.
     DIP_PRICE_PREDICTED, // Not timed, but predicted by a report's model (fit.h).
@@ -54,8 +54,8 @@ typedef struct DipPrice {
                         // what it needs, such as "AF".
     char needs[24];
     char beside[48]; // The company: "aa=8,aaa=on"; "" if there is none.
-    char path[32];   // Name of the path on which the price was measured, such as "DEFAULT"; "" if
-                     // the report is of one picture.
+    char path[32];   // Name of the path that the price is for, such as "DEFAULT"; "" if nothing is
+                     // known or if the report is of one picture.
     // The machine was too busy for the report's times to be believed (its verdict is red).
     bool doubtful;
 } DipPrice;
@@ -134,8 +134,8 @@ DipPricesKnown dip_price_candidates(const DipPriceView *view, const DipQuality *
 // Lists the combinations that must be timed so that every step has a price, and so that the whole
 // times of both panes and of every combination one step away from the pane `requested` are known.
 // The base and the panes come first, then the combinations for the steps, ordered by their distance
-// from the steps of `requested`. The combinations for AF and advanced AF without antialiasing come
-// last. Writes at most `room` combinations; returns their number.
+// from the steps of `requested`, and then those one step away. The combinations for AF and advanced
+// AF without antialiasing come last. Writes at most `room` combinations; returns their number.
 enum { DIP_PRICE_MAX_WANTED = 96 };
 int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
                           const DipQuality *requested, DipQuality *list, int room);

@@ -385,7 +385,7 @@ static const StabilityRow rows[] = {
     {.id = "N48",
      .promise = "Pictures have the same bits with every instruction set, compiler and platform: no "
                 "approximate reciprocals, no fused operations, no functions of libm.",
-     .truth = "shipped hashes of 64 pictures, which a scalar build drew",
+     .truth = "shipped hashes of pictures that a scalar build drew",
      .unit = "pictures",
      .per_isa = true,
      .measure = measure_hashes},

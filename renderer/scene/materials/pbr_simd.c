@@ -30,25 +30,41 @@ typedef struct PbrPoint {
     Vf lit;       // share of the light with shadows that arrives
 } PbrPoint;
 
-// A lobe of reflected light: that of the surface or that of its coat.
-typedef struct Lobe {
-    Vf3 normal; // unit
-    Vf facing;  // n.v
-    Vf n_v;     // n.v, 0..1
-    Vf roughness;
-    Vf alpha;   // width for the surroundings
-    Vf alpha2;  // squared width for lights
-    Vf a, b;    // shares of f0 and f90 that uniform light gives
-    Vf grazing; // mean of (1 - v.h)^5 over diffuse light
-} Lobe;
-
-// --- tables --------------------------------------------------------------------------------------
-
 // A position between two entries of a table: the first of them, and the share of the second.
 typedef struct Entry {
     Vi index;
     Vf share;
 } Entry;
+
+// How wide a lobe is. All of it follows from the roughness.
+typedef struct Width {
+    Vf roughness;
+    Vf alpha2;    // squared width for lights
+    Vf lean;      // how far the direction in which the lobe sees the surroundings leans from the
+                  // normal (0) towards the mirrored direction (1)
+    Vf blur;      // share of the surroundings' difference in height that blurring leaves
+    Entry row;    // in the table of lobes
+    int only_row; // row.index if it is the same in all lanes, else DIP_ABSENT
+} Width;
+
+// A lobe of reflected light: that of the surface or that of its coat.
+typedef struct Lobe {
+    Vf3 normal; // unit
+    Vf facing;  // n.v
+    Vf n_v;     // n.v, 0..1
+    Width width;
+    Vf a, b;    // shares of f0 and f90 that uniform light gives
+    Vf grazing; // mean of (1 - v.h)^5 over diffuse light
+} Lobe;
+
+// The widths of the lobes of a surface that has the same roughness everywhere, which are computed
+// once for a batch.
+typedef struct Widths {
+    const Width *surface; // NULL: the roughness is not the same everywhere
+    const Width *coat;    // NULL: the surface has no coat
+} Widths;
+
+// --- tables --------------------------------------------------------------------------------------
 
 VEC_INLINE Entry find_entry(Vf value) {
     const float last = (float)(DIP_PBR_TABLE - 1);
@@ -70,56 +86,79 @@ VEC_INLINE Vf mix(Vf a, Vf b, Vf share) {
     return a + (b - a) * share;
 }
 
-// Reads the tables for the lobe of a surface of this roughness.
-VEC_INLINE void read_tables(const DipPbrTables *tables, Vf roughness, Lobe *lobe) {
+// The entries of the table of lobes around a roughness (near, far) and an angle (v after it).
+typedef struct LobeEntries {
+    Vi near, near_v;
+    Vi far, far_v;
+} LobeEntries;
+
+VEC_INLINE LobeEntries find_lobe(const DipPbrTables *tables, const Width *width, Vi v) {
+    if (width->only_row != DIP_ABSENT) {
+        const int32_t *near = tables->lobe + width->only_row * DIP_PBR_TABLE;
+        const int32_t *far = near + DIP_PBR_TABLE;
+        return (LobeEntries){vi_lookup32(near, v), vi_lookup32(near, v + 1), vi_lookup32(far, v),
+                             vi_lookup32(far, v + 1)};
+    }
+    const Vi first = width->row.index * DIP_PBR_TABLE + v;
+    const Vi second = first + DIP_PBR_TABLE;
+    return (LobeEntries){vi_gather(tables->lobe, first), vi_gather(tables->lobe, first + 1),
+                         vi_gather(tables->lobe, second), vi_gather(tables->lobe, second + 1)};
+}
+
+// Reads the tables for a lobe of known width and angle.
+VEC_INLINE void read_tables(const DipPbrTables *tables, Lobe *lobe) {
     const float unit = 1.0f / 65535.0f;
-    const Entry r = find_entry(roughness);
+    const Vf share = lobe->width.row.share;
     const Entry v = find_entry(lobe->n_v);
-    const Vi first = r.index * DIP_PBR_TABLE + v.index;
-    const Vi near = vi_gather(tables->lobe, first);
-    const Vi near_v = vi_gather(tables->lobe, first + 1);
-    const Vi near_r = vi_gather(tables->lobe, first + DIP_PBR_TABLE);
-    const Vi far = vi_gather(tables->lobe, first + (DIP_PBR_TABLE + 1));
-    lobe->a = unit * mix(mix(low_half(near), low_half(near_v), v.share),
-                         mix(low_half(near_r), low_half(far), v.share), r.share);
-    lobe->b = unit * mix(mix(high_half(near), high_half(near_v), v.share),
-                         mix(high_half(near_r), high_half(far), v.share), r.share);
-    const Vi grazing = vi_gather(tables->grazing, v.index);
+    const LobeEntries at = find_lobe(tables, &lobe->width, v.index);
+    lobe->a = unit * mix(mix(low_half(at.near), low_half(at.near_v), v.share),
+                         mix(low_half(at.far), low_half(at.far_v), v.share), share);
+    lobe->b = unit * mix(mix(high_half(at.near), high_half(at.near_v), v.share),
+                         mix(high_half(at.far), high_half(at.far_v), v.share), share);
+    const Vi grazing = vi_lookup32(tables->grazing, v.index);
     lobe->grazing = unit * mix(low_half(grazing), high_half(grazing), v.share);
 }
 
 // --- lobes ---------------------------------------------------------------------------------------
 
-VEC_INLINE Lobe make_lobe(const DipPbrTables *tables, Vf3 normal, Vf3 to_eye, Vf roughness) {
-    Lobe lobe = {.normal = normal, .facing = vf3_dot(normal, to_eye)};
-    lobe.n_v = clamp01(lobe.facing);
-    lobe.roughness = roughness;
-    lobe.alpha = roughness * roughness;
-    const Vf least = vf_max(lobe.alpha, vf_splat(LEAST_ALPHA));
-    lobe.alpha2 = least * least;
-    read_tables(tables, roughness, &lobe);
-    return lobe;
+VEC_INLINE Width width_of(Vf roughness) {
+    const Vf alpha = roughness * roughness;
+    const Vf least = vf_max(alpha, vf_splat(LEAST_ALPHA));
+    const Vf smooth = 1.0f - alpha;
+    const Vf blur = ((alpha * 0.0316f + 0.2566f) * alpha - 0.6222f) * alpha + 1.0083f;
+    return (Width){.roughness = roughness,
+                   .alpha2 = least * least,
+                   .lean = smooth * (vf_sqrt(smooth) + alpha),
+                   .blur = vf_min(blur, vf_splat(1.0f)),
+                   .row = find_entry(roughness),
+                   .only_row = DIP_ABSENT};
 }
 
-// Returns how far the direction in which a lobe sees the surroundings leans from the normal (0)
-// towards the mirrored direction (1).
-VEC_INLINE Vf lean_of(const Lobe *lobe) {
-    const Vf smooth = 1.0f - lobe->alpha;
-    return smooth * (vf_sqrt(smooth) + lobe->alpha);
+// Returns the width for a roughness that is the same in all lanes.
+VEC_INLINE Width width_of_all(float roughness) {
+    Width width = width_of(vf_splat(roughness));
+    int32_t rows[DIP_LANES];
+    vi_store(rows, width.row.index);
+    width.only_row = rows[0];
+    return width;
+}
+
+VEC_INLINE Lobe make_lobe(const DipPbrTables *tables, Vf3 normal, Vf3 to_eye, const Width *width) {
+    Lobe lobe = {.normal = normal, .facing = vf3_dot(normal, to_eye), .width = *width};
+    lobe.n_v = clamp01(lobe.facing);
+    read_tables(tables, &lobe);
+    return lobe;
 }
 
 // Returns the height (y) of the direction in which a lobe sees the surroundings, times the share
 // that blurring leaves of it.
 VEC_INLINE Vf reflected_height(const Lobe *lobe, Vf3 to_eye) {
-    const Vf s = lean_of(lobe);
+    const Vf s = lobe->width.lean;
     const Vf rest = 1.0f - s;
     const Vf mirrored = lobe->n_v * lobe->normal.y * 2.0f - to_eye.y;
     const Vf cosine = lobe->n_v * 2.0f - lobe->facing; // between the normal and the mirrored eye
     const Vf length2 = (rest * rest + s * s) + (s * rest) * cosine * 2.0f;
-    const Vf t = lobe->alpha;
-    const Vf blur = ((t * 0.0316f + 0.2566f) * t - 0.6222f) * t + 1.0083f;
-    return (lobe->normal.y * rest + mirrored * s) * inverse_length(length2) *
-           vf_min(blur, vf_splat(1.0f));
+    return (lobe->normal.y * rest + mirrored * s) * inverse_length(length2) * lobe->width.blur;
 }
 
 // What a light gives to a lobe, as shares of the light on a white surface that faces it.
@@ -135,14 +174,15 @@ VEC_INLINE LightShares meet_light(const Lobe *lobe, Vf3 to_eye, Vf3 to_light) {
     const Vf n_l = vf3_dot(lobe->normal, to_light);
     const Vf sum2 = vf_max(vf3_dot(to_eye, to_light) * 2.0f + 2.0f, vf_splat(1e-6f));
     const Vf along = vf_max(n_l + lobe->facing, vf_splat(0.0f));
-    const Vf d = along * along * (lobe->alpha2 - 1.0f) + sum2;
-    const Vf narrow = 1.0f - lobe->alpha2;
+    const Vf alpha2 = lobe->width.alpha2;
+    const Vf d = along * along * (alpha2 - 1.0f) + sum2;
+    const Vf narrow = 1.0f - alpha2;
     LightShares shares = {.facing = vf_max(n_l, vf_splat(0.0f))};
     const Vf n_v = vf_max(lobe->n_v, vf_splat(1e-4f));
     const Vf met = vf_min(shares.facing, vf_splat(1.0f));
-    const Vf shadows = met * vf_sqrt(n_v * n_v * narrow + lobe->alpha2) +
-                       n_v * vf_sqrt(met * met * narrow + lobe->alpha2);
-    shares.highlight = (met * lobe->alpha2 * 0.5f) * (sum2 * sum2) / (d * d * shadows);
+    const Vf shadows =
+        met * vf_sqrt(n_v * n_v * narrow + alpha2) + n_v * vf_sqrt(met * met * narrow + alpha2);
+    shares.highlight = (met * alpha2 * 0.5f) * (sum2 * sum2) / (d * d * shadows);
     const Vf rest = clamp01(1.0f - vf_sqrt(sum2) * 0.5f);
     shares.fresnel = (rest * rest) * (rest * rest) * rest;
     return shares;
@@ -181,23 +221,27 @@ VEC_INLINE Facing face_eye(DipFragmentBatch *batch, int i, Vf3 ray, const Maps *
 }
 
 // Makes the lobe of the surface itself. It widens where the normals of the map spread (Toksvig).
+// known: the lobe's width, or NULL if it follows from the maps.
 VEC_INLINE Lobe surface_lobe(const DipPbrUniforms *pbr, int i, const Facing *facing, Vf3 to_eye,
-                             const Maps *maps) {
+                             const Maps *maps, const Width *known) {
+    if (known) {
+        return make_lobe(pbr->tables, facing->mapped, to_eye, known);
+    }
     Vf roughness = vf_splat(pbr->roughness);
     if (maps->metal_rough) {
         roughness = roughness * vf_load(maps->metal_rough[1] + i);
     }
-    if (!maps->normal) {
-        return make_lobe(pbr->tables, facing->mapped, to_eye, roughness);
+    Width width = width_of(roughness);
+    if (maps->normal) {
+        const Vf bounded = vf_min(facing->inverse_length, vf_splat(10.0f));
+        const Vf spread = vf_max(bounded - 1.0f, vf_splat(0.0f)) * 2.0f;
+        const Vf alpha = roughness * roughness;
+        const Vf wide = vf_sqrt(vf_min(alpha * alpha + spread, vf_splat(1.0f)));
+        const Vf alpha2 = vf_min(width.alpha2 + spread, vf_splat(1.0f));
+        width = width_of(vf_sqrt(wide));
+        width.alpha2 = alpha2;
     }
-    const Vf bounded = vf_min(facing->inverse_length, vf_splat(10.0f));
-    const Vf spread = vf_max(bounded - 1.0f, vf_splat(0.0f)) * 2.0f;
-    const Vf alpha = roughness * roughness;
-    const Vf wide = vf_sqrt(vf_min(alpha * alpha + spread, vf_splat(1.0f)));
-    Lobe lobe = make_lobe(pbr->tables, facing->mapped, to_eye, vf_sqrt(wide));
-    const Vf least = vf_max(alpha, vf_splat(LEAST_ALPHA));
-    lobe.alpha2 = vf_min(least * least + spread, vf_splat(1.0f));
-    return lobe;
+    return make_lobe(pbr->tables, facing->mapped, to_eye, &width);
 }
 
 // The colours of a channel that no light changes.
@@ -231,12 +275,12 @@ VEC_INLINE void see_surroundings(const DipLightingUniforms *lighting,
                                  const DipEnvironmentMap *environment, const Lobe *lobe, Vf3 to_eye,
                                  Vf seen[3]) {
     if (environment) {
-        const Vf s = lean_of(lobe);
+        const Vf s = lobe->width.lean;
         const Vf of_normal = (1.0f - s) + lobe->n_v * s * 2.0f;
         const Vf3 towards = {lobe->normal.x * of_normal - to_eye.x * s,
                              lobe->normal.y * of_normal - to_eye.y * s,
                              lobe->normal.z * of_normal - to_eye.z * s};
-        read_environment(environment, towards, lobe->roughness, seen);
+        read_environment(environment, towards, lobe->width.roughness, seen);
         return;
     }
     const Vf height = reflected_height(lobe, to_eye);
@@ -304,10 +348,10 @@ VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms,
 
 // Covers a colour with the clear coat, which takes a share of what is below and adds its own lobe.
 VEC_INLINE void add_coat(const DipSurfaceUniforms *uniforms, const DipEnvironmentMap *environment,
-                         Vf3 normal, const PbrPoint *point, Vf sum[3]) {
+                         const Width *width, Vf3 normal, const PbrPoint *point, Vf sum[3]) {
     const DipPbrUniforms *pbr = uniforms->pbr;
     const DipLightingUniforms *lighting = uniforms->lighting;
-    const Lobe lobe = make_lobe(pbr->tables, normal, point->to_eye, vf_splat(pbr->coat_roughness));
+    const Lobe lobe = make_lobe(pbr->tables, normal, point->to_eye, width);
     const Vf rest = 1.0f - lobe.n_v;
     const Vf fresnel = (rest * rest) * (rest * rest) * rest * (1.0f - COAT_F0) + COAT_F0;
     const Vf left = 1.0f - fresnel * pbr->coat;
@@ -356,21 +400,21 @@ VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Vf3 ray, co
 }
 
 VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                                int i, const Maps *maps) {
+                                int i, const Maps *maps, const Widths *widths) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const Vf3 ray = view_ray(uniforms->rays, batch, i);
     const PbrPoint point = find_point(batch, i, ray, maps);
     const Facing facing = face_eye(batch, i, ray, maps);
-    const Lobe lobe = surface_lobe(pbr, i, &facing, point.to_eye, maps);
+    const Lobe lobe = surface_lobe(pbr, i, &facing, point.to_eye, maps, widths->surface);
     Vf sum[3];
     light_surface(uniforms, environment, &lobe, &point, sum);
     for (int c = 0; c < 3 && pbr->emits; c++) {
         const Vf share = maps->emission ? vf_load(maps->emission[c] + i) : vf_splat(1.0f);
         sum[c] = sum[c] + share * pbr->emission_lin[c];
     }
-    if (pbr->coat > 0.0f) {
-        add_coat(uniforms, environment, facing.mesh, &point, sum);
+    if (widths->coat) {
+        add_coat(uniforms, environment, widths->coat, facing.mesh, &point, sum);
     }
     for (int c = 0; c < 3; c++) {
         vf_store(batch->colour[c] + i, sum[c]);
@@ -415,6 +459,20 @@ VEC_INLINE void count_parts(DipFragmentBatch *batch, const Maps *maps) {
     batch->work.counts[DIP_SHADER_COUNT_COATED] += pbr->coat > 0.0f ? count : 0;
 }
 
+// Shades all fragments of a batch, whose own colours and maps have been read.
+VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
+                            const Maps *maps) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    const Width surface = width_of_all(pbr->roughness);
+    const Width coat = width_of_all(pbr->coat_roughness);
+    const Widths widths = {.surface = maps->metal_rough || maps->normal ? NULL : &surface,
+                           .coat = pbr->coat > 0.0f ? &coat : NULL};
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        shade_fragments(batch, environment, i, maps, &widths);
+    }
+}
+
 VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *environment) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float texture[3][DIP_FRAGMENT_BATCH];
@@ -436,9 +494,7 @@ VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *en
         read_shadow(batch, uniforms->normal_varying, lit);
         maps.lit = lit;
     }
-    for (int i = 0; i < batch->count; i += DIP_LANES) {
-        shade_fragments(batch, environment, i, &maps);
-    }
+    shade_lobes(batch, environment, &maps);
     count_parts(batch, &maps);
 }
 

@@ -673,9 +673,66 @@ static void composed_filters_write_the_pixels_of_their_pictures(void **state) {
     }
 }
 
+// A made-up truth of a fine mesh: which triangles are drawn follows from the samples on them, and
+// the pixels that show several fragments, which one sample cannot have, grow with the picture.
+static void make_fine_work(const DipQuality *quality, double *counters) {
+    const double scale = dip_quality_scale(quality);
+    const double density = dip_quality_sample_count(quality) * scale * scale;
+    const double others =
+        (1.0 + quality->step[DIP_SETTING_AF]) * (1.0 + 0.25 * quality->step[DIP_SETTING_AAA]);
+    memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    counters[DIP_COST_COUNTER_triangles_drawn] = 1000.0 * density / (1.0 + density) * others;
+    counters[DIP_COST_COUNTER_fragments_shaded] = 500.0 * scale * scale * others;
+    counters[DIP_COST_COUNTER_pixels_resolved] =
+        dip_quality_sample_count(quality) > 1 ? 100.0 * scale * scale : 0.0;
+}
+
+typedef struct Fine {
+    DipQuality base;
+    bool has_corners; // pairs of AA and render scale were counted
+    double counters[16][DIP_COST_COUNTER_COUNT];
+    int next;
+} Fine;
+
+static const double *find_fine(const void *context, const DipQuality *quality) {
+    Fine *fine = (Fine *)context;
+    double *counters = fine->counters[fine->next++ % 16];
+    make_fine_work(quality, counters);
+    const bool known = dip_work_count_groups(&fine->base, quality) <= 1 ||
+                       (fine->has_corners && dip_work_is_corner(&fine->base, quality));
+    return known ? counters : NULL;
+}
+
+// Antialiasing and render scale depend on each other. Their work is composed right from what both
+// do together, and wrong by up to almost half from what each does alone.
+static void antialiasing_and_render_scale_are_composed_together(void **state) {
+    (void)state;
+    static DipQuality list[1024];
+    const unsigned all = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_AF |
+                         1u << DIP_SETTING_SCALE;
+    Fine fine = {.base = dip_quality_default(), .has_corners = true};
+    Fine alone = {.base = fine.base};
+    const int count = dip_cost_list_combinations(&fine.base, all, list, 1024);
+    double worst = 0.0;
+    assert_true(count > 400 && count <= 1024);
+    for (int i = 0; i < count; i++) {
+        double truth[DIP_COST_COUNTER_COUNT], found[DIP_COST_COUNTER_COUNT];
+        make_fine_work(&list[i], truth);
+        assert_true(dip_work_compose(find_fine, &fine, &fine.base, &list[i], found));
+        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+            assert_true(fabs(found[c] - truth[c]) <= 1e-9 * truth[c]);
+        }
+        assert_true(dip_work_compose(find_fine, &alone, &alone.base, &list[i], found));
+        const int drawn = DIP_COST_COUNTER_triangles_drawn;
+        worst = fmax(worst, fabs(found[drawn] / truth[drawn] - 1.0));
+    }
+    assert_true(worst > 0.4);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(composed_work_is_one),
+        cmocka_unit_test(antialiasing_and_render_scale_are_composed_together),
         cmocka_unit_test(composed_filters_write_the_pixels_of_their_pictures),
         cmocka_unit_test(times_follow_from_work),
         cmocka_unit_test(posed_vertices_have_a_price),

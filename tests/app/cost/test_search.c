@@ -47,14 +47,17 @@ static void combinations_are_counted_without_a_list(void **state) {
 
 // --- what is kept --------------------------------------------------------------------------------
 
-// Every group of settings multiplies the work by a factor of its own.
+// Every group of settings multiplies the work by a factor of its own, but which triangles of a fine
+// mesh are drawn follows from antialiasing and render scale together.
 static void make_work(const DipQuality *quality, double *counters) {
     const uint8_t *step = quality->step;
     const double scale = dip_quality_scale(quality);
     const double samples = dip_quality_sample_count(quality);
     const double probes = 1.0 + 0.5 * step[DIP_SETTING_AF];
     memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    const double density = samples * scale * scale;
     counters[DIP_COST_COUNTER_triangles_in] = 2e4;
+    counters[DIP_COST_COUNTER_triangles_drawn] = 2e4 * density / (1.0 + density);
     counters[DIP_COST_COUNTER_samples_shown] = 3e5 * samples * scale * scale;
     counters[DIP_COST_COUNTER_fragments_shaded] = 3e5 * scale * scale;
     counters[DIP_COST_COUNTER_fragments_clip_tested] =
@@ -85,9 +88,10 @@ static DipCostModels make_models(uint64_t seed) {
 
 static const double *find_listed(const void *context, const DipQuality *quality) {
     const DipCostReport *report = context;
-    const int found = dip_work_count_groups(&report->options.baseline, quality) <= 1
-                          ? dip_report_find_predicted(&report->predicted, quality)
-                          : -1;
+    const DipQuality *base = &report->options.baseline;
+    const bool is_part =
+        dip_work_count_groups(base, quality) <= 1 || dip_work_is_corner(base, quality);
+    const int found = is_part ? dip_report_find_predicted(&report->predicted, quality) : -1;
     return found >= 0 ? report->predicted.list[found].counters : NULL;
 }
 
@@ -119,6 +123,12 @@ static void the_search_finds_the_best_of_all(void **state) {
         const double *base = find_listed(&report, &report.options.baseline);
         const double base_ms = dip_cost_model_value(&models.times, base, &report.options.baseline);
         assert_true(count > DIP_COST_MAX_ROWS && count <= 1 << 17);
+        int corners = 0;
+        for (int i = 0; i < report.predicted.count; i++) {
+            corners +=
+                dip_work_is_corner(&report.options.baseline, &report.predicted.list[i].quality);
+        }
+        assert_int_equal(corners, 4 * 7); // the other steps of AA times those of the scale
         assert_int_equal(report.predicted.searched, count);
         report.options.budgets_ms[0] = 1.5 * base_ms;
         report.options.budgets_ms[1] = 4.0 * base_ms;

@@ -204,6 +204,19 @@ static int pixels_at_edges(const Picture *p) {
     return count;
 }
 
+// Counts the pixels one of whose four neighbours is another colour.
+static int pixels_beside_others(const Picture *p) {
+    int count = 0;
+    for (int i = 0; i < p->width * p->height; i++) {
+        const int x = i % p->width, y = i / p->width;
+        const uint8_t *pixel = p->rgba8 + 4 * i;
+        count += (x > 0 && pixel[0] != pixel[-4]) || (x < p->width - 1 && pixel[0] != pixel[4]) ||
+                 (y > 0 && pixel[0] != pixel[-4 * p->width]) ||
+                 (y < p->height - 1 && pixel[0] != pixel[4 * p->width]);
+    }
+    return count;
+}
+
 // Antialiasing brings a straight border near to its exact coverage.
 static void borders_come_near_to_coverage(void **state) {
     (void)state;
@@ -216,16 +229,19 @@ static void borders_come_near_to_coverage(void **state) {
                 memset(p.rgba8 + 4 * (y * p.width + x), bright ? 255 : 0, 3);
             }
         }
-        DipPostWork work;
+        DipPostWork work, fxaa_work;
         Picture smaa = filtered(&p, DIP_POST_SMAA, 200, 240, 0.0f, dip_isa_best(), NULL, &work);
-        Picture fxaa = filtered(&p, DIP_POST_FXAA, 200, 240, 0.0f, dip_isa_best(), NULL, NULL);
+        Picture fxaa =
+            filtered(&p, DIP_POST_FXAA, 200, 240, 0.0f, dip_isa_best(), NULL, &fxaa_work);
         const double before = distance_from_coverage(&p, slopes[i]);
         const double with_smaa = distance_from_coverage(&smaa, slopes[i]);
         const double with_fxaa = distance_from_coverage(&fxaa, slopes[i]);
         assert_true(with_smaa < 0.65 * before);
         assert_true(with_fxaa < 0.75 * before);
         assert_int_equal(work.edges_found, pixels_at_edges(&p));
+        assert_int_equal(fxaa_work.edges_found, pixels_beside_others(&p));
         assert_int_equal(work.pixels_filtered, 200 * 240);
+        assert_int_equal(fxaa_work.pixels_filtered, 200 * 240);
         free(p.rgba8);
         free(smaa.rgba8);
         free(fxaa.rgba8);

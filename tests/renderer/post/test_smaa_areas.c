@@ -75,12 +75,10 @@ static void one_crossed_end_has_half_a_line(void **state) {
                 const float *found = areas.straight[ends[e].pattern][left][right];
                 const double length = left + right + 1;
                 double below = 0, above = 0;
-                if (ends[e].left && left < right) {
+                if (ends[e].left && left <= right) {
                     count(ends[e].left * 0.5, 0, 0, length / 2, left, &below, &above);
-                } else if (ends[e].right && left > right) {
+                } else if (ends[e].right && left >= right) {
                     count(0, ends[e].right * 0.5, length / 2, length, left, &below, &above);
-                } else if (left == right) {
-                    continue; // The line ends within the pixel; SMAA takes the trapezoid's mean.
                 }
                 assert_float_equal((double)found[0], below, 2e-4);
                 assert_float_equal((double)found[1], above, 2e-4);
@@ -89,22 +87,32 @@ static void one_crossed_end_has_half_a_line(void **state) {
     }
 }
 
-// Bumps of one height: from the greatest length on, nothing is added to the area.
-static void long_bumps_have_their_area(void **state) {
+// The share of a half of a bump. SMAA blends short bumps more than their areas, by the square root
+// of the area, and ever less so up to a length of 32 pixels.
+static double blended_more(double area, double length) {
+    const double share = fmin(length / 32, 1.0);
+    return share * area + (1.0 - share) * sqrt(2.0 * area) / 2;
+}
+
+// Bumps: the line runs from half a pixel beside the edge to its middle, and back.
+static void bumps_have_their_area_and_more_where_they_are_short(void **state) {
     (void)state;
-    const int pattern = DIP_SMAA_LEFT_ABOVE | DIP_SMAA_RIGHT_ABOVE;
-    for (int left = 16; left <= DIP_SMAA_STRAIGHT; left += 3) {
-        for (int right = 16; right <= DIP_SMAA_STRAIGHT; right += 3) {
-            const float *found = areas.straight[pattern][left][right];
-            const double length = left + right + 1;
-            double below, above, more;
-            if (left == right) {
-                continue;
+    static const int patterns[] = {DIP_SMAA_LEFT_ABOVE | DIP_SMAA_RIGHT_ABOVE,
+                                   DIP_SMAA_LEFT_BELOW | DIP_SMAA_RIGHT_BELOW};
+    for (int below = 0; below < 2; below++) {
+        const double height = below ? -0.5 : 0.5;
+        for (int left = 0; left <= DIP_SMAA_STRAIGHT; left++) {
+            for (int right = 0; right <= DIP_SMAA_STRAIGHT; right += 1 + right / 4) {
+                const float *found = areas.straight[patterns[below]][left][right];
+                const double length = left + right + 1;
+                double first[2], second[2];
+                count(height, 0, 0, length / 2, left, &first[0], &first[1]);
+                count(0, height, length / 2, length, left, &second[0], &second[1]);
+                const double wanted =
+                    blended_more(first[!below], length) + blended_more(second[!below], length);
+                assert_float_equal((double)found[!below], wanted, 4e-4);
+                assert_float_equal((double)found[below], 0.0, 0.0);
             }
-            count(0.5, 0, 0, length / 2, left, &below, &above);
-            count(0, 0.5, length / 2, length, left, &below, &more);
-            assert_float_equal((double)found[1], above + more, 2e-4);
-            assert_float_equal((double)found[0], 0.0, 0.0);
         }
     }
 }
@@ -122,27 +130,52 @@ static void edges_without_a_side_are_left(void **state) {
     }
 }
 
-// A diagonal without edges at its ends: the mean of the lines from (1, 1) to (1, 1) behind its end
-// and from (1, 0) to (1, 0), counted on a grid.
+// The lines along diagonal stairs, in the order in which SMAA's authors number the edges at the two
+// ends: the edges, and two lines, each by the corner where it starts and the corner behind the
+// stairs' end where it ends. A pixel has the mean of both lines.
+typedef struct Diagonal {
+    int left, right;
+    double lines[2][4];
+} Diagonal;
+
+static const Diagonal diagonals[16] = {
+    {0, 0, {{1, 1, 1, 1}, {1, 0, 1, 0}}}, {1, 0, {{1, 0, 0, 0}, {1, 0, 1, 0}}},
+    {0, 2, {{0, 0, 1, 0}, {1, 0, 1, 0}}}, {1, 2, {{1, 0, 1, 0}, {1, 0, 1, 0}}},
+    {2, 0, {{1, 1, 0, 0}, {1, 1, 1, 0}}}, {3, 0, {{1, 1, 0, 0}, {1, 0, 1, 0}}},
+    {2, 2, {{1, 1, 1, 0}, {1, 1, 1, 0}}}, {3, 2, {{1, 1, 1, 0}, {1, 0, 1, 0}}},
+    {0, 1, {{0, 0, 1, 1}, {1, 0, 1, 1}}}, {1, 1, {{1, 0, 1, 1}, {1, 0, 1, 1}}},
+    {0, 3, {{0, 0, 1, 1}, {1, 0, 1, 0}}}, {1, 3, {{1, 0, 1, 1}, {1, 0, 1, 0}}},
+    {2, 1, {{1, 1, 1, 1}, {1, 1, 1, 1}}}, {3, 1, {{1, 1, 1, 1}, {1, 0, 1, 1}}},
+    {2, 3, {{1, 1, 1, 1}, {1, 1, 1, 0}}}, {3, 3, {{1, 1, 1, 1}, {1, 0, 1, 0}}}};
+
+// The share of the pixel with this lower left corner that lies below a line, counted on a grid.
+static double share_below(const double line[4], double length, int x, int y) {
+    enum { STEPS = 128 };
+    const double slope = (line[3] + length - line[1]) / (line[2] + length - line[0]);
+    int below = 0;
+    for (int i = 0; i < STEPS * STEPS; i++) {
+        const double px = x + (i % STEPS + 0.5) / STEPS, py = y + (i / STEPS + 0.5) / STEPS;
+        below += py < line[1] + (px - line[0]) * slope;
+    }
+    return (double)below / (STEPS * STEPS);
+}
+
 static void diagonals_have_the_area_beyond_the_line(void **state) {
     (void)state;
-    enum { STEPS = 400 };
-    for (int left = 0; left <= DIP_SMAA_DIAGONAL; left++) {
-        for (int right = 0; right <= DIP_SMAA_DIAGONAL; right++) {
-            double inside[2] = {0, 0};
-            for (int line = 0; line < 2; line++) {
-                const double y0 = line ? 0 : 1;
-                for (int i = 0; i < STEPS * STEPS; i++) {
-                    const double x = (i % STEPS + 0.5) / STEPS, y = (i / STEPS + 0.5) / STEPS;
-                    // Both lines are parallel to the diagonal: y = x - 1 + y0.
-                    const double px = 1 + left + x;
-                    inside[0] += left + y < px - 1 + y0 ? 0.5 / (STEPS * STEPS) : 0;
-                    inside[1] += 1 + left + y < px - 1 + y0 ? 0.5 / (STEPS * STEPS) : 0;
+    for (int d = 0; d < 16; d++) {
+        for (int left = 0; left <= DIP_SMAA_DIAGONAL; left++) {
+            for (int right = 0; right <= DIP_SMAA_DIAGONAL; right += 1 + right / 3) {
+                double below[2] = {0, 0};
+                for (int i = 0; i < 4; i++) {
+                    below[i % 2] += share_below(diagonals[d].lines[i / 2], left + right + 1,
+                                                1 + left, left + i % 2) /
+                                    2;
                 }
+                const float *found =
+                    areas.diagonal[diagonals[d].left][diagonals[d].right][left][right];
+                assert_float_equal((double)found[0], 1 - below[0], 6e-3);
+                assert_float_equal((double)found[1], below[1], 6e-3);
             }
-            const float *found = areas.diagonal[0][0][left][right];
-            assert_float_equal((double)found[0], 1 - inside[0], 3e-3);
-            assert_float_equal((double)found[1], inside[1], 3e-3);
         }
     }
 }
@@ -160,7 +193,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_have_the_area_under_the_line),
         cmocka_unit_test(one_crossed_end_has_half_a_line),
-        cmocka_unit_test(long_bumps_have_their_area),
+        cmocka_unit_test(bumps_have_their_area_and_more_where_they_are_short),
         cmocka_unit_test(edges_without_a_side_are_left),
         cmocka_unit_test(diagonals_have_the_area_beyond_the_line),
         cmocka_unit_test(areas_are_shares),

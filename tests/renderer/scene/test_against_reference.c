@@ -88,52 +88,54 @@ static void close_pair(Pair *pair) {
 // white) and from the fast renderer's texels and floats.
 static const DipImageBounds steady = {0.0016, 0.01, 0.0, 0.01};
 
+// Where alpha is close to the cutoff, rounding may decide whether a pixel of a clipped surface
+// appears.
+static const DipImageBounds fence = {0.004, 0.01, 0.0015, 1.0};
+static const DipImageBounds fence_mips = {0.010, 0.01, 0.0015, 1.0};
+// This scene is bright, so the few pixels that appear or disappear have large errors.
+static const DipImageBounds mirrored_fence = {0.008, 0.01, 0.0015, 1.0};
+// Adaptive AA divides a pixel's samples into groups and tests alpha once per group. So alpha is
+// tested at more columns of positions. Along the edge of an upright bar, u is constant, so all
+// positions of a column may lie on the edge. Each position decides about the samples of only
+// one group.
+static const DipImageBounds fence_passes = {0.004, 0.01, 0.006, 0.5};
+// A vertex position halfway between two steps of 1/256 pixel may be rounded to either step.
+// Slivers show this most.
+static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
+// With AF, the number of probes in the coarser level changes in steps with the level of detail.
+// Towards the horizon, rounding moves a few pixels across such a step.
+static const DipImageBounds huge_af = {0.0018, 0.01, 0.0005, 0.08};
+// A level sharper than the footprint has more contrast between neighbouring probes, so those
+// few pixels differ more.
+static const DipImageBounds huge_sharp_af = {0.0022, 0.01, 0.0015, 0.17};
+// The narrow blend multiplies differences in the level of detail by four.
+static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
+static const DipImageBounds huge_narrow_mips = {0.0016, 0.021, 0.0, 0.021};
+static const DipImageBounds huge_narrow = {0.0018, 0.01, 0.0005, 0.08};
+// Reflections in water are rounded to 8 bits twice. The narrow blend makes them sharper than
+// the wide blend does.
+static const DipImageBounds water_narrow = {0.0018, 0.01, 0.0, 0.01};
+// The displacement of the clouds is read from rounded texels, which moves the clouds a little.
+// The cover makes the edges of clouds steep.
+static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
+// With alpha to coverage, rounding may move one sample in each pixel of an edge.
+static const DipImageBounds fence_coverage = {0.004, 0.01, 0.003, 1.0};
+static const DipImageBounds fence_coverage_mips = {0.010, 0.01, 0.003, 1.0};
+static const DipImageBounds mirrored_coverage = {0.008, 0.01, 0.003, 1.0};
+static const DipImageBounds fence_passes_mips = {0.010, 0.01, 0.006, 1.0};
+// Every surface is shaded at several positions of a pixel, and slivers reach only some.
+static const DipImageBounds steady_all = {0.0016, 0.02, 0.0, 0.02};
+static const DipImageBounds huge_narrow_all = {0.0018, 0.01, 0.001, 0.08};
+// A larger picture has more slivers, whose vertices may be rounded to either step.
+static const DipImageBounds scaled = {0.0016, 0.01, 0.0002, 0.13};
+// Larger pictures that blend are averaged from codes of 8 bits.
+static const DipImageBounds scaled_codes = {0.0018, 0.01, 0.0, 0.01};
+// Where a surface is seen nearly from the side, its reflection changes within a step of the
+// fast renderer's tables, which are coarser than those of the reference.
+static const DipImageBounds gloss = {0.0025, 0.01, 0.004, 0.1};
+
+// Returns the bounds for a picture of a scene with these settings.
 static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *quality) {
-    // Where alpha is close to the cutoff, rounding may decide whether a pixel of a clipped surface
-    // appears.
-    static const DipImageBounds fence = {0.004, 0.01, 0.0015, 1.0};
-    static const DipImageBounds fence_mips = {0.010, 0.01, 0.0015, 1.0};
-    // This scene is bright, so the few pixels that appear or disappear have large errors.
-    static const DipImageBounds mirrored_fence = {0.008, 0.01, 0.0015, 1.0};
-    // Adaptive AA divides a pixel's samples into groups and tests alpha once per group. So alpha is
-    // tested at more columns of positions. Along the edge of an upright bar, u is constant, so all
-    // positions of a column may lie on the edge. Each position decides about the samples of only
-    // one group.
-    static const DipImageBounds fence_passes = {0.004, 0.01, 0.006, 0.5};
-    // A vertex position halfway between two steps of 1/256 pixel may be rounded to either step.
-    // Slivers show this most.
-    static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
-    // With AF, the number of probes in the coarser level changes in steps with the level of detail.
-    // Towards the horizon, rounding moves a few pixels across such a step.
-    static const DipImageBounds huge_af = {0.0018, 0.01, 0.0005, 0.08};
-    // A level sharper than the footprint has more contrast between neighbouring probes, so those
-    // few pixels differ more.
-    static const DipImageBounds huge_sharp_af = {0.0022, 0.01, 0.0015, 0.17};
-    // The narrow blend multiplies differences in the level of detail by four.
-    static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
-    static const DipImageBounds huge_narrow_mips = {0.0016, 0.021, 0.0, 0.021};
-    static const DipImageBounds huge_narrow = {0.0018, 0.01, 0.0005, 0.08};
-    // Reflections in water are rounded to 8 bits twice. The narrow blend makes them sharper than
-    // the wide blend does.
-    static const DipImageBounds water_narrow = {0.0018, 0.01, 0.0, 0.01};
-    // The displacement of the clouds is read from rounded texels, which moves the clouds a little.
-    // The cover makes the edges of clouds steep.
-    static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
-    // With alpha to coverage, rounding may move one sample in each pixel of an edge.
-    static const DipImageBounds fence_coverage = {0.004, 0.01, 0.003, 1.0};
-    static const DipImageBounds fence_coverage_mips = {0.010, 0.01, 0.003, 1.0};
-    static const DipImageBounds mirrored_coverage = {0.008, 0.01, 0.003, 1.0};
-    static const DipImageBounds fence_passes_mips = {0.010, 0.01, 0.006, 1.0};
-    // Every surface is shaded at several positions of a pixel, and slivers reach only some.
-    static const DipImageBounds steady_all = {0.0016, 0.02, 0.0, 0.02};
-    static const DipImageBounds huge_narrow_all = {0.0018, 0.01, 0.001, 0.08};
-    // A larger picture has more slivers, whose vertices may be rounded to either step.
-    static const DipImageBounds scaled = {0.0016, 0.01, 0.0002, 0.13};
-    // Larger pictures that blend are averaged from codes of 8 bits.
-    static const DipImageBounds scaled_codes = {0.0018, 0.01, 0.0, 0.01};
-    // Where a surface is seen nearly from the side, its reflection changes within a step of the
-    // fast renderer's tables, which are coarser than those of the reference.
-    static const DipImageBounds gloss = {0.0025, 0.01, 0.004, 0.1};
     const bool is_scaled = quality->step[DIP_SETTING_SCALE] != DIP_SCALE_1;
     const bool covers = dip_quality_covers_by_alpha(quality);
     const bool all = dip_quality_groups_shade_all(quality);
@@ -146,11 +148,12 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_sky:
         return mip_colours ? &steady : &sky;
     case DIP_TEST_SCENE_water:
-    case DIP_TEST_SCENE_clear_water:
-        if (is_scaled && kind == DIP_TEST_SCENE_clear_water) {
-            return &scaled_codes;
-        }
         return mip_colours && narrow ? &narrow_mips : narrow ? &water_narrow : &steady;
+    case DIP_TEST_SCENE_clear_water:
+        return is_scaled               ? &scaled_codes
+               : mip_colours && narrow ? &narrow_mips
+               : narrow                ? &water_narrow
+                                       : &steady;
     case DIP_TEST_SCENE_water_effects:
         return mip_colours ? &fence_mips : covers ? &mirrored_coverage : &mirrored_fence;
     case DIP_TEST_SCENE_fence:

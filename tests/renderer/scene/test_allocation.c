@@ -72,6 +72,51 @@ static void frames_of_a_history_allocate_nothing(void **state) {
     dip_test_scene_free(&scene);
 }
 
+// Returns the bytes that are held after a frame of a renderer with these settings.
+static int64_t bytes_after(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
+                           const DipQuality *quality) {
+    DipFrame frame;
+    assert_true(dip_renderer_set_quality(renderer, quality, NULL));
+    assert_true(dip_renderer_draw(renderer, scene, pose, 0, &frame, NULL));
+    return dip_allocation_holdings().bytes;
+}
+
+// A renderer that is drawn with a step and then without it holds what it held before. The settings
+// below need memory of their own while they are on: pictures, filters, a history and a shadow map.
+// The others draw with the memory that every frame has.
+static void settings_that_are_off_hold_no_byte(void **state) {
+    (void)state;
+    static const DipSetting settings[] = {DIP_SETTING_TAA, DIP_SETTING_SCALE, DIP_SETTING_POST,
+                                          DIP_SETTING_SHARPEN, DIP_SETTING_SHADOWS};
+    static DipTestScene scene;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_lights);
+    DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
+    DipRendererDef def = dip_renderer_default_def();
+    def.width = 160;
+    def.height = 120;
+    DipRenderer *renderer = dip_renderer_create(&def, NULL);
+    const DipQuality off = dip_quality_default();
+    const int64_t before = bytes_after(renderer, fast, &scene.pose, &off);
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        const DipSettingInfo *info = dip_setting_info(settings[i]);
+        for (int step = 0; step < info->step_count; step++) {
+            DipQuality on = off;
+            on.step[settings[i]] = (uint8_t)step;
+            const bool takes = step != info->default_step &&
+                               (settings[i] != DIP_SETTING_TAA || step == DIP_TAA_HISTORY);
+            const int64_t with = bytes_after(renderer, fast, &scene.pose, &on);
+            const int64_t after = bytes_after(renderer, fast, &scene.pose, &off);
+            if (after != before || (with > before) != takes) {
+                fail_msg("%s=%s: %lld bytes before, %lld with it, %lld after", info->key,
+                         info->steps[step], (long long)before, (long long)with, (long long)after);
+            }
+        }
+    }
+    dip_renderer_destroy(&renderer);
+    dip_scene_destroy(&fast);
+    dip_test_scene_free(&scene);
+}
+
 static void frames_after_the_first_allocate_nothing(void **state) {
     (void)state;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
@@ -116,6 +161,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_after_the_first_allocate_nothing),
         cmocka_unit_test(frames_of_a_history_allocate_nothing),
+        cmocka_unit_test(settings_that_are_off_hold_no_byte),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -206,6 +206,35 @@ static Colour sample(const Picture p, const double at[2]) {
     return out;
 }
 
+// Limits a past to the nine new pixels around pixel (x, y), and blends the new pixel with it.
+static Colour blended(const Picture fresh, int x, int y, Colour past, double share) {
+    Colour out = ycocg_at(fresh, x, y);
+    double sums[3] = {0}, squares[3] = {0}, farthest = 1.0;
+    for (int i = 0; i < 9; i++) {
+        const Colour v = ycocg_at(fresh, x + i % 3 - 1, y + i / 3 - 1);
+        for (int c = 0; c < 3; c++) {
+            sums[c] += v.c[c];
+            squares[c] += v.c[c] * v.c[c];
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        const double mean = sums[c] / 9;
+        const double deviation = sqrt(fmax(squares[c] / 9 - mean * mean, 0.0));
+        farthest = fmax(farthest, fabs(past.c[c] - mean) / fmax(deviation, 0.0625));
+    }
+    for (int c = 0; c < 3; c++) {
+        const double limited = sums[c] / 9 + (past.c[c] - sums[c] / 9) / farthest;
+        out.c[c] = limited + (out.c[c] - limited) * share;
+    }
+    return out;
+}
+
+static void to_rgb(Colour v, double rgb[3]) {
+    rgb[0] = v.c[0] + v.c[1] - v.c[2];
+    rgb[1] = v.c[0] + v.c[2];
+    rgb[2] = v.c[0] - v.c[1] - v.c[2];
+}
+
 // Blends pixel (x, y) of the new picture with the old one, which is the whole history.
 static void model(const Picture fresh, const Picture old, const DipView *now, const DipView *before,
                   int x, int y, double rgb[3], bool *has_past) {
@@ -217,36 +246,13 @@ static void model(const Picture fresh, const Picture old, const DipView *now, co
             ny = oy;
         }
     }
-    double point[3], at[2], sums[3] = {0}, squares[3] = {0};
+    double point[3], at[2];
     hit(now, nx, ny, point);
     project(before, point, at);
     at[0] += x - nx;
     at[1] += y - ny;
     *has_past = at[0] > -0.5 && at[1] > -0.5 && at[0] < WIDTH - 0.5 && at[1] < HEIGHT - 0.5;
-    Colour out = ycocg_at(fresh, x, y);
-    if (*has_past) {
-        Colour past = sample(old, at);
-        double farthest = 1.0;
-        for (int i = 0; i < 9; i++) {
-            const Colour v = ycocg_at(fresh, x + i % 3 - 1, y + i / 3 - 1);
-            for (int c = 0; c < 3; c++) {
-                sums[c] += v.c[c];
-                squares[c] += v.c[c] * v.c[c];
-            }
-        }
-        for (int c = 0; c < 3; c++) {
-            const double mean = sums[c] / 9;
-            const double deviation = sqrt(fmax(squares[c] / 9 - mean * mean, 0.0));
-            farthest = fmax(farthest, fabs(past.c[c] - mean) / fmax(deviation, 0.0625));
-        }
-        for (int c = 0; c < 3; c++) {
-            past.c[c] = sums[c] / 9 + (past.c[c] - sums[c] / 9) / farthest;
-            out.c[c] = past.c[c] + (out.c[c] - past.c[c]) * 0.5; // the second picture's share
-        }
-    }
-    rgb[0] = out.c[0] + out.c[1] - out.c[2];
-    rgb[1] = out.c[0] + out.c[2];
-    rgb[2] = out.c[0] - out.c[1] - out.c[2];
+    to_rgb(*has_past ? blended(fresh, x, y, sample(old, at), 0.5) : ycocg_at(fresh, x, y), rgb);
 }
 
 static bool is_outer(int x, int y) {
@@ -293,6 +299,33 @@ static void the_past_lies_where_the_cameras_saw_it(void **state) {
     check_move(view_of(0.3, 0.0, 0.0), view_of(0.0, 0.0, 0.0));
     check_move(view_of(-0.2, 0.4, 0.03), view_of(0.0, 0.1, -0.02));
     check_move(view_of(0.0, 0.0, 0.1), view_of(0.5, 0.0, 0.08));
+}
+
+// The n-th picture of a history has the share 1/n, and at least a fifth. The camera stands still,
+// so that the past of a pixel lies at the pixel; the scene moves.
+static void a_new_picture_has_at_least_a_fifth(void **state) {
+    (void)state;
+    static const float still[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    static Colour past[PIXELS];
+    static Picture fresh, to;
+    DipHistory *history = make(dip_isa_best(), NULL);
+    for (int n = 1; n <= 9; n++) {
+        fill(fresh);
+        add(history, fresh, n == 1 ? DIP_HISTORY_BEGIN : DIP_HISTORY_MOVE, still, to);
+        for (int i = 0; i < PIXELS; i++) {
+            const int x = i % WIDTH, y = i / WIDTH;
+            double rgb[3];
+            past[i] =
+                n == 1 ? ycocg_at(fresh, x, y) : blended(fresh, x, y, past[i], fmax(1.0 / n, 0.2));
+            to_rgb(past[i], rgb);
+            for (int c = 0; c < 3; c++) {
+                const double light = fmin(fmax(rgb[c], 0.0), 65535.0);
+                assert_in_range(to[4 * i + c], code_of(fmax(light - 40, 0)),
+                                code_of(fmin(light + 40, 65535)));
+            }
+        }
+    }
+    dip_history_destroy(&history);
 }
 
 static void the_result_does_not_depend_on_threads_and_instruction_sets(void **state) {
@@ -512,6 +545,7 @@ int main(void) {
         cmocka_unit_test(at_rest_the_result_is_the_mean_of_all_pictures),
         cmocka_unit_test(a_blended_picture_stays_until_the_mean_is_better),
         cmocka_unit_test(the_past_lies_where_the_cameras_saw_it),
+        cmocka_unit_test(a_new_picture_has_at_least_a_fifth),
         cmocka_unit_test(the_result_does_not_depend_on_threads_and_instruction_sets),
         cmocka_unit_test(sizes_that_no_picture_has_are_refused),
         cmocka_unit_test(histories_begin_anew_where_frames_do_not_follow),

@@ -64,8 +64,8 @@ void dip_convolve_columns(const DipKernel1D *kernel, const float *in, int width,
 static const double pi = 3.14159265358979323846;
 
 // Fills a kernel with factor * exp(-pi^2 x^2 / b), where x is in degrees: the spatial form of a
-// Gaussian contrast sensitivity. `factor` includes the a * sqrt(pi / b) of FLIP's paper (flip.h).
-// `ppd` is the number of pixels per degree.
+// Gaussian contrast sensitivity. The caller chooses `factor` so that the weights have the sum
+// that FLIP's paper (flip.h) demands. `ppd` is the number of pixels per degree.
 static void fill_gaussian(DipKernel1D *kernel, int radius, double ppd, double factor, double b) {
     kernel->radius = radius;
     for (int i = -radius; i <= radius; i++) {

@@ -20,8 +20,8 @@ void dip_convolve_rows(const DipKernel1D *kernel, const float *in, int width, in
 void dip_convolve_columns(const DipKernel1D *kernel, const float *in, int width, int height,
                           float *out);
 
-// The kernels of FLIP. Each filter is applied along x and along y. Sections 4.1.1 (contrast
-// sensitivity) and 4.2 (features) of the paper that flip.h names define them.
+// The kernels of FLIP. A filter applies one of them along x and one along y. Sections 4.1.1
+// (contrast sensitivity) and 4.2 (features) of the paper that flip.h names define them.
 typedef struct DipFlipKernels {
     DipKernel1D luma;      // Contrast sensitivity of Y.
     DipKernel1D red_green; // Contrast sensitivity of Cx.
