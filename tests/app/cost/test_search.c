@@ -342,7 +342,8 @@ static void each_phase_forecasts_less_than_the_one_before(void **state) {
 }
 
 // Makes a report of three measured combinations, of which 5000000 more were predicted, and returns
-// what is printed of it. The fastest takes `ms`, and each other one 1 ms more. `wait` is the share of the time that the threads waited for a core.
+// what is printed of it. The fastest takes `ms`, and each other one 1 ms more. `wait` is the share
+// of the time that the threads waited for a core.
 static char *print_answer(bool predicted, double wait, double ms) {
     static char text[1 << 16];
     const char *const file = "test_search.txt";
