@@ -386,7 +386,8 @@ static inline int dip_cost_frame_count(const DipCostReport *report) {
 
 // Returns the report's time budgets, which no rounded time crosses (words.h).
 static inline DipLimits dip_cost_budgets(const DipCostReport *report) {
-    return (DipLimits){report->options.budgets_ms, report->options.budget_count};
+    const DipLimits limits = {report->options.budgets_ms, report->options.budget_count};
+    return limits;
 }
 
 // Adds timed frames to the report's log, which must have as many rounds and starts as `times`.
