@@ -19,6 +19,7 @@
 #define BIT(NAME) (1u << DIP_SETTING_##NAME)
 
 enum { MOST = 1 << 16, MACHINES = 40, LEAST_GOOD = 36 };
+static const double most_mean = 0.004; // Without corrections (models.c), the mean is .0066.
 
 static const unsigned combined = BIT(AA) | BIT(AAA) | BIT(ASD) | BIT(AF) | BIT(MIPLOD) |
                                  BIT(SCALE) | BIT(UPSCALE) | BIT(SHADOWS);
@@ -283,19 +284,25 @@ static double search(uint64_t seed, double miss, int *measured) {
     return share;
 }
 
-// Times are missed by 5 to 10 %. On most machines no other combination that fits the budget is
+// Times are missed by 6 to 12 %. On most machines no other combination that fits the budget is
 // better than the advised one by more than 1 % FLIP. No search that measures few of them finds the
 // best on all: what two settings do together is known only where both were measured.
 static void none_that_fits_is_clearly_better(void **state) {
     (void)state;
     int good = 0, measured = 0;
+    double sum = 0.0;
     for (int i = 0; i < MACHINES; i++) {
-        const double miss = 0.05 + 0.05 * i / (MACHINES - 1);
-        good += search((uint64_t)i + 1, miss, &measured) <= DIP_CLEARLY_BETTER;
+        const double miss = 0.06 + 0.06 * i / (MACHINES - 1);
+        const double share = search((uint64_t)i + 1, miss, &measured);
+        good += share <= DIP_CLEARLY_BETTER;
+        sum += fmax(share, 0.0);
     }
-    print_message("none is clearly better on %d of %d machines, %.1f measured\n", good, MACHINES,
-                  (double)measured / MACHINES);
+    print_message(
+        "none is clearly better on %d of %d machines, the advised settings have %.4f more "
+        "FLIP in the mean, %.1f combinations measured\n",
+        good, MACHINES, sum / MACHINES, (double)measured / MACHINES);
     assert_true(good >= LEAST_GOOD);
+    assert_true(sum / MACHINES <= most_mean);
 }
 
 int main(void) {
