@@ -15,9 +15,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// What a key, a button or another program can ask for. The argument of SETTING is a DipSetting,
-// that of PATH is a category of camera paths, and that of ANIMATION is the index of an animation of
-// the models, or -1 for none.
+// What a key, a button or another program can ask for. Some actions have an argument: SETTING takes
+// a DipSetting, PATH a category of camera paths, and ANIMATION the index of an animation of the
+// models, or -1 for none.
 typedef enum DipAction {
     DIP_ACTION_SETTING,
     DIP_ACTION_NEXT_PANE,
