@@ -1,6 +1,6 @@
-// Checks the advice for each time budget (app/report/choice.h). If it is unclear whether a
-// combination that is better than the advised one fits the budget, that combination is timed again.
-// This ends when it is clear for all combinations, or after MOST_RACES times.
+// Checks the advice for each time budget (app/report/choice.h). A combination that is clearly
+// better than the advised one is timed again if it is unclear whether it fits the budget. This is
+// repeated until it is clear for all such combinations, but at most MOST_RACES times.
 #include "app/cost/steps.h"
 
 #include "app/cli/progress.h"
@@ -8,7 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_AGAIN = 4, MOST_RACES = 6 };
+enum {
+    MOST_AGAIN = 4, // Greatest number of rows that are timed again together.
+    MOST_RACES = 6  // Greatest number of times that this is done for each budget.
+};
 
 // True if it is unclear whether the candidate fits the budget: if the probability that it fits lies
 // between 1 - DIP_SURELY_FITS and DIP_SURELY_FITS.
@@ -18,8 +21,8 @@ static bool is_undecided(const DipCandidate *candidate, double budget_ms) {
 }
 
 // Lists the undecided rows (is_undecided) whose FLIP is at least 1 % below that of the row advised
-// so far. The rows of least FLIP come first, and there are at most MOST_AGAIN. Returns their
-// number.
+// so far; if no row is advised, all undecided rows. Lists at most MOST_AGAIN, those of least FLIP
+// first. Returns their number.
 static int list_undecided(const DipCostReport *report, int budget, int rows[MOST_AGAIN]) {
     const DipCandidates *candidates = &report->choice.candidates;
     const DipCandidate *chosen = dip_cost_chosen(report, budget);

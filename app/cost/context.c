@@ -7,10 +7,10 @@
 
 #include <string.h>
 
-enum { SAMPLES = 8 }; // Samples of a pixel with the best settings.
+enum { SAMPLES = 8 }; // Samples of each pixel that draw_gallery_truth draws.
 
-// Compresses the textures if the settings of any row of the report need it. This is done before any
-// frame is drawn or timed.
+// Compresses the textures if the settings of any row or predicted combination of the report need
+// it. This is done before any frame is drawn or timed.
 static bool prepare_textures(const DipCostContext *cost, DipError *err) {
     bool compresses = false;
     for (int row = 0; row < cost->report->row_count; row++) {
@@ -83,7 +83,8 @@ static bool draw(DipCostContext *cost, const DipQuality *quality, int path, int6
            dip_painter_draw(renderer, cost->session->scene, &pose, time_ns, frame, err);
 }
 
-// Lets the history of a renderer begin anew. Returns whether the settings have one.
+// Lets the history of the renderer that draws these settings begin anew. Returns whether frames
+// with these settings have a history. Scenes of the gallery never have one.
 static bool cut_history(const DipCostContext *cost, const DipQuality *quality) {
     dip_painter_cut(cost->renderers[quality->step[DIP_SETTING_GI] != 0]);
     return dip_quality_has_history(quality) && !cost->gallery;
@@ -108,8 +109,8 @@ bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int pa
     return draw_on_path(cost, quality, path, index, frame, err);
 }
 
-// Draws frame `index` of a burst. If the settings have a history, first draws the frames that
-// precede the burst.
+// Draws frame `index` of a burst. If the settings have a history, draws before frame 0 the frames
+// that precede the burst.
 static bool draw_burst_frame(DipCostContext *cost, const DipCostRow *row, int viewpoint, int index,
                              DipFrame *frame, DipError *err) {
     int first = index;
@@ -168,8 +169,8 @@ DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost) {
 
 // --- truths --------------------------------------------------------------------------------------
 
-// Returns the factor by which a gallery scene is drawn wider and higher, before its pixels are
-// averaged to a truth.
+// Returns how many times as wide and high as the truth a gallery scene is drawn, before its pixels
+// are averaged.
 static int scale_of(const DipTruthDef *def) {
     const int longer = def->width > def->height ? def->width : def->height;
     int scale = 2;
@@ -195,12 +196,12 @@ static void average(const DipFrame *frame, int scale, int width, int height, dou
     }
 }
 
-// Draws one half of the truth of a gallery scene, which the reference renderer cannot draw. (A
-// truth is the mean of two halves.) Instead, the pipeline draws the scene several times as wide and
-// high, with the best settings, and the pixels are averaged in linear light. Such a truth has at
+// Draws one half of the truth of a gallery scene. (A truth is the mean of two halves.) The
+// reference renderer cannot draw such a scene. Instead, the pipeline draws it several times as wide
+// and high, with the best settings, and the pixels are averaged in linear light. Each half has at
 // least def->samples samples for each pixel, unless the frame would be larger than
-// DIP_MAX_FRAME_SIZE. It cannot show a fault that the pipeline has at every size. The two halves
-// have different sample patterns.
+// DIP_MAX_FRAME_SIZE. The truth cannot show a fault that the pipeline has at every size. The two
+// halves have different sample patterns.
 static bool draw_gallery_truth(const DipTruthDef *def, int half, double *rgb_lin, DipError *err) {
     const DipCostContext *cost = def->context;
     const int scale = scale_of(def);

@@ -15,14 +15,15 @@
 
 #include <limits.h>
 
-// What the forecast of the time left knows (forecast.c). Times are guesses until they are measured.
+// What the forecast of the time left (forecast.c) is computed from. The times are guesses until
+// they are measured.
 typedef struct DipCostForecast {
     double picture_s;   // Time in which one picture is drawn and judged.
     double row_ms;      // Time of a frame of the rows that are timed first.
-    int swept_rows;     // Rows whose errors are measured first.
-    int timed_rows;     // Rows that are timed first.
-    int counted_frames; // Frames that are drawn to count work.
-    int goes;           // How often the best combinations have been measured (best.c).
+    int swept_rows;     // Number of rows whose errors are measured first.
+    int timed_rows;     // Number of rows that are timed first.
+    int counted_frames; // Number of frames that are drawn to count work.
+    int goes;           // How often best combinations have been measured so far (best.c).
 } DipCostForecast;
 
 // All pointers are borrowed, except the reference renderer, the gallery and the renderers. Not
@@ -38,12 +39,13 @@ typedef struct DipCostContext {
     // that these rows need. Renderer [1] draws all other rows, so that they all use the same
     // memory.
     DipPainter *renderers[2];
-    // The command line with which the program starts itself to time frames in another process.
-    // NULL if frames are timed in this process.
+    // The command line with which the program starts itself to time frames in other processes
+    // (--starts). If it is NULL, all frames are timed in this process.
     const DipServeOptions *start;
-    bool has_warned; // The user was told that the machine is busy (dip_cost_look_at_machine).
+    bool has_warned; // The user was told that the machine is busy (look.c).
     DipCostForecast forecast;
-    double baseline_ms; // Time of a frame of the baseline at first sight; 0 if nothing is timed.
+    double baseline_ms; // Mean time of a frame of the baseline, as dip_cost_look_at_machine
+                        // measures it; 0 if nothing is timed.
 } DipCostContext;
 
 // Opens the context of a report. Leaves `journal`, `cache` and `start` NULL; the caller may set
@@ -52,16 +54,17 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
                            bool judges, DipError *err);
 void dip_cost_context_close(DipCostContext *cost);
 
-// Draws the timed frame `index`, 0..dip_cost_frame_count - 1, of a path, whose settings must have
-// been prepared for it. dip_cost_prepare_timed draws the frame before it if the settings have a
-// history, with which the frame is blended.
+// dip_cost_draw_timed draws the timed frame `index` of a path, 0..dip_cost_frame_count - 1. Call
+// dip_cost_prepare_timed with the same arguments before. If the settings blend frames with a
+// history of earlier frames (taa=history), it draws the frame before this one, if there is one.
 bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipError *err);
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err);
 
 // Draws the frame `index` of a row's burst at a viewpoint. (A burst is the successive frames that
-// are drawn at a viewpoint.) Writes the packed pixels and the hash of the picture.
+// are drawn at a viewpoint.) The frames of a burst must be drawn in order, from frame 0 on, since
+// each may be blended with those before it. Writes the packed pixels and the hash of the picture.
 bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int index,
                              uint8_t *rgba8, char hash[33], DipError *err);
 
@@ -69,8 +72,8 @@ bool dip_cost_draw_viewpoint(DipCostContext *cost, int row, int viewpoint, int i
 // context and draws with its renderers.
 DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost);
 
-// Gets the truth of one frame of the burst at a viewpoint of a path. `progress` may be NULL; the
-// work ends with DIP_ERROR_RUNTIME once the user has pressed Ctrl-C.
+// Gets the truth of one frame of the burst at a viewpoint of a path. `progress` can end the work
+// early; if it is NULL, Ctrl-C does so. After Ctrl-C, the error is DIP_ERROR_RUNTIME.
 bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,
                             DipTruthProgress *progress, void *context, DipTruth *truth,
                             DipError *err);
@@ -87,8 +90,8 @@ bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource
 // Error message of a command that the user interrupted with Ctrl-C.
 #define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
 
-// Returns true and fills *err if the user has pressed Ctrl-C. All measurements made before remain
-// in the journal (journal.h).
+// Returns true and fills *err if the user has pressed Ctrl-C. The journal keeps the measurements
+// that it has so far (journal.h).
 bool dip_cost_interrupted(DipError *err);
 
 // Copies the time of each pipeline stage of a frame to the parts of a DipTimed (rounds.h).

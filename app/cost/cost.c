@@ -42,7 +42,7 @@ bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err
     return !folder[0] || dip_folder_make(folder, "--cache", err);
 }
 
-// Measures the rows that are planned.
+// Measures the planned rows (plan.h), in a run without predictions.
 static bool measure_rows(DipCostContext *cost, DipError *err) {
     dip_cost_begin_phase(cost, DIP_COST_PHASE_SWEEPS);
     if (!dip_cost_judge(cost, err) || !dip_cost_join_same_pictures(cost->report, err)) {

@@ -80,13 +80,14 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
 
 // --- judging -------------------------------------------------------------------------------------
 
-// A row's pictures of one burst (the successive frames at a viewpoint), and their errors.
+// The pictures that a row has in one burst (the successive frames at a viewpoint), and their
+// errors.
 typedef struct Burst {
     uint8_t *rgba8; // One frame after another, without padding between lines. Borrowed.
     int row;
     char key[33];     // Hash of the pictures, their truths and the pixels per degree.
-    char journal[33]; // Hash of the key and of the program's file, since another build may measure
-                      // other errors.
+    char journal[33]; // Key in the journal: hash of `key` and of the program's file, since another
+                      // build may measure other errors.
     DipCostBurstErrors errors;
     bool failed;
 } Burst;
@@ -202,7 +203,7 @@ static bool judge_bursts(Judge *j, DipError *err) {
     return true;
 }
 
-// Draws a row's burst and computes its two hashes.
+// Draws a row's burst at the viewpoint, and computes its two keys.
 static bool draw_burst(Judge *j, int row, Burst *drawn, DipError *err) {
     const DipCostReport *report = j->cost->report;
     DipHash hash = dip_hash_begin(0);

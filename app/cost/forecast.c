@@ -8,25 +8,26 @@
 #include <math.h>
 
 enum {
-    RACES = 2,      // A usual number of races (advice.c).
-    RACED_ROWS = 4, // A usual number of rows in each.
-    GO_ROWS = 12    // A usual number of combinations in a go (best.c).
+    RACES = 2,      // How often rows are usually timed again (race in advice.c).
+    RACED_ROWS = 4, // Usual number of rows that are timed again each time.
+    GO_ROWS = 12    // Usual number of combinations that are measured in a go (best.c).
 };
 
-// What takes the place of measurements that have not been made yet.
-static const double row_ratio = 2.5;    // Time of a row's frame over the baseline's.
+// These values stand in for measurements that have not been made yet.
+static const double row_ratio = 2.5;    // Time of a row's frame over that of the baseline's frame.
 static const double judging_ns = 600.0; // Time in which a thread judges a pixel.
 static const double start_s = 0.5;      // Time of a start of the program.
-static const double most_ratio = 8.0;   // Greatest ratio of a combination that may fit a budget.
-static const double cuts_per_row = 2.0; // Frames that are drawn for the page.
+static const double most_ratio = 8.0;   // Greatest time of a combination over the baseline's.
+static const double cuts_per_row = 2.0; // Frames of each row that are drawn for the page.
 
 static double judging_s(const DipCostContext *cost, int rows) {
     const DipCostOptions *options = &cost->report->options;
     return cost->forecast.picture_s * rows * options->places * options->burst;
 }
 
-// Every row draws all frames once, and one frame untimed in each round and each start. In each
-// block, so does the baseline.
+// Returns the time in which rows are timed whose frames take `ms` milliseconds. Every row draws all
+// frames once, and one frame untimed in each round and at each start. The baseline draws as many
+// frames for each block of rows.
 static double timing_s(const DipCostContext *cost, int rows, int blocks, double ms) {
     const DipCostReport *report = cost->report;
     const int starts = report->options.starts;
@@ -34,7 +35,8 @@ static double timing_s(const DipCostContext *cost, int rows, int blocks, double 
     return 1e-3 * frames * (rows * ms + blocks * cost->baseline_ms) + starts * start_s;
 }
 
-// Returns the time of a frame of combinations that are measured because they may fit a budget.
+// Estimates the mean time of a frame of the combinations that are measured because they may fit a
+// budget, in milliseconds.
 static double promising_ms(const DipCostContext *cost) {
     const DipCostOptions *options = &cost->report->options;
     double sum = 0.0;
@@ -52,7 +54,7 @@ static double go_times_s(const DipCostContext *cost) {
     return timing_s(cost, GO_ROWS, GO_ROWS / 4 + 1, promising_ms(cost));
 }
 
-// Returns the time of a phase that only runs with predictions have.
+// Returns the time of a phase that only runs with predictions have; 0 for other phases.
 static double predicting_s(const DipCostContext *cost, DipCostPhase phase) {
     const DipCostForecast *forecast = &cost->forecast;
     switch (phase) {

@@ -20,8 +20,8 @@
 enum {
     CHECK = DIP_HASH_HEX_SIZE, // Length of the checksum and of the space before it.
     ERROR_VALUES = DIP_METRIC_SUM_COUNT + DIP_FLIP_TAIL_COUNT,
-    TIMED_VALUES = 10 + DIP_TIMED_PARTS // Numbers per frame. A round's line has its seed first,
-                                        // then the numbers of each frame.
+    TIMED_VALUES = 10 + DIP_TIMED_PARTS // Numbers per frame. In the line of a round, the seed comes
+                                        // first, and then the numbers of each frame.
 };
 
 struct DipCostJournal {
@@ -141,7 +141,7 @@ static void put(FILE *out, DipHash *hash, const char *text) {
     fputs(text, out);
 }
 
-// Writes a line for the next run.
+// Appends a line to the file, for the next run to read.
 static bool append(const DipCostJournal *journal, const char *kind, const char *key,
                    const double *values, int count, DipError *err) {
     DipHash hash = dip_hash_begin(0);
@@ -158,8 +158,8 @@ static bool append(const DipCostJournal *journal, const char *kind, const char *
            io_fault(journal, err);
 }
 
-// Finds a line with this kind and key, passing over the first *skip such lines, and returns the
-// text of its numbers. If there are too few such lines, returns NULL and subtracts their number
+// Passes over the first *skip lines with this kind and key, and returns the text of the numbers in
+// the next such line. If there is none, returns NULL and subtracts the number of all such lines
 // from *skip.
 static const char *find(const DipCostJournal *journal, const char *kind, const char *key,
                         int *skip) {
@@ -173,8 +173,8 @@ static const char *find(const DipCostJournal *journal, const char *kind, const c
     return NULL;
 }
 
-// Reads at most `most` numbers with one space between them. Returns how many there are; 0 if the
-// text has another form.
+// Reads at most `most` numbers with one space between them. Returns how many there are, or 0 if the
+// text has more numbers or another form.
 static int read_values(const char *text, double *values, int most) {
     for (int count = 0; count < most;) {
         char *rest;

@@ -25,7 +25,8 @@ typedef struct DipCostJournal DipCostJournal;
 
 // Opens folder/cost.state, or creates it. `plan` is the hash of everything that times depend on
 // (dip_cost_plan_hash). Rounds that were stored with another hash are ignored. Fails with CONFLICT
-// while another journal of the folder is open, in this process or in another one.
+// while another journal of the folder is open, in this process or in another one (as far as the
+// file system can lock files).
 DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipError *err);
 
 // Closes the journal. Removes its file if the report is finished.
@@ -33,7 +34,7 @@ void dip_cost_journal_close(DipCostJournal **journal, bool finished);
 
 // dip_cost_journal_find looks up the errors of a burst and returns false if the journal did not
 // have them when it was opened. dip_cost_journal_add stores them for the next run. The key is a
-// hash of the burst's pictures and truths.
+// hash of everything that the errors depend on: pictures, truths and the program's build.
 bool dip_cost_journal_find(const DipCostJournal *journal, const char *key,
                            DipCostBurstErrors *errors);
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
@@ -46,7 +47,8 @@ int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed);
 
 // Returns the frames of a round, in the order in which they were stored. `round` is
 // 0..dip_cost_journal_round_count - 1. Sets *count to their number, or to 0 if the round had
-// another seed. The caller frees the frames. Returns NULL when memory runs out.
+// another seed or its line has another form. The caller frees the frames. Returns NULL when memory
+// runs out.
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count);
 
 // Stores a round with the journal's plan hash for the next run.

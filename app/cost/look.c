@@ -1,4 +1,4 @@
-// Notices early that other programs keep the machine busy, and warns once.
+// Finds out early whether other programs keep the machine busy, and warns once if they do.
 #include "app/cost/steps.h"
 
 #include "app/cli/drive.h"
@@ -14,7 +14,8 @@ enum {
     LOOK_COPIES = 3   // Rounds in which each frame of the baseline is drawn.
 };
 
-// The two subjects of the driver (driver.h) are the baseline and the baseline again.
+// Returns the timed frame of path 0 that a turn draws. The driver (driver.h) has two subjects,
+// which both have the baseline's settings.
 static int frame_of(const DipCostContext *cost, const DipDriverTurn *turn) {
     return turn->frame * dip_cost_frame_count(cost->report) / LOOK_FRAMES;
 }
@@ -33,7 +34,7 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
                                &frame, err);
 }
 
-// Warns, unless this was done before.
+// Warns if the verdict is not green, unless the user was warned before.
 static void warn(DipCostContext *cost, DipCostVerdict verdict, const char *reason) {
     if (cost->has_warned || verdict == DIP_COST_GREEN) {
         return;
@@ -60,8 +61,10 @@ void dip_cost_look_at_times(DipCostContext *cost, const DipTimed *timed, int cou
     warn(cost, dip_cost_verdict_of(&signs, reason), reason);
 }
 
-// The few frames of a look cannot tell amber A/A times from green ones. So amber is only what the
-// threads waited; red may also come from the A/A times.
+// Judges the machine by how long the threads waited and by how far the times of the two equal
+// subjects differ (the A/A times), and warns. Both signs may lead to a red verdict. The waiting
+// time alone leads to an amber one, since with so few frames, A/A times that are amber cannot be
+// told from green ones.
 static void judge(DipCostContext *cost, const DipDriver *driver, const DipTimesFit *fit) {
     static const int same[] = {1};
     DipCostSigns signs = dip_cost_signs_of(fit, 2, same, 1);

@@ -87,8 +87,8 @@ void dip_cost_default_budgets(DipCostOptions *options) {
 // Reads --viewing, which names a display and a distance. The pixels per degree are the distance
 // times the tangent of a degree, over a pixel's width. A phone has 1170 pixels on 65 mm and is seen
 // from 0.3 m. A monitor has 1920 pixels on 531 mm (24 inches) and is seen from 0.6 m. UHD is 3840
-// pixels on 0.7 m, seen from 0.7 m. The value of a headset is what the makers of headsets with 2000
-// pixels per eye stated in 2023.
+// pixels on 0.7 m, seen from 0.7 m. For a headset, the value is the one that makers of headsets
+// with 2000 pixels per eye stated in 2023.
 static bool read_viewing(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     static const struct {
         const char *name;
@@ -248,8 +248,8 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
         .pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE,
         .timed_frames = 4,
     };
-    // --quick sets defaults, so it is looked for before the options are read. Otherwise it would
-    // override options that stand before it.
+    // --quick sets defaults, so this function looks for it before the options are read. Otherwise
+    // it would override the options that stand before it on the command line.
     for (int i = 0; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0) {
             all->measure = (DipMeasureOptions){.rounds = 3, .starts = 2};
@@ -266,8 +266,8 @@ bool dip_cost_check_out(const char *out, DipError *err) {
                                 "there is no folder for the report; give one with --out DIR");
 }
 
-// Fails if all starts together have too few or too many rounds. Times have an interval only if
-// there are at least two rounds.
+// Fails if all starts together have too few or too many rounds. There must be at least two, since
+// the times of a single round have no interval.
 static bool check_rounds(const DipMeasureOptions *measure, DipError *err) {
     const int rounds = measure->rounds * measure->starts;
     return (rounds >= 2 && rounds <= DIP_MEASURE_MOST_ROUNDS) ||

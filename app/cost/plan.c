@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The category of the camera path that was made for each setting. Settings that are not listed have
-// DIP_CATEGORY_DEFAULT.
+// The category of the camera path that was made for each setting. Settings that are not listed here
+// have the category DIP_CATEGORY_DEFAULT.
 static const DipCategory categories[DIP_SETTING_COUNT] = {
     [DIP_SETTING_AA] = DIP_CATEGORY_AA,   [DIP_SETTING_TAA] = DIP_CATEGORY_TAA,
     [DIP_SETTING_AAA] = DIP_CATEGORY_AAA, [DIP_SETTING_AF] = DIP_CATEGORY_AF,
@@ -34,9 +34,10 @@ static const DipCamCategory *slot_of_path(const DipCostReport *report, const Dip
     return &session->track.categories[0];
 }
 
-// Names the path of a category as the user names it: by the camera or the file of --path, without
-// the file's folder and ending, otherwise by the category. A report's names have only letters,
-// digits, '_' and '-'; other characters become '_'.
+// Names the path of a category as the user names it. The path that the user gives with --path has
+// the name of its camera, or of its file without folder and ending. Every other path has the name
+// of its category. A report's names have only letters, digits, '_' and '-'; other characters become
+// '_'.
 static void name_path(const DipSession *session, int category, char name[DIP_COST_PATH_NAME]) {
     const char *own = session->options->path;
     if (category != 0 || !own) {
@@ -58,9 +59,9 @@ static void name_path(const DipSession *session, int category, char name[DIP_COS
     }
 }
 
-// Adds the camera path of a category, or of the first category if it has none, and returns its
-// index. Categories with the same path and field of view share one entry. The entry has the name of
-// the first of these categories.
+// Adds the camera path of a category to the report, and returns its index there. A category without
+// a path has that of the first category. Categories with the same path and field of view share one
+// entry, which has the name of the category that was added first.
 static int add_path(DipCostReport *report, const DipSession *session, int category) {
     const int own = session->track.categories[category].path ? category : 0;
     const DipCamCategory *slot = &session->track.categories[own];
@@ -96,8 +97,10 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 
 // --- rows ----------------------------------------------------------------------------------------
 
-// Finds the row of these settings on this path, or adds it. With --predict, the rows of sweeps are
-// combinations. There is always room, since the sweeps need far fewer than DIP_COST_MAX_ROWS rows.
+// Finds the row of these settings on this path, or adds it. Does not look at the rows before
+// combined_first: with --predict, they are the base rows, and those of the sweeps follow, since
+// they are combinations, too. There is always room, because the sweeps need far fewer rows than
+// DIP_COST_MAX_ROWS.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
     const int known = dip_report_find(report, quality, path, report->combined_first);
     if (known >= 0) {
@@ -119,13 +122,15 @@ static void add_to_sweep(DipCostSweep *sweep, int row) {
     }
 }
 
-// Returns the path for the sweep of a setting. With --predict, it is the path of the combinations.
+// Returns the path for the sweep of a setting. With --predict, it is path 0, on which all
+// combinations are measured.
 static int sweep_path(DipCostReport *report, const DipSession *session, DipSetting setting) {
     return report->options.predict ? 0 : add_path(report, session, categories[setting]);
 }
 
-// Returns whether a sweep from this base is wanted. With --predict, the sweep is one of the
-// combined settings, and so are the settings in which its base differs from the baseline.
+// Returns whether a sweep of a setting from this base is wanted. With --predict, it is wanted only
+// if the setting is a combined one, and so are all settings in which the base differs from the
+// baseline.
 static bool is_swept(const DipCostReport *report, DipSetting setting, const DipQuality *base) {
     const unsigned combined = report->options.combined;
     const DipQuality of_combined =
@@ -179,9 +184,9 @@ static void add_if_valid(DipCostReport *report, DipCostSweep *sweep, const DipQu
 }
 
 // Adds a sweep of adaptive AA for each number of samples, because the possible group sizes depend
-// on the number of samples. The steps go from few sample groups to many. All surfaces are shaded in
-// groups of one sample only, since such frames take long. With --predict, adds the sweep of one
-// number of samples only.
+// on the number of samples. The steps go from few sample groups to many. aaa=all is combined with
+// only one group size, that of one sample (asd=1), since its frames take long. With --predict, adds
+// the sweep for only one number of samples.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     const DipSettingInfo *group_size = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {

@@ -1,6 +1,7 @@
 // Plans the rows of a report. A row is one combination of settings on a camera path. There is a
 // row for every step of every setting, on the camera path made for this setting, and a row for
-// every combination that --combine asks for.
+// every combination that --combine asks for. With --predict, only the steps of the combined
+// settings have rows, all on path 0. Rows for combinations are added later (steps.h).
 #ifndef DIP_APP_COST_PLAN_H
 #define DIP_APP_COST_PLAN_H
 
@@ -8,9 +9,9 @@
 #include "app/report/report.h"
 #include "app/session/session.h"
 
-// Fills in the rows and sweeps of an empty report and allocates its memory. (A sweep is all steps
-// of one setting.) Steps that the renderer refuses are left out; report->refused lists them with
-// the reason. Free the report even after a failure.
+// Fills in the rows and sweeps of a report and allocates its memory. (A sweep is all steps of one
+// setting.) Steps that the renderer refuses are left out; report->refused lists them with the
+// reason. Free the report even after a failure.
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
                    DipError *err);
 

@@ -1,5 +1,6 @@
-// Measures every step of every setting, chooses which combinations to measure besides, predicts all
-// others from them, and measures those that the prediction puts near a budget or on the front.
+// Finds the best combinations by predictions: measures the steps of the combined settings and the
+// combinations that tell most about all others, predicts these others, and measures those that the
+// predictions put near a budget or on the Pareto front.
 #include "app/cost/steps.h"
 
 #include "app/report/report.h"
@@ -27,8 +28,8 @@ int dip_cost_training_count(unsigned settings, int count) {
     return training < count ? training : count;
 }
 
-// Writes the terms of the model (fit.h) for all stages and for FLIP. One constant term, 1, stands
-// for the constant terms of all of them. Returns the number of terms.
+// Writes the terms of the models (fit.h) for all stages and for FLIP. The first term of each of
+// them is constant; a single term, 1, stands for all of these. Returns the number of terms.
 static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN_TERMS]) {
     int count = 0;
     terms[count++] = 1.0;
@@ -103,7 +104,8 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
     return true;
 }
 
-// Lists the combinations, once the pictures of the sweeps tell which settings change any.
+// Lists the combinations of the settings that change a picture, as the sweeps tell, and fills in
+// their counters.
 static bool list_combinations(DipCostContext *cost, DipError *err) {
     dip_cost_begin_phase(cost, DIP_COST_PHASE_SWEEPS);
     if (!dip_cost_judge(cost, err)) {

@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-// What a request asks for (draw_in_child of times.c).
+// What a request asks for. The function draw_in_child of times.c sends the requests.
 typedef struct Request {
     DipQuality quality;
     int path;
@@ -32,8 +32,8 @@ static bool serve_prepare(void *context, const char *text, DipError *err) {
            dip_cost_prepare_timed(cost, &request.quality, request.path, request.frame, err);
 }
 
-// Draws the frame that a request names. Takes the time of the whole call that draws, as a
-// measurement without --starts does.
+// Draws the frame that a request names. Measures the time of the whole call that draws, as is done
+// when the program draws in its own process (--starts 1).
 static bool serve_draw(void *context, const char *text, DipBenchSample *sample, DipError *err) {
     DipCostContext *cost = context;
     DipFrame frame;

@@ -1,31 +1,34 @@
-// Declares the functions that make a report, in the order in which they run. Each fills in a part
-// of the report and shows its progress on standard error. A row of the report is one combination of
-// settings on a camera path.
+// Declares the steps that make a report, in the order in which they run, and then the functions
+// that predictions consist of. The steps fill in parts of the report and show their progress on
+// standard error. A row of the report is one combination of settings on a camera path.
 #ifndef DIP_APP_COST_STEPS_H
 #define DIP_APP_COST_STEPS_H
 
 #include "app/cost/context.h"
 #include "app/report/fit.h"
 
-// Times the baseline for about a second, twice in turn, and warns if the verdict on the machine
-// would not be green (verdict.h). The verdict of the report comes from all of its times. Sets
-// cost->baseline_ms. Warns at most once for a context, here and in dip_cost_look_at_times.
+// Looks for about a second how busy other programs keep the machine: times the baseline beside a
+// second copy of itself, and warns if the verdict on these times (verdict.h) is not green. (The
+// report's own verdict comes later, from all of its times.) Sets cost->baseline_ms. There is at
+// most one warning for each context, either from this function or from dip_cost_look_at_times.
 bool dip_cost_look_at_machine(DipCostContext *cost, DipError *err);
 
-// Warns if the threads waited so long for a core while these frames were drawn that the verdict on
-// the machine would not be green.
+// Warns if the threads waited so long for a core while these frames were drawn that a verdict on
+// their waiting time alone is not green.
 void dip_cost_look_at_times(DipCostContext *cost, const DipTimed *timed, int count);
 
-// The phases of a run, in order. Some have no work in some runs.
+// The phases of a run, in order. Only runs with predictions have the phases COUNTING, TRAINING and
+// BEST. Such runs measure the best combinations in several goes (best.c), so the phases BEST_ERRORS
+// and BEST_TIMES may begin several times.
 typedef enum DipCostPhase {
     DIP_COST_PHASE_TRUTHS,
-    DIP_COST_PHASE_SWEEPS,      // Errors of the rows that are planned.
-    DIP_COST_PHASE_COUNTING,    // This phase and the next are those of predictions.
+    DIP_COST_PHASE_SWEEPS,      // Errors of the planned rows (plan.h).
+    DIP_COST_PHASE_COUNTING,    // Work of combinations.
     DIP_COST_PHASE_TRAINING,    // Errors of the rows that tell most about all others.
     DIP_COST_PHASE_TIMES,       // Times of all rows so far.
-    DIP_COST_PHASE_BEST_ERRORS, // Errors of the best combinations, in one go (predict.c).
-    DIP_COST_PHASE_BEST_TIMES,
-    DIP_COST_PHASE_MORE_BEST, // All further goes.
+    DIP_COST_PHASE_BEST_ERRORS, // Errors of the best combinations, in one go.
+    DIP_COST_PHASE_BEST_TIMES,  // Times of the best combinations, in one go.
+    DIP_COST_PHASE_MORE_BEST,   // All later goes together. Only the forecast uses this phase.
     DIP_COST_PHASE_ADVICE,
     DIP_COST_PHASE_PAGE,
     DIP_COST_PHASE_COUNT
@@ -34,43 +37,45 @@ typedef enum DipCostPhase {
 // Begins the forecast, once cost->baseline_ms is known.
 void dip_cost_forecast_begin(DipCostContext *cost);
 
-// Begins a phase: tells the progress display how long the later phases will take. Returns this time
-// in seconds.
+// Begins a phase: tells the progress display how long this phase and all later ones will take.
+// Returns the time of the later ones in seconds.
 double dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase);
 
-// Makes the truths (converged pictures) that are not in the cache, and fills in the noise floor of
-// each truth, which tells how far the truth itself may be wrong.
+// Makes the truths (converged pictures) that are not in the cache. Fills in the noise floor of each
+// truth, which tells how far the truth itself may be wrong. Writes the truths as PFM files if the
+// user asks for them (--save-truths).
 bool dip_cost_make_truths(DipCostContext *cost, DipError *err);
 
-// Draws every row at every viewpoint that this run has (--part), and measures the pictures' errors
-// against the truths. This is called judging.
+// Judges the rows: draws every row at every viewpoint that this run has (--part), and measures the
+// pictures' errors against the truths. Leaves out rows at viewpoints where they are judged already.
 bool dip_cost_judge(DipCostContext *cost, DipError *err);
 
 // Times every row beside the baseline of its path (app/measure/timing/driver.h), counts its work
 // (DipCounters) and computes the verdict: how quiet the machine was (DipCostVerdict).
 bool dip_cost_time_rows(DipCostContext *cost, DipError *err);
 
-// Times a few combinations at half the width and height, for the model of times (report.h). Does
+// Times a few combinations at half the width and height, for the model of times (fit.h). Does
 // nothing if the width or height is below 64 pixels. The journal does not keep these times, since
-// measuring them again takes only seconds. Comes after dip_cost_time_rows.
+// measuring them again takes only seconds. Call this function after dip_cost_time_rows.
 bool dip_cost_time_smaller(DipCostContext *cost, DipError *err);
 
-// Times rows of path 0 beside the baseline, after dip_cost_time_rows and in as many rounds, and
-// adds the times to the report's log. `times_before` is how often the rows were timed before. If it
-// is 0, the rows are new, and their work is counted, too. The journal does not keep these times.
-// The caller must call dip_cost_estimate_times afterwards.
+// Times rows of path 0 beside the baseline, in as many rounds as dip_cost_time_rows, which must
+// have been called before. Adds the times to the report's log. `times_before` is how often these
+// rows were timed before. If it is 0, the rows are new, and their work is counted, too. The journal
+// does not keep these times. The caller must call dip_cost_estimate_times afterwards.
 bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int times_before,
                         DipError *err);
 
-// Ranks all combinations of the combined settings: judges the sweeps and drops the settings that
-// change no picture, counts the work of combinations on a few frames, measures those that tell most
-// about all others, predicts the times and errors of all, and measures those that the prediction
-// puts on the Pareto front or near a budget. Takes the place of dip_cost_judge and
-// dip_cost_time_rows.
+// Finds the best combinations of the combined settings (--combine) by predictions. Judges the
+// sweeps, and drops the settings that change no picture. Counts the work of combinations on a few
+// frames. Measures the combinations that tell most about all others, and predicts the times and
+// errors of all others from them. Then measures those that the predictions put on the Pareto front
+// or near a budget. A run calls it instead of dip_cost_judge, dip_cost_time_rows and
+// dip_cost_time_smaller.
 bool dip_cost_predict(DipCostContext *cost, DipError *err);
 
-// Times again the rows of which it is unclear whether they are within a budget. Does nothing if the
-// verdict on the machine is red.
+// Times rows again if they may be clearly better than the row that is advised for a budget, and it
+// is unclear whether they are within the budget. Does nothing if the verdict on the machine is red.
 bool dip_cost_advise(DipCostContext *cost, DipError *err);
 
 // Answers requests for timed frames on standard input until it is closed. dip_cost_time_rows starts
@@ -84,51 +89,54 @@ bool dip_cost_serve(DipCostContext *cost, DipError *err);
 bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames, double *counters,
                     DipError *err);
 
-// Takes those settings out of options.combined of which all steps of the sweep draw the same
-// pictures. They keep their step of the baseline.
+// Takes a setting out of options.combined if all steps of its sweep draw the same pictures. All
+// combinations then have the baseline's step of this setting.
 void dip_cost_drop_idle_settings(DipCostReport *report);
 
-// Lists the combinations of the combined settings in report->predicted, and sets `searched`. If
-// there are more than DIP_COST_MAX_ROWS, lists only those that differ from the baseline in one
-// group of settings (combinations.h) and a sample of the others. Fails with DIP_ERROR_MEMORY.
+// Lists the combinations of the combined settings in report->predicted, and sets `searched` to
+// their number. If there are more than DIP_COST_MAX_ROWS, lists only the combinations that differ
+// from the baseline in one group of settings, the corners (both: combinations.h), and a sample of
+// the others. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_list_predictions(DipCostReport *report, DipError *err);
 
 // Fills in the counters of every combination in report->predicted: means over a few frames. Draws
-// every combination if there are at most DIP_COST_MOST_COUNTED. Otherwise draws those that differ
-// from the baseline in one group of settings, and composes the counters of the others. Shows its
-// progress on standard error.
+// every combination if there are at most DIP_COST_MOST_COUNTED. Otherwise draws the corners and
+// those that differ from the baseline in at most one group of settings, and composes the counters
+// of the others from theirs (combinations.h). Shows its progress on standard error.
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
 
-// If report->predicted has only a sample of the combinations, takes those out of the list that will
-// take about four times as long as the baseline or longer, and differ from it in several groups of
-// settings. They would tell much about prices, but take too long to measure.
+// If report->predicted has only a sample of the combinations, removes the slow ones from it: those
+// that differ from the baseline in several groups of settings and take at least about four times as
+// long. They would tell much about prices, but measuring them would take too long.
 void dip_cost_drop_slow_sample(DipCostReport *report);
 
-// Composes the counters of a combination from the counted ones of report->predicted
-// (combinations.h). Returns false if one that is needed is not listed.
+// Composes the counters of a combination from those of counted combinations in report->predicted
+// (combinations.h). Returns false if a combination that is needed is not listed there.
 bool dip_cost_compose_counters(const DipCostReport *report, DipCostPrediction *prediction);
 
-// The counters of report->predicted come from a few frames, the counters of rows from all timed
-// frames. Scales each counter of the combinations without a row by the ratio of the two. This ratio
-// comes from the combinations with a row, which have both counters. Then gives the combinations
-// with a row the counters of that row.
+// Mends counters of report->predicted, which come from a few frames only, while the counters of
+// rows come from all timed frames. A combination with a row has both counters: for each kind of
+// work, their ratio over all such combinations tells by how much the few frames are wrong. Scales
+// the counters of the combinations without a row by these ratios. Gives each combination with a row
+// the counters of its row.
 void dip_cost_scale_counters(DipCostReport *report);
 
 enum { DIP_COST_COUNTED_FRAMES = 8 }; // Frames of path 0, spread evenly, whose work is counted.
 
-// Returns how many combinations are measured to predict `count` combinations of these settings,
-// with those of the sweeps. Bit s of `settings` stands for setting s. Antialiasing and anisotropic
-// filtering need 16. Every other setting needs three more for each two steps after its first.
+// Returns how many combinations are measured to predict `count` combinations of these settings. The
+// combinations of the sweeps are part of this number. Bit s of `settings` stands for setting s.
+// Antialiasing and anisotropic filtering with their advanced variants need 16, or 20 if adaptive AA
+// is among the settings. Every other setting needs three more for each two steps after its first.
 // Returns at most `count`.
 int dip_cost_training_count(unsigned settings, int count);
 
 // Chooses the combinations to measure: those that tell most about the price of each kind of work
-// (fit.h) and about FLIP, by a D-optimal design. `chosen` has room for `count` indices of
-// report->predicted. First come the combinations that have a row, or if there are none, the
-// baseline. Fails with DIP_ERROR_MEMORY.
+// (fit.h) and about FLIP, by a D-optimal design. Writes their `count` indices in report->predicted
+// to `chosen`. The first of them are the combinations that have a row already or, if there are
+// none, the baseline. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err);
 
-// What is predicted of a combination.
+// Indices of the values that are predicted for a combination.
 enum {
     DIP_COST_PREDICTED_MS,
     DIP_COST_PREDICTED_P95,
@@ -136,13 +144,15 @@ enum {
     DIP_COST_PREDICTED // Number of values.
 };
 
-// A measured combination's shares in the corrections of the logarithms of all predictions.
+// What one measured combination adds to the predictions of others. For each predicted value, its
+// share, times the likeness of the two combinations (dip_cost_alike), is added to the logarithm.
 typedef struct DipCostCorrection {
     DipQuality quality;
     double shares[DIP_COST_PREDICTED];
 } DipCostCorrection;
 
-// The models of the combinations that have a row, and corrections by what they miss there.
+// The models, which are fitted to the combinations that have a row, and corrections for what the
+// models miss at these combinations.
 typedef struct DipCostModels {
     DipCostModel times;
     DipCostModel errors;
@@ -155,14 +165,15 @@ typedef struct DipCostModels {
 bool dip_cost_models_of(const DipCostReport *report, DipCostModels *models, DipError *err);
 void dip_cost_models_free(DipCostModels *models);
 
-// Returns how alike two combinations are in the settings of a mask: 1 if these are the same, and
-// half for each setting that differs. The likeness in all settings is the product of those in parts
-// of them.
+// Returns the likeness of two combinations in the settings of a mask (bit s for setting s): 1 if
+// all of these settings are the same, and half as much for each setting that differs. If masks
+// share no setting, the likeness in all of their settings is the product of the likenesses.
 double dip_cost_alike(const DipQuality *a, const DipQuality *b, unsigned settings);
 
-// Predicts a combination with these counters: the models' values, times exp(c). The correction c is
-// the sum of the shares of all measured combinations, each times its likeness to this one: the mean
-// of a Gaussian process whose covariance is the likeness (Rasmussen and Williams 2006, eq. 2.25).
+// Predicts a combination with these counters: the models' values, times exp(c). The correction c of
+// a value is the sum of the shares of all measured combinations, each times its likeness to this
+// one, likeness[correction]. This is the mean of a Gaussian process whose covariance is the
+// likeness (Rasmussen and Williams 2006, eq. 2.25).
 void dip_cost_predict_one(const DipCostModels *models, const double *counters,
                           const DipQuality *quality, const double *likeness,
                           double values[DIP_COST_PREDICTED]);
@@ -170,33 +181,36 @@ void dip_cost_predict_one(const DipCostModels *models, const double *counters,
 // Predicts every combination of report->predicted that has no row. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_predict_others(DipCostReport *report, const DipCostModels *models, DipError *err);
 
-// Up to which predicted time combinations are measured for a budget: up to that at which nine of
-// ten fit it, and up to that at which one of ten does, by how far times are predicted wrong so far.
+// For each budget, there are two limits of the predicted time, up to which combinations may be
+// measured. Let m be the relative miss that nine of ten predictions of times keep so far. Up to
+// budget / (1 + m), a combination nearly surely fits the budget. Up to budget * (1 + m), it may.
 enum { DIP_COST_LIMIT_SURE, DIP_COST_LIMIT_MAY, DIP_COST_LIMITS };
 double dip_cost_limit_ms(const DipCostReport *report, int budget, int limit);
 
-// Predicts all combinations of the combined settings, and adds the best to report->predicted: for
-// each limit of each budget DIP_COST_PER_LIMIT of least FLIP, and those on the thinned Pareto front
-// of times that differ by 2 % or more. The work is composed of the counted combinations of the
-// list. Fails with DIP_ERROR_MEMORY.
+// Predicts all combinations of the combined settings, and adds the best to report->predicted. These
+// are, for each limit of each budget, the DIP_COST_PER_LIMIT combinations of least FLIP, and those
+// on a Pareto front that has at most one combination for each 2 % of time, and only combinations
+// whose FLIP is at least 1 % below that of the one before. The work of combinations is composed
+// from those of report->predicted that were counted. Fails with DIP_ERROR_MEMORY.
 enum { DIP_COST_PER_LIMIT = 8 };
 bool dip_cost_search(DipCostReport *report, DipPool *pool, const DipCostModels *models,
                      DipError *err);
 
-// Lists the combinations without a row that should be measured: for each limit of each budget the
-// few of least FLIP, and those on the thinned Pareto front (dip_front, choice.h) of predicted or
-// measured time and FLIP. Returns their number, at most `most`, or -1 and fills *err.
+// Lists the combinations that should be measured and have no row yet: for each limit of each budget
+// some of least FLIP, and some on the Pareto front of predicted or measured time and FLIP
+// (dip_front, choice.h). Writes their indices in report->predicted to `list`. Returns their number,
+// at most `most`, or -1 and fills *err.
 int dip_cost_list_promising(const DipCostReport *report, int most, int *list, DipError *err);
 
-// Adds rows for those of these combinations (indices of report->predicted) that have none, and
-// lists the rows of all.
+// Adds a row for each listed combination that has none. `list` holds indices in report->predicted.
+// Writes the rows of all listed combinations to `rows`. Fills *err if it returns false.
 bool dip_cost_add_rows(DipCostReport *report, const int *list, int count, int *rows, DipError *err);
 
 // Measures the errors, times and work of new rows of path 0, and estimates the times of all rows.
 typedef bool DipCostMeasure(void *context, const int *rows, int count, DipError *err);
 
-// Predicts all combinations, measures the best ones and predicts the others anew, at most
-// dip_cost_most_goes times. If the verdict is red, only predicts.
+// Predicts all combinations. Then measures the best ones and predicts the others anew, at most
+// dip_cost_most_goes times. If the verdict on the machine is red, only predicts.
 bool dip_cost_measure_best(DipCostReport *report, DipPool *pool, DipCostMeasure *measure,
                            void *context, DipError *err);
 int dip_cost_most_goes(const DipCostOptions *options);
@@ -207,17 +221,17 @@ int dip_cost_most_goes(const DipCostOptions *options);
 // or with another number of threads. `cost` is the context of the report, and `there` is a context
 // without truths for the other size, path or number of threads.
 
-// Makes *there a report without rows for this size and the camera path of this category. The number
-// of timed frames is that of `report`. The caller frees the predicted combinations that it adds to
-// *there.
+// Makes *there a report without rows for this size and the camera path with this name. The number
+// of timed frames is that of `report`. If the caller adds predicted combinations to *there, it
+// frees them.
 void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report, int width,
                               int height, const char *path);
 
-// Times the combinations of `rows` in the context `there`, each beside the baseline of the report's
-// path 0, and fills in their times and counters. `progress` is the text of the progress display,
-// such as "smaller frames timed". Sets *wait to the share of the frames' time that their threads
-// waited for a core. Fails with MEMORY, as the renderer does, and with RUNTIME after Ctrl-C or if
-// too many frames were disturbed.
+// Times the combinations of `rows` in the context `there`. Each is timed beside the baseline of the
+// report's path 0, which is drawn in the context `cost`. Fills in their times and counters.
+// `progress` is the text of the progress display, such as "smaller frames timed". Sets *wait to the
+// share of the frames' time for which their threads waited for a core. Fails with MEMORY, as the
+// renderer does, and with RUNTIME after Ctrl-C.
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
                              int count, const char *progress, double *wait, DipError *err);
 

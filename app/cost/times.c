@@ -1,6 +1,6 @@
-// Times rows beside the baseline of their paths, times combinations at other sizes or on other
-// paths, and counts their work. The counters are the same whenever a frame is drawn, so the work of
-// each frame is counted once.
+// Times rows, each beside the baseline of its path. Times combinations at another size, on another
+// path or with other threads. Counts the work of both. The counters are the same whenever a frame
+// is drawn, so the work of each frame is counted once.
 //
 // With --starts, the program starts itself several times with --serve, one process after another,
 // and asks each for the frames to time. Times differ from process to process, since chance decides
@@ -19,16 +19,17 @@
 enum {
     BASE_COPIES = 3, // Number of rounds in which each frame of the baseline is timed. More than one
                      // round tells slow frames from slow moments.
-    BLOCK_ROWS = 4,  // Rows that are timed beside one drawing of the baseline. If all rows of a
-                     // round shared one drawing, ratios would deviate twice as much.
-    LEAST_SIDE = 64, // Pixels. Smaller pictures are not timed at half their size.
+    BLOCK_ROWS = 4,  // Number of rows that are timed beside one drawing of the baseline. If all
+                     // rows of a round shared one drawing, ratios would deviate twice as much.
+    LEAST_SIDE = 64, // Pixels. If a side of the pictures is shorter, they are not timed at half
+                     // their size.
     REQUEST_SIZE = 512,
     SEED_SALT = 0x517 // Mixed into the seed of dip_cost_time_elsewhere, for another order of
                       // frames than that of the report's rows.
 };
 
-// If starting a process takes longer than this share of its rounds' time, only two processes are
-// started.
+// If the first process takes longer than this share of the time of its rounds to start, only two
+// processes are started.
 static const double most_start = 0.1;
 
 // A subject of the driver (driver.h): settings on a camera path of a context's report.
@@ -36,8 +37,8 @@ typedef struct Subject {
     DipCostContext *cost;
     const DipQuality *quality;
     int path;
-    double *counters; // Sums over the frames, and means at the end. NULL if they are not counted,
-                      // because they are known already.
+    double *counters; // Sums over the frames, and means at the end. NULL if the work need not be
+                      // counted, because it is known already.
 } Subject;
 
 // A measurement. Each subject is timed beside another subject, its base.
@@ -51,7 +52,7 @@ typedef struct Timing {
     DipDriverMachine machine;
     DipTimesFit *fit; // Times of the subjects of dip_cost_time_elsewhere, otherwise NULL.
     DipChild *child;  // The process that draws; NULL if this process draws.
-    bool kept;        // The journal gets the times.
+    bool kept;        // True if the times are stored in the journal.
 } Timing;
 
 static void close_timing(Timing *t) {
@@ -101,8 +102,8 @@ static void count_work(const Timing *t, int subject, int frame, const DipCounter
     }
 }
 
-// Divides the sums that count_work made by the number of frames. First draws the frames whose times
-// came from the journal, since the journal has no counters.
+// Divides the sums that count_work made by the number of frames. Before, draws the frames whose
+// times came from the journal and counts their work, since the journal has no counters.
 static bool average_work(const Timing *t, DipError *err) {
     const int frames = dip_cost_frame_count(t->cost->report);
     for (int s = 0; s < t->count; s++) {
@@ -144,7 +145,7 @@ static bool draw_in_child(const Timing *t, const Subject *s, int frame, DipCount
     return true;
 }
 
-// The process that is asked prepares a frame itself.
+// Prepares a frame if this process draws it. Another process prepares its frames itself.
 static bool prepare(void *context, const DipDriverTurn *turn, DipError *err) {
     const Timing *t = context;
     const Subject *s = &t->subjects[turn->subject];
@@ -169,7 +170,8 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
-// Ends the process that draws, and starts the next one with the command line of this one.
+// Ends the process that draws, if there is one, and starts another one with the command line of
+// this process.
 static bool start(void *context, int index, DipError *err) {
     Timing *t = context;
     const DipChildDef def = {
@@ -194,7 +196,8 @@ static bool keep_round(void *context, const DipTimed *timed, int count, DipError
                                                   timed, count, err);
 }
 
-// Hands the rounds of the journal to the driver, which refuses a round that is not its next one.
+// Gives the rounds of the journal to the driver. The driver refuses a round that is not complete or
+// does not follow the one before.
 static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     const DipCostJournal *journal = t->cost->journal;
     const int rounds = dip_cost_journal_round_count(journal, NULL);
@@ -211,11 +214,12 @@ static bool resume(const Timing *t, DipDriver *driver, DipError *err) {
     return true;
 }
 
-// Which process draws the frames, and where the times go.
+// Which processes draw the frames, and where the times are stored. The processes that --starts asks
+// for are started by this one; with --starts 1, this process draws.
 typedef enum Where {
-    KEPT,     // The processes of --starts draw. The journal and the report's log get the times.
-    HERE,     // The processes of --starts draw. Only the report's log gets the times.
-    ELSEWHERE // This process draws. t->fit gets the times.
+    KEPT,     // The processes of --starts draw. Times go to the journal and to the report's log.
+    HERE,     // The processes of --starts draw. Times go to the report's log only.
+    ELSEWHERE // This process draws. Times go to t->fit only.
 } Where;
 
 // Times the subjects and counts their work.
@@ -304,8 +308,8 @@ bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int ti
     for (int i = 0; i < count; i++) {
         set_row(&t, i + 1, rows[i], is_new);
     }
-    // Each row that is timed again has a block and a drawing of the baseline of its own, since each
-    // is compared with a budget.
+    // A row that is timed again is compared with a budget. For more exact times, each such row has
+    // a block of its own, and so a drawing of the baseline of its own.
     const bool done =
         drive(&t, HERE, is_new ? BLOCK_ROWS : 1, (uint64_t)cost->report->options.seed + seed,
               "frames timed for the advice", err);
@@ -345,11 +349,12 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
 
 // --- half the size -------------------------------------------------------------------------------
 
-// Fills report->smaller with the baseline, and with settings that add work at edges, in textures,
-// and in both.
+// Fills report->smaller with the baseline, and with three combinations that add work to it: at
+// edges, in textures, and in both.
 static void list_smaller(DipCostReport *report) {
     static const struct {
-        uint8_t aa, aaa, af; // Steps; 0 means the baseline's step.
+        // Steps. If `aa` is 0, AA and adaptive AA are those of the baseline; so is AF if `af` is 0.
+        uint8_t aa, aaa, af;
     } steps[DIP_COST_MAX_SMALLER] = {{0, 0, 0}, {2, 0, 0}, {0, 0, 4}, {4, DIP_AAA_ON, 4}};
     for (int i = 0; i < DIP_COST_MAX_SMALLER; i++) {
         DipQuality quality = report->options.baseline;

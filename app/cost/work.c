@@ -1,4 +1,5 @@
-// Lists the combinations that are predicted, and counts or composes their work.
+// Lists the combinations that are to be predicted. Counts their work, or composes it from the work
+// of others (combinations.h).
 #include "app/cost/steps.h"
 
 #include "app/report/combinations.h"
@@ -10,13 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POOL = 1024 }; // Number of combinations from which those to measure first are chosen.
+// Number of combinations that add_pool draws at random. Some of them are measured, to predict all
+// others.
+enum { POOL = 1024 };
 
-// Greatest time of these combinations over the baseline's, so that they are measured in short time.
+// Greatest time of a combination over the baseline's that dip_cost_drop_slow_sample keeps, so that
+// measuring the sample does not take too long.
 static const double most_ratio = 4.0;
 
 // --- which combinations there are ----------------------------------------------------------------
 
+// Returns whether all steps of a sweep draw the same pictures.
 static bool is_idle(const DipCostReport *report, const DipCostSweep *sweep) {
     bool same = true;
     for (int i = 0; same && i < sweep->row_count; i++) {
@@ -46,8 +51,8 @@ static void add_prediction(DipCostReport *report, const DipQuality *quality) {
     }
 }
 
-// Lists the combinations that differ from the baseline in one group of settings. Sets end[g] to the
-// number of combinations up to group g.
+// Lists the baseline, and the combinations that differ from it in one group of settings. Sets
+// end[g] to the number of combinations that are listed once group g is done.
 static void list_groups(DipCostReport *report, int end[DIP_WORK_GROUPS]) {
     const DipQuality *baseline = &report->options.baseline;
     DipQuality list[DIP_COST_MOST_COUNTED];
@@ -62,7 +67,7 @@ static void list_groups(DipCostReport *report, int end[DIP_WORK_GROUPS]) {
     }
 }
 
-// Adds the corners (combinations.h).
+// Adds the corners (dip_work_is_corner) to the list.
 static void add_corners(DipCostReport *report) {
     const DipQuality *baseline = &report->options.baseline;
     const unsigned combined =
@@ -76,8 +81,8 @@ static void add_corners(DipCostReport *report) {
     }
 }
 
-// Adds combinations that differ from the baseline in several groups of settings, at random. Each
-// group has the baseline's settings in half of them.
+// Adds random combinations, most of which differ from the baseline in several groups of settings.
+// Each group has the baseline's settings in about half of them.
 static void add_pool(DipCostReport *report, const int end[DIP_WORK_GROUPS]) {
     uint64_t random = 1;
     for (int i = 0; i < POOL; i++) {
@@ -131,7 +136,7 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
     memset(counters, 0, DIP_COUNTER_COUNT * sizeof *counters);
     for (int k = 0; k < frames; k++) {
         DipFrame frame;
-        // The path is divided into equal parts; this is the middle of part k.
+        // The path is divided into `frames` equal parts. This frame is the middle of part k.
         const int index = dip_cost_frame_count(cost->report) * (2 * k + 1) / (2 * frames);
         if (dip_cost_interrupted(err) || !dip_cost_prepare_timed(cost, quality, 0, index, err) ||
             !dip_cost_draw_timed(cost, quality, 0, index, &frame, err)) {
@@ -145,21 +150,21 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
     return true;
 }
 
-// Whether others are composed of a combination: it differs from the baseline in one group of
-// settings at most, or is a corner.
+// Returns whether the work of other combinations is composed of that of this one: it differs from
+// the baseline in at most one group of settings, or is a corner.
 static bool is_part(const DipCostReport *report, const DipQuality *quality) {
     const DipQuality *baseline = &report->options.baseline;
     return dip_work_count_groups(baseline, quality) <= 1 || dip_work_is_corner(baseline, quality);
 }
 
 // Returns whether the work of a combination is counted by drawing it. If there are many
-// combinations, only those are drawn of which others are composed.
+// combinations, only those are drawn that others are composed of.
 static bool is_counted(const DipCostReport *report, const DipQuality *quality) {
     return report->predicted.count <= DIP_COST_MOST_COUNTED || is_part(report, quality);
 }
 
-// Returns the counters of a listed combination of which others are composed, or NULL.
-// dip_work_compose calls it.
+// Returns the counters of a combination that others are composed of, or NULL if it is no such
+// combination or is not listed. dip_work_compose calls this function.
 static const double *find_counted(const void *context, const DipQuality *quality) {
     const DipCostReport *report = context;
     if (!is_part(report, quality)) {
@@ -195,7 +200,8 @@ bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
         cost->forecast.row_ms =
             1e3 * dip_progress_elapsed_s(&progress) / (double)(done * DIP_COST_COUNTED_FRAMES);
     }
-    // A combination is drawn, too, if one that it would be composed of is not listed.
+    // The counters of all other combinations are composed. If a combination that this needs is not
+    // listed, the combination is drawn, too.
     for (int i = 0; counted && i < predicted->count; i++) {
         DipCostPrediction *to = &predicted->list[i];
         counted = is_counted(report, &to->quality) || dip_cost_compose_counters(report, to) ||
@@ -227,7 +233,7 @@ void dip_cost_scale_counters(DipCostReport *report) {
 
 // --- the sample ----------------------------------------------------------------------------------
 
-// Estimates the time of a frame from its main counters, with usual prices in nanoseconds.
+// Estimates the time of a frame in nanoseconds, from its main counters and usual prices of work.
 static double usual_ns(const double counters[DIP_COST_COUNTER_COUNT]) {
     static const struct {
         int counter;
