@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-// The advice. It is the context of all fields (DipFieldAt).
+// The advice for all budgets. It is the context of all fields (DipFieldAt).
 typedef struct Advised {
     const DipCostCommon *common;
     const DipCostCommonAdvice *list; // One for each budget.
@@ -54,14 +54,14 @@ static int count_reports(const DipFieldAt *at) {
 
 // --- what a report says about a choice -----------------------------------------------------------
 
-// The line of a report in the table of a budget. Values that are not known are NAN. The intervals
-// of the times include the error that all combinations of the report share.
+// The line of a report in the table of one budget. Values that are not known are NAN. The intervals
+// of the times include the error that all times of the report share.
 typedef struct Line {
-    DipCandidate chosen;
-    DipCandidate alone; // The settings that this report alone would choose.
+    DipCandidate chosen; // The common choice, with its time and error in this report.
+    DipCandidate alone;  // The settings that would be chosen from this report alone.
     bool has_alone;
-    bool same; // The report alone would choose the same row.
-    double loss;
+    bool same;   // `alone` and `chosen` are the same row of the report.
+    double loss; // See dip_cost_common_share_lost.
 } Line;
 
 double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostCommonAdvice *advice,
@@ -145,7 +145,7 @@ DIP_GET_ITEM(get_line, DIP_MADE(Line, (line_of(advised_of(at)->common, at->item,
 
 // --- budgets -------------------------------------------------------------------------------------
 
-// Returns the common choice for a budget. `at->item` is the advice for this budget.
+// Returns the common choice for the budget whose advice is at->item.
 static const DipAdvice *all_of(const DipFieldAt *at) {
     return &((const DipCostCommonAdvice *)at->item)->all;
 }
@@ -273,7 +273,7 @@ static void print_reports(DipForm *form, const Advised *advised) {
         common->candidates.count == 1 ? "is" : "are", dip_time_kind_names[common->candidates.kind]);
 }
 
-// Prints the next better combination, and how far it is from fitting the budget.
+// Prints the next better combination, what it costs, and the probability that it fits the budget.
 static void print_next(DipForm *form, const DipCostCommon *common, const DipAdvice *advice) {
     char settings[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES];
     char fits[DIP_NUMBER_BYTES];

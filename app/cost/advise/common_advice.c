@@ -1,4 +1,4 @@
-// Matches the combinations of several reports, and chooses among them.
+// Finds the combinations that several reports have in common, and chooses among them.
 #include "app/cost/advise/common_advice.h"
 
 #include "app/report/report.h"
@@ -13,14 +13,15 @@ static bool out_of_memory(DipError *err) {
 
 // --- matching ------------------------------------------------------------------------------------
 
-// Returns the row of a combination in a report, or -1 if the report has no time or no error of it.
+// Returns the row of a combination in a report, or that of a combination that draws the same
+// pictures. Returns -1 if there is no such row, or if the row's errors are not known.
 static int find_row(const DipCostReport *report, const DipQuality *quality) {
     const int row = dip_report_find_same(report, quality, report->combined_first);
     return row >= 0 && dip_cost_is_judged(report, row) ? row : -1;
 }
 
-// Lists the combinations of the first report. Some have no row of their own, because another row,
-// which draws the same pictures, stands for them.
+// Lists the combinations of the first report. Among them are those without a row of their own, for
+// which a row that draws the same pictures stands (report->same).
 static bool begin_match(DipCostCommon *common, DipError *err) {
     const DipCostReport *report = &common->reports[0];
     const DipCandidates *own = &report->choice.candidates;
@@ -84,7 +85,7 @@ static bool check_report(const DipCostCommon *common, int index, DipError *err) 
     return true;
 }
 
-// Returns the time that a combination surely does not exceed in one report.
+// Returns the upper end of the interval of a combination's time in one report.
 static double bound_of(const DipCandidate *candidate) {
     const DipEstimate time = dip_estimate_widen(&candidate->time, candidate->common_error);
     return time.high;

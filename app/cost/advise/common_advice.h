@@ -15,14 +15,15 @@ typedef struct DipCostCommon {
     DipCostReport *reports;                         // Owned.
     int report_count;
     // The combinations as candidates: their mean FLIP over the reports, and their time in the
-    // report in which they may take longest. `row` is the index in this list. The list is owned.
+    // report in which they may take longest. `row` of a candidate is its index in this list. The
+    // list is owned.
     DipCandidates candidates;
 } DipCostCommon;
 
 // What to choose for one time budget.
 typedef struct DipCostCommonAdvice {
     DipAdvice all; // The common choice, among common->candidates.
-    // [report]: the row that this report alone would choose, or -1 if it would choose none.
+    // [report]: the row that would be chosen from this report alone, or -1 if none would.
     int alone[DIP_COST_MAX_COMMON_REPORTS];
 } DipCostCommonAdvice;
 
@@ -34,8 +35,8 @@ typedef struct DipCostCommonAdvice {
 bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int count,
                           DipTimeKind budget_of, DipError *err);
 
-// Lists the common combinations of reports that already stand in common->reports. Fails for the
-// same reasons as dip_cost_common_read.
+// Lists the combinations that all of common->reports have. common->names must be filled in, too.
+// Fails for the same reasons as dip_cost_common_read.
 bool dip_cost_common_match(DipCostCommon *common, DipError *err);
 void dip_cost_common_free(DipCostCommon *common);
 
@@ -46,15 +47,15 @@ int dip_cost_common_row(const DipCostCommon *common, int combination, int report
 // Returns the time and error of a combination in one report.
 DipCandidate dip_cost_common_candidate(const DipCostCommon *common, int combination, int report);
 
-// Chooses the common settings for a budget (dip_advise), and the settings that each report would
-// choose alone. With a single report, the two are the same.
+// Chooses the common settings for a budget (dip_advise), and the settings that would be chosen from
+// each report alone. With a single report, the two are the same.
 void dip_cost_common_advise(const DipCostCommon *common, double budget_ms,
                             DipCostCommonAdvice *advice);
 
 // Returns the share by which the chosen combination's FLIP in one report is above the FLIP of the
-// row that this report alone would choose. A FLIP below the noise floor of the report's truths
-// counts as the floor (dip_cost_ranking_flip). Returns NAN if there is no common choice, or if this
-// report alone would choose none.
+// row that would be chosen from this report alone. A FLIP below the noise floor of the report's
+// truths counts as the floor (dip_cost_ranking_flip). Returns NAN if there is no common choice, or
+// if no row would be chosen from this report alone.
 double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                                   int report);
 
