@@ -1,5 +1,5 @@
-// Runs the command `diptych cost merge`: joins several reports into one. Each of them has the
-// errors at some of the viewpoints.
+// Runs the command `diptych cost merge`: joins several reports into one. Each of these reports,
+// which are called parts, has the errors at some of the viewpoints.
 #include "app/cost/command.h"
 #include "app/cost/context.h"
 #include "app/cost/options.h"
@@ -65,7 +65,8 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
 }
 
 // Reads all parts and joins them into one report. The report's times, budgets and machine come from
-// the first part that has times, because times of several machines cannot be mixed.
+// the first part that has times, or from the first part if none has times. Times of several
+// machines cannot be mixed.
 static bool read_parts(const Arguments *arguments, DipCostReport *report, DipCostMachines *machines,
                        DipError *err) {
     if (!dip_cost_read_report(arguments->parts[0], report, err)) {

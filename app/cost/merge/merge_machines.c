@@ -1,4 +1,5 @@
-// Collects what the parts of a merged report tell about their machines, and prints it as a table.
+// Collects what the parts of a merged report tell about the machines that measured them, and prints
+// it as a table.
 #include "app/cost/merge/merge_machines.h"
 
 #include "app/files/put.h"

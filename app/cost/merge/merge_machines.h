@@ -1,5 +1,5 @@
-// Makes a table that compares the machines whose times `diptych cost merge` finds in its parts. The
-// merged report has the times of only one of these machines.
+// Makes a table that compares the machines of the parts (the reports that `diptych cost merge`
+// joins) that have times. The merged report has the times of only one of these machines.
 #ifndef DIP_APP_COST_MERGE_MERGE_MACHINES_H
 #define DIP_APP_COST_MERGE_MERGE_MACHINES_H
 
@@ -24,14 +24,13 @@ typedef struct DipCostMachines {
     DipCostMachine list[DIP_COST_MAX_PARTS];
     int count;
     // Names of the compared ratios, such as "aa 8 / none". A ratio is the time of the last step of
-    // a setting's first sweep over the time of the sweep's base. If the last step is the base, the
-    // ratio has the time of the first step instead.
+    // a setting's first sweep, divided by the time of the sweep's base. If the last step is the
+    // base, the ratio has the first step instead.
     char rows[DIP_COST_MACHINE_ROWS][DIP_COST_TEXT];
     int row_count;
 } DipCostMachines;
 
-// Adds the machine of a part. A part without times is passed over. All parts must have the same
-// sweeps.
+// Adds the machine of a part, unless the part has no times. All parts must have the same sweeps.
 void dip_cost_machines_add(DipCostMachines *machines, const DipCostReport *part);
 
 // Prints the table if at least two parts have times.
