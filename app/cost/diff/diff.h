@@ -1,10 +1,11 @@
-// Declares the parts of `diptych cost diff`, which finds what got slower or worse between two
-// reports, two programs, or a report and a program.
+// Declares the parts of `diptych cost diff`, which finds what got slower or worse from one report
+// or program to another.
 //
-// A comparison has two sides: side 0 is A, and side 1 is B. Each of its rows is a combination of
-// settings on a camera path that both sides have, with the values of some quantities on both sides.
-// A quantity is an error, a counter or the number of pictures that differ. Quantities are exact, so
-// any difference has a cause. A row also has times, which are noisy and have intervals.
+// A comparison has two sides, A (side 0) and B (side 1). Each is a report or a program. Each row of
+// the comparison is a combination of settings on a camera path that both sides have, with the
+// values of some quantities on both sides. A quantity is an error, a counter or the number of
+// pictures that differ. Quantities are exact, so any difference has a cause. A row also has times,
+// which are noisy and have intervals.
 #ifndef DIP_APP_COST_DIFF_DIFF_H
 #define DIP_APP_COST_DIFF_DIFF_H
 
@@ -41,9 +42,10 @@ typedef struct DipCostDiffArguments {
     int side_count;
     DipCostDiffSet sets[DIP_COST_DIFF_MAX_SETS];
     int set_count;
-    DipMeasureOptions measure; // 0 rounds mean DIP_COST_DIFF_ROUNDS, or 1 with a report.
-    int frames;                // 0 means DIP_COST_DIFF_FRAMES. Unused with a report.
-    double fail_over;          // 1.03 for --fail-over 3%; 0 without this option.
+    // 0 rounds mean DIP_COST_DIFF_ROUNDS if both sides are programs, and 1 if one is a report.
+    DipMeasureOptions measure;
+    int frames;       // 0 means DIP_COST_DIFF_FRAMES. Used only if both sides are programs.
+    double fail_over; // 1.03 for --fail-over 3%; 0 without this option.
     const char *json;
 } DipCostDiffArguments;
 
@@ -81,10 +83,11 @@ typedef struct DipCostDiffRow {
     char path[16];
     double values[2][DIP_COST_DIFF_QUANTITY_COUNT]; // NAN if not known or not comparable.
     bool timed;                                     // Both sides have a time.
-    bool is_base;                                   // Reports only: the baseline of its path.
+    bool is_base;                                   // Reports only: the row is the baseline.
     double ms[2];                                   // Mean time of a frame.
     DipEstimate ratios[2];                          // Reports only: time / the baseline's time.
-    DipEstimate change;  // How many times as long B takes as A, with its 95 % interval.
+    // For programs B's time / A's time, for reports B's ratio / A's ratio, with the interval.
+    DipEstimate change;
     double surely_above; // The change is surely greater than this; see dip_cost_diff_mark.
     double surely_below; // The change is surely less than this.
     // Programs only, for each stage of a frame: 1 + (B's time in the stage - A's time in it) / A's
@@ -101,18 +104,18 @@ typedef enum DipCostDiffKind {
 
 typedef struct DipCostDiff {
     DipCostDiffKind kind;
-    const char *names[2];       // As on the command line. Borrowed.
-    char machines[2][256];      // "Xeon, 2 threads, avx512"; "" if not known.
-    char builds[2][33];         // Hash of the program's file; "" if not known.
-    char scene[DIP_COST_TEXT];  // "court.gltf, 640x480 pixels"; "" if not known.
-    bool some_rows;             // One side is a program that measured only some rows of the other.
-    bool same_machine;          // The sides' machines, threads and instruction sets are the same.
-    bool has_times;             // The times may be compared.
+    const char *names[2];      // As on the command line. Borrowed.
+    char machines[2][256];     // "Xeon, 2 threads, avx512"; "" if not known.
+    char builds[2][33];        // Hash of the program's file; "" if not known.
+    char scene[DIP_COST_TEXT]; // "court.gltf, 640x480 pixels"; "" if not known.
+    bool some_rows;    // One side is a program that measured only some rows of the other side.
+    bool same_machine; // The sides' machines, threads and instruction sets are the same.
+    bool has_times;    // The times may be compared.
     DipCostVerdict verdicts[2]; // How quiet each side's machine was; for programs both are equal.
     char reasons[2][DIP_COST_REASON];
     DipCostDiffRow *rows; // Owned.
     int row_count;
-    // Differences of a whole side, not of single rows.
+    // Texts that say in what the sides differ as a whole, or what is not compared.
     char notes[DIP_COST_DIFF_MAX_NOTES][DIP_COST_DIFF_NOTE];
     int note_count;
     char cause[512];   // The likely cause of a slowdown; "" if nothing is sure.
@@ -139,20 +142,20 @@ const char *dip_cost_diff_title(int quantity);
 // Returns whether a row's quantity is known on both sides and differs.
 bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
 
-// Returns by what share an error grew from A to B (0.1 if B's error is 10 % greater), or 0 if it is
-// not known. PSNR and SSIM are turned into errors that grow when the picture gets worse: the root
-// mean square difference that PSNR stands for, and 1 - SSIM. For other quantities, returns the
-// growth of the value.
+// Returns by what share a quantity grew from A to B (0.1 if B's value is 10 % greater), 0 if it
+// does not differ or is not known, or INFINITY if it is 0 in A only. PSNR and SSIM are turned into
+// errors that grow when the picture gets worse: the root mean square difference that PSNR stands
+// for, and 1 - SSIM.
 double dip_cost_diff_growth(const DipCostDiffRow *row, int quantity);
 
-// Leaves out the counters that are 0 in all rows of one side and in no row of the other, and notes
-// their names: perhaps an older build does not count what a newer one counts.
+// Leaves out the counters that are 0 in all rows of one side and in no row of the other, and adds a
+// note with their names: perhaps an older build does not count what a newer one counts.
 void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
 
-// Computes the rows' marks and the counts from the rows and the limits. A row is marked as slower
-// if surely_above is greater than the limit, and as faster if surely_below is less than its
-// inverse. Marks no row if the times may not be compared, if a machine's verdict is red, or if two
-// reports come from different machines.
+// Computes the rows' marks, and the numbers of slower, faster and failed rows. A row is marked as
+// slower if surely_above is greater than the limit, and as faster if surely_below is less than
+// 1 / limit. Marks no row if the times may not be compared, if a machine's verdict is red, or if
+// two reports come from different machines.
 void dip_cost_diff_mark(DipCostDiff *diff);
 
 // --- groups of exact differences -----------------------------------------------------------------
@@ -166,17 +169,18 @@ typedef struct DipCostDiffChange {
     double most;  // Greatest growth in these rows.
 } DipCostDiffChange;
 
-// Quantities that differ in the same rows. All errors are one group.
+// A group of quantities that differ in the same rows. All errors that differ are in one group, even
+// if not all of them differ in the same rows.
 typedef struct DipCostDiffGroup {
-    char which[256]; // The rows, in words: "all 12 rows with af=16".
+    char which[256]; // Says in which rows the quantities differ: "all 12 rows with af=16".
     int row_count;   // Number of rows in which any of the quantities differs.
     DipCostDiffChange changes[DIP_COST_DIFF_QUANTITY_COUNT];
     int change_count;
 } DipCostDiffGroup;
 
 // Finds all groups, so that a reader sees the few causes of the differences and not one line per
-// row. Each quantity is in at most one group. Returns the number of groups, or -1 when memory runs
-// out.
+// row. Each quantity that differs is in one group. Returns the number of groups, or -1 when memory
+// runs out.
 int dip_cost_diff_group(const DipCostDiff *diff,
                         DipCostDiffGroup groups[DIP_COST_DIFF_QUANTITY_COUNT]);
 
@@ -198,11 +202,13 @@ typedef struct DipCause {
     double share; // Share of the sum of squares of the additional times that this work explains.
 } DipCause;
 
-// Fits the additional times y of the rows by y = price * work, for each kind of work by itself,
-// with least squares, and takes the kind that leaves the least error. This kind is sure if it wins
-// in 90 % of 200 bootstrap draws of the starts and explains 90 % of the sum of squares. Kinds of
-// work that are proportional over the rows to within a few per cent (the cosine of their angle is
-// above .999) cannot be told apart, and the first of them is taken. Fails with DIP_ERROR_MEMORY.
+// Finds the kind of work that explains the additional times y of the rows best. For each kind by
+// itself, fits y = price * work by least squares, with a price above 0, and takes the kind that
+// leaves the least error. This kind is sure if it also leaves the least error in at least 90 % of
+// 200 draws of the starts with replacement (bootstrap), and if it explains at least 90 % of the sum
+// of squares. Kinds of work that are proportional over the rows to within a few per cent (the
+// cosine of their angle is above .999) cannot be told apart, and the first of them is taken. Fails
+// with DIP_ERROR_MEMORY.
 bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err);
 
 // Returns whether two kinds of work are proportional over the rows, so that they cannot be told
@@ -210,9 +216,9 @@ bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err);
 bool dip_cause_is_same_work(const DipCauseData *data, int a, int b);
 
 // Writes diff->cause from the times of two programs: the stage that takes most of the additional
-// time of the slower rows and, with four rows or more, the kind of work with which this time grows.
-// In `times` and `fit`, the subject 2 * row + side stands for a row on one side. Fails with
-// DIP_ERROR_MEMORY.
+// time of the slower rows. With four rows or more, also names the kind of work with which the
+// additional time in this stage grows, if that is sure. In `times` and `fit`, the subject
+// 2 * row + side stands for a row on one side. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTimesFit *fit,
                            DipError *err);
 
@@ -226,17 +232,17 @@ bool dip_cost_diff_is_busy(const DipCostDiff *diff);
 bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCostDiff *diff,
                            DipError *err);
 
-// Draws the settings of `arguments` with both programs in turn, at every frame, and fills in the
-// comparison. Fails if a program does not answer, if the user presses Ctrl-C or if memory runs out.
-// On success the caller frees the comparison.
+// Draws the settings of `arguments` with both programs, which take turns at every frame, and fills
+// in the comparison. Fails if a program does not answer, if the user presses Ctrl-C or if memory
+// runs out. On success the caller frees the comparison.
 bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *const programs[2],
                             DipCostDiff *diff, DipError *err);
 
 // Measures rows of a report again with another program: the rows of the report's first path whose
 // settings `arguments` lists. Makes a new report with the baseline and these rows. It has no
-// errors, and each row's ratio is its time / the time of the baseline in the same program. Fails
-// with DIP_ERROR_MISSING if the report has none of the rows or no times. On success the caller
-// frees the new report.
+// errors, and each row's ratio is its time / the time of the baseline in the same program. Fails as
+// dip_cost_diff_programs does, and with DIP_ERROR_MISSING if the report has no times or none of the
+// settings. On success the caller frees the new report.
 bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const char *program,
                                   const DipCostReport *report, DipCostReport *measured,
                                   DipError *err);

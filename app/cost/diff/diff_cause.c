@@ -1,6 +1,6 @@
 // Finds the likely cause of a slowdown: the kind of work with which the additional time grows. Fits
-// a line through the origin for each kind of work. The bootstrap over the starts of the programs
-// tells whether the best fit is more than chance.
+// a line through the origin for each kind of work. Whether the best fit is more than chance follows
+// from random draws of the programs' starts (bootstrap).
 #include "app/cost/diff/diff.h"
 #include "app/measure/stats/random.h"
 
@@ -54,8 +54,8 @@ static DipCause best_fit(const DipCauseData *data, const double *times) {
     return best;
 }
 
-// Computes the mean additional time of each row over the drawn starts. Returns false if a row has
-// no time in any of them.
+// Computes the mean additional time of each row over the drawn starts. Returns false if there is a
+// row that has a time in none of these starts.
 static bool mean_times(const DipCauseData *data, const int *drawn, double *times) {
     for (int r = 0; r < data->rows; r++) {
         double sum = 0.0;
@@ -107,8 +107,8 @@ bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err) {
 
 // --- describing the cause ------------------------------------------------------------------------
 
-// Returns the stage that takes most of the additional time of the slower rows. Writes the share of
-// the additional time that this stage takes.
+// Returns the stage that takes most of the additional time of the slower rows. Writes this stage's
+// share of the additional time of all stages that take longer.
 static DipBenchStage slowest_stage(const DipCostDiff *diff, double *share) {
     double most = 0.0, total = 0.0;
     DipBenchStage found = (DipBenchStage)0;
@@ -129,8 +129,8 @@ static DipBenchStage slowest_stage(const DipCostDiff *diff, double *share) {
     return found;
 }
 
-// Kinds of work that may explain additional time: one unit per frame, A's time in the slowest
-// stage, and from FIRST_COUNTER on the counters.
+// Kinds of work that may explain additional time: PER_FRAME is 1 for each frame, STAGE_TIME is A's
+// time in the stage that slowest_stage returns, and the counters follow from FIRST_COUNTER on.
 enum { PER_FRAME, STAGE_TIME, FIRST_COUNTER };
 
 static void list_work(const DipTimesFit *fit, const DipCostDiff *diff, DipBenchStage stage,
@@ -175,8 +175,8 @@ static void write_cause(DipCostDiff *diff, const DipCauseData *data, const DipCa
     }
 }
 
-// Writes how much longer B takes than A in a stage, in milliseconds. Computes a value for each row
-// in each start by itself: per_start[row * starts + start].
+// Writes how much longer B takes than A in a stage, in milliseconds, for each row in each start by
+// itself: per_start[row * starts + start].
 static bool list_per_start(const DipTimes *all, int rows, DipBenchStage stage, double *per_start,
                            DipError *err) {
     DipTimesFit *fit = NULL;

@@ -14,15 +14,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Changes of times by less than this factor are not reported.
+// A row is called slower or faster only if its time surely changed by more than this factor, or by
+// more than --fail-over allows if that is less.
 static const double least_limit = 1.01;
 
 // --- options -------------------------------------------------------------------------------------
 
 #define FIELD(name) offsetof(DipCostDiffArguments, name)
 
-// Sets of settings that together use each part of the renderer: samples, filters, sample groups and
-// compression.
+// These sets of settings together use each part of the renderer: samples, filters, sample groups
+// and compression.
 static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=on;opt=advanced;"
                                    "aa=8,aaa=on,asd=2,af=16,aaf=on";
 
@@ -105,7 +106,7 @@ static bool check(const void *arguments, DipError *err) {
 
 // --- comparing -----------------------------------------------------------------------------------
 
-// Returns the file of a side that is a program, or NULL if it is a report.
+// Returns the program's file if a side is a program, or NULL if it is a report.
 static const char *program_of(const char *name) {
     struct stat status;
     const size_t length = strlen(name);
@@ -118,8 +119,8 @@ static const char *program_of(const char *name) {
     return is_report ? NULL : name;
 }
 
-// Compares two reports, two programs, or a report and a program, which then measures rows of the
-// report again.
+// Compares two reports, two programs, or a report and a program. In the last case, the program
+// measures rows of the report again.
 static bool compare(const DipCostDiffArguments *arguments, DipCostDiff *diff, DipError *err) {
     const char *programs[2];
     DipCostReport reports[2] = {{.rows = NULL}, {.rows = NULL}};

@@ -1,9 +1,9 @@
 // Compares two programs that take turns at every frame, and measures the rows of a report again
 // with a program.
 //
-// In both cases, it times pairs of subjects. A subject is a set of settings that one program draws.
-// The two subjects of a pair, called sides, take turns at every frame. The programs are started
-// several times, because each start is by chance a little faster or slower than another.
+// In both cases, pairs of subjects are timed. A subject is a set of settings that one program
+// draws. The two subjects of a pair, called sides, take turns at every frame. The programs are
+// started several times, because each start is by chance a little faster or slower than another.
 //
 // The programs run as `PROGRAM bench ... --serve` (app/measure/timing/child.h). With two programs,
 // both sides of pair p draw set p, each in its own program. With one program, the sides draw set 0
@@ -43,7 +43,7 @@ typedef struct Duel {
 
 enum { MOST_ARGUMENTS = 40 + 2 * DIP_MAX_MODELS, MOST_SUBJECTS = 2 * (DIP_COST_DIFF_MAX_SETS + 1) };
 
-// A rest in nanoseconds before each frame, in which the other program's threads go to sleep.
+// Pause in nanoseconds before each frame, in which the threads of the other program fall asleep.
 static const int64_t rest_ns = 1000000;
 
 // --- the command line of the programs ------------------------------------------------------------
@@ -73,7 +73,8 @@ static void add_number(CommandLine *line, const char *name, const char *format, 
     add_option(line, name, text);
 }
 
-// Adds the options that say which scene the programs draw, and how.
+// Adds the options that say what the programs draw (scene, path and size), and with which threads
+// and instruction set.
 static void add_session(CommandLine *line, const DipSessionOptions *session) {
     add_option(line, "--config", session->config);
     for (int m = 0; m < session->model_count; m++) {
@@ -161,8 +162,9 @@ static bool start_programs(void *context, int start, DipError *err) {
             return false;
         }
         if (duel->threads == 0) {
-            // The program's ini file decides how many threads draw, so all its threads are counted.
-            // It has a pool for bench and one for the session, and the main thread is in both.
+            // The program's ini file decides how many threads draw. Their number follows from that
+            // of all threads of the program: it has a pool for bench and one for the session, and
+            // the main thread is in both.
             const int threads = (dip_child_thread_count(p->children[i]) + 1) / 2;
             duel->threads = threads > 0 ? threads : 1;
         }
@@ -198,8 +200,9 @@ static bool run_starts(Programs *p, uint64_t seed, DipError *err) {
     return duel->fit != NULL;
 }
 
-// Times all pairs in `frames` frames and `rounds` rounds of each start. Fails as dip_child_start
-// does, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with DIP_ERROR_MEMORY.
+// Times all pairs: `frames` frames in each of `rounds` rounds of each start. Fails as
+// dip_child_start and dip_child_draw do, with DIP_ERROR_RUNTIME if the user presses Ctrl-C, or with
+// DIP_ERROR_MEMORY.
 static bool run_duel(Duel *duel, const DipCostDiffArguments *arguments, int frames, int rounds,
                      DipError *err) {
     const DipSessionOptions *session = &arguments->session;
@@ -229,8 +232,8 @@ static void free_duel(Duel *duel) {
 
 // --- estimates -----------------------------------------------------------------------------------
 
-// Adds up the counters of a subject's frames and divides them by the number of frames. The counters
-// have the order of DIP_COUNTER_LIST and must be 0 before the call.
+// Writes the means of a subject's counters over its frames. `counters` has the order of
+// DIP_COUNTER_LIST and must be all 0 before the call.
 static void count_work(const Duel *duel, int subject, double *counters) {
     for (int f = 0; f < duel->frames; f++) {
         dip_counters_add(&duel->first[subject * duel->frames + f].counters, counters);
@@ -352,7 +355,8 @@ bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *c
 
 // --- a report and a program ----------------------------------------------------------------------
 
-// Lists the rows to measure. Leaves out the baseline, which is side 0 of every pair.
+// Lists the rows to measure: those of path 0 whose settings `arguments` lists. Leaves out the
+// baseline, which is side 0 of every pair. Returns their number.
 static int list_rows(const DipCostDiffArguments *arguments, const DipCostReport *report,
                      int rows[DIP_COST_DIFF_MAX_SETS]) {
     int count = 0;
@@ -377,7 +381,9 @@ static void add_quality(Duel *duel, const DipQuality *quality) {
     add_set(duel, text);
 }
 
-// Fills in the options that were not given, with the values that the report was measured with.
+// Returns the options. Those that were not given get the values with which the report was measured.
+// If this machine lacks the report's instruction set, the best one that the machine has takes its
+// place.
 static DipCostDiffArguments options_of_report(const DipCostDiffArguments *arguments,
                                               const DipCostReport *report) {
     DipCostDiffArguments all = *arguments;
@@ -408,7 +414,7 @@ static DipCostDiffArguments options_of_report(const DipCostDiffArguments *argume
     return all;
 }
 
-// Fills in the new report: the first path of the old one, the baseline and `count` rows.
+// Fills in the new report. It has the first path of the old one, the baseline and `count` rows.
 static bool make_report(const DipCostReport *report, const Duel *duel, const int *rows, int count,
                         const DipSessionOptions *session, DipCostReport *measured, DipError *err) {
     *measured = (DipCostReport){

@@ -7,17 +7,17 @@
 #include <string.h>
 
 // A ratio differs a little from one start of a program to the next. This is the standard deviation
-// of its logarithm. A report of a single start cannot measure it.
+// of its logarithm between starts, for reports of a single start, which cannot measure it.
 static const double start_error = 0.006;
 
 enum { NAMED_ROWS = 4 }; // Greatest number of rows that a note names.
 
 // Says which parts of two reports may be compared.
 typedef struct Comparable {
-    bool pictures;                   // Scene and size are the same.
-    bool errors;                     // Pictures, converged pictures and viewpoints are the same.
-    bool counters;                   // Pictures and timed frames are the same.
-    bool ratios;                     // Pictures and baselines are the same.
+    bool pictures; // Scene and size are the same. If not, the next three are false.
+    bool errors;   // Viewpoints and converged pictures are the same.
+    bool counters; // Both reports have times, of equally many frames.
+    bool ratios;   // Both reports have times, and the same baseline.
     bool poses[DIP_COST_MAX_PATHS];  // [path of A]: B has the same poses.
     int path_of[DIP_COST_MAX_PATHS]; // [path of A]: the path of B with this name, or -1.
 } Comparable;
@@ -136,13 +136,15 @@ static void compare_paths(const DipCostReport *a, const DipCostReport *b, Compar
 
 // --- rows ----------------------------------------------------------------------------------------
 
+// Returns whether a row is the A/A row of its path (the baseline, timed as if it were another
+// setting).
 static bool is_repeated_baseline(const DipCostReport *report, int row) {
     return report->same_rows[report->rows[row].path] == row &&
            report->base_rows[report->rows[row].path] != row;
 }
 
-// Finds the first row of B that has the settings and path of a row of A and that no earlier row of
-// A has taken. Returns -1 if there is none.
+// Finds the first row of B that has the settings of a row of A, is on the given path of B, is not
+// an A/A row, and belongs to no earlier row of A. Returns -1 if there is none.
 static int find_row(const DipCostRow *wanted, const DipCostReport *b, int path, const bool *taken) {
     int row = dip_report_find(b, &wanted->quality, path, 0);
     while (row >= 0 && (taken[row] || is_repeated_baseline(b, row))) {
@@ -151,7 +153,8 @@ static int find_row(const DipCostRow *wanted, const DipCostReport *b, int path, 
     return row;
 }
 
-// Notes the rows that only one side has.
+// Adds a note that names the rows that only one side has, unless one side is a program that
+// measured only some rows.
 static void note_lonely(DipCostDiff *diff, const DipCostReport *report, const bool *lonely,
                         const char *side) {
     char text[DIP_COST_DIFF_NOTE] = "";
@@ -204,7 +207,7 @@ static void copy_errors(const DipCostReport *const reports[2], const int rows[2]
     }
 }
 
-// Copies the means of counters over the frames. Two reports may have rounded equal means in
+// Copies the counters, which are means over the frames. Two reports may have rounded equal means in
 // different ways. A counter's sum over the frames is a whole number, so the means are computed
 // again from the rounded sums.
 static void copy_counters(const DipCostReport *const reports[2], const int rows[2],
@@ -247,7 +250,8 @@ static void compare_times(const DipCostReport *const reports[2], const int rows[
 }
 
 // Computes bounds of the changes that are so wide that all of them together hold with a probability
-// of 95 % (Bonferroni's correction). Of a hundred intervals of 95 % each, five would miss.
+// of 95 % (Bonferroni's correction), if there are at most 250. Of a hundred intervals of 95 % each,
+// about five would miss the truth.
 static void widen_bounds(DipCostDiff *diff) {
     int count = 0;
     for (int r = 0; r < diff->row_count; r++) {

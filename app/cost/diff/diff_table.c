@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// If there are more rows than this, only those that are slower or faster are printed.
+// If both sides come from one machine and more rows than this have times, only the times of rows
+// that are slower or faster are printed.
 enum { MOST_ROWS = 24 };
 
 // --- headings ------------------------------------------------------------------------------------
