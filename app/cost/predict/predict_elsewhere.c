@@ -12,7 +12,7 @@
 
 // --- the report ----------------------------------------------------------------------------------
 
-// Checks that the report can be used with the session's scene.
+// Checks that the report has times, and that its scene and its path 0 are those of the session.
 static bool check_report(const DipCostReport *report, const DipSession *session, const char *name,
                          DipError *err) {
     DipCostReport now = {.options = report->options, .path_count = 1};
@@ -44,8 +44,8 @@ static void add_combination(DipCostElsewherePrediction *p, const DipQuality *qua
         (DipCostPrediction){.quality = *quality, .row = -1};
 }
 
-// Lists the report's combinations of path 0: those that were measured, then those that were
-// predicted.
+// Lists the report's combinations on path 0: first those that were measured, then those that were
+// only predicted.
 static bool list_combinations(DipCostElsewherePrediction *p, const char *name, DipError *err) {
     const DipCostReport *report = &p->report;
     const size_t most = (size_t)report->row_count + (size_t)report->predicted.count + 1;
@@ -73,9 +73,10 @@ static bool list_combinations(DipCostElsewherePrediction *p, const char *name, D
 
 // --- counting ------------------------------------------------------------------------------------
 
-// The counters come from only a few of the timed frames. Counts the work of one combination in all
-// timed frames, and scales the counters of all combinations by the ratio of the two. Takes the
-// baseline if it is listed, otherwise the first combination.
+// Mends the counters, which come from only a few of the timed frames. Counts the work of one
+// combination in all timed frames: that of the baseline if it is listed, otherwise that of the
+// first combination. Scales the counters of all combinations by the ratio of its work in all frames
+// to its work in the few.
 static bool scale_counters(DipCostContext *there, DipError *err) {
     DipCostReport *report = there->report;
     const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);
@@ -100,8 +101,8 @@ static void add_timed(DipCostElsewherePrediction *p, int index) {
     p->timed[p->list[index].timed].quality = p->list[index].quality;
 }
 
-// Chooses the combinations to time: those that tell most about all, and then those to check, spread
-// evenly over the others.
+// Chooses the combinations to time there: those to which prices are fitted, which tell most about
+// all others, and then those to check, spread evenly over the rest of the list.
 static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, DipError *err) {
     int chosen[DIP_COST_MAX_ROWS];
     const int most = timed < p->count ? timed : p->count;
@@ -117,7 +118,7 @@ static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, 
     int seen = 0;
     for (int i = 0; i < p->count; i++) {
         if (p->list[i].timed < 0) {
-            // The others are divided into `wanted` equal parts, and the first of each is taken.
+            // The rest is divided into `wanted` equal parts, and the first of each is taken.
             if (p->checked_count < wanted &&
                 (int64_t)seen * wanted >= (int64_t)p->checked_count * left) {
                 add_timed(p, i);
@@ -141,7 +142,8 @@ static bool time_there(DipCostElsewherePrediction *p, DipCostContext *here, DipC
 
 // --- predicting and judging ----------------------------------------------------------------------
 
-// Fits prices to all rows of the report, on all of its paths, and to combinations timed there.
+// Fits prices to all rows of the report, on all of its paths, and to `count` combinations that were
+// timed there.
 static DipCostModel fit(const DipCostElsewherePrediction *p, const DipCostElsewhere *timed,
                         int count) {
     return dip_cost_model_fit_there(&p->report, NULL, p->report.row_count, timed, count);
@@ -152,8 +154,8 @@ static double predict(const DipCostElsewherePrediction *p, const DipCostModel *m
                                 &p->list[index].quality);
 }
 
-// Predicts a timed combination from the report and from all other combinations to which prices are
-// fitted.
+// Predicts one of the combinations to which prices are fitted as if it had not been timed: from the
+// report and the others.
 static double predict_left_out(const DipCostElsewherePrediction *p, int index) {
     DipCostElsewhere others[DIP_COST_MOST_TIMED];
     int count = 0;
@@ -195,8 +197,8 @@ void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
 
 // --- the whole -----------------------------------------------------------------------------------
 
-// A copy of the command's session for the place where the report was measured, or for the place
-// that is predicted. It has the same scene, but its own threads and instruction set.
+// A copy of the command's session for one of two places: "here", where the report was measured, or
+// "there". It has the same scene, but its own threads and instruction set.
 typedef struct Place {
     DipSession session;
     DipPool *pool; // Owned; NULL if the pool of the command's session has the right threads.
@@ -226,8 +228,8 @@ static bool find_isa(const DipCostReport *report, DipIsa *isa, const char *name,
                          report->isa);
 }
 
-// Fills in the size, path, threads and instruction set of p->there, each from the command line if
-// it is given there, otherwise from the report.
+// Fills in the size, path, threads and instruction set of p->there. Each comes from the command
+// line if the user gives it, otherwise from the report (`isa` is the report's instruction set).
 static void describe_there(DipCostElsewherePrediction *p, const DipSession *session,
                            const DipSessionOptions *options, DipIsa isa) {
     const DipCostReport *report = &p->report;

@@ -5,7 +5,7 @@
 // (fit.h) knows the price of each kind of work: the milliseconds that a unit of it takes. The work
 // of each combination is counted there. The sum of work times price is the prediction from the
 // report alone (as_is_ms). If some combinations are timed there, prices are fitted anew to them and
-// to the report, and predict all others.
+// to the report, and all combinations are predicted with these prices.
 #ifndef DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 #define DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 
@@ -24,8 +24,9 @@ typedef struct DipCostPredictArguments {
     DipSessionOptions session;
     const char *report; // A cost.json, or a folder that has one.
     int report_count;
-    int timed;        // Combinations to time there, to predict from. 0 uses the report alone.
-    int checked;      // Further combinations to time there, to compare the predictions with.
+    int timed;        // Number of combinations to time there, to predict from. If it is 0, the
+                      // predictions come from the report alone.
+    int checked;      // Number of further combinations to time there, to check the predictions.
     const char *json; // JSON file to write, or NULL.
     const char *csv;  // CSV file to write, or NULL.
 } DipCostPredictArguments;
@@ -54,11 +55,11 @@ typedef struct DipCostElsewherePrediction {
     // none.
     double factor;
     DipCostMisses timed_as_is; // How far as_is_ms misses the times to which prices are fitted.
-    // How far predictions miss each of these times if prices are fitted without it.
+    // How far these times are missed, each by a prediction from prices that are fitted without it.
     DipCostMisses timed_left_out;
     DipCostMisses checked_as_is;  // How far as_is_ms misses the times of checked combinations.
     DipCostMisses checked_fitted; // How far ms misses the times of checked combinations.
-    double wait; // Share of the timed frames' time that their threads waited for a core.
+    double wait; // Share of the timed frames' time for which their threads waited for a core.
 } DipCostElsewherePrediction;
 
 // Reads the report, counts the work of its combinations there, times a few there and predicts all.
