@@ -205,7 +205,8 @@ const DipCommand dip_cost_diff_command = {
         "Errors, pictures and counters are exact, so every difference is named. Two programs are "
         "timed anew: they are started several times and draw in turn. A report's times are "
         "compared as ratios to its own baseline. A row is slower if its whole 95 % interval is "
-        "more than 1 % above 1.\n\n"
+        "more than 1 % above 1; between reports, intervals are widened so that all of them hold "
+        "together.\n\n"
         "The exit code is 0 if nothing is beyond --fail-over, 1 if something is, 2 if the input is "
         "wrong, and 3 if the machine was too busy to tell.",
     .examples = examples,
