@@ -1,5 +1,5 @@
-// Measures the combinations that are predicted to be best, in several goes. What one go measures
-// mends the predictions of the next one.
+// Measures the combinations that are predicted to be best, in several goes. A go measures some of
+// them, and then predicts the others anew from all that were measured so far.
 #include "app/cost/steps.h"
 
 #include <math.h>
@@ -7,10 +7,10 @@
 
 enum {
     MOST_GOES = 4,
-    FEW_GOES = 2, // With fewer rounds than FEW_ROUNDS, since the user is in a hurry.
+    FEW_GOES = 2, // Greatest number of goes with fewer rounds than FEW_ROUNDS, for a fast answer.
     FEW_ROUNDS = 8,
-    MOST_PROMISING = 24, // Greatest number of combinations of one go.
-    FRONT_PER_GO = 5     // Of these, so many may be measured because they are on the front.
+    MOST_PROMISING = 24, // Greatest number of combinations that one go measures.
+    FRONT_PER_GO = 5     // Greatest number of these that are added for the Pareto front.
 };
 
 int dip_cost_most_goes(const DipCostOptions *options) {
@@ -19,13 +19,15 @@ int dip_cost_most_goes(const DipCostOptions *options) {
 
 // --- limits --------------------------------------------------------------------------------------
 
-// The least and the greatest miss that predictions of times are taken to have, and the number of
-// rows that tell their own.
+// Bounds of the value of miss_of_times.
 static const double least_miss = 0.02, most_miss = 0.25;
+
+// Least number of best combinations whose misses miss_of_times takes.
 enum { ENOUGH_MISSES = 8 };
 
-// Returns how far nine of ten predictions of times lie from measurements at most: those of the best
-// combinations, or where too few of them have been measured, those of the first ones.
+// Returns the relative miss that nine of ten predictions of times keep. It comes from the best
+// combinations that have been measured or, if these are too few, from the combinations that were
+// measured first.
 static double miss_of_times(const DipCostReport *report) {
     const DipCostPredictions *predicted = &report->predicted;
     const DipCostMisses *misses =
@@ -65,8 +67,9 @@ static int compare_losses(const void *a, const void *b) {
     return (x->loss > y->loss) - (x->loss < y->loss);
 }
 
-// Returns whether a candidate keeps a limit of a budget. A measured one keeps both if it surely
-// fits.
+// Returns whether a candidate keeps a limit of a budget (dip_cost_limit_ms). One that was measured
+// keeps DIP_COST_LIMIT_SURE if it surely fits the budget, and DIP_COST_LIMIT_MAY unless it surely
+// does not fit.
 static bool keeps(const DipCostReport *report, const DipCandidate *candidate, int budget,
                   int limit) {
     const double fits = dip_candidate_fits(candidate, report->options.budgets_ms[budget]);
@@ -75,8 +78,9 @@ static bool keeps(const DipCostReport *report, const DipCandidate *candidate, in
                                           : fits > 1.0 - DIP_SURELY_FITS;
 }
 
-// Adds the candidates of least FLIP, which come first, among those that keep a limit. Those that
-// are no better than what would be advised now need not be measured.
+// Adds those of the first DIP_COST_PER_LIMIT candidates that keep a limit and are not measured yet.
+// `all` has the candidates of least FLIP first. Candidates that are no better than the one that
+// would be advised now need not be measured.
 static void add_within(Promising *promising, const DipCostReport *report, const DipCandidates *all,
                        int budget, int limit) {
     const DipCandidate *chosen = dip_cost_chosen(report, budget);
@@ -131,8 +135,8 @@ bool dip_cost_add_rows(DipCostReport *report, const int *list, int count, int *r
     return true;
 }
 
-// Predicts all combinations without a row from those that have one. If the combinations are too
-// many to be listed, searches them all.
+// Predicts the listed combinations without a row from those that have one. If not all combinations
+// are listed, since they are too many, first searches all of them for the best, and lists these.
 static bool predict(DipCostReport *report, DipPool *pool, DipError *err) {
     DipCostModels models;
     const bool done = dip_cost_models_of(report, &models, err) &&

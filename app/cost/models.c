@@ -1,19 +1,22 @@
-// Fits the models of the measured combinations, and predicts the others: by the models of time and
-// FLIP, and by what these models miss at measured combinations that are alike.
+// Fits models of time and FLIP to the measured combinations, and predicts the others. A prediction
+// is the value of a model, corrected by what the model misses at measured combinations that are
+// alike.
 #include "app/cost/steps.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// How alike two combinations are: this, to the power of the number of settings in which they
-// differ. Chosen, as the next one is, on the made-up machines of tests/app/cost/test_best.c.
+// The likeness of two combinations is this number to the power of the number of settings in which
+// they differ. This value and the next one were chosen on the made-up machines of
+// tests/app/cost/test_best.c.
 static const double alike = 0.5;
 
-// The variance of what a model misses at one combination alone, over that of what it misses at
-// others that are alike, too.
+// What a model misses at a combination has two parts: one that alike combinations share, and one of
+// its own. This is the variance of the part of its own, divided by that of the shared part.
 static const double own_variance = 0.3;
 
-enum { SWEEPS = 200 }; // Sweeps that solve the equations, to 5 % of a miss or better.
+// Number of iterations that solve the equations for the shares, to 5 % of a miss or better.
+enum { SWEEPS = 200 };
 
 static int list_rows(const DipCostPredictions *predicted, int rows[DIP_COST_MAX_ROWS]) {
     int count = 0;
@@ -36,12 +39,12 @@ static double usual_p95(const DipCostReport *report, const int *rows, int count)
     return dip_median(ratios, count);
 }
 
-// Returns the logarithm of a quotient; 0 if there is none.
+// Returns log(measured / predicted), or 0 if one of the two is not above 0.
 static double log_ratio(double measured, double predicted) {
     return measured > 0.0 && predicted > 0.0 ? log(measured / predicted) : 0.0;
 }
 
-// Writes what the models miss at a row.
+// Writes what the models alone miss at a row, as log(measured / predicted) of each value.
 static void find_misses(const DipCostReport *report, const DipCostModels *models, int row,
                         double misses[DIP_COST_PREDICTED]) {
     const DipCostRow *r = &report->rows[row];
@@ -52,8 +55,9 @@ static void find_misses(const DipCostReport *report, const DipCostModels *models
     misses[DIP_COST_PREDICTED_FLIP] = log_ratio(dip_cost_row_metrics(report, row, 0).flip, flip);
 }
 
-// Solves (K + own_variance) a = miss for the shares a of all corrections, by Gauss-Seidel sweeps.
-// K says how alike the combinations are, so the matrix is positive definite.
+// Solves (K + own_variance I) a = misses for the shares a of all corrections, by Gauss-Seidel
+// iterations. The matrix K has the likeness of each two measured combinations, and I is the unit
+// matrix, so the sum is positive definite.
 static bool solve(const DipCostModels *models, double (*misses)[DIP_COST_PREDICTED]) {
     const size_t count = (size_t)models->correction_count;
     DipCostCorrection *list = models->corrections;

@@ -13,12 +13,12 @@ enum {
     BINS = 512, // Each bin holds the best combination of a range of times, for the Pareto front.
     MIDDLE_BIN = 128 // The bin of the baseline's time.
 };
-static const double bin_width = 0.02; // Width of a bin's range on the scale of log time.
+static const double bin_width = 0.02; // Width of a bin's range, in the logarithm of time.
 
 typedef struct Found {
     DipQuality quality;
     double ms;
-    double loss; // The predicted FLIP, but at least the FLIP of the truth's noise.
+    double loss; // The predicted FLIP, but at least the FLIP that the truth's noise makes.
     bool is_found;
 } Found;
 
@@ -30,10 +30,12 @@ typedef struct Best {
     double *likeness; // [group][correction]: see try_groups.
 } Best;
 
-// The combinations that differ from the baseline in the settings of one group, and the baseline.
+// The options of one group of settings (combinations.h): the baseline, and the combinations that
+// differ from it in this group alone.
 typedef struct Options {
     const DipCostPrediction **list;
-    double *alike; // [option][correction]: likeness of their settings of this group.
+    // [option][correction]: likeness of an option and a measured combination in this group.
+    double *alike;
     int count;
 } Options;
 
@@ -64,8 +66,8 @@ static void insert(Found list[DIP_COST_PER_LIMIT], const Found *found) {
     }
 }
 
-// Puts the combination among the best of each limit that it keeps, and into its bin. `ms` is its
-// time of the budgets' kind.
+// Puts the combination into the list of each limit that it keeps, and into its bin, if it is one of
+// the best there. `ms` is its mean time if budgets limit the mean, otherwise its 95th percentile.
 static void keep(const Search *search, Best *best, const Found *found, double ms) {
     const int budgets = search->report->options.budget_count;
     for (int i = 0; i < budgets * DIP_COST_LIMITS; i++) {
@@ -88,7 +90,7 @@ static bool is_measured(const Search *search, const double *likeness) {
     return measured;
 }
 
-// Predicts a combination, and keeps it if it may be worth measuring.
+// Predicts a combination that is not measured yet, and keeps it if it may be worth measuring.
 static void predict(const Search *search, Best *best, const DipWorkSum *sum,
                     const DipQuality *quality, const double *likeness) {
     double counters[DIP_COST_COUNTER_COUNT];
@@ -110,8 +112,9 @@ static void predict(const Search *search, Best *best, const DipWorkSum *sum,
     }
 }
 
-// Writes how alike each measured combination is in the settings of all groups up to this one.
-// `likeness` holds this for the groups before it, and has room for it behind.
+// Computes the likeness of the tried combination and each measured one in the settings of all
+// groups up to this one. `likeness` holds their likeness in the groups before this one, one value
+// for each measured combination, and the results are written behind these values.
 static void compare(const Search *search, const Options *options, int option, double *likeness) {
     const int count = search->models->correction_count;
     const double *alike = options->alike + (size_t)option * (size_t)count;
@@ -120,8 +123,9 @@ static void compare(const Search *search, const Options *options, int option, do
     }
 }
 
-// Tries all options of this group and of those after it. `likeness` holds how alike each measured
-// combination is in the settings of the groups before it, and has room for those of all groups.
+// Tries all options of this group, each with all options of the groups after it. `likeness` holds
+// the likeness of the tried combination and each measured one in the settings of the groups before
+// this one (compare), and has room behind for the same of each group from this one on.
 static void try_groups(const Search *search, Best *best, int group, const DipWorkSum *sum,
                        const DipQuality *quality, double *likeness) {
     if (group == DIP_WORK_GROUPS) {
@@ -162,9 +166,9 @@ static void run_task(void *context, int index, int worker) {
 
 // --- what a search begins and ends with ----------------------------------------------------------
 
-// Lists the options of each group. They are combinations whose work was counted (report->predicted
-// holds these before the search). Option 0 is the baseline. `all` has room for every combination in
-// each group. Returns false if the baseline is not counted.
+// Lists the options of each group: those combinations of report->predicted, whose work was counted,
+// that differ from the baseline in this group alone. Option 0 is the baseline itself. `all` has
+// room for every combination in each group. Returns false if the baseline was not counted.
 static bool list_options(Search *search, const DipCostPrediction **all) {
     const DipCostReport *report = search->report;
     const DipCostPredictions *predicted = &report->predicted;
@@ -205,7 +209,8 @@ static void add_found(DipCostReport *report, const Found *found) {
 }
 
 // Joins what all tasks found, and adds it to the predicted combinations: first the best of each
-// limit, then those of the bins that are on the front.
+// limit, and then, from fast bins to slow ones, the best of each bin whose FLIP is at least 1 %
+// below that of the last one added.
 static void end_search(const Search *search, DipCostReport *report) {
     Best *all = &search->tasks[0];
     const int limits = report->options.budget_count * DIP_COST_LIMITS;
@@ -243,7 +248,7 @@ typedef struct Room {
     double *alike;                      // [group][option][correction]
     Best *tasks;                        // [option of group 0]
     Found (*found)[DIP_COST_PER_LIMIT]; // [task][budget][limit]
-    double *likeness;                   // [task][group]: before the first group, and after each.
+    double *likeness; // [task][group][correction]: before the first group, and after each.
 } Room;
 
 static void free_room(Room *room) {
@@ -254,7 +259,7 @@ static void free_room(Room *room) {
     free(room->likeness);
 }
 
-// Computes how alike the options of each group are to the measured combinations.
+// Computes the likeness of each option and each measured combination in the option's group.
 static bool compare_options(Search *search, Room *room) {
     const size_t count = (size_t)search->models->correction_count;
     size_t options = 0;
