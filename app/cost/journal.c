@@ -29,7 +29,7 @@ struct DipCostJournal {
     char plan[33];
     FILE *out;
     // The content of the file when it was opened: its good lines without their checksums. Each line
-    // ends with a zero.
+    // ends with a zero byte.
     char *text;
     size_t size;
 };

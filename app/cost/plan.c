@@ -139,7 +139,8 @@ static bool is_swept(const DipCostReport *report, DipSetting setting, const DipQ
            (combined >> setting & 1 && dip_quality_equal(&of_combined, base));
 }
 
-// Adds a sweep of all steps of a setting that the renderer accepts.
+// Adds a sweep of a setting, with those of its steps that the renderer accepts. Lists the refused
+// steps with the reason.
 static void plan_setting(DipCostReport *report, const DipSession *session, DipSetting setting) {
     const DipSettingInfo *info = dip_setting_info(setting);
     DipQuality base = report->options.baseline;
@@ -228,7 +229,7 @@ static void add_base_rows(DipCostReport *report) {
 
 // --- combinations --------------------------------------------------------------------------------
 
-// Adds the combinations as rows.
+// Adds a row for each combination of the combined settings.
 static bool plan_combinations(DipCostReport *report, DipError *err) {
     const DipCostOptions *options = &report->options;
     DipQuality *list = malloc(DIP_COST_MAX_ROWS * sizeof *list);

@@ -51,7 +51,7 @@ typedef struct Search {
 
 static bool is_better(const Found *a, const Found *b) {
     return !b->is_found || a->loss < b->loss ||
-           (a->loss == b->loss && a->ms < b->ms); // NOLINT: an order, not a test.
+           (a->loss == b->loss && a->ms < b->ms); // NOLINT: exactly equal losses are meant.
 }
 
 // Puts the combination into a list of the best ones, if it is one of them.

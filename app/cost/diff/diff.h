@@ -186,8 +186,8 @@ int dip_cost_diff_group(const DipCostDiff *diff,
 
 // --- causes of a slowdown ------------------------------------------------------------------------
 
-// How much longer B takes than A in some rows (the additional times), and the work that may explain
-// it. Arrays are borrowed.
+// How much longer B takes than A in some rows (the additional times), and the amounts of work that
+// may explain this. Arrays are borrowed.
 typedef struct DipCauseData {
     int rows;
     int starts;
