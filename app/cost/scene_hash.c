@@ -2,36 +2,78 @@
 #include "app/cost/plan.h"
 
 #include "renderer/base/hash.h"
+#include "renderer/base/assert.h"
 #include "renderer/scene/motion.h"
+
+static void hash_floats(DipHash *hash, const float *values, int count) {
+    dip_hash_bytes(hash, values, (size_t)count * sizeof *values);
+}
+
+static void hash_integers(DipHash *hash, const int *values, int count) {
+    dip_hash_bytes(hash, values, (size_t)count * sizeof *values);
+}
 
 static void hash_textures(const DipSceneDef *def, DipHash *hash) {
     for (int t = 0; t < def->texture_count; t++) {
         const DipTextureDef *texture = &def->textures[t];
-        dip_hash_integer(hash, texture->width);
-        dip_hash_integer(hash, texture->height);
-        dip_hash_integer(hash, texture->encoding);
-        // For textures that repeat or clamp, this formula gives the same hash as in older reports.
-        dip_hash_integer(hash, (texture->wrap_u & 1) * 2 + (texture->wrap_v & 1) +
-                                   (texture->wrap_u & 2) * 4 + (texture->wrap_v & 2) * 2);
-        if (texture->wrap_u == DIP_WRAP_BORDER || texture->wrap_v == DIP_WRAP_BORDER) {
-            dip_hash_bytes(hash, texture->border_rgba8, sizeof texture->border_rgba8);
-        }
+        const int values[] = {texture->width, texture->height, (int)texture->encoding,
+                              (int)texture->wrap_u, (int)texture->wrap_v};
+        hash_integers(hash, values, DIP_ARRAY_COUNT(values));
+        dip_hash_bytes(hash, texture->border_rgba8, sizeof texture->border_rgba8);
         dip_hash_bytes(hash, texture->rgba8, (size_t)texture->width * (size_t)texture->height * 4);
     }
+}
+
+static void hash_pbr(const DipPbrDef *pbr, DipHash *hash) {
+    dip_hash_integer(hash, pbr != NULL);
+    if (!pbr) {
+        return;
+    }
+    const int indices[] = {pbr->metal_rough_map, pbr->occlusion_map, pbr->occlusion_at_uv1,
+                           pbr->emission_map, pbr->emission_at_uv1};
+    const float shares[] = {pbr->metallic,           pbr->roughness,    pbr->f90,
+                            pbr->occlusion_strength, pbr->normal_scale, pbr->coat,
+                            pbr->coat_roughness};
+    hash_integers(hash, indices, DIP_ARRAY_COUNT(indices));
+    hash_floats(hash, shares, DIP_ARRAY_COUNT(shares));
+    hash_floats(hash, pbr->f0_lin, 3);
+    hash_floats(hash, pbr->emission_lin, 3);
 }
 
 static void hash_materials(const DipSceneDef *def, DipHash *hash) {
     for (int m = 0; m < def->material_count; m++) {
         const DipMaterialDef *material = &def->materials[m];
-        for (int c = 0; c < 3; c++) {
-            dip_hash_number(hash, (double)material->base_colour_lin[c]);
-        }
-        const int values[] = {(int)material->surface, material->colour_texture, material->light_map,
-                              material->normal_map,   material->double_sided,   material->lit};
-        dip_hash_bytes(hash, values, sizeof values);
-        dip_hash_number(hash, (double)material->light_map_scale);
-        dip_hash_number(hash, (double)material->roughness);
-        dip_hash_number(hash, (double)material->alpha_cutoff);
+        const int indices[] = {(int)material->surface, material->colour_texture,
+                               material->light_map,    material->normal_map,
+                               material->double_sided, material->lit};
+        const float numbers[] = {material->light_map_scale, material->roughness,
+                                 material->shininess,       material->alpha_cutoff,
+                                 material->opacity,         material->transmission};
+        hash_integers(hash, indices, DIP_ARRAY_COUNT(indices));
+        hash_floats(hash, numbers, DIP_ARRAY_COUNT(numbers));
+        hash_floats(hash, material->base_colour_lin, 3);
+        hash_floats(hash, material->specular_lin, 3);
+        hash_pbr(material->pbr, hash);
+    }
+}
+
+// The fixed light of a scene without lights adds nothing but the fact that there are none.
+static void hash_lighting(const DipLightingDef *lighting, DipHash *hash) {
+    dip_hash_integer(hash, lighting ? lighting->light_count : -1);
+    for (int l = 0; lighting && l < lighting->light_count; l++) {
+        const DipLightDef *light = &lighting->lights[l];
+        const float numbers[] = {light->range_m, light->inner_deg, light->outer_deg};
+        dip_hash_integer(hash, light->kind);
+        hash_floats(hash, numbers, DIP_ARRAY_COUNT(numbers));
+        hash_floats(hash, light->colour_lin, 3);
+        hash_floats(hash, light->position_world, 3);
+        hash_floats(hash, light->direction_world, 3);
+        hash_floats(hash, light->attenuation, 3);
+    }
+    if (lighting) {
+        dip_hash_integer(hash, lighting->shading);
+        hash_floats(hash, lighting->ambient_lin, 3);
+        hash_floats(hash, lighting->sky_lin, 3);
     }
 }
 
@@ -99,7 +141,7 @@ static void hash_rig(const DipMotionRig *rig, DipHash *hash) {
     }
 }
 
-// Adds nothing for a scene without motion, so that its hash is the same as in older reports.
+// Adds nothing for a scene without motion.
 static void hash_motion(const DipMotionDef *motion, DipHash *hash) {
     for (int r = 0; motion && r < motion->rig_count; r++) {
         hash_rig(&motion->rigs[r], hash);
@@ -141,8 +183,8 @@ static void hash_sky(const DipSkyDef *sky, DipHash *hash) {
     dip_hash_bytes(hash, sky->tint_lin, sizeof sky->tint_lin);
 }
 
-// A scene without an environment has the hash that it had before environments existed.
 static void hash_environment(const DipEnvironmentDef *environment, DipHash *hash) {
+    dip_hash_integer(hash, environment != NULL);
     if (environment) {
         const size_t texels = (size_t)environment->width * (size_t)environment->height;
         dip_hash_integer(hash, environment->width);
@@ -164,6 +206,7 @@ void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflect
     hash_meshes(def, &hash);
     hash_objects(def, &hash);
     hash_motion(def->motion, &hash);
+    hash_lighting(def->lighting, &hash);
     hash_sky(&def->sky, &hash);
     hash_environment(def->environment, &hash);
     hash_reflection(reflection, &hash);

@@ -304,7 +304,7 @@ static bool begin_chain(Chain *chain, const DipTextureDef *def, DipTexture *text
         floats[i] = (size_t)DIP_MIP_CHANNELS * (size_t)texture->level_width[i + 1] *
                     (size_t)texture->level_height[i + 1];
     }
-    chain->level1 = malloc((floats[0] + floats[1]) * sizeof(float));
+    chain->level1 = dip_pages_alloc((floats[0] + floats[1]) * sizeof(float));
     if (!chain->level1) {
         return false;
     }
@@ -358,7 +358,7 @@ static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef
 static void run_chains(ChainJobs *jobs, DipPool *pool) {
     dip_pool_run(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
     if (jobs->rest) {
-        free(jobs->rest->level1);
+        dip_lines_free(jobs->rest->level1);
     }
     jobs->rest = jobs->bands;
     jobs->bands = NULL;
