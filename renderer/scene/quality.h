@@ -166,8 +166,8 @@ DIP_API bool dip_quality_equal(const DipQuality *a, const DipQuality *b);
 
 // Returns the settings with every one turned off that has no effect beside the others: alternating
 // samples and adaptive AA without samples, adaptive AA with a single sample group, a group size
-// without adaptive AA, and advanced AF without AF. Both draw the same pictures in every scene, and
-// take the same time.
+// without adaptive AA, advanced AF without AF, and an upscaling filter at a render scale of 1 or
+// more. Both draw the same pictures in every scene, and take the same time.
 DIP_API DipQuality dip_quality_effective(const DipQuality *quality);
 
 // Returns what a setting needs to have an effect beside the other settings, such as "needs AF", or
