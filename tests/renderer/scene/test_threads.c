@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -17,6 +18,7 @@ static const char *const settings[] = {"aa=none", "aa=8,af=16,aaf=on", "aa=6,mip
 static const int sizes[][2] = {{130, 70}, {1, 1}, {65, 3}}; // The first has six tiles.
 
 enum { MAX_THREADS = 4, SETTINGS = 4, SIZES = 3, DRAWN_TWICE = 2 };
+static int size_count = SIZES; // Sizes that are drawn. --sizes gives fewer.
 
 typedef struct Result {
     char hash[33];
@@ -62,7 +64,7 @@ static void any_number_of_threads_draws_the_same_picture(void **state) {
         dip_test_scene_make(&scene, (DipTestSceneKind)kind);
         DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
         assert_non_null(fast);
-        for (int i = 0; i < SETTINGS * SIZES; i++) {
+        for (int i = 0; i < SETTINGS * size_count; i++) {
             const char *text = settings[i % SETTINGS];
             const int *size = sizes[i / SETTINGS];
             const Result one = draw(&scene, fast, 1, size, text);
@@ -273,7 +275,10 @@ static void textures_can_be_compressed_while_frames_are_drawn(void **state) {
     dip_test_scene_free(&scene);
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+    if (argc == 3 && strcmp(argv[1], "--sizes") == 0) {
+        size_count = atoi(argv[2]);
+    }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_threads_draws_the_same_picture),
         cmocka_unit_test(panes_that_share_a_scene_do_not_disturb_each_other),
