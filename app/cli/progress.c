@@ -15,7 +15,9 @@ static const int64_t other_period_ns = INT64_C(10000000000);
 // Expected times, of the work that begins next and of the parts of the command that come after it;
 // 0 if they are not known.
 static double next_s, later_s;
-static const double early = 0.05; // At this share, expected and real time count alike.
+// Once this share of the work is done, the expected time and the time extrapolated from the work so
+// far have equal weights.
+static const double early = 0.05;
 
 void dip_progress_expect(double own_s, double all_later_s) {
     next_s = own_s;

@@ -97,10 +97,10 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 
 // --- rows ----------------------------------------------------------------------------------------
 
-// Finds the row of these settings on this path, or adds it. Does not look at the rows before
-// combined_first: with --predict, they are the base rows, and those of the sweeps follow, since
-// they are combinations, too. There is always room, because the sweeps need far fewer rows than
-// DIP_COST_MAX_ROWS.
+// Finds the row of these settings on this path, or adds it. Looks only at the rows from
+// combined_first on. With --predict, these are all rows but the base rows: the rows of the sweeps
+// are combinations, too. Without --predict, these are all rows: combined_first is still 0.
+// There is always room, because the sweeps need far fewer rows than DIP_COST_MAX_ROWS.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
     const int known = dip_report_find(report, quality, path, report->combined_first);
     if (known >= 0) {
@@ -290,8 +290,9 @@ static bool predicts(const DipCostOptions *options) {
                                 options->end_place == 0 && !options->errors_only);
 }
 
-// Returns the settings that are combined by default. A plot of the Pareto front needs two settings.
-// A prediction combines all settings except mip colours, whose picture is not meant to be accurate.
+// Returns the settings that are combined by default. A prediction combines all settings except mip
+// colours, whose picture is not meant to be accurate. Without a prediction, AA and AF are combined,
+// because the plot of the Pareto front needs at least two settings.
 static unsigned default_combined(const DipCostOptions *options) {
     return options->predict ? ((1u << DIP_SETTING_COUNT) - 1) & ~(1u << DIP_SETTING_MIPDEBUG)
                             : 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;

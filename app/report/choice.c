@@ -13,7 +13,7 @@ const char *const dip_time_kind_names[DIP_TIME_KIND_COUNT] = {
 
 static bool is_faster(const DipCandidate *a, const DipCandidate *b) {
     return a->time.value < b->time.value ||
-           (a->time.value == b->time.value && a->loss < b->loss); // NOLINT: an order, not a test.
+           (a->time.value == b->time.value && a->loss < b->loss); // NOLINT: the loss breaks ties.
 }
 
 int dip_next_better(const DipCandidates *candidates, double loss, double step) {

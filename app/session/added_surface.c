@@ -1,4 +1,4 @@
-// Adds surfaces of the program to scenes of models.
+// Adds surfaces that the program itself makes, such as the ground, to scenes of models.
 #include "app/session/added_surface.h"
 
 #include <stdlib.h>

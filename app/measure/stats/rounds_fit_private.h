@@ -96,12 +96,12 @@ typedef struct DipTimesWork {
     int cell_count;
     DipTimesPair *pairs;
     int pair_count, visit_count;
-    int window;      // Number of frames in the running median of the subject's log ratios.
-    bool repeats;    // True if most frames were timed several times.
-    bool is_base;    // True if the subject is the base itself, which has no pairs.
-    double *level;   // [(1 + units) * frames]: levels from all units, then with each left out.
-    double *missing; // [1 + units]: by how much the true levels vary more along the path than the
-                     // fitted levels, which are smoothed: the difference of the two variances.
+    int window;    // Number of log ratios in the subject's running median; 0 if `repeats` is true.
+    bool repeats;  // True if most frames were timed several times.
+    bool is_base;  // True if the subject is the base itself, which has no pairs.
+    double *level; // [(1 + units) * frames]: levels from all units, then with each left out.
+    double *missing; // [1 + units]: variance of the true levels along the path, minus that of the
+                     // fitted levels, which is smaller because they are smoothed.
     double spread;   // As in DipTimesSubject.
     double doubt;    // As in DipTimesSubject.
     DipTimesMoment *moments; // [count]
@@ -115,8 +115,8 @@ typedef struct DipTimesWork {
     double *time;                            // [frames]: ms, or scratch.
 } DipTimesWork;
 
-// The estimated variance of a base is averaged with the mean variance of its subjects. That mean
-// counts like this many degrees of freedom.
+// The estimated variance of a base is averaged with the mean variance of its subjects. The weights
+// are degrees of freedom: the number of units - 1 for the estimate, and this number for the mean.
 #define DIP_TIMES_BASE_DEGREES 1.0
 
 // Standard error of a logarithm that is added to every estimate. It stands for errors that are the

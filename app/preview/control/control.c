@@ -318,7 +318,8 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
 
 // --- events --------------------------------------------------------------------------------------
 
-// Shortest time between two events of times, prices or polls, unless a program subscribes.
+// Shortest time between two events of one topic, if the topic is times, prices or polls. The first
+// event after a subscription does not wait for it.
 enum { PERIOD_NS = 250000000 };
 
 static bool wants(const DipRemote *remote, DipControlTopic topic) {

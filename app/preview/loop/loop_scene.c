@@ -1,5 +1,6 @@
-// Replaces the scene of the preview by another scene of the gallery, or by the scene of a new
-// session after files were dropped or have changed.
+// Replaces the scene of the preview by another scene of the session, or by the scene of a new
+// session. A new session begins after files were dropped or have changed, or after the user has
+// chosen another animation.
 #include "app/preview/loop/loop_private.h"
 
 #include "app/cost/plan.h"

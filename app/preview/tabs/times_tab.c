@@ -1,5 +1,6 @@
 // Draws the times tab: a graph of the frame times of the last seconds, and lines with the stage
-// times, errors and work of each pane. A narrow drawer has the lines of the requested pane only.
+// times, errors and work of each pane. If the dock is a narrow drawer (DIP_DOCK_DRAWER), the tab
+// has the lines of the requested pane only.
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
@@ -135,7 +136,8 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect) {
 
 // --- the lines -----------------------------------------------------------------------------------
 
-// Draws the lines of one pane, the most important first, in as many columns as they need and fit.
+// Draws the lines of one pane, the most important first, in as many columns as they need. If fewer
+// columns fit, leaves out the last lines.
 static void draw_lines(DipUi *ui, const DipPanelLine *lines, int count, DipRect room) {
     const int line = dip_ui_line_height(ui, SIZE) + dip_ui_px(ui, 1);
     const int rows = dip_max(1, room.height / line);

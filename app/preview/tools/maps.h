@@ -13,7 +13,9 @@
 #include "app/preview/tools/tools_input.h"
 #include "app/ui/pixels.h"
 
-enum { DIP_MAP_DRAWS = 15 }; // How often a frame is drawn. A tile's time is the median.
+// How often a frame is drawn for DIP_MAP_TIME. A tile's time is the median. Any other map needs
+// at most one draw.
+enum { DIP_MAP_DRAWS = 15 };
 
 // What was measured of a pane's frame. The arrays are owned, NULL until the frame has been drawn
 // for them, and valid until the next dip_maps_update.
@@ -25,7 +27,7 @@ typedef struct DipMapWork {
     int across;             // Number of tiles from left to right.
     int down;               // Number of tiles from top to bottom.
     DipTileRecord *records; // Counters of each tile; the times are those of one draw.
-    double *draws_ms;       // DIP_MAP_DRAWS times for each tile.
+    double *draws_ms;       // Times of the draws: DIP_MAP_DRAWS values for each tile.
     double *ms;             // Median time of each tile, on the worker that drew it.
     uint8_t *mixed;         // Copy of DipFrameTiles.mixed: the pixels whose samples differ.
     uint8_t *mips;          // The frame in mip colours, rows packed. One draw is enough for it.
@@ -149,13 +151,13 @@ const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gall
                             char *text, size_t size_bytes);
 
 // Returns the size of the mip level, in texels, whose colour is most like that of a pixel of the
-// mip map, or 0 if the pixel has no such colour or the map is not known. Light may dim the colour,
-// and colours of two levels mix where levels are blended.
+// map DIP_MAP_MIPS, or 0 if the pixel has no such colour or the map is not known. Light may dim the
+// colour, and colours of two levels mix where levels are blended.
 int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y);
 
 // Returns one of the colours that stand for sizes of mip levels. The colour `index` (0..7) stands
-// for 1024 >> index texels or more, up to the size of the colour before it. Colour 7 also stands
-// for all smaller levels.
+// for levels of at least 1024 >> index texels, but less than twice as many. Colour 0 also stands
+// for all larger levels, colour 7 for all smaller ones.
 DipColour dip_map_mip_colour(int index);
 
 #endif

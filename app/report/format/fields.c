@@ -33,7 +33,8 @@ bool dip_field_has_interval(const DipEstimate *estimate) {
     return isfinite(estimate->low) && isfinite(estimate->high) && estimate->low < estimate->high;
 }
 
-// Returns the field with this name, whose length is given because a path may follow it.
+// Returns the field whose name is the first `length` characters of `name`. The rest of a dotted
+// path such as "figures.all.flip" may follow them.
 static const DipField *field_of(const DipRecord *record, const char *name, size_t length) {
     for (int f = 0; f < record->count; f++) {
         const DipField *field = &record->fields[f];

@@ -7,7 +7,7 @@
 
 enum {
     MOST_MISSES = 32, // Greatest number of rows that are predicted from composed work as a test.
-    LEAST_JUDGED = 16 // Least number of rows with errors for a model of errors.
+    LEAST_JUDGED = 16 // Least number of rows with a known error from which errors are modelled.
 };
 
 // The 90th percentile of the absolute value of a standard normal variable.
