@@ -152,7 +152,7 @@ void dip_bench_value_name(const DipBenchPlan *plan, int combination, DipBenchAxi
     }
 }
 
-// Writes a combination's values on the axes that vary if `varies` is true, otherwise its values on
+// If `varies` is true, writes a combination's values on the axes that vary, otherwise its values on
 // the axes that do not vary. Leaves out the axis `without`.
 static void write_label(const DipBenchPlan *plan, int combination, bool varies,
                         DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {

@@ -7,7 +7,8 @@
 
 enum {
     MOST_GOES = 4,
-    FEW_GOES = 2, // Greatest number of goes with fewer rounds than FEW_ROUNDS, for a fast answer.
+    FEW_GOES = 2, // Greatest number of goes if a run has fewer than FEW_ROUNDS rounds, for a
+                  // fast answer.
     FEW_ROUNDS = 8,
     MOST_PROMISING = 24, // Greatest number of combinations that one go measures.
     FRONT_PER_GO = 5     // Greatest number of these that are added for the Pareto front.
@@ -22,12 +23,12 @@ int dip_cost_most_goes(const DipCostOptions *options) {
 // Bounds of the value of miss_of_times.
 static const double least_miss = 0.02, most_miss = 0.25;
 
-// Least number of best combinations whose misses miss_of_times takes.
+// If fewer best combinations than this have been measured, miss_of_times does not use their misses.
 enum { ENOUGH_MISSES = 8 };
 
-// Returns the relative miss that nine of ten predictions of times keep. It comes from the best
-// combinations that have been measured or, if these are too few, from the combinations that were
-// measured first.
+// Returns the relative miss that nine of ten predictions of times do not exceed, limited to the
+// bounds above. It comes from the best combinations that have been measured or, if these are too
+// few, from the combinations that were measured first.
 static double miss_of_times(const DipCostReport *report) {
     const DipCostPredictions *predicted = &report->predicted;
     const DipCostMisses *misses =
@@ -78,9 +79,9 @@ static bool keeps(const DipCostReport *report, const DipCandidate *candidate, in
                                           : fits > 1.0 - DIP_SURELY_FITS;
 }
 
-// Adds those of the first DIP_COST_PER_LIMIT candidates that keep a limit and are not measured yet.
-// `all` has the candidates of least FLIP first. Candidates that are no better than the one that
-// would be advised now need not be measured.
+// Looks at the first DIP_COST_PER_LIMIT candidates that keep a limit, and adds those of them that
+// are not measured yet. `all` has the candidates of least FLIP first. Candidates that are no better
+// than the one that would be advised now need not be measured.
 static void add_within(Promising *promising, const DipCostReport *report, const DipCandidates *all,
                        int budget, int limit) {
     const DipCandidate *chosen = dip_cost_chosen(report, budget);
@@ -135,8 +136,9 @@ bool dip_cost_add_rows(DipCostReport *report, const int *list, int count, int *r
     return true;
 }
 
-// Predicts the listed combinations without a row from those that have one. If not all combinations
-// are listed, since they are too many, first searches all of them for the best, and lists these.
+// Predicts every listed combination that has no row, from those that have one. If not all
+// combinations are listed, since they are too many, first searches all of them for the best, and
+// lists these.
 static bool predict(DipCostReport *report, DipPool *pool, DipError *err) {
     DipCostModels models;
     const bool done = dip_cost_models_of(report, &models, err) &&

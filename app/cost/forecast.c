@@ -25,7 +25,7 @@ static double judging_s(const DipCostContext *cost, int rows) {
     return cost->forecast.picture_s * rows * options->places * options->burst;
 }
 
-// Returns the time in which rows are timed whose frames take `ms` milliseconds. Every row draws all
+// Returns how long it takes to time rows whose frames take `ms` milliseconds. Every row draws all
 // frames once, and one frame untimed in each round and at each start. The baseline draws as many
 // frames for each block of rows.
 static double timing_s(const DipCostContext *cost, int rows, int blocks, double ms) {
@@ -54,7 +54,7 @@ static double go_times_s(const DipCostContext *cost) {
     return timing_s(cost, GO_ROWS, GO_ROWS / 4 + 1, promising_ms(cost));
 }
 
-// Returns the time of a phase that only runs with predictions have; 0 for other phases.
+// Returns the time of a phase that belongs to predictions; 0 for all other phases.
 static double predicting_s(const DipCostContext *cost, DipCostPhase phase) {
     const DipCostForecast *forecast = &cost->forecast;
     switch (phase) {

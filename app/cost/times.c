@@ -2,9 +2,9 @@
 // path or with other threads. Counts the work of both. The counters are the same whenever a frame
 // is drawn, so the work of each frame is counted once.
 //
-// With --starts, the program starts itself several times with --serve, one process after another,
-// and asks each for the frames to time. Times differ from process to process, since chance decides
-// where a process has its memory and which cores its threads get.
+// Unless --starts is 1, the program starts itself several times with --serve, one process after
+// another, and asks each for the frames to time. Times differ from process to process, since chance
+// decides where a process has its memory and which cores its threads get.
 #include "app/cli/drive.h"
 #include "app/cli/progress.h"
 #include "app/cost/steps.h"
@@ -28,8 +28,8 @@ enum {
                       // frames than that of the report's rows.
 };
 
-// If the first process takes longer than this share of the time of its rounds to start, only two
-// processes are started.
+// If the start of the first process takes longer than this share of the time of its rounds, only
+// two processes are started.
 static const double most_start = 0.1;
 
 // A subject of the driver (driver.h): settings on a camera path of a context's report.
@@ -102,8 +102,8 @@ static void count_work(const Timing *t, int subject, int frame, const DipCounter
     }
 }
 
-// Divides the sums that count_work made by the number of frames. Before, draws the frames whose
-// times came from the journal and counts their work, since the journal has no counters.
+// Turns the sums of count_work into means over the frames. Before, draws the frames whose times
+// came from the journal and counts their work, since the journal has no counters.
 static bool average_work(const Timing *t, DipError *err) {
     const int frames = dip_cost_frame_count(t->cost->report);
     for (int s = 0; s < t->count; s++) {

@@ -6,8 +6,9 @@
 // its own size and image-quality settings. The panes of a gallery share the scene's meshes and
 // textures, so only one of them may draw at a time.
 //
-// docs/gallery.md describes the scenes and says what each setting does to them. A seed is one of
-// the documents, numbered 000 to 004, from which the project and most of the scenes come.
+// docs/gallery.md describes the scenes and says what each setting does to them. Where comments
+// name a seed, they mean one of the documents, numbered 000 to 004, from which the project and most
+// of the scenes come.
 #ifndef DIP_APP_GALLERY_GALLERY_H
 #define DIP_APP_GALLERY_GALLERY_H
 
@@ -67,7 +68,8 @@ typedef struct DipGallery DipGallery;
 typedef struct DipGalleryDef {
     int scene;          // Index of a scene, or DIP_GALLERY_TOUR.
     DipPool *pool;      // Borrowed; must outlive the gallery.
-    DipIsa isa;         // Instruction set of the passes that do not draw a pane's picture itself.
+    DipIsa isa;         // Instruction set of the passes that draw something other than a pane's
+                        // picture, such as a shadow map.
     const char *assets; // Folder of the shipped assets. Borrowed.
 } DipGalleryDef;
 

@@ -48,7 +48,8 @@ enum {
     DIP_COST_MAX_REFUSED = 24,
     DIP_COST_MAX_ROWS = 4096,
     DIP_COST_MAX_SMALLER = 4,
-    // With more predicted combinations than this, the work of some is composed (combinations.h).
+    // If more combinations than this are predicted, the work of some is not counted, but composed
+    // from the work of others (combinations.h).
     DIP_COST_MOST_COUNTED = 256,
     DIP_COST_TEXT = 160,
     DIP_COST_REASON = 512
@@ -206,7 +207,7 @@ typedef struct DipCostReport {
     DipTimed *log; // Every timed frame; its `subject` is the index of its row. Owned; NULL without
                    // times.
     int log_count;
-    int starts;             // Number of processes that timed frames, each for rounds / starts
+    int starts;             // Number of processes that timed frames. Each timed the same number of
                             // rounds.
     DipTimesFit *fit;       // Computed from the log. Owned; NULL without times.
     double doubt;           // Standard error that an amber verdict adds to each time's logarithm;
@@ -384,7 +385,8 @@ static inline int dip_cost_frame_count(const DipCostReport *report) {
     return dip_cost_is_view(report) ? 1 : report->options.rounds * report->options.timed_frames;
 }
 
-// Returns the report's time budgets, which no rounded time crosses (words.h).
+// Returns the report's time budgets as limits. Rounding must not carry a time over one of them
+// (words.h).
 static inline DipLimits dip_cost_budgets(const DipCostReport *report) {
     const DipLimits limits = {report->options.budgets_ms, report->options.budget_count};
     return limits;

@@ -1,5 +1,6 @@
-// Adds surfaces of the program to scenes of models, such as the ground below a model. Each addition
-// makes a scene of its own, which borrows everything else from the scene that it adds to.
+// Adds surfaces that the program makes itself, such as the ground below a model, to scenes of
+// models. Each addition makes a scene of its own, which borrows everything else from the scene that
+// it adds to.
 #ifndef DIP_APP_SESSION_ADDED_SURFACE_H
 #define DIP_APP_SESSION_ADDED_SURFACE_H
 
@@ -12,9 +13,9 @@
 // either case.
 bool dip_scene_def_begin_surface(const DipSceneDef *def, DipSceneDef *copy);
 
-// Appends a texture, an opaque material of a colour that no light falls on and that shows the
-// texture, and a mesh of this material, as one object that stands where the mesh says. The mesh has
-// the name of all. Everything is borrowed.
+// Appends a texture, an opaque material, a mesh of this material, and an object that shows the mesh
+// without moving it. The surface has the texture's colour times `colour_lin`; no light falls on it.
+// The material and the object get the name of the mesh. Everything is borrowed.
 void dip_scene_def_add_surface(DipSceneDef *copy, const DipTextureDef *texture,
                                const float colour_lin[3], const DipMeshDef *mesh);
 

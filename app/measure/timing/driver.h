@@ -1,4 +1,4 @@
-// Times frames. Every command that times frames uses this loop.
+// Times frames. Every command that times frames uses this driver.
 //
 // A subject is anything that draws the frames of a path, for example the renderer with one set of
 // quality settings. Each subject is compared with another one, its base. A base is its own base, as
@@ -7,21 +7,23 @@
 //      which cores the threads get makes a whole start faster or slower, so a measurement may have
 //      several starts, each with the same number of rounds. When a start begins, each subject draws
 //      its first frames untimed.
-//   2. Settling, once. Subject 0 draws frame 0 again and again. The median of each five times is
-//      taken. The phase ends when two successive medians agree within 2 %, or after 20 medians.
+//   2. Settling, once. Subject 0 draws frame 0 again and again. The driver takes the median of
+//      every five frame times. The phase ends when two successive medians agree within 2 %, or
+//      after 20 medians.
 //   3. Rounds. A round draws some or all frames of the path with every subject. Frames are dealt to
 //      rounds at random (app/measure/stats/rounds.h), or each round draws all of them. In each
 //      round, the subjects of a base are divided at random into blocks. A block consists of a few
-//      subjects and the base, in random order. A visit draws the round's frames of one subject in
-//      path order and times each. Before them, it draws the first frame untimed, because the
-//      previous subject has used the caches. A block visits each of its subjects once.
+//      subjects and the base, in random order. A visit draws the round's frames of one subject and
+//      times each: first the frames that all subjects draw, in path order, and then, for a base, a
+//      share of those that only the base draws. Before them, it draws the first frame untimed,
+//      because the previous subject has used the caches. A block visits each of its subjects once.
 //   4. Repetition. A frame is disturbed if its threads, or those that drew the same frame of the
-//      base, waited too long for a core. While fewer than three quarters of a subject's frames are
-//      undisturbed, the driver draws the subject again in the rounds that have disturbed frames,
-//      next to its base, each round at most once. The new time of a disturbed frame replaces the
-//      old one if its threads and those of the base's frame together waited less than before. The
-//      phase ends early when most frames of two rounds in a row are disturbed again, since the
-//      machine is still busy.
+//      base, waited too long for a core. The driver repeats rounds that have disturbed frames, each
+//      at most once. A repetition draws a subject, next to its base, if one of the subject's frames
+//      in the round is disturbed, and more than a quarter of all its frames are. The new time of a
+//      disturbed frame replaces the old one if its threads and those of the base's frame together
+//      waited less than before. The phase ends early when most frames of two rounds in a row are
+//      disturbed again, since the machine is still busy.
 //
 // A driver draws one frame per step, so the preview can stop between any two frames. Commands step
 // until the driver is done.
@@ -66,7 +68,7 @@ typedef struct DipDriverDef {
     double most_wait;
     // If the first start takes more than this share of the time of its rounds (estimated from the
     // first round), there are only 2 starts with the same total number of rounds, if that number is
-    // even. If it is 0, there are always `starts`.
+    // even. If most_start is 0, the number of starts is always `starts`.
     double most_start;
 } DipDriverDef;
 

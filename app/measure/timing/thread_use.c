@@ -1,4 +1,5 @@
-// Reads the processor times of threads from /proc/PID/task/*/schedstat and from getrusage.
+// Reads the processor and waiting times of threads from /proc/PID/task/*/schedstat, and the number
+// of involuntary context switches from getrusage.
 #define _DEFAULT_SOURCE 1 // Declares getrusage's ru_nivcsw with every C library.
 #include "app/measure/timing/thread_use.h"
 

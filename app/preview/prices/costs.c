@@ -105,8 +105,8 @@ void dip_costs_free(DipCostReport **report) {
     }
 }
 
-// The report measures the steps of adaptive AA with one number of samples, so the pane must have
-// the same number of samples.
+// A report measures all steps of adaptive AA with the same number of samples. The pane is at such a
+// step only if it has this number of samples, too.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality) {
     const DipQuality *at = &row->steps[step].quality;
     const bool adaptive = row->setting == DIP_SETTING_AAA || row->setting == DIP_SETTING_ASD;

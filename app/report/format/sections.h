@@ -21,8 +21,8 @@ typedef struct DipCostTier {
 enum { DIP_COST_TIER_COUNT = 4 };
 void dip_section_tiers(DipForm *form, DipCostTier *tiers, int count);
 
-// Writes as a fact the settings that are as good as the chosen ones, if there are any. Names at
-// most DIP_ADVICE_TIES of them.
+// Writes as a fact (dip_form_fact) the settings that are as good as the chosen ones, if there are
+// any. Names at most DIP_ADVICE_TIES of them.
 void dip_section_ties(DipForm *form, const DipCandidates *candidates, const DipAdvice *advice);
 
 // Writes as a fact the line that puts settings into an ini file.
@@ -45,13 +45,15 @@ void dip_section_predictions(DipForm *form, const DipCostReport *report);
 // Writes misses as a fact: their median and 90th percentile. Writes nothing if there are no misses.
 void dip_section_misses(DipForm *form, const char *what, const DipCostMisses *misses);
 
-// Writes how far two settings do more or less together than alone (app/report/analysis.h).
+// Writes for pairs of settings how the effect of both together compares with the effects of each
+// alone (app/report/analysis.h).
 void dip_section_interactions(DipForm *form, const DipCostReport *report);
 
 // Writes the steps of one sweep (all steps of one setting).
 void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep);
 
-// Writes the prices of work (app/report/fit.h).
+// Writes the prices of work: how long a unit of each kind of work takes, as fitted to the measured
+// times (app/report/fit.h).
 void dip_section_fit(DipForm *form, const DipCostReport *report);
 
 // Writes the noise floors of the truths (converged pictures), and the steps that were left out of

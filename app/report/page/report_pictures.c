@@ -313,7 +313,9 @@ static double fit_set(DipCostPictureSet *set, bool frames, double room, int *lef
         } else {
             ++*left_out;
         }
-        if (fits == frames) { // The frame takes the crop's place, or the crop does not fit.
+        // If `frames` is true, the frame fits and takes the crop's place. Otherwise the crop does
+        // not fit.
+        if (fits == frames) {
             drop(&picture->crop);
             drop(&picture->map);
         } else if (frames) {
