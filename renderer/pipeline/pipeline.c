@@ -88,6 +88,18 @@ static bool make_merge(DipPipeline *pipeline, const DipPass *pass, DipError *err
     return true;
 }
 
+// Allocates what passes need that hand over their light (DipPass.tile_done).
+static bool make_light(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
+    const bool hands_light = pass->tile_done && !dip_pass_is_merged(pass);
+    for (int w = 0; hands_light && w < pipeline->worker_count; w++) {
+        if (!dip_tile_worker_make_light(pipeline->workers[w])) {
+            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass",
+                                 "no memory for the light of a tile");
+        }
+    }
+    return true;
+}
+
 bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
     DIP_FP_MODE_SCOPE();
     if (!pipeline || !pass) {
@@ -95,7 +107,7 @@ bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *
                              "NULL, accepted a pointer");
     }
     return make_lists(pipeline, pass->draw_count, err) && make_merge(pipeline, pass, err) &&
-           dip_geometry_reserve(&pipeline->geometry, pass, err);
+           make_light(pipeline, pass, err) && dip_geometry_reserve(&pipeline->geometry, pass, err);
 }
 
 static void begin_merge(DipPipeline *pipeline, const DipPass *pass) {
@@ -119,7 +131,8 @@ static void begin_recording(DipPipeline *pipeline) {
 }
 
 static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
-    if (!make_lists(pipeline, pass->draw_count, err) || !make_merge(pipeline, pass, err)) {
+    if (!make_lists(pipeline, pass->draw_count, err) || !make_merge(pipeline, pass, err) ||
+        !make_light(pipeline, pass, err)) {
         return false;
     }
     DipTilePass *tile_pass = &pipeline->tile_pass;
@@ -278,10 +291,12 @@ typedef struct Batch {
 } Batch;
 
 // Whether other passes may copy a pass's pixels, or this pass those of others. The colours of a
-// merged tile and of a readback do not go to pixels, and records tell the work of a pass alone.
+// merged tile, of a readback and of a tile that is handed over do not go to pixels, and records
+// tell the work of a pass alone.
 static bool may_share(const DipPassWork *work) {
     const DipTilePass *tile_pass = &work->pipeline->tile_pass;
-    return !tile_pass->merges_all && !work->pass->readback && !work->pipeline->recording.tiles;
+    return !tile_pass->merges_all && !work->pass->readback && !work->pass->tile_done &&
+           !work->pipeline->recording.tiles;
 }
 
 static bool has_own_shading(const DipPass *pass) {

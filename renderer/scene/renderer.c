@@ -3,6 +3,7 @@
 
 #include "renderer/base/pages.h"
 #include "renderer/base/fp_mode.h"
+#include "renderer/scene/draw/box.h"
 #include "renderer/scene/draw/renderer_parts.h"
 #include "renderer/scene/draw/view.h"
 #include "renderer/scene/resources/mip_debug.h"
@@ -119,20 +120,23 @@ static void free_scaled(DipScaled *scaled) {
     dip_pipeline_destroy(&scaled->pipeline);
     dip_lines_free(scaled->target.rgba8);
     dip_lines_free(scaled->light16);
-    free(scaled->codes);
+    free(scaled->tables);
     *scaled = (DipScaled){0};
 }
 
-// Makes the memory from which a larger picture is averaged.
-static bool make_light(DipScaled *scaled, DipError *err) {
-    const size_t pixels = (size_t)scaled->target.width * (size_t)scaled->target.height;
-    scaled->light16 = dip_lines_alloc(pixels * 4 * sizeof(uint16_t));
-    scaled->codes = malloc(sizeof *scaled->codes);
-    if (!scaled->light16 || !scaled->codes) {
+// Makes what averages a larger picture.
+static bool make_average(const DipRenderer *renderer, DipScaled *scaled, DipError *err) {
+    const DipTarget *from = &scaled->target;
+    const size_t bytes =
+        dip_box_light_bytes(from->width, from->height, renderer->width, renderer->height);
+    scaled->light16 = bytes ? dip_lines_alloc(bytes) : NULL;
+    scaled->tables = malloc(sizeof *scaled->tables);
+    if ((bytes && !scaled->light16) || !scaled->tables) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scale", "no memory for %dx%d pixels",
-                             scaled->target.width, scaled->target.height);
+                             from->width, from->height);
     }
-    dip_srgb_encode_table(scaled->codes);
+    dip_srgb_encode_table(&scaled->tables->codes);
+    dip_box_light_of_codes(scaled->tables->light_of);
     return true;
 }
 
@@ -145,9 +149,10 @@ static bool make_scaled(const DipRenderer *renderer, int width, int height, DipS
                              DIP_MAX_FRAME_SIZE, DIP_MAX_FRAME_SIZE);
     }
     *scaled = (DipScaled){.target = {.width = width, .height = height}};
-    const bool made = make_target(renderer->pool, renderer->isa, width, height, &scaled->pipeline,
-                                  &target->rgba8, &target->stride_bytes, err) &&
-                      (dip_quality_upscales(&renderer->quality) || make_light(scaled, err));
+    const bool made =
+        make_target(renderer->pool, renderer->isa, width, height, &scaled->pipeline, &target->rgba8,
+                    &target->stride_bytes, err) &&
+        (dip_quality_upscales(&renderer->quality) || make_average(renderer, scaled, err));
     if (!made) {
         free_scaled(scaled);
     }

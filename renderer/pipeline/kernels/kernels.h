@@ -43,7 +43,8 @@
     X(void, dip_kernel_interpolate,                                                                \
       (const DipShadingInput *input, const DipFragmentList *list, int varying_count,               \
        int value_only_count, DipFragmentBatch *batch))                                             \
-    /* Converts shaded colours to 16-bit linear light and to sRGB pixels. */                       \
+    /* Converts shaded colours to 16-bit linear light and, unless srgb_code is NULL, to sRGB */    \
+    /* pixels. */                                                                                  \
     X(void, dip_kernel_encode,                                                                     \
       (const DipFragmentBatch *batch, const uint8_t *srgb_code, DipEncodedBatch *out))             \
     /* Texture and target reads: DipSampleColour and its companions in shader.h. */                \

@@ -169,7 +169,7 @@ bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
             return name_draw(d, err);
         }
     }
-    return (!pass->readback && !pass->light16) || !dip_pass_is_merged(pass) ||
-           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, pass->readback ? "readback" : "light16",
+    return !pass->readback || !dip_pass_is_merged(pass) ||
+           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "readback",
                          "the pass is merged, accepted a pass of plain draws into sRGB bytes");
 }

@@ -57,7 +57,8 @@ int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmen
 static int shade_batch(DipTileWorker *worker, uint32_t draw, DipFragmentList *list) {
     const DipTilePass *pass = worker->pass;
     const int count = dip_tile_worker_shade(worker, draw, list);
-    pass->kernels->dip_kernel_encode(&worker->batch, pass->srgb->code, &worker->encoded);
+    pass->kernels->dip_kernel_encode(
+        &worker->batch, worker->shading.light16 ? NULL : pass->srgb->code, &worker->encoded);
     worker->shading.fragments += (uint64_t)count;
     return count;
 }
@@ -199,12 +200,7 @@ static void begin_tile(DipTileWorker *worker, int index) {
     shading->context = worker;
     shading->width = target->width - tile->x0 < DIP_TILE ? target->width - tile->x0 : DIP_TILE;
     shading->height = target->height - tile->y0 < DIP_TILE ? target->height - tile->y0 : DIP_TILE;
-    shading->light16 = pass->pass->light16;
-    shading->light16_stride = (size_t)target->width * DIP_LIGHT16_CHANNELS;
-    if (shading->light16) {
-        shading->light16 +=
-            (size_t)tile->y0 * shading->light16_stride + (size_t)tile->x0 * DIP_LIGHT16_CHANNELS;
-    }
+    shading->light16 = pass->pass->tile_done && !pass->merged ? worker->light16 : NULL;
     shading->clear_rgba8 = pass->clear_rgba8;
     memcpy(shading->clear_linear16, pass->clear_linear16, sizeof shading->clear_linear16);
     shading->multi_fragment_count = 0;
@@ -282,6 +278,18 @@ void dip_tile_worker_begin_pass(DipTileWorker *worker) {
     dip_shader_guard_begin(&worker->clip_guard, pass->kernels, pass->pass, pass->srgb_light);
 }
 
+// Hands the finished tile to the caller.
+static void hand_over(const DipTileWorker *worker) {
+    const DipPass *pass = worker->pass->pass;
+    const DipTile *tile = &worker->tile;
+    const DipTileShading *shading = &worker->shading;
+    const DipTargetRegion pixels = {tile->x0, tile->y0, tile->x0 + shading->width,
+                                    tile->y0 + shading->height};
+    const int64_t begin_ns = dip_clock_ns();
+    pass->tile_done(pass->tile_context, &pixels, shading->light16);
+    worker->work->stage_ns[DIP_TILE_STAGE_RESOLVE] += dip_clock_ns() - begin_ns;
+}
+
 void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {
     *work = (DipTileWork){.clip_tested = 0};
     worker->work = work;
@@ -295,6 +303,9 @@ void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {
     }
     if (worker->pass->pass->depths) {
         dip_store_pass_depths(worker->pass->pass, &worker->tile);
+    }
+    if (worker->pass->pass->tile_done) {
+        hand_over(worker);
     }
     work->sub_blocks_tested = worker->tile.sub_blocks_tested;
     work->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
@@ -339,6 +350,13 @@ bool dip_tile_worker_make_merge(DipTileWorker *worker) {
     return dip_merge_tile_allocate(&worker->merge);
 }
 
+bool dip_tile_worker_make_light(DipTileWorker *worker) {
+    if (!worker->light16) {
+        worker->light16 = allocate_aligned(3 * DIP_TILE_PIXELS * sizeof *worker->light16);
+    }
+    return worker->light16 != NULL;
+}
+
 static void free_lists(DipTileShading *shading) {
     free(shading->lists);
     free(shading->whole_lists);
@@ -353,6 +371,7 @@ void dip_tile_worker_destroy(DipTileWorker **worker_pointer) {
         dip_lines_free(worker->tile.id);
         dip_lines_free(worker->shading.sum);
         dip_lines_free(worker->shading.multi_fragment);
+        dip_lines_free(worker->light16);
         dip_merge_tile_free(&worker->merge);
         free_lists(&worker->shading);
         dip_lines_free(worker);

@@ -73,6 +73,7 @@ typedef struct DipTileWorker {
     DipShaderGuard clip_guard; // of `clip_batch`
     DipFragmentList clip_list;
     DipEncodedBatch encoded;
+    uint16_t *light16;  // a tile's light for a DipTileDone; exists once a pass has handed light
     DipMergeTile merge; // its arrays exist once a merged pass has been drawn
     bool merging;       // the tile is being merged
     int64_t shading_ns; // merged passes: time of shading in the tile so far
@@ -90,6 +91,10 @@ bool dip_tile_worker_make_lists(DipTileWorker *worker, int draw_count);
 
 // Allocates the memory for merged passes, if it does not exist. Returns false if memory runs out.
 bool dip_tile_worker_make_merge(DipTileWorker *worker);
+
+// Allocates the memory for passes that hand over their light, if it does not exist. Returns false
+// if memory runs out.
+bool dip_tile_worker_make_light(DipTileWorker *worker);
 
 // Interpolates and shades the first fragments of a list, at most one batch, into worker->batch.
 // Returns the number of these fragments.

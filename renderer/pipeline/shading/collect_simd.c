@@ -248,21 +248,21 @@ VEC_INLINE void push_multi_fragment(const SubBlock *sub, unsigned multi_fragment
     }
 }
 
-// Stores the background's light in a pixel.
-static void clear_light16(const DipTileShading *shading, int position) {
-    const int32_t *light = shading->clear_linear16;
-    dip_store_light16(shading, (uint32_t)position, light[0], light[1], light[2]);
+// Gives a pixel, y * DIP_TILE + x, the background's colour.
+static inline void clear_pixel(const DipTileShading *shading, int pixel) {
+    if (shading->light16) {
+        const int32_t *light = shading->clear_linear16;
+        dip_store_light16(shading, (uint32_t)pixel, light[0], light[1], light[2]);
+    } else {
+        shading->pixels[(size_t)(pixel / DIP_TILE) * shading->stride + (size_t)(pixel % DIP_TILE)] =
+            shading->clear_rgba8;
+    }
 }
 
 static void clear_pixels(const SubBlock *sub, unsigned left) {
-    const DipTileShading *shading = sub->shading;
     for (; left; left &= left - 1) {
-        const int position = sub->y0 * DIP_TILE + sub->x0 + pixel_position[__builtin_ctz(left)];
-        shading->pixels[(size_t)(position / DIP_TILE) * shading->stride +
-                        (size_t)(position % DIP_TILE)] = shading->clear_rgba8;
-        if (shading->light16) {
-            clear_light16(shading, position);
-        }
+        clear_pixel(sub->shading,
+                    sub->y0 * DIP_TILE + sub->x0 + pixel_position[__builtin_ctz(left)]);
     }
 }
 
@@ -446,10 +446,7 @@ static void clear_block(DipTileShading *shading, int block) {
     const int y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK;
     for (int y = y0; y < y0 + DIP_BLOCK && y < shading->height; y++) {
         for (int x = x0; x < x0 + DIP_BLOCK && x < shading->width; x++) {
-            shading->pixels[(size_t)y * shading->stride + (size_t)x] = shading->clear_rgba8;
-        }
-        for (int x = x0; shading->light16 && x < x0 + DIP_BLOCK && x < shading->width; x++) {
-            clear_light16(shading, y * DIP_TILE + x);
+            clear_pixel(shading, y * DIP_TILE + x);
         }
     }
 }

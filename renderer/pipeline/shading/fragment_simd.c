@@ -166,7 +166,9 @@ void DIP_KERNEL(dip_kernel_encode)(const DipFragmentBatch *batch, const uint8_t 
             const Vf scaled = vf_min(colour, vf_splat(1.0f)) * 65535.0f + 0.5f;
             const Vi linear16 = vi_from_float(scaled);
             vi_store(out->linear16[c] + i, linear16);
-            rgba8 |= (vu_gather_bytes(srgb_code, linear16) & 0xffu) << (8 * c);
+            if (srgb_code) {
+                rgba8 |= (vu_gather_bytes(srgb_code, linear16) & 0xffu) << (8 * c);
+            }
         }
         vu_store(out->rgba8 + i, rgba8);
     }

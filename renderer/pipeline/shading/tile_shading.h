@@ -73,8 +73,6 @@ typedef struct DipShadingInput {
     int y0;
 } DipShadingInput;
 
-enum { DIP_LIGHT16_CHANNELS = 4 }; // numbers per pixel of DipPass.light16
-
 typedef struct DipTileShading DipTileShading;
 
 // How passes that are drawn at once share their shading (DipPassWork.copies_from). A worker draws
@@ -111,10 +109,10 @@ struct DipTileShading {
     uint8_t *is_active; // one per draw: whether it is in `active`
     int width;          // width of the part of the tile that lies in the target
     int height;
-    uint32_t *pixels;      // points to the tile's first pixel in the target
-    size_t stride;         // distance from one row of the target to the next, in pixels
-    uint16_t *light16;     // DipPass.light16 at the tile's first pixel, or NULL
-    size_t light16_stride; // distance from one of its rows to the next, in numbers
+    uint32_t *pixels; // points to the tile's first pixel in the target
+    size_t stride;    // distance from one row of the target to the next, in pixels
+    // Where the tile's colours go instead of to `pixels`, laid out for a DipTileDone; or NULL.
+    uint16_t *light16;
     uint32_t clear_rgba8;
     int32_t clear_linear16[3];
     int32_t (*sum)[4];        // each pixel's sums of 16-bit linear light
@@ -126,15 +124,13 @@ struct DipTileShading {
     uint64_t samples;   // number of samples that show a surface
 };
 
-// Stores a pixel's colour in DipPass.light16. pixel: y * DIP_TILE + x.
+// Stores the colour of a pixel, y * DIP_TILE + x, in shading->light16.
 static inline void dip_store_light16(const DipTileShading *shading, uint32_t pixel, int32_t red,
                                      int32_t green, int32_t blue) {
-    uint16_t *light = shading->light16 + (size_t)(pixel / DIP_TILE) * shading->light16_stride +
-                      (size_t)(pixel % DIP_TILE) * DIP_LIGHT16_CHANNELS;
+    uint16_t *light = shading->light16 + pixel;
     light[0] = (uint16_t)red;
-    light[1] = (uint16_t)green;
-    light[2] = (uint16_t)blue;
-    light[3] = 65535;
+    light[DIP_TILE_PIXELS] = (uint16_t)green;
+    light[2 * DIP_TILE_PIXELS] = (uint16_t)blue;
 }
 
 #endif

@@ -9,12 +9,16 @@
 #include "renderer/base/srgb.h"
 
 #include <stdbool.h>
+#include <string.h>
 
 enum {
-    CHUNK = 64,   // pixels of a row of the smaller picture that are computed at once
-    ROWS = 8,     // rows of the smaller picture in a job of the pool
-    CHANNELS = 4, // numbers per pixel of the larger picture
-    CHUNK_FROM = CHUNK * DIP_BOX_MAX_RATIO + 2 // pixels of the larger picture that a chunk reads
+    CHUNK = 256, // pixels of a row of the smaller picture that are computed at once
+    ROWS = 16,   // rows of the smaller picture in a job of the pool
+    CHANNELS = 3,
+    // Pixels of the larger picture that a chunk may read, and as many more as a pixel overlaps.
+    CHUNK_FROM = CHUNK * DIP_BOX_MAX_RATIO + 2 + DIP_BOX_MAX_RATIO,
+    TILE = DIP_TARGET_TILE,
+    TILE_PIXELS = TILE * TILE
 };
 
 // The sizes along an axis, without their common divisor.
@@ -50,79 +54,139 @@ static int overlap_of(Axis axis, int at, int i) {
     return end - begin;
 }
 
-static void store(const DipBoxFilter *box, uint8_t *pixel, const uint32_t light16[3]) {
-    for (int c = 0; c < 3; c++) {
-        pixel[c] = box->srgb_code[light16[c]];
+// Stores `count` pixels, whose light in channel c is light16[c][i].
+static void store(const uint8_t *srgb_code, uint32_t (*light16)[CHUNK], int count, uint8_t *rgba8) {
+    for (int i = 0; i < count; i++) {
+        for (int c = 0; c < CHANNELS; c++) {
+            rgba8[4 * i + c] = srgb_code[light16[c][i]];
+        }
+        rgba8[4 * i + 3] = 255;
     }
-    pixel[3] = 255;
 }
 
-// --- light of codes ------------------------------------------------------------------------------
+// --- tiles ---------------------------------------------------------------------------------------
 
-typedef struct Decoding {
-    const DipTarget *picture;
-    uint16_t *light16;
-    uint16_t light16_of[256];
-} Decoding;
+size_t dip_box_light_bytes(int from_width, int from_height, int width, int height) {
+    const bool doubled = from_width == 2 * width && from_height == 2 * height;
+    return doubled ? 0 : (size_t)from_width * (size_t)from_height * CHANNELS * sizeof(uint16_t);
+}
 
-static void decode_rows(void *context, int job, int worker) {
-    (void)worker;
-    const Decoding *decoding = context;
-    const DipTarget *picture = decoding->picture;
-    const int end = (job + 1) * ROWS < picture->height ? (job + 1) * ROWS : picture->height;
-    for (int y = job * ROWS; y < end; y++) {
-        const uint8_t *from = picture->rgba8 + (size_t)y * picture->stride_bytes;
-        uint16_t *to = decoding->light16 + (size_t)y * (size_t)picture->width * CHANNELS;
-        for (int i = 0; i < picture->width * CHANNELS; i++) {
-            to[i] = decoding->light16_of[from[i]];
+void dip_box_light_of_codes(uint16_t light_of[256]) {
+    DipSrgbDecodeTable table;
+    dip_srgb_decode_table(&table);
+    for (int code = 0; code < 256; code++) {
+        light_of[code] = (uint16_t)(DIP_LINEAR16_MAX * table.linear[code] + 0.5);
+    }
+}
+
+// Averages the four pixels of each pixel of a tile of twice the size. Tiles begin at even pixels.
+static void halve_tile(const DipBoxFilter *box, const DipTargetRegion *pixels,
+                       const uint16_t *light16) {
+    const int width = (pixels->x1 - pixels->x0) / 2;
+    for (int y = pixels->y0 / 2; y < pixels->y1 / 2; y++) {
+        uint32_t means[CHANNELS][CHUNK];
+        for (int c = 0; c < CHANNELS; c++) {
+            const uint16_t *upper = light16 + c * TILE_PIXELS + (2 * y - pixels->y0) * TILE;
+            const uint16_t *lower = upper + TILE;
+            for (int x = 0; x < width; x++) {
+                const uint32_t sum =
+                    (uint32_t)upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
+                means[c][x] = (sum + 2) >> 2;
+            }
+        }
+        store(box->srgb_code, means, width,
+              box->to.rgba8 + (size_t)y * box->to.stride_bytes + (size_t)pixels->x0 * 2);
+    }
+}
+
+// Copies the light of a tile to the light of the picture.
+static void keep_tile(const DipBoxFilter *box, const DipTargetRegion *pixels,
+                      const uint16_t *light16) {
+    const size_t width = (size_t)box->from.width;
+    const size_t plane = width * (size_t)box->from.height;
+    const size_t bytes = (size_t)(pixels->x1 - pixels->x0) * sizeof *light16;
+    for (size_t c = 0; c < CHANNELS; c++) {
+        uint16_t *to = box->light16 + c * plane + (size_t)pixels->x0;
+        const uint16_t *from = light16 + c * TILE_PIXELS;
+        for (int y = pixels->y0; y < pixels->y1; y++, from += TILE) {
+            memcpy(to + (size_t)y * width, from, bytes);
         }
     }
 }
 
-void dip_box_decode(const DipTarget *picture, uint16_t *light16, DipPool *pool) {
-    Decoding decoding = {.picture = picture, .light16 = light16};
-    DipSrgbDecodeTable table;
-    dip_srgb_decode_table(&table);
-    for (int code = 0; code < 256; code++) {
-        decoding.light16_of[code] = (uint16_t)(DIP_LINEAR16_MAX * table.linear[code] + 0.5);
+// Finds the light of a tile's sRGB codes. stride and plane: distances from one row and from one
+// channel of the light to the next.
+static void decode_tile(const DipBoxFilter *box, const DipTargetRegion *pixels, uint16_t *light16,
+                        size_t stride, size_t plane) {
+    for (int y = pixels->y0; y < pixels->y1; y++, light16 += stride) {
+        const uint8_t *from =
+            box->from.rgba8 + (size_t)y * box->from.stride_bytes + (size_t)pixels->x0 * 4;
+        for (int x = 0; x < pixels->x1 - pixels->x0; x++, from += 4) {
+            for (size_t c = 0; c < CHANNELS; c++) {
+                light16[c * plane + (size_t)x] = box->light_of[from[c]];
+            }
+        }
     }
-    dip_pool_run(pool, (picture->height + ROWS - 1) / ROWS, decode_rows, &decoding);
+}
+
+void dip_box_take_tile(void *context, const DipTargetRegion *pixels, const uint16_t *light16) {
+    const DipBoxFilter *box = context;
+    const size_t width = (size_t)box->from.width;
+    uint16_t decoded[CHANNELS * TILE_PIXELS];
+    if (box->light16 && light16) {
+        keep_tile(box, pixels, light16);
+    } else if (box->light16) {
+        uint16_t *to = box->light16 + (size_t)pixels->y0 * width + (size_t)pixels->x0;
+        decode_tile(box, pixels, to, width, width * (size_t)box->from.height);
+    } else if (light16) {
+        halve_tile(box, pixels, light16);
+    } else {
+        decode_tile(box, pixels, decoded, TILE, TILE_PIXELS);
+        halve_tile(box, pixels, decoded);
+    }
 }
 
 // --- any ratio -----------------------------------------------------------------------------------
 
-// Sums the rows that row y overlaps, in the columns x0 to x1 - 1 of the larger picture. Sums are
-// below 2^29, since sizes are at most 2^13 and lights 2^16.
-static void sum_rows(const DipBoxFilter *box, Axis axis, int y, int x0, int x1,
-                     uint32_t sums[CHUNK_FROM * CHANNELS]) {
-    const int count = (x1 - x0) * CHANNELS;
-    for (int i = 0; i < count; i++) {
-        sums[i] = 0;
-    }
-    for (int row = first_of(axis, y); row < end_of(axis, y); row++) {
-        const uint32_t weight = (uint32_t)overlap_of(axis, y, row);
-        const uint16_t *light = box->light16 + (size_t)row * box->stride + (size_t)x0 * CHANNELS;
-        for (int i = 0; i < count; i++) {
-            sums[i] += weight * light[i];
+// What the pixels of a chunk read of a row of the larger picture.
+typedef struct Taps {
+    int first;     // the first pixel that the chunk reads
+    int count;     // how many pixels it reads
+    bool three;    // some pixel of the chunk overlaps three pixels, not only two
+    int at[CHUNK]; // the first pixel that each pixel overlaps, relative to `first`
+    double overlap[CHUNK][DIP_BOX_MAX_RATIO + 1]; // with each of the pixels from there on
+} Taps;
+
+static void find_taps(Axis axis, int x0, int x1, Taps *taps) {
+    taps->first = first_of(axis, x0);
+    taps->count = end_of(axis, x1 - 1) - taps->first;
+    taps->three = false;
+    for (int x = x0; x < x1; x++) {
+        const int first = first_of(axis, x);
+        const int count = end_of(axis, x) - first;
+        taps->at[x - x0] = first - taps->first;
+        taps->three = taps->three || count == 3;
+        for (int i = 0; i <= DIP_BOX_MAX_RATIO; i++) {
+            taps->overlap[x - x0][i] = i < count ? overlap_of(axis, x, first + i) : 0.0;
         }
     }
 }
 
-// The pixels of a row of the larger picture that a pixel of the smaller one overlaps.
-typedef struct Taps {
-    int first;
-    int count;
-    double overlap[DIP_BOX_MAX_RATIO + 1];
-} Taps;
-
-static void find_taps(Axis axis, int x0, int x1, Taps taps[CHUNK]) {
-    for (int x = x0; x < x1; x++) {
-        Taps *own = &taps[x - x0];
-        own->first = first_of(axis, x);
-        own->count = end_of(axis, x) - own->first;
-        for (int i = 0; i < own->count; i++) {
-            own->overlap[i] = overlap_of(axis, x, own->first + i);
+// Sums the rows of a channel that row y overlaps. Sums are below 2^29, since sizes are at most 2^13
+// and lights 2^16. The pixels after the last one get 0.
+static void sum_rows(const uint16_t *plane, size_t width, Axis axis, int y, const Taps *taps,
+                     double sums[CHUNK_FROM]) {
+    uint32_t whole[CHUNK_FROM];
+    memset(whole, 0, (size_t)(taps->count + DIP_BOX_MAX_RATIO) * sizeof *whole);
+    for (int row = first_of(axis, y); row < end_of(axis, y); row++) {
+        const uint16_t weight = (uint16_t)overlap_of(axis, y, row);
+        const uint16_t *light = plane + (size_t)row * width + (size_t)taps->first;
+        for (int i = 0; i < taps->count; i++) {
+            whole[i] += (uint32_t)weight * light[i];
         }
+    }
+    for (int i = 0; i < taps->count + DIP_BOX_MAX_RATIO; i++) {
+        sums[i] = (int32_t)whole[i];
     }
 }
 
@@ -130,74 +194,49 @@ static void find_taps(Axis axis, int x0, int x1, Taps taps[CHUNK]) {
 // hold exactly. A quotient, with the half that rounds it, is a whole number below 2^16 or at least
 // 2^-27 away from one. The product with the inverse is off by at most 2^-35, so 2^-29 more takes
 // whole quotients to their number and no other quotient to the next.
-static void average_any(const DipBoxFilter *box, const Taps taps[CHUNK], Axis across, Axis down,
-                        int y, int x0, int x1) {
-    uint32_t sums[CHUNK_FROM * CHANNELS];
-    const int first = taps[0].first;
+static void average(const DipBoxFilter *box, const Taps *taps, Axis across, Axis down, int y,
+                    int x0, int x1) {
+    const size_t width = (size_t)box->from.width;
+    const size_t plane = width * (size_t)box->from.height;
     const double whole = (double)across.from * down.from;
     const double inverse = 1.0 / whole;
-    uint8_t *pixel = box->rgba8 + (size_t)y * box->stride_bytes + (size_t)x0 * 4;
-    sum_rows(box, down, y, first, end_of(across, x1 - 1), sums);
-    for (int x = x0; x < x1; x++, pixel += 4) {
-        const Taps *own = &taps[x - x0];
-        double mean[3] = {0.0, 0.0, 0.0};
-        uint32_t light16[3];
-        for (int i = 0; i < own->count; i++) {
-            const uint32_t *sum = sums + (own->first - first + i) * CHANNELS;
-            for (int c = 0; c < 3; c++) {
-                mean[c] += own->overlap[i] * (double)sum[c];
+    uint32_t means[CHANNELS][CHUNK];
+    for (size_t c = 0; c < CHANNELS; c++) {
+        double sums[CHUNK_FROM];
+        sum_rows(box->light16 + c * plane, width, down, y, taps, sums);
+        for (int x = 0; x < x1 - x0; x++) {
+            const double *sum = sums + taps->at[x];
+            double mean = taps->overlap[x][0] * sum[0] + taps->overlap[x][1] * sum[1];
+            if (taps->three) {
+                mean += taps->overlap[x][2] * sum[2];
             }
+            means[c][x] = (uint32_t)(int32_t)((mean + 0.5 * whole) * inverse + 0x1p-29);
         }
-        for (int c = 0; c < 3; c++) {
-            light16[c] = (uint32_t)((mean[c] + 0.5 * whole) * inverse + 0x1p-29);
-        }
-        store(box, pixel, light16);
     }
+    store(box->srgb_code, means, x1 - x0,
+          box->to.rgba8 + (size_t)y * box->to.stride_bytes + (size_t)x0 * 4);
 }
-
-// --- the ratio 2 ---------------------------------------------------------------------------------
-
-static void average_four(const DipBoxFilter *box, int y, int x0, int x1) {
-    const uint16_t *upper =
-        box->light16 + (size_t)(2 * y) * box->stride + (size_t)(2 * x0) * CHANNELS;
-    const uint16_t *lower = upper + box->stride;
-    uint8_t *pixel = box->rgba8 + (size_t)y * box->stride_bytes + (size_t)x0 * 4;
-    for (int x = x0; x < x1; x++, pixel += 4, upper += 2 * CHANNELS, lower += 2 * CHANNELS) {
-        uint32_t light16[3];
-        for (int c = 0; c < 3; c++) {
-            light16[c] =
-                ((uint32_t)upper[c] + upper[CHANNELS + c] + lower[c] + lower[CHANNELS + c] + 2) >>
-                2;
-        }
-        store(box, pixel, light16);
-    }
-}
-
-// --- rows ----------------------------------------------------------------------------------------
 
 static void average_rows(void *context, int job, int worker) {
     (void)worker;
     const DipBoxFilter *box = context;
-    const Axis across = axis_of(box->from_width, box->width);
-    const Axis down = axis_of(box->from_height, box->height);
-    const bool doubled = across.from == 2 && across.to == 1 && down.from == 2 && down.to == 1;
-    const int end = (job + 1) * ROWS < box->height ? (job + 1) * ROWS : box->height;
-    for (int x = 0; x < box->width; x += CHUNK) {
-        const int x1 = x + CHUNK < box->width ? x + CHUNK : box->width;
-        Taps taps[CHUNK];
-        find_taps(across, x, x1, taps);
+    const Axis across = axis_of(box->from.width, box->to.width);
+    const Axis down = axis_of(box->from.height, box->to.height);
+    const int end = (job + 1) * ROWS < box->to.height ? (job + 1) * ROWS : box->to.height;
+    for (int x = 0; x < box->to.width; x += CHUNK) {
+        const int x1 = x + CHUNK < box->to.width ? x + CHUNK : box->to.width;
+        Taps taps;
+        find_taps(across, x, x1, &taps);
         for (int y = job * ROWS; y < end; y++) {
-            if (doubled) {
-                average_four(box, y, x, x1);
-            } else {
-                average_any(box, taps, across, down, y, x, x1);
-            }
+            average(box, &taps, across, down, y, x, x1);
         }
     }
 }
 
 void dip_box_filter(const DipBoxFilter *box, DipPool *pool) {
     DipBoxFilter copy = *box;
-    const int jobs = (box->height + ROWS - 1) / ROWS;
-    dip_pool_run(pool, jobs, average_rows, &copy);
+    const int jobs = (box->to.height + ROWS - 1) / ROWS;
+    if (box->light16) {
+        dip_pool_run(pool, jobs, average_rows, &copy);
+    }
 }

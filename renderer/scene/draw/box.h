@@ -10,28 +10,33 @@
 
 enum { DIP_BOX_MAX_RATIO = 2 }; // most pixels of the larger picture per pixel, in each direction
 
-// A picture in 16-bit linear light, and the smaller picture that it is averaged to. Along each
-// axis, the ratio of the sizes is 1..DIP_BOX_MAX_RATIO; it need not be the same along both.
+// A larger picture and the smaller one that it is averaged to. Along each axis, the ratio of the
+// sizes is 1..DIP_BOX_MAX_RATIO; it need not be the same along both. Pixel x of a row becomes the
+// mean over the larger picture's pixels from x * ratio to (x + 1) * ratio, each weighted by the
+// length that lies within; likewise for rows. The mean of 16-bit linear light is rounded to 16
+// bits, halves up, before it is encoded. Nothing else is rounded: overlaps are whole numbers.
 typedef struct DipBoxFilter {
-    const uint16_t *light16; // red, green, blue and an unused number for each pixel
-    size_t stride;           // distance from one row to the next, in numbers
-    int from_width;          // size of the larger picture, in pixels
-    int from_height;
-    uint8_t *rgba8; // the smaller picture; each pixel's fourth byte becomes 255
-    size_t stride_bytes;
-    int width;
-    int height;
+    DipTarget from; // the larger picture; its pixels are read only where it has no light
+    DipTarget to;   // the smaller picture; each pixel's fourth byte becomes 255
+    // The larger picture's light: planes of red, green and blue, in rows without gaps. NULL if both
+    // ratios are 2: each tile is then averaged at once, and dip_box_filter has nothing left to do.
+    uint16_t *light16;
     const uint8_t *srgb_code; // sRGB code of each 16-bit light (DipSrgbEncodeTable)
+    const uint16_t *light_of; // 16-bit light of the 256 codes (dip_box_light_of_codes)
 } DipBoxFilter;
 
-// Fills in the light of a picture that has only sRGB codes, with the picture's width as the stride
-// in pixels. The light is that of each code, rounded to 16 bits.
-void dip_box_decode(const DipTarget *picture, uint16_t *light16, DipPool *pool);
+// Returns the memory in bytes that `light16` takes for a picture of this size; 0 if it is NULL.
+size_t dip_box_light_bytes(int from_width, int from_height, int width, int height);
 
-// Fills in the smaller picture, on the pool or, if the pool is NULL, on the caller's thread. Pixel
-// x of a row is the mean over the larger picture's pixels from x * ratio to (x + 1) * ratio, each
-// weighted by the length that lies within; likewise for rows. The mean is rounded to 16-bit light,
-// halves up, before it is encoded. Nothing else is rounded: overlaps are whole numbers.
+// Fills in the light of each sRGB code, rounded to 16 bits.
+void dip_box_light_of_codes(uint16_t light_of[256]);
+
+// Takes a tile of the larger picture, as a DipTileDone whose context is the DipBoxFilter. If the
+// tile has no light, its light is that of the larger picture's sRGB codes.
+void dip_box_take_tile(void *box, const DipTargetRegion *pixels, const uint16_t *light16);
+
+// Fills in what is left of the smaller picture once all tiles are taken, on the pool or, if the
+// pool is NULL, on the caller's thread.
 void dip_box_filter(const DipBoxFilter *box, DipPool *pool);
 
 #endif

@@ -95,6 +95,7 @@ typedef struct FrameSetup {
     DipPass shadow_pass;
     DipPass mirrored_pass; // made only if the plan runs the reflection
     DipPass pass;
+    DipBoxFilter box;                    // used only if a render scale draws a larger picture
     DipPipelineCounters counters;        // sums over all passes
     DipPipelineCounters shadow_counters; // of the shadow map alone
     uint64_t fragments_mirrored;
@@ -157,9 +158,23 @@ static void make_mirrored_pass(FrameSetup *setup) {
     set_draws(renderer, setup->scene, seen, &mirror->set, pass);
 }
 
-// Whether some draw of a set is blended.
-static bool blends(const DipDrawSet *set) {
-    return set->count > set->plain_count;
+// Averages the larger picture of a render scale to the frame. A pass with blended surfaces is
+// merged, and hands over no light; then the light is that of its codes.
+static void average_pass(FrameSetup *setup) {
+    const DipRenderer *renderer = setup->renderer;
+    const DipScaled *scaled = &renderer->scaled;
+    setup->box = (DipBoxFilter){
+        .from = scaled->target,
+        .to = {.rgba8 = renderer->rgba8,
+               .stride_bytes = renderer->stride_bytes,
+               .width = renderer->width,
+               .height = renderer->height},
+        .light16 = scaled->light16,
+        .srgb_code = scaled->tables->codes.code,
+        .light_of = scaled->tables->light_of,
+    };
+    setup->pass.tile_done = dip_box_take_tile;
+    setup->pass.tile_context = &setup->box;
 }
 
 static void make_scene_pass(FrameSetup *setup) {
@@ -179,8 +194,9 @@ static void make_scene_pass(FrameSetup *setup) {
         setup->pass.region = setup->readback->region;
     }
     set_draws(renderer, setup->scene, seen, &renderer->set, &setup->pass);
-    // A pass with blended surfaces is merged, and a merged pass stores no light.
-    setup->pass.light16 = blends(&renderer->set) ? NULL : renderer->scaled.light16;
+    if (renderer->scaled.tables) {
+        average_pass(setup);
+    }
 }
 
 // --- the history ---------------------------------------------------------------------------------
@@ -444,29 +460,15 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
     return counters;
 }
 
-// Averages the larger picture of a render scale to the frame. has_codes_only: its pass stored no
-// light, so the light is that of its codes.
-static void shrink(const DipRenderer *renderer, bool has_codes_only, DipFrame *frame) {
-    const DipScaled *scaled = &renderer->scaled;
-    const DipBoxFilter box = {
-        .light16 = scaled->light16,
-        .stride = (size_t)scaled->target.width * 4,
-        .from_width = scaled->target.width,
-        .from_height = scaled->target.height,
-        .rgba8 = renderer->rgba8,
-        .stride_bytes = renderer->stride_bytes,
-        .width = renderer->width,
-        .height = renderer->height,
-        .srgb_code = scaled->codes->code,
-    };
+// Ends the averaging of a larger picture. Returns the frame's picture.
+static DipTarget shrink(const FrameSetup *setup) {
+    DipStageTimes *stages = &setup->frame->stages;
     const int64_t begin_ns = dip_clock_ns();
-    if (has_codes_only) {
-        dip_box_decode(&scaled->target, scaled->light16, renderer->pool);
-    }
-    dip_box_filter(&box, renderer->pool);
+    dip_box_filter(&setup->box, setup->renderer->pool);
     const double ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
-    frame->stages.resolve_ms += ms;
-    frame->stages.total_ms += ms;
+    stages->resolve_ms += ms;
+    stages->total_ms += ms;
+    return setup->box.to;
 }
 
 static void end_frame(const FrameSetup *setup) {
@@ -478,14 +480,8 @@ static void end_frame(const FrameSetup *setup) {
     frame->stages.geometry_ms += setup->posing_ms;
     frame->stages.total_ms += setup->posing_ms;
     const bool reflects = setup->plan.effects.reflection.run;
-    DipTarget picture = dip_renderer_target(renderer);
-    if (renderer->scaled.light16) {
-        shrink(renderer, blends(&renderer->set), frame);
-        picture = (DipTarget){.rgba8 = renderer->rgba8,
-                              .stride_bytes = renderer->stride_bytes,
-                              .width = renderer->width,
-                              .height = renderer->height};
-    }
+    const DipTarget picture =
+        renderer->scaled.tables ? shrink(setup) : dip_renderer_target(renderer);
     frame->rgba8 = picture.rgba8;
     frame->stride_bytes = picture.stride_bytes;
     count_mirror(&renderer->mirror, reflects, &frame->counters);

@@ -25,13 +25,14 @@ static DipSrgbEncodeTable codes;
 // A random picture in 16-bit light, and the smaller picture that is made of it.
 typedef struct Pictures {
     DipBoxFilter box;
-    uint16_t *light16;
+    uint16_t *light16; // red, green and blue of each pixel
     uint8_t *rgba8;
 } Pictures;
 
 static void make_pictures(Pictures *pictures, Random *random, int from_width, int from_height,
                           int width, int height) {
-    const size_t from = (size_t)from_width * (size_t)from_height * 4;
+    const size_t from = (size_t)from_width * (size_t)from_height * 3;
+    const size_t kept = dip_box_light_bytes(from_width, from_height, width, height);
     pictures->light16 = malloc(from * sizeof *pictures->light16);
     pictures->rgba8 = calloc((size_t)width * (size_t)height, 4);
     assert_non_null(pictures->light16);
@@ -39,34 +40,66 @@ static void make_pictures(Pictures *pictures, Random *random, int from_width, in
     for (size_t i = 0; i < from; i++) {
         pictures->light16[i] = (uint16_t)random_u64(random);
     }
-    pictures->box = (DipBoxFilter){.light16 = pictures->light16,
-                                   .stride = (size_t)from_width * 4,
-                                   .from_width = from_width,
-                                   .from_height = from_height,
-                                   .rgba8 = pictures->rgba8,
-                                   .stride_bytes = (size_t)width * 4,
-                                   .width = width,
-                                   .height = height,
+    pictures->box = (DipBoxFilter){.from = {.width = from_width, .height = from_height},
+                                   .to = {.rgba8 = pictures->rgba8,
+                                          .stride_bytes = (size_t)width * 4,
+                                          .width = width,
+                                          .height = height},
+                                   .light16 = kept ? malloc(kept) : NULL,
                                    .srgb_code = codes.code};
+    assert_true(!kept || pictures->box.light16);
 }
 
 static void free_pictures(Pictures *pictures) {
     free(pictures->light16);
     free(pictures->rgba8);
+    free(pictures->box.light16);
+}
+
+static uint16_t light_at(const Pictures *pictures, int x, int y, int c) {
+    return pictures->light16[3 * (y * pictures->box.from.width + x) + c];
+}
+
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+// Hands the picture over as the tiles of a pass are, without light if it has none, and averages it.
+static void average(const Pictures *pictures, DipPool *pool) {
+    enum { TILE = DIP_TARGET_TILE };
+    static uint16_t light16[3 * TILE * TILE];
+    DipBoxFilter box = pictures->box;
+    for (int y0 = 0; y0 < box.from.height; y0 += TILE) {
+        for (int x0 = 0; x0 < box.from.width; x0 += TILE) {
+            const DipTargetRegion pixels = {x0, y0, smaller(x0 + TILE, box.from.width),
+                                            smaller(y0 + TILE, box.from.height)};
+            for (int y = y0; pictures->light16 && y < pixels.y1; y++) {
+                for (int x = x0; x < pixels.x1; x++) {
+                    for (int c = 0; c < 3; c++) {
+                        light16[c * TILE * TILE + (y - y0) * TILE + x - x0] =
+                            light_at(pictures, x, y, c);
+                    }
+                }
+            }
+            dip_box_take_tile(&box, &pixels, pictures->light16 ? light16 : NULL);
+        }
+    }
+    dip_box_filter(&box, pool);
 }
 
 // Returns the mean of a channel over the part of the larger picture that belongs to a pixel, in
 // double precision.
-static double mean_at(const DipBoxFilter *box, int x, int y, int c) {
-    const double across = (double)box->from_width / box->width;
-    const double down = (double)box->from_height / box->height;
+static double mean_at(const Pictures *pictures, int x, int y, int c) {
+    const DipTarget *from = &pictures->box.from, *to = &pictures->box.to;
+    const double across = (double)from->width / to->width;
+    const double down = (double)from->height / to->height;
     double sum = 0.0;
-    for (int j = 0; j < box->from_height; j++) {
+    for (int j = 0; j < from->height; j++) {
         const double high = fmin(j + 1.0, (y + 1) * down) - fmax(j, y * down);
-        for (int i = 0; high > 0.0 && i < box->from_width; i++) {
+        for (int i = 0; high > 0.0 && i < from->width; i++) {
             const double wide = fmin(i + 1.0, (x + 1) * across) - fmax(i, x * across);
             if (wide > 0.0) {
-                sum += wide * high * box->light16[(size_t)j * box->stride + (size_t)(4 * i + c)];
+                sum += wide * high * light_at(pictures, i, j, c);
             }
         }
     }
@@ -83,10 +116,10 @@ static void filters_match_double_precision_at_every_ratio(void **state) {
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         Pictures pictures;
         make_pictures(&pictures, &random, sizes[s][0], sizes[s][1], sizes[s][2], sizes[s][3]);
-        dip_box_filter(&pictures.box, NULL);
+        average(&pictures, NULL);
         for (int i = 0; i < sizes[s][2] * sizes[s][3]; i++) {
             for (int c = 0; c < 3; c++) {
-                const double mean = mean_at(&pictures.box, i % sizes[s][2], i / sizes[s][2], c);
+                const double mean = mean_at(&pictures, i % sizes[s][2], i / sizes[s][2], c);
                 const int code = pictures.rgba8[4 * i + c];
                 // The mean is rounded once; a sum of doubles may lie on the other side of a half.
                 assert_true(code == codes.code[(int)floor(mean + 0.5 - 1e-6)] ||
@@ -100,9 +133,10 @@ static void filters_match_double_precision_at_every_ratio(void **state) {
 
 // Returns the exact mean over the part of the larger picture that belongs to a pixel, rounded to
 // the nearest whole number, halves up. Lengths are in units of 1 / (from * to).
-static uint32_t whole_mean(const DipBoxFilter *box, int x, int y, int c) {
-    const int64_t from[2] = {box->from_width, box->from_height};
-    const int64_t to[2] = {box->width, box->height}, at[2] = {x, y};
+static uint32_t whole_mean(const Pictures *pictures, int x, int y, int c) {
+    const DipBoxFilter *box = &pictures->box;
+    const int64_t from[2] = {box->from.width, box->from.height};
+    const int64_t to[2] = {box->to.width, box->to.height}, at[2] = {x, y};
     uint64_t sum = 0;
     int64_t begin[2], end[2];
     for (int axis = 0; axis < 2; axis++) {
@@ -118,8 +152,7 @@ static uint32_t whole_mean(const DipBoxFilter *box, int x, int y, int c) {
                 overlap[axis] = (last < end[axis] ? last : end[axis]) -
                                 (first > begin[axis] ? first : begin[axis]);
             }
-            sum += (uint64_t)(overlap[0] * overlap[1]) *
-                   box->light16[(size_t)j * box->stride + (size_t)(4 * i + c)];
+            sum += (uint64_t)(overlap[0] * overlap[1]) * light_at(pictures, (int)i, (int)j, c);
         }
     }
     const uint64_t whole = (uint64_t)(from[0] * from[1]);
@@ -144,20 +177,20 @@ static void every_ratio_is_exact_in_whole_numbers(void **state) {
         make_pictures(&pictures, &random, random_int(&random, width, 2 * width),
                       random_int(&random, height, 2 * height), width, height);
         if (i % 3 == 0) { // Few different lights give means at halves.
-            const size_t count = pictures.box.stride * (size_t)pictures.box.from_height;
-            for (size_t k = 0; k < count; k++) {
+            const int count = 3 * pictures.box.from.width * pictures.box.from.height;
+            for (int k = 0; k < count; k++) {
                 pictures.light16[k] = (uint16_t)(65535 - pictures.light16[k] % 2);
             }
         }
         pictures.box.srgb_code = bytes[0];
-        dip_box_filter(&pictures.box, NULL);
+        average(&pictures, NULL);
         memcpy(lower, pictures.rgba8, (size_t)width * (size_t)height * 4);
         pictures.box.srgb_code = bytes[1];
-        dip_box_filter(&pictures.box, NULL);
+        average(&pictures, NULL);
         for (int p = 0; p < width * height; p++) {
             for (int c = 0; c < 3; c++) {
                 assert_int_equal(pictures.rgba8[4 * p + c] << 8 | lower[4 * p + c],
-                                 whole_mean(&pictures.box, p % width, p / width, c));
+                                 whole_mean(&pictures, p % width, p / width, c));
             }
         }
         free_pictures(&pictures);
@@ -171,20 +204,62 @@ static void twice_the_size_is_the_rounded_mean_of_four_whole_numbers(void **stat
     Pictures pictures;
     make_pictures(&pictures, &random, 2 * WIDTH, 2 * HEIGHT, WIDTH, HEIGHT);
     DipPool *pool = dip_pool_create(3, NULL);
-    dip_box_filter(&pictures.box, pool);
+    average(&pictures, pool);
     dip_pool_destroy(&pool);
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             for (int c = 0; c < 3; c++) {
                 uint32_t sum = 2;
                 for (int k = 0; k < 4; k++) {
-                    sum += pictures.light16[4 * ((2 * y + k / 2) * 2 * WIDTH + 2 * x + k % 2) + c];
+                    sum += light_at(&pictures, 2 * x + k % 2, 2 * y + k / 2, c);
                 }
                 assert_int_equal(pictures.rgba8[4 * (y * WIDTH + x) + c], codes.code[sum >> 2]);
             }
         }
     }
     free_pictures(&pictures);
+}
+
+// A pass that is merged hands over no light: the light is that of the codes in its target.
+static void a_tile_without_light_has_the_light_of_its_codes(void **state) {
+    (void)state;
+    static const int sizes[][4] = {{140, 70, 70, 35}, {150, 75, 100, 50}, {65, 3, 65, 3}};
+    Random random = {12};
+    uint16_t light_of[256];
+    dip_box_light_of_codes(light_of);
+    for (int code = 0; code < 256; code++) {
+        assert_int_equal(codes.code[light_of[code]], code);
+        assert_int_equal(light_of[code], (int)(65535 * dip_srgb_decode(code / 255.0) + 0.5));
+    }
+    for (int s = 0; s < 3; s++) {
+        Pictures pictures;
+        make_pictures(&pictures, &random, sizes[s][0], sizes[s][1], sizes[s][2], sizes[s][3]);
+        const int count = sizes[s][0] * sizes[s][1];
+        const size_t bytes = (size_t)sizes[s][2] * (size_t)sizes[s][3] * 4;
+        uint8_t *rgba8 = malloc((size_t)count * 4);
+        uint8_t *expected = malloc(bytes);
+        assert_non_null(rgba8);
+        assert_non_null(expected);
+        for (int i = 0; i < 4 * count; i++) {
+            rgba8[i] = (uint8_t)random_u64(&random);
+        }
+        for (int i = 0; i < 3 * count; i++) {
+            pictures.light16[i] = light_of[rgba8[i / 3 * 4 + i % 3]];
+        }
+        average(&pictures, NULL);
+        memcpy(expected, pictures.rgba8, bytes);
+        memset(pictures.rgba8, 1, bytes);
+        free(pictures.light16);
+        pictures.light16 = NULL;
+        pictures.box.from.rgba8 = rgba8;
+        pictures.box.from.stride_bytes = (size_t)sizes[s][0] * 4;
+        pictures.box.light_of = light_of;
+        average(&pictures, NULL);
+        assert_memory_equal(pictures.rgba8, expected, bytes);
+        free(rgba8);
+        free(expected);
+        free_pictures(&pictures);
+    }
 }
 
 static void a_single_colour_stays_exact(void **state) {
@@ -197,10 +272,10 @@ static void a_single_colour_stays_exact(void **state) {
         const uint16_t light = (uint16_t)random_u64(&random);
         Pictures pictures;
         make_pictures(&pictures, &random, from_width, from_height, width, height);
-        for (int k = 0; k < 4 * from_width * from_height; k++) {
+        for (int k = 0; k < 3 * from_width * from_height; k++) {
             pictures.light16[k] = light;
         }
-        dip_box_filter(&pictures.box, NULL);
+        average(&pictures, NULL);
         for (int k = 0; k < width * height; k++) {
             assert_int_equal(pictures.rgba8[4 * k], codes.code[light]);
         }
@@ -229,13 +304,33 @@ static void place(const DipVertexBatch *batch) {
     }
 }
 
-// The stored light is the light that is encoded: it has the pixel's code, and is as precise as the
-// mean of its samples, which a readback knows.
-static void stored_light_is_the_mean_of_the_samples(void **state) {
+enum { LIT_WIDTH = 150, LIT_HEIGHT = 71 };
+
+typedef uint16_t LitPicture[LIT_HEIGHT][LIT_WIDTH][3];
+
+static void keep_light(void *context, const DipTargetRegion *pixels, const uint16_t *light16) {
+    enum { TILE = DIP_TARGET_TILE };
+    LitPicture *picture = context;
+    assert_non_null(light16);
+    for (int y = pixels->y0; y < pixels->y1; y++) {
+        for (int x = pixels->x0; x < pixels->x1; x++) {
+            for (int c = 0; c < 3; c++) {
+                (*picture)[y][x][c] =
+                    light16[c * TILE * TILE + (y - pixels->y0) * TILE + x - pixels->x0];
+            }
+        }
+    }
+}
+
+// The light of a tile is the light that would be encoded: it has the code that the pixel has
+// without it, and is as precise as the mean of its samples, which a readback knows. The target
+// stays as it was.
+static void the_light_of_tiles_is_the_mean_of_the_samples(void **state) {
     (void)state;
-    enum { WIDTH = 150, HEIGHT = 71 };
+    enum { WIDTH = LIT_WIDTH, HEIGHT = LIT_HEIGHT };
     static uint8_t picture[HEIGHT][WIDTH][4];
-    static uint16_t light16[HEIGHT][WIDTH][4];
+    static uint8_t untouched[HEIGHT][WIDTH][4];
+    static LitPicture light16;
     static const float vertices[6][3] = {{-0.9f, -0.8f, 0}, {0.7f, -0.3f, 0}, {-0.1f, 0.9f, 0},
                                          {0.2f, 0.1f, 0},   {2.0f, 0.3f, 0},  {0.6f, 3.0f, 0}};
     static const uint32_t indices[6] = {0, 1, 2, 3, 4, 5};
@@ -253,21 +348,27 @@ static void stored_light_is_the_mean_of_the_samples(void **state) {
             const DipSampleReadback readback = {all, samples};
             const DipDraw draw = {
                 .mesh = mesh, .vertex_shader = place, .fragment_shader = shade, .varying_count = 2};
-            const DipPass pass = {.draws = &draw,
-                                  .draw_count = 1,
-                                  .sample_count = counts[s],
-                                  .clear_lin = {0.1f, 0.7f, 1.0f},
-                                  .target = {.rgba8 = &picture[0][0][0],
-                                             .stride_bytes = WIDTH * 4,
-                                             .width = WIDTH,
-                                             .height = HEIGHT},
-                                  .light16 = &light16[0][0][0],
-                                  .readback = &readback};
+            DipPass pass = {.draws = &draw,
+                            .draw_count = 1,
+                            .sample_count = counts[s],
+                            .clear_lin = {0.1f, 0.7f, 1.0f},
+                            .target = {.rgba8 = &picture[0][0][0],
+                                       .stride_bytes = WIDTH * 4,
+                                       .width = WIDTH,
+                                       .height = HEIGHT},
+                            .tile_done = keep_light,
+                            .tile_context = &light16,
+                            .readback = &readback};
             memset(light16, 1, sizeof light16);
+            memset(picture, 7, sizeof picture);
+            memset(untouched, 7, sizeof untouched);
             DipError err = {0};
             if (!dip_pipeline_draw(pipeline, &pass, NULL, NULL, &err)) {
                 fail_msg("%s: %s", err.key, err.message);
             }
+            assert_memory_equal(picture, untouched, sizeof picture);
+            pass.tile_done = NULL;
+            assert_true(dip_pipeline_draw(pipeline, &pass, NULL, NULL, &err));
             for (int i = 0; i < WIDTH * HEIGHT; i++) {
                 const int x = i % WIDTH, y = i / WIDTH;
                 for (int c = 0; c < 3; c++) {
@@ -278,7 +379,6 @@ static void stored_light_is_the_mean_of_the_samples(void **state) {
                     assert_int_equal(light16[y][x][c], sum / counts[s]);
                     assert_int_equal(picture[y][x][c], codes.code[light16[y][x][c]]);
                 }
-                assert_int_equal(light16[y][x][3], 65535);
             }
         }
         dip_pipeline_destroy(&pipeline);
@@ -433,8 +533,9 @@ int main(void) {
         cmocka_unit_test(filters_match_double_precision_at_every_ratio),
         cmocka_unit_test(every_ratio_is_exact_in_whole_numbers),
         cmocka_unit_test(twice_the_size_is_the_rounded_mean_of_four_whole_numbers),
+        cmocka_unit_test(a_tile_without_light_has_the_light_of_its_codes),
         cmocka_unit_test(a_single_colour_stays_exact),
-        cmocka_unit_test(stored_light_is_the_mean_of_the_samples),
+        cmocka_unit_test(the_light_of_tiles_is_the_mean_of_the_samples),
         cmocka_unit_test(sizes_are_rounded_to_the_nearest_whole_number),
         cmocka_unit_test(the_work_is_that_of_a_larger_frame),
         cmocka_unit_test(a_scale_that_is_turned_off_leaves_nothing),
