@@ -3,13 +3,12 @@
 #include "renderer/scene/materials/arrival_simd.h"
 #include "renderer/scene/materials/environment_simd.h"
 #include "renderer/scene/materials/facing_simd.h"
+#include "renderer/scene/materials/lobe_simd.h"
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/shadow_simd.h"
 
 // Reflected share of a clear coat at normal incidence.
 #define COAT_F0 0.04f
-// Least width (GGX alpha) of the highlights of lights.
-#define LEAST_ALPHA 0.1f
 
 // The maps of a batch. A pointer is NULL if the surface lacks the map.
 typedef struct Maps {
@@ -30,32 +29,16 @@ typedef struct PbrPoint {
     Vf lit;       // share of the light with shadows that arrives
 } PbrPoint;
 
-// A position between two entries of a table: the first of them, and the share of the second.
-typedef struct Entry {
-    Vi index;
-    Vf share;
-} Entry;
-
-// How wide a lobe is. All of it follows from the roughness.
-typedef struct Width {
-    Vf roughness;
-    Vf alpha2;    // squared width for lights
-    Vf lean;      // how far the direction in which the lobe sees the surroundings leans from the
-                  // normal (0) towards the mirrored direction (1)
-    Vf blur;      // share of the surroundings' difference in height that blurring leaves
-    Entry row;    // in the table of lobes
-    int only_row; // row.index if it is the same in all lanes, else DIP_ABSENT
-} Width;
-
-// A lobe of reflected light: that of the surface or that of its coat.
-typedef struct Lobe {
-    Vf3 normal; // unit
-    Vf facing;  // n.v
-    Vf n_v;     // n.v, 0..1
-    Width width;
-    Vf a, b;    // shares of f0 and f90 that uniform light gives
-    Vf grazing; // mean of (1 - v.h)^5 over diffuse light
-} Lobe;
+// From where the fragments of a batch are seen. A loop of its own finds it for all of them: its
+// long chains of roots and divisions then overlap, which they do not in one loop with all that
+// follows.
+typedef struct Sights {
+    float to_eye[3][DIP_FRAGMENT_BATCH]; // unit
+    float mesh[3][DIP_FRAGMENT_BATCH];   // unit normal of the mesh
+    // With a normal map, the normal from the map, and 1 / its length before it was made unit.
+    float mapped[3][DIP_FRAGMENT_BATCH];
+    float inverse_length[DIP_FRAGMENT_BATCH];
+} Sights;
 
 // The widths of the lobes of a surface that has the same roughness everywhere, which are computed
 // once for a batch.
@@ -63,130 +46,6 @@ typedef struct Widths {
     const Width *surface; // NULL: the roughness is not the same everywhere
     const Width *coat;    // NULL: the surface has no coat
 } Widths;
-
-// --- tables --------------------------------------------------------------------------------------
-
-VEC_INLINE Entry find_entry(Vf value) {
-    const float last = (float)(DIP_PBR_TABLE - 1);
-    const Vf at =
-        vf_min(vf_max(value * (float)DIP_PBR_TABLE - 0.5f, vf_splat(0.0f)), vf_splat(last));
-    const Vi index = vi_min(vi_from_float(at), vi_splat(DIP_PBR_TABLE - 2));
-    return (Entry){index, at - vf_from_int(index)};
-}
-
-VEC_INLINE Vf low_half(Vi pair) {
-    return vf_from_int(pair & 0xffff);
-}
-
-VEC_INLINE Vf high_half(Vi pair) {
-    return vf_from_int((Vi)((Vu)pair >> 16));
-}
-
-VEC_INLINE Vf mix(Vf a, Vf b, Vf share) {
-    return a + (b - a) * share;
-}
-
-// The entries of the table of lobes around a roughness (near, far) and an angle (v after it).
-typedef struct LobeEntries {
-    Vi near, near_v;
-    Vi far, far_v;
-} LobeEntries;
-
-VEC_INLINE LobeEntries find_lobe(const DipPbrTables *tables, const Width *width, Vi v) {
-    if (width->only_row != DIP_ABSENT) {
-        const int32_t *near = tables->lobe + width->only_row * DIP_PBR_TABLE;
-        const int32_t *far = near + DIP_PBR_TABLE;
-        return (LobeEntries){vi_lookup32(near, v), vi_lookup32(near, v + 1), vi_lookup32(far, v),
-                             vi_lookup32(far, v + 1)};
-    }
-    const Vi first = width->row.index * DIP_PBR_TABLE + v;
-    const Vi second = first + DIP_PBR_TABLE;
-    return (LobeEntries){vi_gather(tables->lobe, first), vi_gather(tables->lobe, first + 1),
-                         vi_gather(tables->lobe, second), vi_gather(tables->lobe, second + 1)};
-}
-
-// Reads the tables for a lobe of known width and angle.
-VEC_INLINE void read_tables(const DipPbrTables *tables, Lobe *lobe) {
-    const float unit = 1.0f / 65535.0f;
-    const Vf share = lobe->width.row.share;
-    const Entry v = find_entry(lobe->n_v);
-    const LobeEntries at = find_lobe(tables, &lobe->width, v.index);
-    lobe->a = unit * mix(mix(low_half(at.near), low_half(at.near_v), v.share),
-                         mix(low_half(at.far), low_half(at.far_v), v.share), share);
-    lobe->b = unit * mix(mix(high_half(at.near), high_half(at.near_v), v.share),
-                         mix(high_half(at.far), high_half(at.far_v), v.share), share);
-    const Vi grazing = vi_lookup32(tables->grazing, v.index);
-    lobe->grazing = unit * mix(low_half(grazing), high_half(grazing), v.share);
-}
-
-// --- lobes ---------------------------------------------------------------------------------------
-
-VEC_INLINE Width width_of(Vf roughness) {
-    const Vf alpha = roughness * roughness;
-    const Vf least = vf_max(alpha, vf_splat(LEAST_ALPHA));
-    const Vf smooth = 1.0f - alpha;
-    const Vf blur = ((alpha * 0.0316f + 0.2566f) * alpha - 0.6222f) * alpha + 1.0083f;
-    return (Width){.roughness = roughness,
-                   .alpha2 = least * least,
-                   .lean = smooth * (vf_sqrt(smooth) + alpha),
-                   .blur = vf_min(blur, vf_splat(1.0f)),
-                   .row = find_entry(roughness),
-                   .only_row = DIP_ABSENT};
-}
-
-// Returns the width for a roughness that is the same in all lanes.
-VEC_INLINE Width width_of_all(float roughness) {
-    Width width = width_of(vf_splat(roughness));
-    int32_t rows[DIP_LANES];
-    vi_store(rows, width.row.index);
-    width.only_row = rows[0];
-    return width;
-}
-
-VEC_INLINE Lobe make_lobe(const DipPbrTables *tables, Vf3 normal, Vf3 to_eye, const Width *width) {
-    Lobe lobe = {.normal = normal, .facing = vf3_dot(normal, to_eye), .width = *width};
-    lobe.n_v = clamp01(lobe.facing);
-    read_tables(tables, &lobe);
-    return lobe;
-}
-
-// Returns the height (y) of the direction in which a lobe sees the surroundings, times the share
-// that blurring leaves of it.
-VEC_INLINE Vf reflected_height(const Lobe *lobe, Vf3 to_eye) {
-    const Vf s = lobe->width.lean;
-    const Vf rest = 1.0f - s;
-    const Vf mirrored = lobe->n_v * lobe->normal.y * 2.0f - to_eye.y;
-    const Vf cosine = lobe->n_v * 2.0f - lobe->facing; // between the normal and the mirrored eye
-    const Vf length2 = (rest * rest + s * s) + (s * rest) * cosine * 2.0f;
-    return (lobe->normal.y * rest + mirrored * s) * inverse_length(length2) * lobe->width.blur;
-}
-
-// What a light gives to a lobe, as shares of the light on a white surface that faces it.
-typedef struct LightShares {
-    Vf facing;    // n.l, at least 0
-    Vf highlight; // of the lobe, without its colour
-    Vf fresnel;   // (1 - v.h)^5
-} LightShares;
-
-// Let c be v.l, and h the half vector of v and l. Then (v + l)^2 = 2 (1 + c), and v.h is half the
-// root of that. GGX's denominator is computed times 2 (1 + c).
-VEC_INLINE LightShares meet_light(const Lobe *lobe, Vf3 to_eye, Vf3 to_light) {
-    const Vf n_l = vf3_dot(lobe->normal, to_light);
-    const Vf sum2 = vf_max(vf3_dot(to_eye, to_light) * 2.0f + 2.0f, vf_splat(1e-6f));
-    const Vf along = vf_max(n_l + lobe->facing, vf_splat(0.0f));
-    const Vf alpha2 = lobe->width.alpha2;
-    const Vf d = along * along * (alpha2 - 1.0f) + sum2;
-    const Vf narrow = 1.0f - alpha2;
-    LightShares shares = {.facing = vf_max(n_l, vf_splat(0.0f))};
-    const Vf n_v = vf_max(lobe->n_v, vf_splat(1e-4f));
-    const Vf met = vf_min(shares.facing, vf_splat(1.0f));
-    const Vf shadows =
-        met * vf_sqrt(n_v * n_v * narrow + alpha2) + n_v * vf_sqrt(met * met * narrow + alpha2);
-    shares.highlight = (met * alpha2 * 0.5f) * (sum2 * sum2) / (d * d * shadows);
-    const Vf rest = clamp01(1.0f - vf_sqrt(sum2) * 0.5f);
-    shares.fresnel = (rest * rest) * (rest * rest) * rest;
-    return shares;
-}
 
 // --- the surface ---------------------------------------------------------------------------------
 
@@ -220,12 +79,33 @@ VEC_INLINE Facing face_eye(DipFragmentBatch *batch, int i, Vf3 ray, const Maps *
     return facing;
 }
 
+VEC_INLINE void vf3_store(float (*rows)[DIP_FRAGMENT_BATCH], int i, Vf3 v) {
+    vf_store(rows[0] + i, v.x);
+    vf_store(rows[1] + i, v.y);
+    vf_store(rows[2] + i, v.z);
+}
+
+VEC_INLINE void find_sights(DipFragmentBatch *batch, const Maps *maps, Sights *sights) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const Vf3 ray = view_ray(uniforms->rays, batch, i);
+        const Facing facing = face_eye(batch, i, ray, maps);
+        vf3_store(sights->to_eye, i, vf3_unit(vf3_scale(ray, vf_splat(-1.0f))));
+        vf3_store(sights->mesh, i, facing.mesh);
+        if (maps->normal) {
+            vf3_store(sights->mapped, i, facing.mapped);
+            vf_store(sights->inverse_length + i, facing.inverse_length);
+        }
+    }
+}
+
 // Makes the lobe of the surface itself. It widens where the normals of the map spread (Toksvig).
 // known: the lobe's width, or NULL if it follows from the maps.
-VEC_INLINE Lobe surface_lobe(const DipPbrUniforms *pbr, int i, const Facing *facing, Vf3 to_eye,
+VEC_INLINE Lobe surface_lobe(const DipPbrUniforms *pbr, int i, Sights *sights, Vf3 to_eye,
                              const Maps *maps, const Width *known) {
+    const Vf3 normal = vf3_load(maps->normal ? sights->mapped : sights->mesh, i);
     if (known) {
-        return make_lobe(pbr->tables, facing->mapped, to_eye, known);
+        return make_lobe(pbr->tables, normal, to_eye, known);
     }
     Vf roughness = vf_splat(pbr->roughness);
     if (maps->metal_rough) {
@@ -234,7 +114,7 @@ VEC_INLINE Lobe surface_lobe(const DipPbrUniforms *pbr, int i, const Facing *fac
     }
     Width width = width_of(roughness);
     if (maps->normal) {
-        const Vf bounded = vf_min(facing->inverse_length, vf_splat(10.0f));
+        const Vf bounded = vf_min(vf_load(sights->inverse_length + i), vf_splat(10.0f));
         const Vf spread = vf_max(bounded - 1.0f, vf_splat(0.0f)) * 2.0f;
         const Vf alpha = roughness * roughness;
         const Vf wide = vf_sqrt(vf_min(alpha * alpha + spread, vf_splat(1.0f)));
@@ -242,7 +122,7 @@ VEC_INLINE Lobe surface_lobe(const DipPbrUniforms *pbr, int i, const Facing *fac
         width = width_of(vf_sqrt(wide));
         width.alpha2 = alpha2;
     }
-    return make_lobe(pbr->tables, facing->mapped, to_eye, &width);
+    return make_lobe(pbr->tables, normal, to_eye, &width);
 }
 
 // The colours of a channel that no light changes.
@@ -379,12 +259,14 @@ VEC_INLINE void add_coat(const DipSurfaceUniforms *uniforms, const DipEnvironmen
     }
 }
 
-VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Vf3 ray, const Maps *maps) {
+VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Sights *sights,
+                               const Maps *maps) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
+    const Vf3 ray = view_ray(uniforms->rays, batch, i);
     PbrPoint point = {
         .place = vf3_scale(ray, vf_load(batch->varying[uniforms->depth_varying] + i)),
-        .to_eye = vf3_unit(vf3_scale(ray, vf_splat(-1.0f))),
+        .to_eye = vf3_load(sights->to_eye, i),
         .base = {vf_load(batch->colour[0] + i), vf_load(batch->colour[1] + i),
                  vf_load(batch->colour[2] + i)},
         .metallic = vf_splat(pbr->metallic),
@@ -401,13 +283,11 @@ VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Vf3 ray, co
 }
 
 VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                                int i, const Maps *maps, const Widths *widths) {
+                                int i, Sights *sights, const Maps *maps, const Widths *widths) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
-    const Vf3 ray = view_ray(uniforms->rays, batch, i);
-    const PbrPoint point = find_point(batch, i, ray, maps);
-    const Facing facing = face_eye(batch, i, ray, maps);
-    const Lobe lobe = surface_lobe(pbr, i, &facing, point.to_eye, maps, widths->surface);
+    const PbrPoint point = find_point(batch, i, sights, maps);
+    const Lobe lobe = surface_lobe(pbr, i, sights, point.to_eye, maps, widths->surface);
     Vf sum[3];
     light_surface(uniforms, environment, &lobe, &point, sum);
     for (int c = 0; c < 3 && pbr->emits; c++) {
@@ -415,7 +295,7 @@ VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap
         sum[c] = sum[c] + share * pbr->emission_lin[c];
     }
     if (widths->coat) {
-        add_coat(uniforms, environment, widths->coat, facing.mesh, &point, sum);
+        add_coat(uniforms, environment, widths->coat, vf3_load(sights->mesh, i), &point, sum);
     }
     for (int c = 0; c < 3; c++) {
         vf_store(batch->colour[c] + i, sum[c]);
@@ -460,17 +340,32 @@ VEC_INLINE void count_parts(DipFragmentBatch *batch, const Maps *maps) {
     batch->work.counts[DIP_SHADER_COUNT_COATED] += pbr->coat > 0.0f ? count : 0;
 }
 
-// Shades all fragments of a batch, whose own colours and maps have been read.
+static bool has_maps(const Maps *maps) {
+    return maps->normal || maps->metal_rough || maps->occlusion || maps->emission || maps->lit;
+}
+
+// Shades all fragments of a batch, whose own colours and maps have been read. Surfaces without maps
+// and coat have a loop of their own, in which the compiler leaves out what the others need.
 VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
                             const Maps *maps) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const Width surface = width_of_all(pbr->roughness);
+    Sights sights;
+    find_sights(batch, maps, &sights);
+    if (!has_maps(maps) && !(pbr->coat > 0.0f)) {
+        const Maps none = {.normal = NULL};
+        const Widths alone = {.surface = &surface};
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
+            shade_fragments(batch, environment, i, &sights, &none, &alone);
+        }
+        return;
+    }
     const Width coat = width_of_all(pbr->coat_roughness);
     const Widths widths = {.surface = maps->metal_rough || maps->normal ? NULL : &surface,
                            .coat = pbr->coat > 0.0f ? &coat : NULL};
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        shade_fragments(batch, environment, i, maps, &widths);
+        shade_fragments(batch, environment, i, &sights, maps, &widths);
     }
 }
 
