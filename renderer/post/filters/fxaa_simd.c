@@ -1,9 +1,10 @@
 // FXAA 3.11 "quality" (Lottes, 2011) on luma of codes, with the preset 12.
 #include "renderer/post/filters/pixels_simd.h"
 #include "renderer/post/filters/post_kernels.h"
+#include "renderer/simd/pairs.h"
 
-// A pixel is at an edge if the luma of its neighbourhood differs by this share of the greatest
-// luma there, and by this much at least.
+// A pixel is at an edge if the luma of its neighbourhood differs by this share
+// of the greatest luma there, and by this much at least.
 static const float edge_share = 0.125f;
 static const float edge_least = 0.0312f;
 static const float subpixel_share = 0.75f; // how much single pixels and thin lines are blurred
@@ -18,7 +19,24 @@ typedef struct Around {
     Vi at;    // places of the pixels
     Vi along; // distance in the plane to the next pixel along the edge
     Vi step;  // distance in the plane to the pixel on the other side of the edge
+    // Four pixels, two along the edge and two across it, lie in two rows. Where
+    // their first row begins, relative to the first pixel along the edge, and the
+    // distance to the second row.
+    Mask horizontal; // the edge is
+    Vi begin;
+    Vi second;
 } Around;
+
+// Luma of two neighbours in a row, which are gathered at once.
+typedef struct Neighbours {
+    Vf left;
+    Vf right;
+} Neighbours;
+
+VEC_INLINE Neighbours gather_two(const float *luma, Vi at) {
+    const VuPair pair = vu_gather_pairs((const uint32_t *)(const void *)luma, vi_pair_order(at));
+    return (Neighbours){(Vf)vu_pair_left(pair), (Vf)vu_pair_right(pair)};
+}
 
 VEC_INLINE Vf greatest5(Vf a, Vf b, Vf c, Vf d, Vf e) {
     return vf_max(vf_max(vf_max(a, b), vf_max(c, d)), e);
@@ -31,45 +49,54 @@ VEC_INLINE Vf least5(Vf a, Vf b, Vf c, Vf d, Vf e) {
 // Returns the luma on the edge between both sides, at a place along the edge.
 VEC_INLINE Vf luma_between(const Around *around, int place) {
     const Vi whole = around->at + around->along * (place >> 1); // rounds down
-    const Vf here = vf_gather(around->luma, whole) + vf_gather(around->luma, whole + around->step);
     if (!(place & 1)) {
-        return here * 0.5f;
+        return (vf_gather(around->luma, whole) + vf_gather(around->luma, whole + around->step)) *
+               0.5f;
     }
-    const Vi next = whole + around->along;
-    return (here + (vf_gather(around->luma, next) + vf_gather(around->luma, next + around->step))) *
-           0.25f;
+    const Neighbours a = gather_two(around->luma, whole + around->begin);
+    const Neighbours b = gather_two(around->luma, whole + around->begin + around->second);
+    const Vf across = vf_select(around->horizontal, b.left, a.right);
+    const Vf next = vf_select(around->horizontal, a.right, b.left);
+    return ((a.left + across) + (next + b.right)) * 0.25f;
 }
 
-// Searches along the edge in one direction until the luma leaves the edge's mean. Writes the
-// distance in half pixels, and how far the luma is from the mean there.
-VEC_INLINE void find_end(const Around *around, int direction, Vf mean, Vf enough, Vf *distance,
-                         Vf *difference) {
-    unsigned searching = VEC_ALL_LANES;
-    *distance = vf_splat(0.0f);
-    *difference = vf_splat(0.0f);
-    for (int i = 0; i < PLACE_COUNT && searching; i++) {
-        const Mask lanes = mask_from_bits(searching);
-        const Vf now = luma_between(around, direction * places[i]) - mean;
-        *distance = vf_select(lanes, vf_splat((float)places[i]), *distance);
-        *difference = vf_select(lanes, now, *difference);
-        searching &= mask_bits(vf_lt(vf_abs(now), enough));
+// Where the search along an edge ends in one direction.
+typedef struct End {
+    unsigned searching; // the lanes that have not ended, one bit each
+    Vf distance;        // in half pixels
+    Vf difference;      // how far the luma is from the edge's mean there
+} End;
+
+// Searches along the edge in both directions until the luma leaves the edge's
+// mean.
+VEC_INLINE void find_ends(const Around *around, Vf mean, Vf enough, End ends[2]) {
+    for (int d = 0; d < 2; d++) {
+        ends[d] = (End){VEC_ALL_LANES, vf_splat(0.0f), vf_splat(0.0f)};
+    }
+    for (int i = 0; i < PLACE_COUNT && (ends[0].searching | ends[1].searching); i++) {
+        for (int d = 0; d < 2; d++) {
+            End *end = &ends[d];
+            const Mask lanes = mask_from_bits(end->searching);
+            const Vf now = luma_between(around, d ? places[i] : -places[i]) - mean;
+            end->distance = vf_select(lanes, vf_splat((float)places[i]), end->distance);
+            end->difference = vf_select(lanes, now, end->difference);
+            end->searching &= mask_bits(vf_lt(vf_abs(now), enough));
+        }
     }
 }
 
-// Returns the share, 0..1/2 or more, of the pixel on the other side of the edge, and sets
-// around->step. The neighbours are gathered by rows.
-VEC_INLINE Vf shift_of(Around *around, int stride, Mask *horizontal, Mask *before) {
+// Returns the share, 0..1/2 or more, of the pixel on the other side of the
+// edge, and sets the fields of `around` that depend on the edge. The neighbours
+// are gathered by rows.
+VEC_INLINE Vf shift_of(Around *around, int stride, Mask *before) {
     const float *luma = around->luma;
     const Vi at = around->at;
-    const Vf m = vf_gather(luma, at);
-    const Vf n = vf_gather(luma, at - stride);
-    const Vf s = vf_gather(luma, at + stride);
-    const Vf w = vf_gather(luma, at - 1);
-    const Vf e = vf_gather(luma, at + 1);
-    const Vf nw = vf_gather(luma, at - stride - 1);
-    const Vf ne = vf_gather(luma, at - stride + 1);
-    const Vf sw = vf_gather(luma, at + stride - 1);
-    const Vf se = vf_gather(luma, at + stride + 1);
+    const Neighbours above = gather_two(luma, at - stride - 1);
+    const Neighbours level = gather_two(luma, at - 1);
+    const Neighbours below = gather_two(luma, at + stride - 1);
+    const Vf nw = above.left, n = above.right, ne = vf_gather(luma, at - stride + 1);
+    const Vf w = level.left, m = level.right, e = vf_gather(luma, at + 1);
+    const Vf sw = below.left, s = below.right, se = vf_gather(luma, at + stride + 1);
 
     const Vf range = greatest5(n, s, w, e, m) - least5(n, s, w, e, m);
     Vf sub = ((n + s + w + e) * 2.0f + (nw + ne + sw + se)) * (1.0f / 12.0f) - m;
@@ -82,23 +109,27 @@ VEC_INLINE Vf shift_of(Around *around, int stride, Mask *horizontal, Mask *befor
     const Vf across_columns =
         vf_abs(nw + ne - n * 2.0f) + vf_abs(w + e - m * 2.0f) * 2.0f + vf_abs(sw + se - s * 2.0f);
     const unsigned vertical = mask_bits(vf_lt(across_rows, across_columns));
-    *horizontal = mask_from_bits(~vertical & VEC_ALL_LANES);
-    const Vf first = vf_select(*horizontal, n, w);
-    const Vf second = vf_select(*horizontal, s, e);
+    const Mask horizontal = mask_from_bits(~vertical & VEC_ALL_LANES);
+    const Vf first = vf_select(horizontal, n, w);
+    const Vf second = vf_select(horizontal, s, e);
     const Vf to_first = vf_abs(first - m);
     const Vf to_second = vf_abs(second - m);
     *before = mask_from_bits(~mask_bits(vf_lt(to_first, to_second)) & VEC_ALL_LANES);
-    const Vi apart = vi_select(*horizontal, vi_splat(stride), vi_splat(1));
-    around->along = vi_select(*horizontal, vi_splat(1), vi_splat(stride));
+    const Vi apart = vi_select(horizontal, vi_splat(stride), vi_splat(1));
+    around->along = vi_select(horizontal, vi_splat(1), vi_splat(stride));
     around->step = vi_select(*before, -apart, apart);
+    around->horizontal = horizontal;
+    around->begin = vi_select(horizontal, vi_splat(0), vi_min(around->step, vi_splat(0)));
+    around->second = vi_select(horizontal, around->step, around->along);
 
     const Vf mean = (vf_select(*before, first, second) + m) * 0.5f;
     const Vf enough = vf_max(to_first, to_second) * 0.25f;
-    Vf back, forth, luma_back, luma_forth;
-    find_end(around, -1, mean, enough, &back, &luma_back);
-    find_end(around, 1, mean, enough, &forth, &luma_forth);
+    End ends[2];
+    find_ends(around, mean, enough, ends);
+    const Vf back = ends[0].distance;
+    const Vf forth = ends[1].distance;
     const Vf nearest = vf_min(back, forth);
-    const Vf luma_nearest = vf_select(vf_lt(back, forth), luma_back, luma_forth);
+    const Vf luma_nearest = vf_select(vf_lt(back, forth), ends[0].difference, ends[1].difference);
     const Vf zero = vf_splat(0.0f);
     const unsigned good = mask_bits(vf_lt(luma_nearest, zero)) ^ mask_bits(vf_lt(m - mean, zero));
     const Vf move = vf_select(mask_from_bits(good), 0.5f - nearest / (back + forth), zero);
@@ -115,8 +146,8 @@ static void filter_edges(const DipFxaaRow *row, const uint32_t *x, int count) {
     Vi at;
     memcpy(&at, lanes, sizeof at);
     Around around = {.luma = row->luma, .at = at};
-    Mask horizontal, before;
-    const Vf move = shift_of(&around, row->luma_stride, &horizontal, &before);
+    Mask before;
+    const Vf move = shift_of(&around, row->luma_stride, &before);
 
     const Vi next = vi_select(before, at - 1, at + 1);
     const Vi beside = vi_min(vi_max(next, vi_splat(0)), vi_splat(row->width - 1));
@@ -124,7 +155,8 @@ static void filter_edges(const DipFxaaRow *row, const uint32_t *x, int count) {
     const Vu vertical = vu_gather_bytes(row->row, beside * 4);
     const Vu above = vu_gather_bytes(row->above, at * 4);
     const Vu below = vu_gather_bytes(row->below, at * 4);
-    const Vi other = vi_select(horizontal, vi_select(before, (Vi)above, (Vi)below), (Vi)vertical);
+    const Vi other =
+        vi_select(around.horizontal, vi_select(before, (Vi)above, (Vi)below), (Vi)vertical);
     Vi rgb[3];
     for (int c = 0; c < 3; c++) {
         const Vf from = vf_from_int(vi_channel(self, c));
