@@ -97,6 +97,9 @@ static void hash_meshes(const DipSceneDef *def, DipHash *hash) {
                                mesh->vertex_count * arrays[a].width * sizeof(float));
             }
         }
+        if (mesh->alphas) {
+            dip_hash_bytes(hash, mesh->alphas, mesh->vertex_count * sizeof(float));
+        }
         dip_hash_integer(hash, mesh->index_count);
         dip_hash_bytes(hash, mesh->indices, mesh->index_count * sizeof *mesh->indices);
     }

@@ -181,12 +181,21 @@ static bool read_emission(const DipGltf *gltf, const cJSON *json, DipGltfMateria
     return true;
 }
 
-static void read_alpha(const cJSON *json, DipGltfMaterial *material) {
+static DipGltfAlpha alpha_of(const cJSON *json) {
     const cJSON *mode = cJSON_GetObjectItemCaseSensitive(json, "alphaMode");
     const char *name = cJSON_IsString(mode) ? mode->valuestring : "OPAQUE";
-    material->alpha = strcmp(name, "MASK") == 0    ? DIP_GLTF_MASK
-                      : strcmp(name, "BLEND") == 0 ? DIP_GLTF_BLEND
-                                                   : DIP_GLTF_OPAQUE;
+    return strcmp(name, "MASK") == 0    ? DIP_GLTF_MASK
+           : strcmp(name, "BLEND") == 0 ? DIP_GLTF_BLEND
+                                        : DIP_GLTF_OPAQUE;
+}
+
+bool dip_gltf_shows_alpha(const DipGltf *gltf, int index) {
+    return index >= 0 &&
+           alpha_of(dip_gltf_item(gltf, DIP_GLTF_materials, index)) != DIP_GLTF_OPAQUE;
+}
+
+static void read_alpha(const cJSON *json, DipGltfMaterial *material) {
+    material->alpha = alpha_of(json);
     material->cutoff = dip_gltf_number_of(json, "alphaCutoff", 0.5);
     material->double_sided = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(json, "doubleSided"));
 }

@@ -302,15 +302,11 @@ static int add(Maker *maker, DipGltfScene *scene) {
                      : DIP_NOT_FOUND;
 }
 
-// Several parts may share a material, so this is checked for each.
-static void warn_of_vertex_alpha(DipGltfScene *scene, const DipGltfPart *part, int material) {
-    const DipMaterialDef *def = material < 0 ? NULL : &scene->model->materials[material];
-    if (def && part->has_alpha &&
-        (def->surface == DIP_SURFACE_CLIPPED || def->surface == DIP_SURFACE_BLENDED) &&
-        dip_gltf_warns_of(scene, DIP_GLTF_LOSS_VERTEX_ALPHA)) {
-        dip_model_warn(scene->model, scene->reader.gltf.path, def->name,
-                       "the alpha of vertex colours is not drawn");
-    }
+// Returns whether the alpha of a part's vertices changes the surface.
+static bool has_vertex_alpha(const Maker *maker) {
+    return maker->part->has_alpha &&
+           (maker->plan.tag == DIP_TAG_MASK ||
+            dip_gltf_shows_alpha(&maker->scene->reader.gltf, maker->part->material));
 }
 
 int dip_gltf_scene_material(DipGltfScene *scene, int part, const DipGltfNodeState *state) {
@@ -330,12 +326,12 @@ int dip_gltf_scene_material(DipGltfScene *scene, int part, const DipGltfNodeStat
     }
     const char *name = scene->model->files[scene->file].material_names[maker.plan.source];
     dip_model_apply_rules(scene->model, name, &maker.plan);
+    maker.plan.vertex_alpha = has_vertex_alpha(&maker);
     int material = dip_model_find_material(scene->model, &maker.plan);
     if (material < 0) {
         const bool ok =
             dip_gltf_describe_material(&scene->reader.gltf, source->material, &maker.from);
         material = ok ? add(&maker, scene) : DIP_NOT_FOUND;
     }
-    warn_of_vertex_alpha(scene, source, material);
     return material;
 }

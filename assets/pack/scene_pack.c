@@ -156,6 +156,7 @@ static bool read_mesh(DipPackReader *reader, uint64_t index, DipMeshDef *def) {
                     dip_pack_read_floats(reader, record.uv0, 2 * rows, &def->uv0) &&
                     dip_pack_read_floats(reader, record.uv1, 2 * rows, &def->uv1) &&
                     dip_pack_read_floats(reader, record.colours_lin, 3 * rows, &def->colours_lin) &&
+                    dip_pack_read_floats(reader, record.alphas, rows, &def->alphas) &&
                     read_indices(reader, &record, def) && def->positions;
     return ok || dip_pack_refuse(reader, "a mesh", index);
 }

@@ -165,6 +165,7 @@ static bool add_mesh(Writer *writer, const DipMeshDef *def, PackMesh *record) {
            add_array(writer, def->uv0, 2 * row, &record->uv0) &&
            add_array(writer, def->uv1, 2 * row, &record->uv1) &&
            add_array(writer, def->colours_lin, 3 * row, &record->colours_lin) &&
+           add_array(writer, def->alphas, row, &record->alphas) &&
            add_array(writer, def->indices, (size_t)def->index_count * sizeof *def->indices,
                      &record->indices);
 }

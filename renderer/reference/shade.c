@@ -58,21 +58,33 @@ static void read_texture(const DipRefTexture *texture, const DipRefFilter *filte
 }
 
 double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filter) {
+    const DipRefTexture *colour = place->triangle->colour;
     DipRefVaryings varyings;
-    double rgba[4];
-    dip_reference_interpolate(place, DIP_REF_U0, 2, filter != NULL, &varyings);
-    read_texture(place->triangle->colour, filter, &varyings, DIP_REF_U0, rgba);
-    return rgba[3];
+    double rgba[4] = {1.0, 1.0, 1.0, 1.0};
+    dip_reference_interpolate(place, DIP_REF_U0, DIP_REF_ALPHA + 1, filter != NULL, &varyings);
+    if (colour) {
+        read_texture(colour, filter, &varyings, DIP_REF_U0, rgba);
+    }
+    return rgba[3] * fmin(fmax(varyings.value[DIP_REF_ALPHA], 0.0), 1.0);
 }
 
 double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter *filter,
                                  double *slope) {
+    const DipRefTexture *colour = place->triangle->colour;
     DipRefVaryings varyings;
-    double rgba[4];
-    dip_reference_interpolate(place, DIP_REF_U0, 2, true, &varyings);
-    dip_reference_sample_slope(place->triangle->colour, filter, &varyings.value[DIP_REF_U0],
-                               &varyings.ddx[DIP_REF_U0], &varyings.ddy[DIP_REF_U0], rgba, slope);
-    return rgba[3];
+    double rgba[4] = {1.0, 1.0, 1.0, 1.0};
+    dip_reference_interpolate(place, DIP_REF_U0, DIP_REF_ALPHA + 1, true, &varyings);
+    *slope = 0.0;
+    if (colour) {
+        dip_reference_sample_slope(colour, filter, &varyings.value[DIP_REF_U0],
+                                   &varyings.ddx[DIP_REF_U0], &varyings.ddy[DIP_REF_U0], rgba,
+                                   slope);
+    }
+    // The changes of both factors are added.
+    const double own = fmin(fmax(varyings.value[DIP_REF_ALPHA], 0.0), 1.0);
+    const double change = fabs(varyings.ddx[DIP_REF_ALPHA]) + fabs(varyings.ddy[DIP_REF_ALPHA]);
+    *slope = *slope * own + rgba[3] * change;
+    return rgba[3] * own;
 }
 
 double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *filter) {
@@ -83,8 +95,7 @@ double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *fi
     if (triangle->water) {
         return 1.0 - (double)triangle->material->transmission;
     }
-    return (triangle->colour ? dip_reference_alpha(place, filter) : 1.0) *
-           triangle->material->opacity;
+    return dip_reference_alpha(place, filter) * triangle->material->opacity;
 }
 
 void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filter,

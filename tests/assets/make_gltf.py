@@ -150,6 +150,10 @@ def colours():
     four = m.accessor([255, 51, 0, 0, 0, 0, 255, 102, 255, 0, 0, 255], "VEC4", UBYTE,
                       normalized=True)
     m.node("four", m.mesh({**base, "COLOR_0": four}, material=0))
+    m.add("materials", {"name": "blended", "alphaMode": "BLEND"})
+    m.node("mixed", m.mesh({**base, "COLOR_0": four}, material=1))
+    m.node("solid", m.mesh({**base, "COLOR_0": three}, material=1))
+    m.node("whole", m.mesh({**base, "COLOR_0": four}))
     m.save("colours")
 
 

@@ -77,6 +77,7 @@ static void assert_same_mesh(const DipMeshDef *one, const DipMeshDef *other) {
     assert_same_array(one->uv0, other->uv0, 2 * row);
     assert_same_array(one->uv1, other->uv1, 2 * row);
     assert_same_array(one->colours_lin, other->colours_lin, 3 * row);
+    assert_same_array(one->alphas, other->alphas, row);
     assert_same_array(one->indices, other->indices, one->index_count * sizeof *one->indices);
 }
 
@@ -234,9 +235,11 @@ static uint64_t sum_mesh(const DipMeshDef *mesh) {
     assert_finite(mesh->uv0, 2 * (size_t)mesh->vertex_count);
     assert_finite(mesh->uv1, 2 * (size_t)mesh->vertex_count);
     assert_finite(mesh->colours_lin, 3 * (size_t)mesh->vertex_count);
+    assert_finite(mesh->alphas, mesh->vertex_count);
     return strlen(mesh->name) + sum_bytes(mesh->positions, 3 * row) +
            sum_bytes(mesh->normals, 3 * row) + sum_bytes(mesh->uv0, 2 * row) +
-           sum_bytes(mesh->uv1, 2 * row) + sum_bytes(mesh->colours_lin, 3 * row);
+           sum_bytes(mesh->uv1, 2 * row) + sum_bytes(mesh->colours_lin, 3 * row) +
+           sum_bytes(mesh->alphas, row);
 }
 
 uint64_t read_whole_scene(const DipSceneDef *scene) {

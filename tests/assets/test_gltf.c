@@ -132,10 +132,34 @@ static void vertex_colours_are_linear_and_clamped(void **state) {
     const DipMeshDef *four = mesh_of(def, "four");
     assert_near_3(corner(four, four->colours_lin, 0, 3), 1.0, 0.2, 0.0);
     assert_near_3(corner(four, four->colours_lin, 1, 3), 0.0, 0.0, 1.0);
-    assert_int_equal(warnings.count, 1);
-    assert_string_equal(warnings.items[0].message, "the alpha of vertex colours is not drawn");
-    assert_string_equal(warnings.items[0].key, "cut");
+    assert_int_equal(warnings.count, 0);
     dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
+// The alpha of vertex colours is kept where it changes the surface: "whole" is opaque.
+static void vertex_alphas_belong_to_surfaces_that_clip_or_blend(void **state) {
+    (void)state;
+    static const double expected[3] = {0.0, 0.4, 1.0};
+    DipModel *model = load("colours.gltf", NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    const char *const names[] = {"four", "mixed"};
+    for (int i = 0; i < 2; i++) {
+        const DipMeshDef *mesh = mesh_of(def, names[i]);
+        assert_int_equal(def->materials[mesh->material].surface,
+                         i ? DIP_SURFACE_BLENDED : DIP_SURFACE_CLIPPED);
+        for (uint32_t k = 0; k < 3; k++) {
+            assert_near((double)*corner(mesh, mesh->alphas, k, 1), expected[k]);
+        }
+    }
+    assert_null(mesh_of(def, "three")->alphas);
+    const DipMeshDef *whole = mesh_of(def, "whole");
+    assert_null(whole->alphas);
+    assert_int_equal(def->materials[whole->material].surface, DIP_SURFACE_OPAQUE);
+    // A part without alpha does not blend, although its material is that of "mixed".
+    const DipMeshDef *solid = mesh_of(def, "solid");
+    assert_null(solid->alphas);
+    assert_int_equal(def->materials[solid->material].surface, DIP_SURFACE_OPAQUE);
     dip_model_destroy(&model);
 }
 
@@ -640,6 +664,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(sparse_accessors_list_what_differs),
         cmocka_unit_test(quantized_numbers_keep_their_meaning),
         cmocka_unit_test(vertex_colours_are_linear_and_clamped),
+        cmocka_unit_test(vertex_alphas_belong_to_surfaces_that_clip_or_blend),
         cmocka_unit_test(instances_become_objects_of_one_mesh),
         cmocka_unit_test(skins_and_morph_targets_have_their_shape_at_rest),
         cmocka_unit_test(every_node_with_a_light_is_a_light),

@@ -41,7 +41,8 @@ enum {
     DIP_REF_V0,
     DIP_REF_U1,
     DIP_REF_V1,
-    DIP_REF_X, // position relative to the eye, along the world's axes, in metres
+    DIP_REF_ALPHA, // of the vertices
+    DIP_REF_X,     // position relative to the eye, along the world's axes, in metres
     DIP_REF_Y,
     DIP_REF_Z,
     DIP_REF_NORMAL_X, // normal, of length 1 at the vertices
@@ -59,7 +60,7 @@ enum {
     DIP_REF_VARYINGS
 };
 
-enum { DIP_REF_DERIVED = 7 }; // number of varyings with derivatives: the first ones
+enum { DIP_REF_DERIVED = 8 }; // number of varyings with derivatives: the first ones
 
 typedef struct DipRefVertex {
     double x; // on the screen, to the right, in 1/256 pixel
@@ -102,7 +103,7 @@ typedef struct DipRefTriangle {
     int64_t time_ns;      // time of the clouds
     uint64_t patch; // number of a patch, which is shaded as one surface; unique among all objects
     bool mirrored;  // true if the object's transform mirrors, which reverses the winding
-    bool clipped;   // true if the alpha of `colour` clips the surface
+    bool clipped;   // true if the alpha of `colour` or of the vertices clips the surface
     bool blended;   // true if the surface is drawn over what lies behind it
     bool water;
     int min_x, max_x; // pixels of the frame that the triangle may touch, inclusive

@@ -281,8 +281,8 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
             uniforms->base_colour_lin[c] = 1.0f;
         }
     }
-    const bool clipped =
-        material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_varying != DIP_ABSENT;
+    const int alpha_varyings = dip_surface_alpha_varyings(uniforms);
+    const bool clipped = material->surface == DIP_SURFACE_CLIPPED && alpha_varyings > 0;
     *draw = (DipDraw){
         .mesh =
             input->unshared ? dip_unshared_mesh(input->unshared, input->scene, index) : mesh->mesh,
@@ -293,7 +293,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
         .value_only_varying_count = mesh->layout.light_varying == DIP_ABSENT
                                         ? 0
                                         : mesh->varying_count - mesh->layout.light_varying,
-        .clip_varying_count = clipped ? uniforms->colour_varying + 2 : 0,
+        .clip_varying_count = clipped ? alpha_varyings : 0,
         .repeating_varyings = mesh->repeating_varyings,
         .uniforms = uniforms,
         .samplers = input->samplers[mesh->material],

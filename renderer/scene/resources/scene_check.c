@@ -174,7 +174,8 @@ static bool check_mesh(const DipSceneDef *def, const DipMeshDef *mesh, DipError 
     return check_floats(mesh->normals, 3 * count, 3, mesh->name, "normals", err) &&
            check_floats(mesh->uv0, 2 * count, 2, mesh->name, "uv0", err) &&
            check_floats(mesh->uv1, 2 * count, 2, mesh->name, "uv1", err) &&
-           check_floats(mesh->colours_lin, 3 * count, 3, mesh->name, "colours_lin", err);
+           check_floats(mesh->colours_lin, 3 * count, 3, mesh->name, "colours_lin", err) &&
+           (!mesh->alphas || check_range(mesh->alphas, count, 0.0, 1.0, mesh->name, "alphas", err));
 }
 
 static bool check_object(const DipSceneDef *def, const DipObjectDef *object, DipError *err) {
