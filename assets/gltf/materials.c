@@ -211,11 +211,13 @@ bool dip_gltf_describe_material(const DipGltf *gltf, int index, DipGltfMaterial 
     const cJSON *occlusion = cJSON_GetObjectItemCaseSensitive(json, "occlusionTexture");
     const cJSON *glossy = glossy_of(json);
     const cJSON *coat = dip_gltf_extension(json, "KHR_materials_clearcoat");
+    const cJSON *sheen = dip_gltf_extension(json, "KHR_materials_sheen");
     const cJSON *transmission = dip_gltf_extension(json, "KHR_materials_transmission");
     if (!json || !read_metallic(gltf, json, material) || !read_specular(gltf, json, material) ||
         (glossy && !read_glossy(gltf, glossy, material)) || !read_emission(gltf, json, material) ||
         !read_texture(gltf, json, "normalTexture", &material->normal) ||
-        !read_texture(gltf, json, "occlusionTexture", &material->occlusion)) {
+        !read_texture(gltf, json, "occlusionTexture", &material->occlusion) ||
+        !dip_gltf_numbers(gltf, sheen, "sheenColorFactor", 3, material->sheen)) {
         return false;
     }
     read_alpha(json, material);
@@ -225,6 +227,10 @@ bool dip_gltf_describe_material(const DipGltf *gltf, int index, DipGltfMaterial 
     material->occlusion_strength = unit_of(occlusion, "strength", 1.0);
     material->coat = unit_of(coat, "clearcoatFactor", 0.0);
     material->coat_roughness = unit_of(coat, "clearcoatRoughnessFactor", 0.0);
+    material->sheen_roughness = unit_of(sheen, "sheenRoughnessFactor", 0.0);
+    for (int i = 0; i < 3; ++i) {
+        material->sheen[i] = clamp(material->sheen[i], 0.0, 1.0);
+    }
     material->transmission = unit_of(transmission, "transmissionFactor", 0.0);
     for (int i = 0; i < 4; ++i) {
         material->base[i] = clamp(material->base[i], 0.0, 1.0);

@@ -36,6 +36,8 @@ typedef struct DipGltfMaterial {
     double occlusion_strength;
     double coat;
     double coat_roughness;
+    double sheen[3]; // linear colour
+    double sheen_roughness;
     double transmission;
     double cutoff; // of DIP_GLTF_MASK
     DipGltfAlpha alpha;

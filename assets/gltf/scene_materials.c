@@ -173,8 +173,10 @@ static void read_pbr(Maker *maker) {
                        .occlusion_strength = (float)from->occlusion_strength,
                        .normal_scale = (float)from->normal_scale,
                        .coat = (float)from->coat,
-                       .coat_roughness = (float)from->coat_roughness};
+                       .coat_roughness = (float)from->coat_roughness,
+                       .sheen_roughness = (float)from->sheen_roughness};
     for (int i = 0; i < 3; ++i) {
+        pbr->sheen_lin[i] = (float)from->sheen[i];
         // Without the picture that belongs to it, the factor 1 would make a mirror.
         const bool is_mirror = from->gloss.index >= 0 && plan->gloss.picture < 0;
         pbr->f0_lin[i] = is_mirror ? dielectric_specular : (float)from->f0[i];
@@ -196,10 +198,11 @@ static void read_pbr(Maker *maker) {
 static void warn_of_lost_light(Maker *maker) {
     const DipGltfMaterial *from = &maker->from;
     const bool glows = from->emission[0] + from->emission[1] + from->emission[2] > 0.0;
-    if ((glows || from->coat > 0.0) && !maker->plan.pbr && !from->unlit &&
+    const bool is_cloth = from->sheen[0] + from->sheen[1] + from->sheen[2] > 0.0;
+    if ((glows || is_cloth || from->coat > 0.0) && !maker->plan.pbr && !from->unlit &&
         dip_gltf_warns_of(maker->scene, DIP_GLTF_LOSS_LIGHT_MAPPED)) {
-        warn(maker, "emission and clear coat are not drawn on surfaces with a light map, glass, "
-                    "water and sky");
+        warn(maker, "emission, clear coat and sheen are not drawn on surfaces with a light map, "
+                    "glass, water and sky");
     }
 }
 

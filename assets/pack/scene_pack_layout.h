@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 enum {
-    PACK_VERSION = 5, // Increase this number with every change of the layout.
+    PACK_VERSION = 6, // Increase this number with every change of the layout.
     PACK_ALIGNMENT = 64,
     PACK_MAX_RECORDS = 1 << 24 // Most records in a section.
 };
@@ -90,6 +90,8 @@ typedef struct PackPbr {
     float normal_scale;
     float coat;
     float coat_roughness;
+    float sheen_lin[3];
+    float sheen_roughness;
 } PackPbr;
 
 typedef struct PackMaterial {

@@ -250,6 +250,35 @@ static double find_arrival(const Surface *surface, int index, double to_light[3]
     return index == dip_reference_shadow_light(lit->shadows) ? share * surface->sunlit : share;
 }
 
+// Returns the share of uniform light that a white sheen sends to the eye.
+static double sheen_albedo(double roughness, double cosine) {
+    const double r = fmax(0.1, roughness);
+    const double slope = -1.9362 + 1.0678 * r + 0.4573 * r * r - 0.8469 / (r + 0.1);
+    const double shift = -0.6014 + 0.5538 * r - 0.4670 * r * r - 0.1255 / (r + 0.1);
+    return fmin(1.0, exp(slope * cosine + shift));
+}
+
+// Returns what a white sheen gives of a light: pi times the lobe of "Production friendly microfacet
+// sheen BRDF" (Estevez and Kulla 2017), times the cosine of the light's angle.
+static double sheen_of_light(const Lobe *lobe, double roughness, const double to_light[3]) {
+    const double alpha = pow(fmax(0.1, roughness), 2.0);
+    double half[3];
+    for (int i = 0; i < 3; i++) {
+        half[i] = to_light[i] + lobe->to_eye[i];
+    }
+    normalise(half);
+    const double n_h = clamp01(dot(lobe->normal, half));
+    const double n_l = clamp01(dot(lobe->normal, to_light));
+    const double n_v = facing_of(lobe);
+    const double sine2 = fmax(1.0 - n_h * n_h, 0.0078125);
+    const double distribution = (2.0 + 1.0 / alpha) * pow(sine2, 0.5 / alpha) / 2.0;
+    return n_l * distribution / fmax(1.0, 4.0 * (n_l + n_v - n_l * n_v));
+}
+
+static double greatest_sheen(const DipPbrDef *pbr) {
+    return fmax(pbr->sheen_lin[0], fmax(pbr->sheen_lin[1], pbr->sheen_lin[2]));
+}
+
 // Adds one light to a colour.
 static void add_light(const Surface *surface, const Lobe *lobe, int index, double rgb[3]) {
     const DipLightDef *light = &surface->lighting->lights[index];
@@ -262,13 +291,18 @@ static void add_light(const Surface *surface, const Lobe *lobe, int index, doubl
     const double f90 = rest * surface->f90 + surface->metallic;
     const double kept =
         1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * fresnel);
+    const DipPbrDef *pbr = surface->triangle->pbr;
+    const double albedo = fmax(sheen_albedo(pbr->sheen_roughness, facing_of(lobe)),
+                               sheen_albedo(pbr->sheen_roughness, n_l));
+    const double below = 1.0 - greatest_sheen(pbr) * albedo;
+    const double scattered = sheen_of_light(lobe, pbr->sheen_roughness, to_light);
     for (int c = 0; c < 3; c++) {
-        const double f0 =
-            rest * surface->triangle->pbr->f0_lin[c] + surface->metallic * surface->base[c];
+        const double f0 = rest * pbr->f0_lin[c] + surface->metallic * surface->base[c];
         const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
-        rgb[c] +=
-            share * light->colour_lin[c] *
-            ((f0 + (f90 - f0) * fresnel) * gain * strength + kept * rest * surface->base[c] * n_l);
+        rgb[c] += share * light->colour_lin[c] *
+                  (below * ((f0 + (f90 - f0) * fresnel) * gain * strength +
+                            kept * rest * surface->base[c] * n_l) +
+                   pbr->sheen_lin[c] * scattered);
     }
 }
 
@@ -279,6 +313,9 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
     const double f90 = rest * surface->f90 + surface->metallic;
     const double kept =
         1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * grazing);
+    const DipPbrDef *pbr = surface->triangle->pbr;
+    const double albedo = sheen_albedo(pbr->sheen_roughness, facing_of(lobe));
+    const double below = 1.0 - greatest_sheen(pbr) * albedo;
     double seen[3];
     double soft[3];
     reflect(lobe, surface->lighting, surface->triangle->environment, seen);
@@ -287,8 +324,9 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
         const double f0 =
             rest * surface->triangle->pbr->f0_lin[c] + surface->metallic * surface->base[c];
         const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
-        rgb[c] = surface->occlusion * ((f0 * lobe->a + f90 * lobe->b) * gain * seen[c] +
-                                       kept * rest * surface->base[c] * soft[c]);
+        rgb[c] = surface->occlusion * (below * ((f0 * lobe->a + f90 * lobe->b) * gain * seen[c] +
+                                                kept * rest * surface->base[c] * soft[c]) +
+                                       pbr->sheen_lin[c] * albedo * soft[c]);
     }
     for (int l = 0; l < surface->lighting->light_count; l++) {
         add_light(surface, lobe, l, rgb);

@@ -39,10 +39,13 @@ static void add_pbr_surface(const DipSceneDef *def, int index, DipScene *scene) 
     *surface = dip_pbr_surface(def, &def->meshes[index], &scene->pbr->tables, mesh->uv_varyings[0],
                                mesh->uv_varyings[1]);
     surface->environment = scene->pbr->environment;
+    dip_pbr_add_sheen(def->materials[def->meshes[index].material].pbr,
+                      scene->pbr->sheens ? &scene->pbr->sheens[index] : NULL, surface);
     mesh->full_layout.pbr = surface;
     scene->has_occlusion |= surface->occlusion_varying != DIP_ABSENT;
     scene->has_emission |= surface->emits;
     scene->has_coat |= surface->coat > 0.0f;
+    scene->has_sheen |= surface->sheen != NULL;
 }
 
 static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipError *err) {

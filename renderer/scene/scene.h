@@ -54,6 +54,8 @@ typedef struct DipPbrDef {
     float normal_scale;       // multiplies x and y of the normal map's normals
     float coat;               // 0..1: strength of a clear coat with a reflected share of .04
     float coat_roughness;     // 0..1
+    float sheen_lin[3];       // 0..1: colour of the sheen of cloth; black: there is none
+    float sheen_roughness;    // 0..1
 } DipPbrDef;
 
 // The colour of a surface is base colour * vertex colour * colour texture * light, in linear light,

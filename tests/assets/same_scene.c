@@ -45,6 +45,8 @@ static void assert_same_pbr(const DipPbrDef *one, const DipPbrDef *other) {
     assert_memory_equal(&one->normal_scale, &other->normal_scale, sizeof(float));
     assert_memory_equal(&one->coat, &other->coat, sizeof(float));
     assert_memory_equal(&one->coat_roughness, &other->coat_roughness, sizeof(float));
+    assert_memory_equal(one->sheen_lin, other->sheen_lin, sizeof one->sheen_lin);
+    assert_memory_equal(&one->sheen_roughness, &other->sheen_roughness, sizeof(float));
 }
 
 static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef *other) {
@@ -164,6 +166,10 @@ static void check_pbr(const DipPbrDef *pbr, int texture_count) {
     assert_in_unit(pbr->occlusion_strength);
     assert_in_unit(pbr->coat);
     assert_in_unit(pbr->coat_roughness);
+    for (int i = 0; i < 3; ++i) {
+        assert_in_unit(pbr->sheen_lin[i]);
+    }
+    assert_in_unit(pbr->sheen_roughness);
     assert_true(isfinite(pbr->normal_scale));
 }
 

@@ -257,6 +257,9 @@ static void materials_have_their_factors(void **state) {
     assert_near_3(material_of(def, "glow")->pbr->emission_lin, 4.0, 2.0, 0.0);
     assert_near((double)material_of(def, "rough normals")->pbr->normal_scale, 0.5);
     assert_near((double)material_of(def, "shaded")->pbr->occlusion_strength, 0.25);
+    assert_near_3(material_of(def, "cloth")->pbr->sheen_lin, 0.5, 0.25, 1.0);
+    assert_near((double)material_of(def, "cloth")->pbr->sheen_roughness, 0.75);
+    assert_near_3(none->pbr->sheen_lin, 0.0, 0.0, 0.0);
     assert_near((double)material_of(def, "coat")->pbr->coat, 0.5);
     assert_near((double)material_of(def, "coat")->pbr->coat_roughness, 0.125);
     assert_false(material_of(def, "unlit")->lit);
@@ -372,11 +375,12 @@ static void textures_have_coordinates_of_their_own(void **state) {
 static void features_that_are_not_drawn_are_named_once(void **state) {
     (void)state;
     static const char *const expected[] = {
-        "the effect of the glTF extension KHR_materials_sheen is not drawn",
+        "the effect of the glTF extension KHR_materials_anisotropy is not drawn",
         "the glTF extension KHR_materials_variants is not drawn",
         "the effect of the glTF extension ACME_smell is not drawn",
         "the effect of the glTF extension KHR_materials_iridescence is not drawn",
         "the picture clearcoatTexture is not drawn",
+        "the picture sheenColorTexture is not drawn",
         "a vertex follows its first four joints only",
         "the file has 2 scenes",
     };

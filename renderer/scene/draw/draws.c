@@ -178,7 +178,8 @@ static void set_lights(const DipDrawInput *input, const DipSceneObject *object,
 static void set_pbr(const DipMaterialKernels *kernels, const DipSceneMesh *mesh,
                     DipSurfaceUniforms *uniforms, DipDraw *draw) {
     draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
-    draw->fragment_shader = uniforms->pbr->environment
+    draw->fragment_shader = uniforms->pbr->sheen ? kernels->dip_kernel_pbr_sheen_fragment
+                            : uniforms->pbr->environment
                                 ? kernels->dip_kernel_pbr_environment_fragment
                                 : kernels->dip_kernel_pbr_fragment;
     draw->varying_count = mesh->full_varying_count;

@@ -4,12 +4,12 @@
 #include "renderer/scene/materials/environment_simd.h"
 #include "renderer/scene/materials/facing_simd.h"
 #include "renderer/scene/materials/material_kernels.h"
+#include "renderer/scene/materials/pbr_lobe_simd.h"
+#include "renderer/scene/materials/sheen_simd.h"
 #include "renderer/scene/materials/shadow_simd.h"
 
 // Reflected share of a clear coat at normal incidence.
 #define COAT_F0 0.04f
-// Least width (GGX alpha) of the highlights of lights.
-#define LEAST_ALPHA 0.1f
 
 // The maps of a batch. A pointer is NULL if the surface lacks the map.
 typedef struct Maps {
@@ -30,163 +30,12 @@ typedef struct PbrPoint {
     Vf lit;       // share of the light with shadows that arrives
 } PbrPoint;
 
-// A position between two entries of a table: the first of them, and the share of the second.
-typedef struct Entry {
-    Vi index;
-    Vf share;
-} Entry;
-
-// How wide a lobe is. All of it follows from the roughness.
-typedef struct Width {
-    Vf roughness;
-    Vf alpha2;    // squared width for lights
-    Vf lean;      // how far the direction in which the lobe sees the surroundings leans from the
-                  // normal (0) towards the mirrored direction (1)
-    Vf blur;      // share of the surroundings' difference in height that blurring leaves
-    Entry row;    // in the table of lobes
-    int only_row; // row.index if it is the same in all lanes, else DIP_ABSENT
-} Width;
-
-// A lobe of reflected light: that of the surface or that of its coat.
-typedef struct Lobe {
-    Vf3 normal; // unit
-    Vf facing;  // n.v
-    Vf n_v;     // n.v, 0..1
-    Width width;
-    Vf a, b;    // shares of f0 and f90 that uniform light gives
-    Vf grazing; // mean of (1 - v.h)^5 over diffuse light
-} Lobe;
-
 // The widths of the lobes of a surface that has the same roughness everywhere, which are computed
 // once for a batch.
 typedef struct Widths {
     const Width *surface; // NULL: the roughness is not the same everywhere
     const Width *coat;    // NULL: the surface has no coat
 } Widths;
-
-// --- tables --------------------------------------------------------------------------------------
-
-VEC_INLINE Entry find_entry(Vf value) {
-    const float last = (float)(DIP_PBR_TABLE - 1);
-    const Vf at =
-        vf_min(vf_max(value * (float)DIP_PBR_TABLE - 0.5f, vf_splat(0.0f)), vf_splat(last));
-    const Vi index = vi_min(vi_from_float(at), vi_splat(DIP_PBR_TABLE - 2));
-    return (Entry){index, at - vf_from_int(index)};
-}
-
-VEC_INLINE Vf low_half(Vi pair) {
-    return vf_from_int(pair & 0xffff);
-}
-
-VEC_INLINE Vf high_half(Vi pair) {
-    return vf_from_int((Vi)((Vu)pair >> 16));
-}
-
-VEC_INLINE Vf mix(Vf a, Vf b, Vf share) {
-    return a + (b - a) * share;
-}
-
-// The entries of the table of lobes around a roughness (near, far) and an angle (v after it).
-typedef struct LobeEntries {
-    Vi near, near_v;
-    Vi far, far_v;
-} LobeEntries;
-
-VEC_INLINE LobeEntries find_lobe(const DipPbrTables *tables, const Width *width, Vi v) {
-    if (width->only_row != DIP_ABSENT) {
-        const int32_t *near = tables->lobe + width->only_row * DIP_PBR_TABLE;
-        const int32_t *far = near + DIP_PBR_TABLE;
-        return (LobeEntries){vi_lookup32(near, v), vi_lookup32(near, v + 1), vi_lookup32(far, v),
-                             vi_lookup32(far, v + 1)};
-    }
-    const Vi first = width->row.index * DIP_PBR_TABLE + v;
-    const Vi second = first + DIP_PBR_TABLE;
-    return (LobeEntries){vi_gather(tables->lobe, first), vi_gather(tables->lobe, first + 1),
-                         vi_gather(tables->lobe, second), vi_gather(tables->lobe, second + 1)};
-}
-
-// Reads the tables for a lobe of known width and angle.
-VEC_INLINE void read_tables(const DipPbrTables *tables, Lobe *lobe) {
-    const float unit = 1.0f / 65535.0f;
-    const Vf share = lobe->width.row.share;
-    const Entry v = find_entry(lobe->n_v);
-    const LobeEntries at = find_lobe(tables, &lobe->width, v.index);
-    lobe->a = unit * mix(mix(low_half(at.near), low_half(at.near_v), v.share),
-                         mix(low_half(at.far), low_half(at.far_v), v.share), share);
-    lobe->b = unit * mix(mix(high_half(at.near), high_half(at.near_v), v.share),
-                         mix(high_half(at.far), high_half(at.far_v), v.share), share);
-    const Vi grazing = vi_lookup32(tables->grazing, v.index);
-    lobe->grazing = unit * mix(low_half(grazing), high_half(grazing), v.share);
-}
-
-// --- lobes ---------------------------------------------------------------------------------------
-
-VEC_INLINE Width width_of(Vf roughness) {
-    const Vf alpha = roughness * roughness;
-    const Vf least = vf_max(alpha, vf_splat(LEAST_ALPHA));
-    const Vf smooth = 1.0f - alpha;
-    const Vf blur = ((alpha * 0.0316f + 0.2566f) * alpha - 0.6222f) * alpha + 1.0083f;
-    return (Width){.roughness = roughness,
-                   .alpha2 = least * least,
-                   .lean = smooth * (vf_sqrt(smooth) + alpha),
-                   .blur = vf_min(blur, vf_splat(1.0f)),
-                   .row = find_entry(roughness),
-                   .only_row = DIP_ABSENT};
-}
-
-// Returns the width for a roughness that is the same in all lanes.
-VEC_INLINE Width width_of_all(float roughness) {
-    Width width = width_of(vf_splat(roughness));
-    int32_t rows[DIP_LANES];
-    vi_store(rows, width.row.index);
-    width.only_row = rows[0];
-    return width;
-}
-
-VEC_INLINE Lobe make_lobe(const DipPbrTables *tables, Vf3 normal, Vf3 to_eye, const Width *width) {
-    Lobe lobe = {.normal = normal, .facing = vf3_dot(normal, to_eye), .width = *width};
-    lobe.n_v = clamp01(lobe.facing);
-    read_tables(tables, &lobe);
-    return lobe;
-}
-
-// Returns the height (y) of the direction in which a lobe sees the surroundings, times the share
-// that blurring leaves of it.
-VEC_INLINE Vf reflected_height(const Lobe *lobe, Vf3 to_eye) {
-    const Vf s = lobe->width.lean;
-    const Vf rest = 1.0f - s;
-    const Vf mirrored = lobe->n_v * lobe->normal.y * 2.0f - to_eye.y;
-    const Vf cosine = lobe->n_v * 2.0f - lobe->facing; // between the normal and the mirrored eye
-    const Vf length2 = (rest * rest + s * s) + (s * rest) * cosine * 2.0f;
-    return (lobe->normal.y * rest + mirrored * s) * inverse_length(length2) * lobe->width.blur;
-}
-
-// What a light gives to a lobe, as shares of the light on a white surface that faces it.
-typedef struct LightShares {
-    Vf facing;    // n.l, at least 0
-    Vf highlight; // of the lobe, without its colour
-    Vf fresnel;   // (1 - v.h)^5
-} LightShares;
-
-// Let c be v.l, and h the half vector of v and l. Then (v + l)^2 = 2 (1 + c), and v.h is half the
-// root of that. GGX's denominator is computed times 2 (1 + c).
-VEC_INLINE LightShares meet_light(const Lobe *lobe, Vf3 to_eye, Vf3 to_light) {
-    const Vf n_l = vf3_dot(lobe->normal, to_light);
-    const Vf sum2 = vf_max(vf3_dot(to_eye, to_light) * 2.0f + 2.0f, vf_splat(1e-6f));
-    const Vf along = vf_max(n_l + lobe->facing, vf_splat(0.0f));
-    const Vf alpha2 = lobe->width.alpha2;
-    const Vf d = along * along * (alpha2 - 1.0f) + sum2;
-    const Vf narrow = 1.0f - alpha2;
-    LightShares shares = {.facing = vf_max(n_l, vf_splat(0.0f))};
-    const Vf n_v = vf_max(lobe->n_v, vf_splat(1e-4f));
-    const Vf met = vf_min(shares.facing, vf_splat(1.0f));
-    const Vf shadows =
-        met * vf_sqrt(n_v * n_v * narrow + alpha2) + n_v * vf_sqrt(met * met * narrow + alpha2);
-    shares.highlight = (met * alpha2 * 0.5f) * (sum2 * sum2) / (d * d * shadows);
-    const Vf rest = clamp01(1.0f - vf_sqrt(sum2) * 0.5f);
-    shares.fresnel = (rest * rest) * (rest * rest) * rest;
-    return shares;
-}
 
 // --- the surface ---------------------------------------------------------------------------------
 
@@ -261,11 +110,6 @@ VEC_INLINE Channel channel_of(const DipPbrUniforms *pbr, const PbrPoint *point, 
     return channel;
 }
 
-// Returns 1 / (A + B) - 1: what a white lobe loses, relative to what it keeps.
-VEC_INLINE Vf lost_light(const Lobe *lobe) {
-    return vf_splat(1.0f) / vf_max(lobe->a + lobe->b, vf_splat(1e-3f)) - 1.0f;
-}
-
 VEC_INLINE Vf surroundings(const DipLightingUniforms *lighting, int c, Vf height) {
     return vf_max(height * (1.5f * lighting->sky_lin[c]) + lighting->ambient_lin[c],
                   vf_splat(0.0f));
@@ -303,26 +147,36 @@ VEC_INLINE void gather_soft_light(const DipLightingUniforms *lighting,
 }
 
 // Adds what a light gives to the surface.
+// sheen: NULL if the surface has none.
 VEC_INLINE void add_light(const DipPbrUniforms *pbr, const Lobe *lobe, const PbrPoint *point,
                           const DipLightUniforms *light, Vf lit, const Channel channels[3], Vf f90,
-                          Vf sum[3]) {
+                          const SheenPoint *sheen, Vf sum[3]) {
     const Arrival arrival = arrive(light, point->place);
     const Vf3 colour = arriving_colour(light, arrival.share * lit);
     const LightShares shares = meet_light(lobe, point->to_eye, arrival.to_light);
     const Vf kept = (1.0f - pbr->f0_greatest) - shares.fresnel * (pbr->f90 - pbr->f0_greatest);
     const Vf diffuse = kept * shares.facing;
     const Vf arriving[3] = {colour.x, colour.y, colour.z};
+    Vf below = vf_splat(1.0f);
+    Vf scattered = vf_splat(0.0f);
+    if (sheen) {
+        const Vf met = vf_min(shares.facing, vf_splat(1.0f));
+        const Vf albedo = vf_max(sheen->albedo, sheen_albedo(sheen->sheen, met));
+        below = 1.0f - albedo * sheen->sheen->greatest;
+        scattered = sheen_of_light(sheen->sheen, lobe, point->to_eye, arrival.to_light, met);
+    }
     for (int c = 0; c < 3; c++) {
         const Vf f0 = channels[c].f0;
         const Vf highlight = (f0 + (f90 - f0) * shares.fresnel) * channels[c].gain;
-        sum[c] =
-            sum[c] + arriving[c] * (highlight * shares.highlight + channels[c].diffuse * diffuse);
+        const Vf base = highlight * shares.highlight + channels[c].diffuse * diffuse;
+        const Vf share = sheen ? base * below + scattered * sheen->sheen->lin[c] : base;
+        sum[c] = sum[c] + arriving[c] * share;
     }
 }
 
 VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms,
                               const DipEnvironmentMap *environment, const Lobe *lobe,
-                              const PbrPoint *point, Vf sum[3]) {
+                              const PbrPoint *point, const SheenPoint *sheen, Vf sum[3]) {
     const DipPbrUniforms *pbr = uniforms->pbr;
     const DipLightingUniforms *lighting = uniforms->lighting;
     const Vf base[3] = {point->base.x, point->base.y, point->base.z};
@@ -338,11 +192,16 @@ VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms,
         channels[c] = channel_of(pbr, point, c, base[c], lost);
         const Vf mirrored = (channels[c].f0 * lobe->a + f90 * lobe->b) * channels[c].gain;
         sum[c] = (mirrored * seen[c] + (kept * channels[c].diffuse) * soft[c]) * point->occlusion;
+        if (sheen) {
+            const Vf below = 1.0f - sheen->albedo * sheen->sheen->greatest;
+            const Vf scattered = sheen->albedo * sheen->sheen->lin[c];
+            sum[c] = sum[c] * below + scattered * soft[c] * point->occlusion;
+        }
     }
     for (int l = 0; l < lighting->count; l++) {
         if (uniforms->lights >> l & 1) {
             add_light(pbr, lobe, point, &lighting->lights[l], lit_by(uniforms, l, point->lit),
-                      channels, f90, sum);
+                      channels, f90, sheen, sum);
         }
     }
 }
@@ -401,7 +260,8 @@ VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Vf3 ray, co
 }
 
 VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                                int i, const Maps *maps, const Widths *widths) {
+                                const DipSheen *sheen, int i, const Maps *maps,
+                                const Widths *widths) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const Vf3 ray = view_ray(uniforms->rays, batch, i);
@@ -409,7 +269,11 @@ VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap
     const Facing facing = face_eye(batch, i, ray, maps);
     const Lobe lobe = surface_lobe(pbr, i, &facing, point.to_eye, maps, widths->surface);
     Vf sum[3];
-    light_surface(uniforms, environment, &lobe, &point, sum);
+    SheenPoint sheen_point;
+    if (sheen) {
+        sheen_point = (SheenPoint){sheen, sheen_albedo(sheen, lobe.n_v)};
+    }
+    light_surface(uniforms, environment, &lobe, &point, sheen ? &sheen_point : NULL, sum);
     for (int c = 0; c < 3 && pbr->emits; c++) {
         const Vf share = maps->emission ? vf_load(maps->emission[c] + i) : vf_splat(1.0f);
         sum[c] = sum[c] + share * pbr->emission_lin[c];
@@ -462,7 +326,7 @@ VEC_INLINE void count_parts(DipFragmentBatch *batch, const Maps *maps) {
 
 // Shades all fragments of a batch, whose own colours and maps have been read.
 VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                            const Maps *maps) {
+                            const DipSheen *sheen, const Maps *maps) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const Width surface = width_of_all(pbr->roughness);
@@ -470,11 +334,13 @@ VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *en
     const Widths widths = {.surface = maps->metal_rough || maps->normal ? NULL : &surface,
                            .coat = pbr->coat > 0.0f ? &coat : NULL};
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        shade_fragments(batch, environment, i, maps, &widths);
+        shade_fragments(batch, environment, sheen, i, maps, &widths);
     }
 }
 
-VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *environment) {
+// environment: NULL for the surroundings of the lighting. sheen: NULL if the surface has none.
+VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
+                            const DipSheen *sheen) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float texture[3][DIP_FRAGMENT_BATCH];
     float normals[3][DIP_FRAGMENT_BATCH];
@@ -495,16 +361,25 @@ VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *en
         read_shadow(batch, uniforms->normal_varying, lit);
         maps.lit = lit;
     }
-    shade_lobes(batch, environment, &maps);
+    shade_lobes(batch, environment, sheen, &maps);
     count_parts(batch, &maps);
 }
 
 void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
-    shade_batch(batch, NULL);
+    shade_batch(batch, NULL, NULL);
 }
 
 void DIP_KERNEL(dip_kernel_pbr_environment_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    shade_batch(batch, uniforms->pbr->environment);
+    shade_batch(batch, uniforms->pbr->environment, NULL);
     batch->work.counts[DIP_SHADER_COUNT_SURROUNDED] += (uint64_t)batch->count;
+}
+
+void DIP_KERNEL(dip_kernel_pbr_sheen_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    shade_batch(batch, pbr->environment, pbr->sheen);
+    batch->work.counts[DIP_SHADER_COUNT_SURROUNDED] +=
+        pbr->environment ? (uint64_t)batch->count : 0;
+    batch->work.counts[DIP_SHADER_COUNT_SHEEN] += (uint64_t)batch->count;
 }

@@ -24,6 +24,7 @@ enum {
     DIP_SHADER_COUNT_COATED,
     DIP_SHADER_COUNT_SURROUNDED, // by an environment
     DIP_SHADER_COUNT_SHADOWED,   // fragments that read the shadow map
+    DIP_SHADER_COUNT_SHEEN,
 };
 
 enum {
