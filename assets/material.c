@@ -459,7 +459,8 @@ static void finish_surface(const DipModel *model, const DipMaterialPlan *plan,
     const bool has_alpha =
         plan->vertex_alpha || (colour >= 0 && model->texture_keys[colour].has_alpha);
     const bool clipped = def->surface == DIP_SURFACE_CLIPPED;
-    const bool blended = def->surface == DIP_SURFACE_BLENDED && def->opacity == 1.0f;
+    const bool transmits = def->pbr && def->pbr->transmission > 0.0f;
+    const bool blended = def->surface == DIP_SURFACE_BLENDED && def->opacity == 1.0f && !transmits;
     if (!has_alpha && (clipped || blended)) {
         def->surface = DIP_SURFACE_OPAQUE;
     }

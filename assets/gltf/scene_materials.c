@@ -208,8 +208,8 @@ static void warn_of_lost_light(Maker *maker) {
 
 // --- the surface ---------------------------------------------------------------------------------
 
-// Returns how much of the surface covers what lies behind it. What is transmitted is tinted by the
-// base colour, so a dark pane covers more.
+// Returns how much of a surface without a reflection covers what lies behind it. What is
+// transmitted is tinted by the base colour, so a dark pane covers more.
 static double opacity_of(const DipGltfMaterial *from) {
     double shown = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -244,7 +244,12 @@ static void read_surface(Maker *maker) {
         def->surface = DIP_SURFACE_CLIPPED;
     } else if (from->alpha == DIP_GLTF_BLEND || transmits(maker)) {
         def->surface = DIP_SURFACE_BLENDED;
-        def->opacity = (float)opacity_of(from);
+        if (maker->plan.pbr) {
+            def->opacity = from->alpha == DIP_GLTF_BLEND ? alpha : 1.0f;
+            maker->plan.pbr->transmission = transmits(maker) ? (float)from->transmission : 0.0f;
+        } else {
+            def->opacity = (float)opacity_of(from);
+        }
     }
     if (maker->plan.tag == DIP_TAG_WATER) {
         def->surface = DIP_SURFACE_WATER;

@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 enum {
-    PACK_VERSION = 6, // Increase this number with every change of the layout.
+    PACK_VERSION = 7, // Increase this number with every change of the layout.
     PACK_ALIGNMENT = 64,
     PACK_MAX_RECORDS = 1 << 24 // Most records in a section.
 };
@@ -92,6 +92,8 @@ typedef struct PackPbr {
     float coat_roughness;
     float sheen_lin[3];
     float sheen_roughness;
+    float transmission;
+    uint32_t unused;
 } PackPbr;
 
 typedef struct PackMaterial {

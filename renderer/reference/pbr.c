@@ -197,9 +197,10 @@ typedef struct Surface {
     double base[3];
     double metallic;
     double occlusion;
-    double f0_greatest; // of what is not metal
-    double f90;         // of what is not metal
-    double sunlit;      // the part of the light with shadows that arrives
+    double f0_greatest;  // of what is not metal
+    double f90;          // of what is not metal
+    double sunlit;       // the part of the light with shadows that arrives
+    double transmission; // share of what would be diffuse light that comes from behind
 } Surface;
 
 static const DipLightingDef *lighting_of(const DipRefTriangle *triangle) {
@@ -283,6 +284,7 @@ static double greatest_sheen(const DipPbrDef *pbr) {
 static void add_light(const Surface *surface, const Lobe *lobe, int index, double rgb[3]) {
     const DipLightDef *light = &surface->lighting->lights[index];
     const double rest = 1.0 - surface->metallic;
+    const double diffuse = 1.0 - surface->transmission;
     double to_light[3];
     double fresnel;
     const double share = find_arrival(surface, index, to_light);
@@ -301,7 +303,7 @@ static void add_light(const Surface *surface, const Lobe *lobe, int index, doubl
         const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
         rgb[c] += share * light->colour_lin[c] *
                   (below * ((f0 + (f90 - f0) * fresnel) * gain * strength +
-                            kept * rest * surface->base[c] * n_l) +
+                            kept * rest * diffuse * surface->base[c] * n_l) +
                    pbr->sheen_lin[c] * scattered);
     }
 }
@@ -316,6 +318,7 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
     const DipPbrDef *pbr = surface->triangle->pbr;
     const double albedo = sheen_albedo(pbr->sheen_roughness, facing_of(lobe));
     const double below = 1.0 - greatest_sheen(pbr) * albedo;
+    const double diffuse = 1.0 - surface->transmission;
     double seen[3];
     double soft[3];
     reflect(lobe, surface->lighting, surface->triangle->environment, seen);
@@ -324,9 +327,10 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
         const double f0 =
             rest * surface->triangle->pbr->f0_lin[c] + surface->metallic * surface->base[c];
         const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
-        rgb[c] = surface->occlusion * (below * ((f0 * lobe->a + f90 * lobe->b) * gain * seen[c] +
-                                                kept * rest * surface->base[c] * soft[c]) +
-                                       pbr->sheen_lin[c] * albedo * soft[c]);
+        rgb[c] =
+            surface->occlusion * (below * ((f0 * lobe->a + f90 * lobe->b) * gain * seen[c] +
+                                           kept * rest * diffuse * surface->base[c] * soft[c]) +
+                                  pbr->sheen_lin[c] * albedo * soft[c]);
     }
     for (int l = 0; l < surface->lighting->light_count; l++) {
         add_light(surface, lobe, l, rgb);
@@ -399,31 +403,59 @@ static void add_emission(const DipRefTriangle *triangle, const DipRefFilter *fil
     }
 }
 
+// Describes the surface and its lobe at a place. mesh: receives the normal without the normal map.
+static void begin_surface(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                          const DipRefVaryings *varyings, const double texel[3],
+                          const double base[3], Surface *surface, Lobe *lobe, double mesh[3]) {
+    const DipPbrDef *pbr = triangle->pbr;
+    *surface = (Surface){.triangle = triangle, .lighting = lighting_of(triangle)};
+    *lobe = (Lobe){.roughness = read_maps(filter, varyings, surface)};
+    const double length = find_normals(triangle, varyings, texel, mesh, lobe->normal);
+    for (int i = 0; i < 3; i++) {
+        surface->place[i] = varyings->value[DIP_REF_X + i];
+        surface->base[i] = base[i];
+        surface->f0_greatest = fmax(surface->f0_greatest, pbr->f0_lin[i]);
+        lobe->to_eye[i] = -surface->place[i];
+    }
+    surface->f90 = pbr->f90;
+    surface->transmission = triangle->blended ? (double)pbr->transmission : 0.0;
+    normalise(lobe->to_eye);
+    const double spread = 2.0 * fmax(0.0, 1.0 / fmax(length, 0.1) - 1.0);
+    const double alpha = lobe->roughness * lobe->roughness;
+    const double least = fmax(0.1, alpha);
+    lobe->light_alpha = sqrt(fmin(1.0, least * least + spread));
+    lobe->roughness = pow(fmin(1.0, alpha * alpha + spread), 0.25);
+    read_lobe(triangle, lobe);
+}
+
 void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
                              const DipRefVaryings *varyings, const double texel[3], double rgb[3]) {
-    const DipPbrDef *pbr = triangle->pbr;
-    Surface surface = {.triangle = triangle, .lighting = lighting_of(triangle)};
-    Lobe lobe = {.roughness = read_maps(filter, varyings, &surface)};
+    Surface surface;
+    Lobe lobe;
     double mesh[3];
-    const double length = find_normals(triangle, varyings, texel, mesh, lobe.normal);
-    for (int i = 0; i < 3; i++) {
-        surface.place[i] = varyings->value[DIP_REF_X + i];
-        surface.base[i] = rgb[i];
-        surface.f0_greatest = fmax(surface.f0_greatest, pbr->f0_lin[i]);
-        lobe.to_eye[i] = -surface.place[i];
-    }
-    surface.f90 = pbr->f90;
+    begin_surface(triangle, filter, varyings, texel, rgb, &surface, &lobe, mesh);
     surface.sunlit = dip_reference_sunlit(&triangle->lit, surface.place);
-    normalise(lobe.to_eye);
-    const double spread = 2.0 * fmax(0.0, 1.0 / fmax(length, 0.1) - 1.0);
-    const double alpha = lobe.roughness * lobe.roughness;
-    const double least = fmax(0.1, alpha);
-    lobe.light_alpha = sqrt(fmin(1.0, least * least + spread));
-    lobe.roughness = pow(fmin(1.0, alpha * alpha + spread), 0.25);
-    read_lobe(triangle, &lobe);
     light_surface(&surface, &lobe, rgb);
     add_emission(triangle, filter, varyings, rgb);
-    if (pbr->coat > 0.0f) {
+    if (triangle->pbr->coat > 0.0f) {
         add_coat(&surface, mesh, lobe.to_eye, rgb);
+    }
+}
+
+void dip_reference_transmit_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                                const DipRefVaryings *varyings, const double texel[3],
+                                const double base[3], double through[3]) {
+    Surface surface;
+    Lobe lobe;
+    double mesh[3];
+    begin_surface(triangle, filter, varyings, texel, base, &surface, &lobe, mesh);
+    const double rest = 1.0 - surface.metallic;
+    const double f90 = rest * surface.f90 + surface.metallic;
+    const double n_v = clamp01(dot(mesh, lobe.to_eye));
+    const double coat = 1.0 - triangle->pbr->coat * (0.04 + 0.96 * pow(1.0 - n_v, 5.0));
+    for (int c = 0; c < 3; c++) {
+        const double f0 = rest * triangle->pbr->f0_lin[c] + surface.metallic * base[c];
+        const double kept = clamp01(1.0 - (f0 * lobe.a + f90 * lobe.b));
+        through[c] = rest * surface.transmission * base[c] * kept * coat;
     }
 }

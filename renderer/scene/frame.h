@@ -27,6 +27,7 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(fragments_coated, "fragments of such surfaces with a clear coat")                            \
     X(fragments_surrounded, "fragments of such surfaces that see an environment")                  \
     X(fragments_sheen, "fragments of such surfaces with a sheen")                                  \
+    X(fragments_transmitting, "fragments of such surfaces that let light through")                 \
     X(fragments_blended, "fragments of blended surfaces")                                          \
     X(fragments_shadowed, "fragments that read the shadow map")                                    \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
@@ -73,6 +74,7 @@ typedef struct DipCounters {
     X(emission, "emission")                                                                        \
     X(coat, "clear coats")                                                                         \
     X(sheen, "sheens")                                                                             \
+    X(transmission, "transmission")                                                                \
     X(environment, "environment")                                                                  \
     X(blend, "blending")                                                                           \
     X(sky, "clouds")                                                                               \

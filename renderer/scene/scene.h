@@ -56,6 +56,9 @@ typedef struct DipPbrDef {
     float coat_roughness;     // 0..1
     float sheen_lin[3];       // 0..1: colour of the sheen of cloth; black: there is none
     float sheen_roughness;    // 0..1
+    // 0..1, for DIP_SURFACE_BLENDED: where metallic is 0, the share of the light that would become
+    // diffuse that comes from behind instead, multiplied by the surface's own colour
+    float transmission;
 } DipPbrDef;
 
 // The colour of a surface is base colour * vertex colour * colour texture * light, in linear light,

@@ -70,6 +70,7 @@ typedef struct DipPbrUniforms {
     float coat;
     float coat_roughness;
     const DipSheen *sheen; // NULL: there is none
+    float transmission;    // share of what would be diffuse light that is let through
 } DipPbrUniforms;
 
 #endif

@@ -20,6 +20,13 @@ typedef struct Maps {
     const float *lit; // share of the light with shadows that arrives; NULL: there is none
 } Maps;
 
+// The textures that the shader reads for a batch.
+typedef struct Memory {
+    float texture[3][DIP_FRAGMENT_BATCH];
+    float normals[3][DIP_FRAGMENT_BATCH];
+    float maps[3][3][DIP_FRAGMENT_BATCH];
+} Memory;
+
 // A point that is shaded, relative to the eye.
 typedef struct PbrPoint {
     Vf3 place;
@@ -176,7 +183,8 @@ VEC_INLINE void add_light(const DipPbrUniforms *pbr, const Lobe *lobe, const Pbr
 
 VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms,
                               const DipEnvironmentMap *environment, const Lobe *lobe,
-                              const PbrPoint *point, const SheenPoint *sheen, Vf sum[3]) {
+                              const PbrPoint *point, bool layered, const SheenPoint *sheen,
+                              Vf sum[3]) {
     const DipPbrUniforms *pbr = uniforms->pbr;
     const DipLightingUniforms *lighting = uniforms->lighting;
     const Vf base[3] = {point->base.x, point->base.y, point->base.z};
@@ -190,6 +198,9 @@ VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms,
     Channel channels[3];
     for (int c = 0; c < 3; c++) {
         channels[c] = channel_of(pbr, point, c, base[c], lost);
+        if (layered) { // What is let through does not become diffuse light.
+            channels[c].diffuse = channels[c].diffuse * (1.0f - pbr->transmission);
+        }
         const Vf mirrored = (channels[c].f0 * lobe->a + f90 * lobe->b) * channels[c].gain;
         sum[c] = (mirrored * seen[c] + (kept * channels[c].diffuse) * soft[c]) * point->occlusion;
         if (sheen) {
@@ -260,8 +271,7 @@ VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Vf3 ray, co
 }
 
 VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                                const DipSheen *sheen, int i, const Maps *maps,
-                                const Widths *widths) {
+                                bool layered, int i, const Maps *maps, const Widths *widths) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const Vf3 ray = view_ray(uniforms->rays, batch, i);
@@ -269,11 +279,12 @@ VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap
     const Facing facing = face_eye(batch, i, ray, maps);
     const Lobe lobe = surface_lobe(pbr, i, &facing, point.to_eye, maps, widths->surface);
     Vf sum[3];
-    SheenPoint sheen_point;
-    if (sheen) {
-        sheen_point = (SheenPoint){sheen, sheen_albedo(sheen, lobe.n_v)};
+    SheenPoint sheen;
+    const bool has_sheen = layered && pbr->sheen;
+    if (has_sheen) {
+        sheen = (SheenPoint){pbr->sheen, sheen_albedo(pbr->sheen, lobe.n_v)};
     }
-    light_surface(uniforms, environment, &lobe, &point, sheen ? &sheen_point : NULL, sum);
+    light_surface(uniforms, environment, &lobe, &point, layered, has_sheen ? &sheen : NULL, sum);
     for (int c = 0; c < 3 && pbr->emits; c++) {
         const Vf share = maps->emission ? vf_load(maps->emission[c] + i) : vf_splat(1.0f);
         sum[c] = sum[c] + share * pbr->emission_lin[c];
@@ -326,7 +337,7 @@ VEC_INLINE void count_parts(DipFragmentBatch *batch, const Maps *maps) {
 
 // Shades all fragments of a batch, whose own colours and maps have been read.
 VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                            const DipSheen *sheen, const Maps *maps) {
+                            bool layered, const Maps *maps) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const Width surface = width_of_all(pbr->roughness);
@@ -334,52 +345,97 @@ VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *en
     const Widths widths = {.surface = maps->metal_rough || maps->normal ? NULL : &surface,
                            .coat = pbr->coat > 0.0f ? &coat : NULL};
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        shade_fragments(batch, environment, sheen, i, maps, &widths);
+        shade_fragments(batch, environment, layered, i, maps, &widths);
     }
 }
 
-// environment: NULL for the surroundings of the lighting. sheen: NULL if the surface has none.
-VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                            const DipSheen *sheen) {
+// Reads the own colours and the maps of a batch.
+VEC_INLINE void begin_batch(DipFragmentBatch *batch, Memory *memory, Maps *maps) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    float texture[3][DIP_FRAGMENT_BATCH];
-    float normals[3][DIP_FRAGMENT_BATCH];
-    float memory[3][3][DIP_FRAGMENT_BATCH];
-    Maps maps = {.normal = NULL};
+    *maps = (Maps){.normal = NULL};
     if (uniforms->normal_map_varying != DIP_ABSENT) {
-        maps.normal = normals;
-        start_mapped_colour(batch, texture, normals);
+        maps->normal = memory->normals;
+        start_mapped_colour(batch, memory->texture, memory->normals);
     } else {
-        start_colour(batch, texture);
+        start_colour(batch, memory->texture);
     }
     if (uniforms->light_varying != DIP_ABSENT) {
         scale_colour(batch, batch->varying + uniforms->light_varying, 1.0f);
     }
-    read_maps(batch, memory, &maps);
+    read_maps(batch, memory->maps, maps);
+}
+
+// environment: NULL for the surroundings of the lighting. layered: the surface may have a sheen or
+// transmit light.
+VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
+                            bool layered) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    Memory memory;
+    Maps maps;
+    begin_batch(batch, &memory, &maps);
     float lit[DIP_FRAGMENT_BATCH];
     if (uniforms->shadow) {
         read_shadow(batch, uniforms->normal_varying, lit);
         maps.lit = lit;
     }
-    shade_lobes(batch, environment, sheen, &maps);
+    shade_lobes(batch, environment, layered, &maps);
     count_parts(batch, &maps);
 }
 
 void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
-    shade_batch(batch, NULL, NULL);
+    shade_batch(batch, NULL, false);
 }
 
 void DIP_KERNEL(dip_kernel_pbr_environment_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    shade_batch(batch, uniforms->pbr->environment, NULL);
+    shade_batch(batch, uniforms->pbr->environment, false);
     batch->work.counts[DIP_SHADER_COUNT_SURROUNDED] += (uint64_t)batch->count;
 }
 
-void DIP_KERNEL(dip_kernel_pbr_sheen_fragment)(DipFragmentBatch *batch) {
+void DIP_KERNEL(dip_kernel_pbr_layered_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
-    shade_batch(batch, pbr->environment, pbr->sheen);
-    batch->work.counts[DIP_SHADER_COUNT_SURROUNDED] +=
-        pbr->environment ? (uint64_t)batch->count : 0;
-    batch->work.counts[DIP_SHADER_COUNT_SHEEN] += (uint64_t)batch->count;
+    const uint64_t count = (uint64_t)batch->count;
+    shade_batch(batch, pbr->environment, true);
+    batch->work.counts[DIP_SHADER_COUNT_SURROUNDED] += pbr->environment ? count : 0;
+    batch->work.counts[DIP_SHADER_COUNT_SHEEN] += pbr->sheen ? count : 0;
+}
+
+// --- transmission --------------------------------------------------------------------------------
+
+// Computes the share of what lies behind that a surface and its coat let through.
+VEC_INLINE void find_transmittance(DipFragmentBatch *batch, int i, const Maps *maps,
+                                   const Width *known, const float *opacity) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    const Vf3 ray = view_ray(uniforms->rays, batch, i);
+    const PbrPoint point = find_point(batch, i, ray, maps);
+    const Facing facing = face_eye(batch, i, ray, maps);
+    const Lobe lobe = surface_lobe(pbr, i, &facing, point.to_eye, maps, known);
+    const Vf base[3] = {point.base.x, point.base.y, point.base.z};
+    const Vf f90 = (1.0f - point.metallic) * pbr->f90 + point.metallic;
+    const Vf rest = 1.0f - clamp01(vf3_dot(facing.mesh, point.to_eye));
+    const Vf fresnel = (rest * rest) * (rest * rest) * rest * (1.0f - COAT_F0) + COAT_F0;
+    const Vf clear = (1.0f - point.metallic) * pbr->transmission * (1.0f - fresnel * pbr->coat);
+    const Vf covered = vf_load(opacity + i);
+    for (int c = 0; c < 3; c++) {
+        const Channel channel = channel_of(pbr, &point, c, base[c], vf_splat(0.0f));
+        const Vf kept = clamp01(1.0f - (channel.f0 * lobe.a + f90 * lobe.b));
+        vf_store(batch->colour[c] + i, (1.0f - covered) + covered * (clear * base[c] * kept));
+    }
+}
+
+void DIP_KERNEL(dip_kernel_transmittance_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    float opacity[DIP_FRAGMENT_BATCH];
+    Memory memory;
+    Maps maps;
+    begin_batch(batch, &memory, &maps);
+    read_opacity(batch, opacity);
+    const Width surface = width_of_all(uniforms->pbr->roughness);
+    const Width *known = maps.metal_rough || maps.normal ? NULL : &surface;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        find_transmittance(batch, i, &maps, known, opacity);
+    }
+    batch->work.counts[DIP_SHADER_COUNT_TRANSMITTING] += (uint64_t)batch->count;
 }

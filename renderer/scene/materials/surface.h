@@ -25,6 +25,7 @@ enum {
     DIP_SHADER_COUNT_SURROUNDED, // by an environment
     DIP_SHADER_COUNT_SHADOWED,   // fragments that read the shadow map
     DIP_SHADER_COUNT_SHEEN,
+    DIP_SHADER_COUNT_TRANSMITTING,
 };
 
 enum {

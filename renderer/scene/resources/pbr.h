@@ -32,6 +32,12 @@ void dip_scene_pbr_destroy(DipScenePbr **pbr);
 DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
                                const DipPbrTables *tables, int uv0, int uv1);
 
+// Returns the transmission of a material: 0 unless it is blended.
+static inline float dip_pbr_transmission(const DipMaterialDef *material) {
+    const bool blended = material->surface == DIP_SURFACE_BLENDED;
+    return blended && material->pbr ? material->pbr->transmission : 0.0f;
+}
+
 // Gives a surface its sheen, if it has one, which is kept in *sheen. sheen may be NULL where no
 // surface has one.
 void dip_pbr_add_sheen(const DipPbrDef *def, DipSheen *sheen, DipPbrUniforms *surface);

@@ -55,6 +55,11 @@ static bool is_lit_by_lights(const DipSceneDef *def, const DipMeshDef *mesh,
            mesh->normals && !light_mapped;
 }
 
+// Returns the opacity of a surface that is drawn without its metallic-roughness description.
+static float opacity_of(const DipMaterialDef *material) {
+    return material->opacity * (1.0f - dip_pbr_transmission(material));
+}
+
 // Returns the uniforms that depend on the material alone. The mesh has no attributes and varyings
 // yet.
 static DipSurfaceUniforms uniforms_of(const DipMaterialDef *material) {
@@ -75,7 +80,7 @@ static DipSurfaceUniforms uniforms_of(const DipMaterialDef *material) {
         .light_map_scale = material->light_map_scale,
         .alpha_cutoff = material->alpha_cutoff,
         .opacity = material->surface == DIP_SURFACE_WATER ? 1.0f - material->transmission
-                                                          : material->opacity,
+                                                          : opacity_of(material),
         .has_alpha = material->surface != DIP_SURFACE_WATER,
     };
     memcpy(uniforms.base_colour_lin, material->base_colour_lin, sizeof uniforms.base_colour_lin);
@@ -141,6 +146,7 @@ DipVertexLayout dip_mesh_lay_out(const DipSceneDef *def, const DipMeshDef *mesh,
     }
     if (out->normal_mapped || out->pbr) {
         out->full_layout = out->layout;
+        out->full_layout.opacity = out->pbr ? material->opacity : out->layout.opacity;
         out->full_layout.normal_map_varying = out->normal_mapped ? 0 : DIP_ABSENT;
         out->full_varying_count = lay_out_lit_fragments(&out->full_layout, normal_attribute);
     }
