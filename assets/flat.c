@@ -50,7 +50,8 @@ static bool flatten_mesh(DipModel *model, DipMeshDef *mesh) {
     uint32_t *indices = dip_model_alloc(model, mesh->index_count, sizeof *indices);
     if (!indices || !unshare(model, mesh, &mesh->positions, 3) ||
         !unshare(model, mesh, &mesh->normals, 3) || !unshare(model, mesh, &mesh->uv0, 2) ||
-        !unshare(model, mesh, &mesh->uv1, 2) || !unshare(model, mesh, &mesh->colours_lin, 3)) {
+        !unshare(model, mesh, &mesh->uv1, 2) || !unshare(model, mesh, &mesh->colours_lin, 3) ||
+        !unshare(model, mesh, &mesh->alphas, 1)) {
         return false;
     }
     float *normals = (float *)mesh->normals; // unshare has just allocated them.

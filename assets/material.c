@@ -276,7 +276,7 @@ int dip_model_find_material(const DipModel *model, const DipMaterialPlan *plan) 
         const DipMaterialPlan *other = &model->plans[i];
         if (other->file == plan->file && other->source == plan->source && other->tag == plan->tag &&
             other->light_mapped == plan->light_mapped && other->plain == plan->plain &&
-            other->coordinates == plan->coordinates) {
+            other->coordinates == plan->coordinates && other->vertex_alpha == plan->vertex_alpha) {
             return i;
         }
     }
@@ -453,11 +453,14 @@ static void finish_pbr(DipModel *model, const DipMaterialPlan *plan, bool *ok) {
 }
 
 // Makes a surface opaque if nothing of it is transparent.
-static void finish_surface(const DipModel *model, DipMaterialDef *def) {
+static void finish_surface(const DipModel *model, const DipMaterialPlan *plan,
+                           DipMaterialDef *def) {
     const int colour = def->colour_texture;
-    const bool has_alpha = colour >= 0 && model->texture_keys[colour].has_alpha;
+    const bool has_alpha =
+        plan->vertex_alpha || (colour >= 0 && model->texture_keys[colour].has_alpha);
     const bool clipped = def->surface == DIP_SURFACE_CLIPPED;
-    const bool blended = def->surface == DIP_SURFACE_BLENDED && def->opacity == 1.0f;
+    const bool transmits = def->pbr && def->pbr->transmission > 0.0f;
+    const bool blended = def->surface == DIP_SURFACE_BLENDED && def->opacity == 1.0f && !transmits;
     if (!has_alpha && (clipped || blended)) {
         def->surface = DIP_SURFACE_OPAQUE;
     }
@@ -482,7 +485,7 @@ bool dip_model_finish_materials(DipModel *model, DipError *err) {
         if (!ok) {
             return dip_model_out_of_memory(err, model->files[plan->file].path);
         }
-        finish_surface(model, def);
+        finish_surface(model, plan, def);
     }
     return true;
 }

@@ -102,7 +102,7 @@ static float *pack_colours(DipModel *model, const VertexSource *source, bool lin
     return to;
 }
 
-static const size_t attribute_width[DIP_ATTRIBUTE_COUNT] = {3, 3, 2, 2, 3};
+static const size_t attribute_width[DIP_ATTRIBUTE_COUNT] = {3, 3, 2, 2, 3, 1};
 
 // Hashes the bits of a vertex's values with FNV-1a.
 static uint32_t hash_vertex(const DipVertexArrays *arrays, size_t vertex) {
@@ -177,6 +177,7 @@ bool dip_model_join(DipModel *model, const DipVertexArrays *arrays, uint32_t cou
     def->uv0 = arrays->values[2];
     def->uv1 = arrays->values[3];
     def->colours_lin = arrays->values[4];
+    def->alphas = arrays->values[5];
     return def->vertex_count > 0;
 }
 

@@ -76,10 +76,11 @@ typedef struct DipMaterialPlan {
     bool plain;        // true: the file tags it for Diptych, so it has Diptych's own light and no
                        // reflection
     const DipMaterialRule *light_rule; // the rule that says so, or NULL
-    bool has_uv0;   // true: the mesh needs coordinates for colour, opacity or normal map
-    bool has_uv1;   // true: the mesh needs coordinates for the light map
-    bool invisible; // true: the material's own opacity is below its cutoff
-    bool unlit;     // true: no light falls on the surface
+    bool has_uv0;      // true: the mesh needs coordinates for colour, opacity or normal map
+    bool has_uv1;      // true: the mesh needs coordinates for the light map
+    bool invisible;    // true: the material's own opacity is below its cutoff
+    bool unlit;        // true: no light falls on the surface
+    bool vertex_alpha; // true: the vertices' alpha clips or blends the surface
     DipTextureUse colour;
     DipTextureUse opacity;
     DipTextureUse light;
@@ -347,9 +348,10 @@ bool dip_model_check_file(const char *path, DipError *err);
 // import.c: imports and checks a file with assimp, and sets file->scene.
 bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err);
 
-// The arrays of a mesh's vertices: positions, normals, two sets of texture coordinates and colours.
+// The arrays of a mesh's vertices: positions, normals, two sets of texture coordinates, colours and
+// alphas.
 // The array of an attribute that the mesh lacks is NULL.
-enum { DIP_ATTRIBUTE_COUNT = 5 };
+enum { DIP_ATTRIBUTE_COUNT = 6 };
 typedef struct DipVertexArrays {
     float *values[DIP_ATTRIBUTE_COUNT];
 } DipVertexArrays;

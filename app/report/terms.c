@@ -87,6 +87,8 @@ typedef struct Work {
     X("fragment with a normal map", C(fragments_normal_mapped))                                    \
     X("fragment of metal and gloss", C(fragments_pbr))                                             \
     X("fragment with a clear coat", C(fragments_coated))                                           \
+    X("fragment with a sheen", C(fragments_sheen))                                                 \
+    X("fragment that lets light through", C(fragments_transmitting))                               \
     X("fragment that sees an environment", C(fragments_surrounded))                                \
     X("fragment blended", C(fragments_blended))                                                    \
     X("fragment that reads the shadow map", C(fragments_shadowed))                                 \

@@ -181,12 +181,21 @@ static bool read_emission(const DipGltf *gltf, const cJSON *json, DipGltfMateria
     return true;
 }
 
-static void read_alpha(const cJSON *json, DipGltfMaterial *material) {
+static DipGltfAlpha alpha_of(const cJSON *json) {
     const cJSON *mode = cJSON_GetObjectItemCaseSensitive(json, "alphaMode");
     const char *name = cJSON_IsString(mode) ? mode->valuestring : "OPAQUE";
-    material->alpha = strcmp(name, "MASK") == 0    ? DIP_GLTF_MASK
-                      : strcmp(name, "BLEND") == 0 ? DIP_GLTF_BLEND
-                                                   : DIP_GLTF_OPAQUE;
+    return strcmp(name, "MASK") == 0    ? DIP_GLTF_MASK
+           : strcmp(name, "BLEND") == 0 ? DIP_GLTF_BLEND
+                                        : DIP_GLTF_OPAQUE;
+}
+
+bool dip_gltf_shows_alpha(const DipGltf *gltf, int index) {
+    return index >= 0 &&
+           alpha_of(dip_gltf_item(gltf, DIP_GLTF_materials, index)) != DIP_GLTF_OPAQUE;
+}
+
+static void read_alpha(const cJSON *json, DipGltfMaterial *material) {
+    material->alpha = alpha_of(json);
     material->cutoff = dip_gltf_number_of(json, "alphaCutoff", 0.5);
     material->double_sided = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(json, "doubleSided"));
 }
@@ -202,11 +211,13 @@ bool dip_gltf_describe_material(const DipGltf *gltf, int index, DipGltfMaterial 
     const cJSON *occlusion = cJSON_GetObjectItemCaseSensitive(json, "occlusionTexture");
     const cJSON *glossy = glossy_of(json);
     const cJSON *coat = dip_gltf_extension(json, "KHR_materials_clearcoat");
+    const cJSON *sheen = dip_gltf_extension(json, "KHR_materials_sheen");
     const cJSON *transmission = dip_gltf_extension(json, "KHR_materials_transmission");
     if (!json || !read_metallic(gltf, json, material) || !read_specular(gltf, json, material) ||
         (glossy && !read_glossy(gltf, glossy, material)) || !read_emission(gltf, json, material) ||
         !read_texture(gltf, json, "normalTexture", &material->normal) ||
-        !read_texture(gltf, json, "occlusionTexture", &material->occlusion)) {
+        !read_texture(gltf, json, "occlusionTexture", &material->occlusion) ||
+        !dip_gltf_numbers(gltf, sheen, "sheenColorFactor", 3, material->sheen)) {
         return false;
     }
     read_alpha(json, material);
@@ -216,6 +227,10 @@ bool dip_gltf_describe_material(const DipGltf *gltf, int index, DipGltfMaterial 
     material->occlusion_strength = unit_of(occlusion, "strength", 1.0);
     material->coat = unit_of(coat, "clearcoatFactor", 0.0);
     material->coat_roughness = unit_of(coat, "clearcoatRoughnessFactor", 0.0);
+    material->sheen_roughness = unit_of(sheen, "sheenRoughnessFactor", 0.0);
+    for (int i = 0; i < 3; ++i) {
+        material->sheen[i] = clamp(material->sheen[i], 0.0, 1.0);
+    }
     material->transmission = unit_of(transmission, "transmissionFactor", 0.0);
     for (int i = 0; i < 4; ++i) {
         material->base[i] = clamp(material->base[i], 0.0, 1.0);

@@ -36,6 +36,8 @@ typedef struct DipGltfMaterial {
     double occlusion_strength;
     double coat;
     double coat_roughness;
+    double sheen[3]; // linear colour
+    double sheen_roughness;
     double transmission;
     double cutoff; // of DIP_GLTF_MASK
     DipGltfAlpha alpha;
@@ -52,6 +54,9 @@ typedef struct DipGltfMaterial {
 
 // Reads a material. index: -1 for that of a primitive without a material.
 bool dip_gltf_describe_material(const DipGltf *gltf, int index, DipGltfMaterial *material);
+
+// Returns whether the alpha of the colours changes a material's surface. index: as above.
+bool dip_gltf_shows_alpha(const DipGltf *gltf, int index);
 
 // A texture of a glTF file: its picture, and how it goes on beyond its edges.
 typedef struct DipGltfTextureSource {

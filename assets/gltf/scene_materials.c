@@ -173,8 +173,10 @@ static void read_pbr(Maker *maker) {
                        .occlusion_strength = (float)from->occlusion_strength,
                        .normal_scale = (float)from->normal_scale,
                        .coat = (float)from->coat,
-                       .coat_roughness = (float)from->coat_roughness};
+                       .coat_roughness = (float)from->coat_roughness,
+                       .sheen_roughness = (float)from->sheen_roughness};
     for (int i = 0; i < 3; ++i) {
+        pbr->sheen_lin[i] = (float)from->sheen[i];
         // Without the picture that belongs to it, the factor 1 would make a mirror.
         const bool is_mirror = from->gloss.index >= 0 && plan->gloss.picture < 0;
         pbr->f0_lin[i] = is_mirror ? dielectric_specular : (float)from->f0[i];
@@ -196,17 +198,18 @@ static void read_pbr(Maker *maker) {
 static void warn_of_lost_light(Maker *maker) {
     const DipGltfMaterial *from = &maker->from;
     const bool glows = from->emission[0] + from->emission[1] + from->emission[2] > 0.0;
-    if ((glows || from->coat > 0.0) && !maker->plan.pbr && !from->unlit &&
+    const bool is_cloth = from->sheen[0] + from->sheen[1] + from->sheen[2] > 0.0;
+    if ((glows || is_cloth || from->coat > 0.0) && !maker->plan.pbr && !from->unlit &&
         dip_gltf_warns_of(maker->scene, DIP_GLTF_LOSS_LIGHT_MAPPED)) {
-        warn(maker, "emission and clear coat are not drawn on surfaces with a light map, glass, "
-                    "water and sky");
+        warn(maker, "emission, clear coat and sheen are not drawn on surfaces with a light map, "
+                    "glass, water and sky");
     }
 }
 
 // --- the surface ---------------------------------------------------------------------------------
 
-// Returns how much of the surface covers what lies behind it. What is transmitted is tinted by the
-// base colour, so a dark pane covers more.
+// Returns how much of a surface without a reflection covers what lies behind it. What is
+// transmitted is tinted by the base colour, so a dark pane covers more.
 static double opacity_of(const DipGltfMaterial *from) {
     double shown = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -241,7 +244,12 @@ static void read_surface(Maker *maker) {
         def->surface = DIP_SURFACE_CLIPPED;
     } else if (from->alpha == DIP_GLTF_BLEND || transmits(maker)) {
         def->surface = DIP_SURFACE_BLENDED;
-        def->opacity = (float)opacity_of(from);
+        if (maker->plan.pbr) {
+            def->opacity = from->alpha == DIP_GLTF_BLEND ? alpha : 1.0f;
+            maker->plan.pbr->transmission = transmits(maker) ? (float)from->transmission : 0.0f;
+        } else {
+            def->opacity = (float)opacity_of(from);
+        }
     }
     if (maker->plan.tag == DIP_TAG_WATER) {
         def->surface = DIP_SURFACE_WATER;
@@ -302,15 +310,11 @@ static int add(Maker *maker, DipGltfScene *scene) {
                      : DIP_NOT_FOUND;
 }
 
-// Several parts may share a material, so this is checked for each.
-static void warn_of_vertex_alpha(DipGltfScene *scene, const DipGltfPart *part, int material) {
-    const DipMaterialDef *def = material < 0 ? NULL : &scene->model->materials[material];
-    if (def && part->has_alpha &&
-        (def->surface == DIP_SURFACE_CLIPPED || def->surface == DIP_SURFACE_BLENDED) &&
-        dip_gltf_warns_of(scene, DIP_GLTF_LOSS_VERTEX_ALPHA)) {
-        dip_model_warn(scene->model, scene->reader.gltf.path, def->name,
-                       "the alpha of vertex colours is not drawn");
-    }
+// Returns whether the alpha of a part's vertices changes the surface.
+static bool has_vertex_alpha(const Maker *maker) {
+    return maker->part->has_alpha &&
+           (maker->plan.tag == DIP_TAG_MASK ||
+            dip_gltf_shows_alpha(&maker->scene->reader.gltf, maker->part->material));
 }
 
 int dip_gltf_scene_material(DipGltfScene *scene, int part, const DipGltfNodeState *state) {
@@ -330,12 +334,12 @@ int dip_gltf_scene_material(DipGltfScene *scene, int part, const DipGltfNodeStat
     }
     const char *name = scene->model->files[scene->file].material_names[maker.plan.source];
     dip_model_apply_rules(scene->model, name, &maker.plan);
+    maker.plan.vertex_alpha = has_vertex_alpha(&maker);
     int material = dip_model_find_material(scene->model, &maker.plan);
     if (material < 0) {
         const bool ok =
             dip_gltf_describe_material(&scene->reader.gltf, source->material, &maker.from);
         material = ok ? add(&maker, scene) : DIP_NOT_FOUND;
     }
-    warn_of_vertex_alpha(scene, source, material);
     return material;
 }

@@ -89,6 +89,7 @@ static void set_arrays(const DipVertexArrays *arrays, uint32_t count, DipMeshDef
     def->uv0 = arrays->values[2];
     def->uv1 = arrays->values[3];
     def->colours_lin = arrays->values[4];
+    def->alphas = arrays->values[5];
 }
 
 static bool fill(DipModel *model, const Shape *shape, const DipMaterialPlan *plan,
@@ -100,11 +101,12 @@ static bool fill(DipModel *model, const Shape *shape, const DipMaterialPlan *pla
     float *uv1 = plan->has_uv1 ? make_uv(model, shape, &plan->uv1) : NULL;
     const float *rgba = shape->part->colours;
     float *colours = rgba ? copy(model, shape, rgba, 4, 3) : NULL;
+    float *alphas = plan->vertex_alpha ? copy(model, shape, rgba + 3, 4, 1) : NULL;
     if (!positions || !normals || (plan->has_uv0 && !uv0) || (plan->has_uv1 && !uv1) ||
-        (rgba && !colours)) {
+        (rgba && !colours) || (plan->vertex_alpha && !alphas)) {
         return false;
     }
-    const DipVertexArrays arrays = {{positions, normals, uv0, uv1, colours}};
+    const DipVertexArrays arrays = {{positions, normals, uv0, uv1, colours, alphas}};
     uint32_t *remap = NULL;
     if (shape->moves) {
         set_arrays(&arrays, shape->count, def);

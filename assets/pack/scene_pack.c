@@ -76,14 +76,20 @@ static bool read_pbr(const DipPackReader *reader, const PackPbr *record, DipPbrD
                        .emission_at_uv1 = (record->maps_at_uv1 & 2) != 0,
                        .normal_scale = record->normal_scale,
                        .coat = record->coat,
-                       .coat_roughness = record->coat_roughness};
+                       .coat_roughness = record->coat_roughness,
+                       .sheen_roughness = record->sheen_roughness,
+                       .transmission = record->transmission};
+    memcpy(def->sheen_lin, record->sheen_lin, sizeof def->sheen_lin);
+    const float *sheen = record->sheen_lin;
     memcpy(def->f0_lin, record->f0_lin, sizeof def->f0_lin);
     memcpy(def->emission_lin, record->emission_lin, sizeof def->emission_lin);
     const float *f0 = record->f0_lin;
     return within_unit(record->metallic) && within_unit(record->roughness) && within_unit(f0[0]) &&
            within_unit(f0[1]) && within_unit(f0[2]) && within_unit(record->f90) &&
            within_unit(record->occlusion_strength) && within_unit(record->coat) &&
-           within_unit(record->coat_roughness) && are_light(record->emission_lin) &&
+           within_unit(record->coat_roughness) && within_unit(sheen[0]) && within_unit(sheen[1]) &&
+           within_unit(sheen[2]) && within_unit(record->sheen_roughness) &&
+           within_unit(record->transmission) && are_light(record->emission_lin) &&
            isfinite(record->normal_scale) && record->maps_at_uv1 <= 3 &&
            is_texture(reader, record->metal_rough_map) &&
            is_texture(reader, record->occlusion_map) && is_texture(reader, record->emission_map);
@@ -156,6 +162,7 @@ static bool read_mesh(DipPackReader *reader, uint64_t index, DipMeshDef *def) {
                     dip_pack_read_floats(reader, record.uv0, 2 * rows, &def->uv0) &&
                     dip_pack_read_floats(reader, record.uv1, 2 * rows, &def->uv1) &&
                     dip_pack_read_floats(reader, record.colours_lin, 3 * rows, &def->colours_lin) &&
+                    dip_pack_read_floats(reader, record.alphas, rows, &def->alphas) &&
                     read_indices(reader, &record, def) && def->positions;
     return ok || dip_pack_refuse(reader, "a mesh", index);
 }

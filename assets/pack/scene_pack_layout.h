@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 enum {
-    PACK_VERSION = 4, // Increase this number with every change of the layout.
+    PACK_VERSION = 7, // Increase this number with every change of the layout.
     PACK_ALIGNMENT = 64,
     PACK_MAX_RECORDS = 1 << 24 // Most records in a section.
 };
@@ -90,6 +90,10 @@ typedef struct PackPbr {
     float normal_scale;
     float coat;
     float coat_roughness;
+    float sheen_lin[3];
+    float sheen_roughness;
+    float transmission;
+    uint32_t unused;
 } PackPbr;
 
 typedef struct PackMaterial {
@@ -114,11 +118,12 @@ typedef struct PackMaterial {
 
 typedef struct PackMesh {
     uint64_t name;
-    uint64_t positions; // Offsets of arrays: vertex_count rows of 3, 3, 2, 2 and 3 floats.
+    uint64_t positions; // Offsets of arrays: vertex_count rows of 3, 3, 2, 2, 3 and 1 floats.
     uint64_t normals;
     uint64_t uv0;
     uint64_t uv1;
     uint64_t colours_lin;
+    uint64_t alphas;
     uint64_t indices; // index_count numbers of 32 bits
     uint32_t vertex_count;
     uint32_t index_count;

@@ -117,7 +117,10 @@ static PackPbr pbr_of(const DipPbrDef *def) {
                       .emission_map = def->emission_map,
                       .normal_scale = def->normal_scale,
                       .coat = def->coat,
-                      .coat_roughness = def->coat_roughness};
+                      .coat_roughness = def->coat_roughness,
+                      .sheen_roughness = def->sheen_roughness,
+                      .transmission = def->transmission};
+    memcpy(record.sheen_lin, def->sheen_lin, sizeof record.sheen_lin);
     memcpy(record.f0_lin, def->f0_lin, sizeof record.f0_lin);
     memcpy(record.emission_lin, def->emission_lin, sizeof record.emission_lin);
     return record;
@@ -165,6 +168,7 @@ static bool add_mesh(Writer *writer, const DipMeshDef *def, PackMesh *record) {
            add_array(writer, def->uv0, 2 * row, &record->uv0) &&
            add_array(writer, def->uv1, 2 * row, &record->uv1) &&
            add_array(writer, def->colours_lin, 3 * row, &record->colours_lin) &&
+           add_array(writer, def->alphas, row, &record->alphas) &&
            add_array(writer, def->indices, (size_t)def->index_count * sizeof *def->indices,
                      &record->indices);
 }

@@ -119,7 +119,7 @@ static void find_colour(const Converging *c, size_t pixel, double rgb[3]);
 // Shades the surface at a place of the plane's sample in a pixel. rgba[3] is the share of what lies
 // behind that it covers.
 static void shade_surface(const Converging *c, size_t pixel, const DipRefPosition *place,
-                          double rgba[4]) {
+                          double rgba[DIP_REF_LAYER]) {
     dip_reference_shade(place, NULL, rgba);
     rgba[3] = dip_reference_opacity(place, NULL);
     if (c->mirrored && place->triangle->water) {
@@ -128,6 +128,7 @@ static void shade_surface(const Converging *c, size_t pixel, const DipRefPositio
         dip_reference_blend_water(c->reference, c->pose, c->width, c->height, place, mirrored,
                                   rgba);
     }
+    dip_reference_see_through(place, NULL, rgba);
 }
 
 // Computes the colour of the plane's sample in a pixel, without blended surfaces.
@@ -141,7 +142,7 @@ static void shade(const Converging *c, size_t pixel, double rgb[3]) {
     }
     const DipRefPosition place =
         place_at(&c->triangles.items[index], c->plane.x[pixel], c->plane.y[pixel]);
-    double rgba[4];
+    double rgba[DIP_REF_LAYER];
     shade_surface(c, pixel, &place, rgba);
     memcpy(rgb, rgba, 3 * sizeof *rgb);
 }
@@ -163,7 +164,7 @@ static bool blend_next(Converging *c) {
         if (peel->next != NOTHING) {
             const DipRefPosition place =
                 place_at(&c->triangles.items[peel->next], c->plane.x[pixel], c->plane.y[pixel]);
-            double rgba[4];
+            double rgba[DIP_REF_LAYER];
             shade_surface(c, pixel, &place, rgba);
             dip_reference_peel_blend(peel, rgba);
             any = true;

@@ -329,7 +329,7 @@ static void find_colour(const Samples *samples, size_t i, double rgb[3]);
 // Shades the surface at a place of sample i. rgba[3] is the share of what lies behind that it
 // covers.
 static void shade_surface(const Samples *samples, size_t i, const DipRefPosition *place,
-                          double rgba[4]) {
+                          double rgba[DIP_REF_LAYER]) {
     const DipConvergence *c = samples->convergence;
     dip_reference_shade(place, NULL, rgba);
     rgba[3] = dip_reference_opacity(place, NULL);
@@ -339,6 +339,7 @@ static void shade_surface(const Samples *samples, size_t i, const DipRefPosition
         dip_reference_blend_water(c->reference, &c->pose, c->width, c->height, place, mirrored,
                                   rgba);
     }
+    dip_reference_see_through(place, NULL, rgba);
 }
 
 // Shades what is not blended.
@@ -352,7 +353,7 @@ static void shade_sample(const Samples *samples, size_t i, double rgb[3]) {
     }
     const DipRefPosition place =
         place_on(&c->triangles.items[samples->triangles[i]], samples->x[i], samples->y[i]);
-    double rgba[4];
+    double rgba[DIP_REF_LAYER];
     shade_surface(samples, i, &place, rgba);
     memcpy(rgb, rgba, 3 * sizeof *rgb);
 }
@@ -394,7 +395,7 @@ static bool blend_next(Samples *samples, size_t i) {
     }
     const DipRefTriangle *triangle = &samples->convergence->triangles.items[peel->next];
     const DipRefPosition place = place_on(triangle, samples->x[i], samples->y[i]);
-    double rgba[4];
+    double rgba[DIP_REF_LAYER];
     shade_surface(samples, i, &place, rgba);
     dip_reference_peel_blend(peel, rgba);
     peel->water = peel->water || triangle->water;

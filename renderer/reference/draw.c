@@ -24,7 +24,7 @@ typedef struct Layer {
     unsigned mask; // samples that it covers
     size_t next;   // index of another layer of the pixel, plus 1; 0: there is none
     bool shaded;   // rgba is valid
-    double rgba[4];
+    double rgba[DIP_REF_LAYER];
 } Layer;
 
 // The layers of a picture.
@@ -249,7 +249,7 @@ static void draw_triangles(Drawing *drawing) {
 // Shades a surface at the samples in mask, which belong to one pixel or to one sample group of a
 // pixel. rgba[3] is the share of what lies behind that the surface covers.
 static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigned mask,
-                  double rgba[4]) {
+                  double rgba[DIP_REF_LAYER]) {
     const DipRefTriangle *triangle = &drawing->triangles.items[surface];
     const DipRefPosition place = has_groups(drawing, triangle)
                                      ? place_of_pass(drawing, triangle, x, y, mask)
@@ -263,6 +263,7 @@ static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigne
         dip_reference_blend_water(drawing->reference, drawing->shot.pose, drawing->width,
                                   drawing->height, &place, mirrored, rgba);
     }
+    dip_reference_see_through(&place, filter_of(drawing, triangle), rgba);
 }
 
 static bool same_patch(const Drawing *drawing, int32_t a, int32_t b) {
@@ -320,9 +321,7 @@ static void blend_sample(const Drawing *drawing, int x, int y, int s, double rgb
             shade(drawing, layer->triangle, x, y, layer->mask, layer->rgba);
             layer->shaded = true;
         }
-        for (int c = 0; c < 3; c++) {
-            rgb[c] = layer->rgba[3] * layer->rgba[c] + (1.0 - layer->rgba[3]) * rgb[c];
-        }
+        dip_reference_blend(layer->rgba, rgb);
         behind = depth;
         last = layer->triangle;
         layer = next_layer(drawing, x, y, s, behind, last, &depth);
@@ -362,7 +361,7 @@ static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
         }
         const unsigned mask = shaded_with(drawing, surfaces, s);
         done |= mask;
-        double colour[4];
+        double colour[DIP_REF_LAYER];
         if (surfaces[s] == NOTHING) {
             for (int c = 0; c < 3; c++) {
                 colour[c] = drawing->reference->def->background_lin[c];

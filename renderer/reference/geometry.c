@@ -179,6 +179,7 @@ static DipRefClipVertex transform_vertex(const Camera *camera, const float m[12]
         vertex.varyings[DIP_REF_U0 + i] = dip_wide(mesh->uv0 ? mesh->uv0[at] : 0.0);
         vertex.varyings[DIP_REF_U1 + i] = dip_wide(mesh->uv1 ? mesh->uv1[at] : 0.0);
     }
+    vertex.varyings[DIP_REF_ALPHA] = dip_wide(mesh->alphas ? (double)mesh->alphas[index] : 1.0);
     normal[0] = normal[1] = normal[2] = 0.0;
     if (mesh->normals) {
         turn_normal(turn, mesh->normals + 3 * (size_t)index, normal);
@@ -386,6 +387,12 @@ static void find_repeats(DipRefTriangle *like) {
     }
 }
 
+// Whether the alpha of the vertices changes the surface of a mesh.
+static bool has_alphas(const DipMaterialDef *material, const DipMeshDef *mesh) {
+    return mesh->alphas &&
+           (material->surface == DIP_SURFACE_CLIPPED || material->surface == DIP_SURFACE_BLENDED);
+}
+
 // Returns the values that all triangles of a mesh share.
 static DipRefTriangle describe_mesh(const DipReference *reference, const DipMeshDef *mesh) {
     const DipMaterialDef *material = &reference->def->materials[mesh->material];
@@ -406,12 +413,14 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
     }
     if (reference->def->lighting && dip_reference_is_solid(material) && material->lit &&
         mesh->normals && !like.light_map) {
-        const bool phong = reference->def->lighting->shading == DIP_SHADING_PHONG;
+        const bool phong =
+            reference->def->lighting->shading == DIP_SHADING_PHONG || has_alphas(material, mesh);
         like.lit = (DipRefLit){.lighting = reference->def->lighting,
                                .material = material,
                                .fragments = phong || like.normal_map};
     }
-    like.clipped = material->surface == DIP_SURFACE_CLIPPED && like.colour;
+    like.clipped =
+        material->surface == DIP_SURFACE_CLIPPED && (like.colour || has_alphas(material, mesh));
     like.water = material->surface == DIP_SURFACE_WATER;
     like.blended =
         material->surface == DIP_SURFACE_BLENDED || (like.water && material->transmission > 0.0f);

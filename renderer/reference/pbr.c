@@ -197,9 +197,10 @@ typedef struct Surface {
     double base[3];
     double metallic;
     double occlusion;
-    double f0_greatest; // of what is not metal
-    double f90;         // of what is not metal
-    double sunlit;      // the part of the light with shadows that arrives
+    double f0_greatest;  // of what is not metal
+    double f90;          // of what is not metal
+    double sunlit;       // the part of the light with shadows that arrives
+    double transmission; // share of what would be diffuse light that comes from behind
 } Surface;
 
 static const DipLightingDef *lighting_of(const DipRefTriangle *triangle) {
@@ -250,10 +251,40 @@ static double find_arrival(const Surface *surface, int index, double to_light[3]
     return index == dip_reference_shadow_light(lit->shadows) ? share * surface->sunlit : share;
 }
 
+// Returns the share of uniform light that a white sheen sends to the eye.
+static double sheen_albedo(double roughness, double cosine) {
+    const double r = fmax(0.1, roughness);
+    const double slope = -1.9362 + 1.0678 * r + 0.4573 * r * r - 0.8469 / (r + 0.1);
+    const double shift = -0.6014 + 0.5538 * r - 0.4670 * r * r - 0.1255 / (r + 0.1);
+    return fmin(1.0, exp(slope * cosine + shift));
+}
+
+// Returns what a white sheen gives of a light: pi times the lobe of "Production friendly microfacet
+// sheen BRDF" (Estevez and Kulla 2017), times the cosine of the light's angle.
+static double sheen_of_light(const Lobe *lobe, double roughness, const double to_light[3]) {
+    const double alpha = pow(fmax(0.1, roughness), 2.0);
+    double half[3];
+    for (int i = 0; i < 3; i++) {
+        half[i] = to_light[i] + lobe->to_eye[i];
+    }
+    normalise(half);
+    const double n_h = clamp01(dot(lobe->normal, half));
+    const double n_l = clamp01(dot(lobe->normal, to_light));
+    const double n_v = facing_of(lobe);
+    const double sine2 = fmax(1.0 - n_h * n_h, 0.0078125);
+    const double distribution = (2.0 + 1.0 / alpha) * pow(sine2, 0.5 / alpha) / 2.0;
+    return n_l * distribution / fmax(1.0, 4.0 * (n_l + n_v - n_l * n_v));
+}
+
+static double greatest_sheen(const DipPbrDef *pbr) {
+    return fmax(pbr->sheen_lin[0], fmax(pbr->sheen_lin[1], pbr->sheen_lin[2]));
+}
+
 // Adds one light to a colour.
 static void add_light(const Surface *surface, const Lobe *lobe, int index, double rgb[3]) {
     const DipLightDef *light = &surface->lighting->lights[index];
     const double rest = 1.0 - surface->metallic;
+    const double diffuse = 1.0 - surface->transmission;
     double to_light[3];
     double fresnel;
     const double share = find_arrival(surface, index, to_light);
@@ -262,13 +293,18 @@ static void add_light(const Surface *surface, const Lobe *lobe, int index, doubl
     const double f90 = rest * surface->f90 + surface->metallic;
     const double kept =
         1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * fresnel);
+    const DipPbrDef *pbr = surface->triangle->pbr;
+    const double albedo = fmax(sheen_albedo(pbr->sheen_roughness, facing_of(lobe)),
+                               sheen_albedo(pbr->sheen_roughness, n_l));
+    const double below = 1.0 - greatest_sheen(pbr) * albedo;
+    const double scattered = sheen_of_light(lobe, pbr->sheen_roughness, to_light);
     for (int c = 0; c < 3; c++) {
-        const double f0 =
-            rest * surface->triangle->pbr->f0_lin[c] + surface->metallic * surface->base[c];
+        const double f0 = rest * pbr->f0_lin[c] + surface->metallic * surface->base[c];
         const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
-        rgb[c] +=
-            share * light->colour_lin[c] *
-            ((f0 + (f90 - f0) * fresnel) * gain * strength + kept * rest * surface->base[c] * n_l);
+        rgb[c] += share * light->colour_lin[c] *
+                  (below * ((f0 + (f90 - f0) * fresnel) * gain * strength +
+                            kept * rest * diffuse * surface->base[c] * n_l) +
+                   pbr->sheen_lin[c] * scattered);
     }
 }
 
@@ -279,6 +315,10 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
     const double f90 = rest * surface->f90 + surface->metallic;
     const double kept =
         1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * grazing);
+    const DipPbrDef *pbr = surface->triangle->pbr;
+    const double albedo = sheen_albedo(pbr->sheen_roughness, facing_of(lobe));
+    const double below = 1.0 - greatest_sheen(pbr) * albedo;
+    const double diffuse = 1.0 - surface->transmission;
     double seen[3];
     double soft[3];
     reflect(lobe, surface->lighting, surface->triangle->environment, seen);
@@ -287,8 +327,10 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
         const double f0 =
             rest * surface->triangle->pbr->f0_lin[c] + surface->metallic * surface->base[c];
         const double gain = 1.0 + f0 * (1.0 / (lobe->a + lobe->b) - 1.0);
-        rgb[c] = surface->occlusion * ((f0 * lobe->a + f90 * lobe->b) * gain * seen[c] +
-                                       kept * rest * surface->base[c] * soft[c]);
+        rgb[c] =
+            surface->occlusion * (below * ((f0 * lobe->a + f90 * lobe->b) * gain * seen[c] +
+                                           kept * rest * diffuse * surface->base[c] * soft[c]) +
+                                  pbr->sheen_lin[c] * albedo * soft[c]);
     }
     for (int l = 0; l < surface->lighting->light_count; l++) {
         add_light(surface, lobe, l, rgb);
@@ -361,31 +403,59 @@ static void add_emission(const DipRefTriangle *triangle, const DipRefFilter *fil
     }
 }
 
+// Describes the surface and its lobe at a place. mesh: receives the normal without the normal map.
+static void begin_surface(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                          const DipRefVaryings *varyings, const double texel[3],
+                          const double base[3], Surface *surface, Lobe *lobe, double mesh[3]) {
+    const DipPbrDef *pbr = triangle->pbr;
+    *surface = (Surface){.triangle = triangle, .lighting = lighting_of(triangle)};
+    *lobe = (Lobe){.roughness = read_maps(filter, varyings, surface)};
+    const double length = find_normals(triangle, varyings, texel, mesh, lobe->normal);
+    for (int i = 0; i < 3; i++) {
+        surface->place[i] = varyings->value[DIP_REF_X + i];
+        surface->base[i] = base[i];
+        surface->f0_greatest = fmax(surface->f0_greatest, pbr->f0_lin[i]);
+        lobe->to_eye[i] = -surface->place[i];
+    }
+    surface->f90 = pbr->f90;
+    surface->transmission = triangle->blended ? (double)pbr->transmission : 0.0;
+    normalise(lobe->to_eye);
+    const double spread = 2.0 * fmax(0.0, 1.0 / fmax(length, 0.1) - 1.0);
+    const double alpha = lobe->roughness * lobe->roughness;
+    const double least = fmax(0.1, alpha);
+    lobe->light_alpha = sqrt(fmin(1.0, least * least + spread));
+    lobe->roughness = pow(fmin(1.0, alpha * alpha + spread), 0.25);
+    read_lobe(triangle, lobe);
+}
+
 void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
                              const DipRefVaryings *varyings, const double texel[3], double rgb[3]) {
-    const DipPbrDef *pbr = triangle->pbr;
-    Surface surface = {.triangle = triangle, .lighting = lighting_of(triangle)};
-    Lobe lobe = {.roughness = read_maps(filter, varyings, &surface)};
+    Surface surface;
+    Lobe lobe;
     double mesh[3];
-    const double length = find_normals(triangle, varyings, texel, mesh, lobe.normal);
-    for (int i = 0; i < 3; i++) {
-        surface.place[i] = varyings->value[DIP_REF_X + i];
-        surface.base[i] = rgb[i];
-        surface.f0_greatest = fmax(surface.f0_greatest, pbr->f0_lin[i]);
-        lobe.to_eye[i] = -surface.place[i];
-    }
-    surface.f90 = pbr->f90;
+    begin_surface(triangle, filter, varyings, texel, rgb, &surface, &lobe, mesh);
     surface.sunlit = dip_reference_sunlit(&triangle->lit, surface.place);
-    normalise(lobe.to_eye);
-    const double spread = 2.0 * fmax(0.0, 1.0 / fmax(length, 0.1) - 1.0);
-    const double alpha = lobe.roughness * lobe.roughness;
-    const double least = fmax(0.1, alpha);
-    lobe.light_alpha = sqrt(fmin(1.0, least * least + spread));
-    lobe.roughness = pow(fmin(1.0, alpha * alpha + spread), 0.25);
-    read_lobe(triangle, &lobe);
     light_surface(&surface, &lobe, rgb);
     add_emission(triangle, filter, varyings, rgb);
-    if (pbr->coat > 0.0f) {
+    if (triangle->pbr->coat > 0.0f) {
         add_coat(&surface, mesh, lobe.to_eye, rgb);
+    }
+}
+
+void dip_reference_transmit_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                                const DipRefVaryings *varyings, const double texel[3],
+                                const double base[3], double through[3]) {
+    Surface surface;
+    Lobe lobe;
+    double mesh[3];
+    begin_surface(triangle, filter, varyings, texel, base, &surface, &lobe, mesh);
+    const double rest = 1.0 - surface.metallic;
+    const double f90 = rest * surface.f90 + surface.metallic;
+    const double n_v = clamp01(dot(mesh, lobe.to_eye));
+    const double coat = 1.0 - triangle->pbr->coat * (0.04 + 0.96 * pow(1.0 - n_v, 5.0));
+    for (int c = 0; c < 3; c++) {
+        const double f0 = rest * triangle->pbr->f0_lin[c] + surface.metallic * base[c];
+        const double kept = clamp01(1.0 - (f0 * lobe.a + f90 * lobe.b));
+        through[c] = rest * surface.transmission * base[c] * kept * coat;
     }
 }

@@ -1,6 +1,8 @@
 // Draws the blended surfaces of one sample of a converged picture in their order: from far to near.
 #include "renderer/reference/internal/internal.h"
 
+#include <math.h>
+
 enum { NOTHING = -1 };
 
 DipRefPeel dip_reference_peel_begin(const double rgb[3], double depth) {
@@ -19,10 +21,14 @@ void dip_reference_peel_offer(DipRefPeel *peel, double depth, int32_t triangle) 
     }
 }
 
-void dip_reference_peel_blend(DipRefPeel *peel, const double rgba[4]) {
+void dip_reference_blend(const double layer[DIP_REF_LAYER], double rgb[3]) {
     for (int c = 0; c < 3; c++) {
-        peel->rgb[c] = rgba[3] * rgba[c] + (1.0 - rgba[3]) * peel->rgb[c];
+        rgb[c] = fmin(layer[3] * layer[c] + layer[4 + c] * rgb[c], 1.0);
     }
+}
+
+void dip_reference_peel_blend(DipRefPeel *peel, const double layer[DIP_REF_LAYER]) {
+    dip_reference_blend(layer, peel->rgb);
     peel->depth = peel->next_depth;
     peel->last = peel->next;
     peel->next = NOTHING;

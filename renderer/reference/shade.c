@@ -58,21 +58,33 @@ static void read_texture(const DipRefTexture *texture, const DipRefFilter *filte
 }
 
 double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filter) {
+    const DipRefTexture *colour = place->triangle->colour;
     DipRefVaryings varyings;
-    double rgba[4];
-    dip_reference_interpolate(place, DIP_REF_U0, 2, filter != NULL, &varyings);
-    read_texture(place->triangle->colour, filter, &varyings, DIP_REF_U0, rgba);
-    return rgba[3];
+    double rgba[4] = {1.0, 1.0, 1.0, 1.0};
+    dip_reference_interpolate(place, DIP_REF_U0, DIP_REF_ALPHA + 1, filter != NULL, &varyings);
+    if (colour) {
+        read_texture(colour, filter, &varyings, DIP_REF_U0, rgba);
+    }
+    return rgba[3] * fmin(fmax(varyings.value[DIP_REF_ALPHA], 0.0), 1.0);
 }
 
 double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter *filter,
                                  double *slope) {
+    const DipRefTexture *colour = place->triangle->colour;
     DipRefVaryings varyings;
-    double rgba[4];
-    dip_reference_interpolate(place, DIP_REF_U0, 2, true, &varyings);
-    dip_reference_sample_slope(place->triangle->colour, filter, &varyings.value[DIP_REF_U0],
-                               &varyings.ddx[DIP_REF_U0], &varyings.ddy[DIP_REF_U0], rgba, slope);
-    return rgba[3];
+    double rgba[4] = {1.0, 1.0, 1.0, 1.0};
+    dip_reference_interpolate(place, DIP_REF_U0, DIP_REF_ALPHA + 1, true, &varyings);
+    *slope = 0.0;
+    if (colour) {
+        dip_reference_sample_slope(colour, filter, &varyings.value[DIP_REF_U0],
+                                   &varyings.ddx[DIP_REF_U0], &varyings.ddy[DIP_REF_U0], rgba,
+                                   slope);
+    }
+    // The changes of both factors are added.
+    const double own = fmin(fmax(varyings.value[DIP_REF_ALPHA], 0.0), 1.0);
+    const double change = fabs(varyings.ddx[DIP_REF_ALPHA]) + fabs(varyings.ddy[DIP_REF_ALPHA]);
+    *slope = *slope * own + rgba[3] * change;
+    return rgba[3] * own;
 }
 
 double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *filter) {
@@ -83,8 +95,10 @@ double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *fi
     if (triangle->water) {
         return 1.0 - (double)triangle->material->transmission;
     }
-    return (triangle->colour ? dip_reference_alpha(place, filter) : 1.0) *
-           triangle->material->opacity;
+    // Where its metallic-roughness description is not drawn, transmission is a lower opacity.
+    const DipPbrDef *pbr = triangle->pbr ? NULL : triangle->material->pbr;
+    return dip_reference_alpha(place, filter) * triangle->material->opacity *
+           (1.0 - (pbr ? (double)pbr->transmission : 0.0));
 }
 
 void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filter,
@@ -162,5 +176,37 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
     for (int c = 0; c < 3; c++) {
         const double value = triangle->normal_map ? rgb[c] : rgb[c] * light[c];
         rgb[c] = fmin(fmax(value, 0.0), 1.0);
+    }
+}
+
+void dip_reference_see_through(const DipRefPosition *place, const DipRefFilter *filter,
+                               double layer[DIP_REF_LAYER]) {
+    const DipRefTriangle *triangle = place->triangle;
+    for (int c = 0; c < 3; c++) {
+        layer[4 + c] = 1.0 - layer[3];
+    }
+    if (!triangle->blended || !triangle->pbr || !(triangle->pbr->transmission > 0.0f)) {
+        return;
+    }
+    DipRefVaryings varyings;
+    double colour[4] = {1.0, 1.0, 1.0, 1.0};
+    double texel[4];
+    double through[3];
+    dip_reference_interpolate(place, 0, DIP_REF_VARYINGS, true, &varyings);
+    const bool mip_colours = filter && filter->mip_colours && triangle->colour;
+    if (triangle->colour) {
+        read_texture(triangle->colour, filter, &varyings, DIP_REF_U0, colour);
+    }
+    if (triangle->normal_map) {
+        dip_reference_read_data(triangle->normal_map, filter, &varyings, DIP_REF_U0, texel);
+    }
+    for (int c = 0; c < 3; c++) {
+        const double base = mip_colours ? 1.0 : triangle->material->base_colour_lin[c];
+        colour[c] *= base * varyings.value[DIP_REF_RED + c];
+    }
+    dip_reference_transmit_pbr(triangle, filter, &varyings, triangle->normal_map ? texel : NULL,
+                               colour, through);
+    for (int c = 0; c < 3; c++) {
+        layer[4 + c] += layer[3] * through[c];
     }
 }

@@ -12,7 +12,9 @@
 typedef struct Caster {
     double corners[3][3];
     double uv[3][2];
-    const DipRefTexture *clip_map; // NULL: the surface has no holes
+    float alphas[3];               // of the vertices
+    bool clipped;                  // the surface may have holes
+    const DipRefTexture *clip_map; // of a clipped surface, or NULL
     double alpha_cutoff;
 } Caster;
 
@@ -111,6 +113,7 @@ static void set_corner(const DipRefShadows *shadows, const DipObjectDef *object,
     for (int i = 0; i < 2; i++) {
         caster->uv[corner][i] = mesh->uv0 ? mesh->uv0[2 * (size_t)index + (size_t)i] : 0.0;
     }
+    caster->alphas[corner] = mesh->alphas ? mesh->alphas[index] : 1.0f;
 }
 
 static void add_casters(const DipReference *reference, DipRefShadows *shadows) {
@@ -119,13 +122,14 @@ static void add_casters(const DipReference *reference, DipRefShadows *shadows) {
         const DipObjectDef *object = &def->objects[o];
         const DipMeshDef *mesh = &def->meshes[object->mesh];
         const DipMaterialDef *material = material_of(def, object);
-        const bool clipped = material->surface == DIP_SURFACE_CLIPPED && mesh->uv0 &&
-                             material->colour_texture != DIP_NO_TEXTURE;
+        const bool clipped = material->surface == DIP_SURFACE_CLIPPED;
+        const bool mapped = clipped && mesh->uv0 && material->colour_texture != DIP_NO_TEXTURE;
         for (uint32_t i = 0; casts(material) && i < mesh->index_count; i += 3) {
             Caster *caster = &shadows->casters[shadows->count++];
-            *caster = (Caster){.clip_map =
-                                   clipped ? &reference->textures[material->colour_texture] : NULL,
-                               .alpha_cutoff = material->alpha_cutoff};
+            *caster =
+                (Caster){.clipped = mapped || (clipped && mesh->alphas),
+                         .clip_map = mapped ? &reference->textures[material->colour_texture] : NULL,
+                         .alpha_cutoff = material->alpha_cutoff};
             for (int k = 0; k < 3; k++) {
                 set_corner(shadows, object, mesh, mesh->indices[i + (uint32_t)k], k, caster);
             }
@@ -293,11 +297,12 @@ static bool meets(const DipRefShadows *shadows, const Caster *caster, const doub
     if (!inside || area == 0.0) {
         return false;
     }
-    double at = 0.0, uv[2] = {0.0, 0.0};
+    double at = 0.0, alpha = 0.0, uv[2] = {0.0, 0.0};
     for (int i = 0; i < 3; i++) {
         at += weights[i] * p[i][2] / area;
         uv[0] += weights[i] * caster->uv[i][0] / area;
         uv[1] += weights[i] * caster->uv[i][1] / area;
+        alpha += weights[i] * (double)caster->alphas[i] / area;
     }
     if (!(at > place[2] + shadows->least_m)) {
         return false;
@@ -306,7 +311,7 @@ static bool meets(const DipRefShadows *shadows, const Caster *caster, const doub
     if (caster->clip_map) {
         dip_reference_sample_finest(caster->clip_map, uv, rgba);
     }
-    return !caster->clip_map || rgba[3] >= caster->alpha_cutoff;
+    return !caster->clipped || rgba[3] * alpha >= caster->alpha_cutoff;
 }
 
 double dip_reference_sunlit(const DipRefLit *lit, const double place[3]) {

@@ -26,6 +26,8 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(fragments_emitting, "fragments of such surfaces that send out light")                        \
     X(fragments_coated, "fragments of such surfaces with a clear coat")                            \
     X(fragments_surrounded, "fragments of such surfaces that see an environment")                  \
+    X(fragments_sheen, "fragments of such surfaces with a sheen")                                  \
+    X(fragments_transmitting, "fragments of such surfaces that let light through")                 \
     X(fragments_blended, "fragments of blended surfaces")                                          \
     X(fragments_shadowed, "fragments that read the shadow map")                                    \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
@@ -71,6 +73,8 @@ typedef struct DipCounters {
     X(occlusion, "occlusion maps")                                                                 \
     X(emission, "emission")                                                                        \
     X(coat, "clear coats")                                                                         \
+    X(sheen, "sheens")                                                                             \
+    X(transmission, "transmission")                                                                \
     X(environment, "environment")                                                                  \
     X(blend, "blending")                                                                           \
     X(sky, "clouds")                                                                               \

@@ -39,10 +39,14 @@ static void add_pbr_surface(const DipSceneDef *def, int index, DipScene *scene) 
     *surface = dip_pbr_surface(def, &def->meshes[index], &scene->pbr->tables, mesh->uv_varyings[0],
                                mesh->uv_varyings[1]);
     surface->environment = scene->pbr->environment;
+    dip_pbr_add_sheen(def->materials[def->meshes[index].material].pbr,
+                      scene->pbr->sheens ? &scene->pbr->sheens[index] : NULL, surface);
     mesh->full_layout.pbr = surface;
     scene->has_occlusion |= surface->occlusion_varying != DIP_ABSENT;
     scene->has_emission |= surface->emits;
     scene->has_coat |= surface->coat > 0.0f;
+    scene->has_sheen |= surface->sheen != NULL;
+    scene->has_transmission |= surface->transmission > 0.0f;
 }
 
 static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipError *err) {
@@ -228,9 +232,12 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
         const DipSceneMaterial *material = &scene->materials[scene->meshes[object->mesh].material];
         scene->has_caster |=
             material->casts && dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
+        const DipPbrUniforms *pbr = scene->meshes[object->mesh].full_layout.pbr;
+        const bool transmits = pbr && pbr->transmission > 0.0f;
         if (material->blended) {
             scene->blended_count++;
-            scene->blended_two_sided += material->double_sided;
+            scene->blended_added_draws +=
+                (material->double_sided ? 2 : 1) * (transmits ? 2 : 1) - 1;
         }
     }
     scene->has_water = bound_objects(scene, is_water);

@@ -23,8 +23,9 @@ extern "C" {
 // The kind of surface that a material describes. Model files name it (docs/models.md).
 typedef enum DipSurface {
     DIP_SURFACE_OPAQUE,
-    DIP_SURFACE_CLIPPED, // alpha-clipped: cut away where the texture's alpha is below alpha_cutoff
-    DIP_SURFACE_BLENDED, // drawn over what lies behind it, with the texture's alpha * opacity
+    DIP_SURFACE_CLIPPED, // alpha-clipped: cut away where the alpha of the texture and the vertices
+                         // is below alpha_cutoff
+    DIP_SURFACE_BLENDED, // drawn over what lies behind it, with this alpha * opacity
     DIP_SURFACE_WATER,   // reflects the scene, and lets `transmission` of the light from below
                          // through
     DIP_SURFACE_SKY,
@@ -53,6 +54,11 @@ typedef struct DipPbrDef {
     float normal_scale;       // multiplies x and y of the normal map's normals
     float coat;               // 0..1: strength of a clear coat with a reflected share of .04
     float coat_roughness;     // 0..1
+    float sheen_lin[3];       // 0..1: colour of the sheen of cloth; black: there is none
+    float sheen_roughness;    // 0..1
+    // 0..1, for DIP_SURFACE_BLENDED: where metallic is 0, the share of the light that would become
+    // diffuse that comes from behind instead, multiplied by the surface's own colour
+    float transmission;
 } DipPbrDef;
 
 // The colour of a surface is base colour * vertex colour * colour texture * light, in linear light,
@@ -99,6 +105,7 @@ typedef struct DipMeshDef {
     const float *uv0;         // u, v for the colour texture and the normal map
     const float *uv1;         // u, v for the light map
     const float *colours_lin; // r, g, b; multiplies the base colour
+    const float *alphas;      // 0..1; multiplies the alpha of clipped and blended surfaces
     uint32_t index_count;     // a multiple of 3
     const uint32_t *indices;
     int material; // index of the mesh's material

@@ -150,6 +150,10 @@ def colours():
     four = m.accessor([255, 51, 0, 0, 0, 0, 255, 102, 255, 0, 0, 255], "VEC4", UBYTE,
                       normalized=True)
     m.node("four", m.mesh({**base, "COLOR_0": four}, material=0))
+    m.add("materials", {"name": "blended", "alphaMode": "BLEND"})
+    m.node("mixed", m.mesh({**base, "COLOR_0": four}, material=1))
+    m.node("solid", m.mesh({**base, "COLOR_0": three}, material=1))
+    m.node("whole", m.mesh({**base, "COLOR_0": four}))
     m.save("colours")
 
 
@@ -175,6 +179,7 @@ def materials():
     put("shaded", occlusionTexture={**m.texture(one), "strength": .25})
     put("specular", **ext("specular", specularFactor=.5, specularColorFactor=[2, 1, 50]))
     put("ior", **ext("ior", ior=2))
+    put("cloth", **ext("sheen", sheenColorFactor=[.5, .25, 1], sheenRoughnessFactor=.75))
     put("coat", **ext("clearcoat", clearcoatFactor=.5, clearcoatRoughnessFactor=.125))
     put("pane", pbrMetallicRoughness={"baseColorFactor": [0, 1, 0, 1], "metallicFactor": 0},
         **ext("transmission", transmissionFactor=.5))
@@ -272,13 +277,14 @@ def lamps():
 def losses():
     """Features that Diptych does not draw, some of them only used and not listed."""
     m = Model()
-    m.json["extensionsUsed"] = ["KHR_materials_sheen", "KHR_materials_variants", "ACME_smell"]
+    m.json["extensionsUsed"] = ["KHR_materials_anisotropy", "KHR_materials_variants", "ACME_smell"]
     m.json["scenes"].append({"nodes": []})
     one = m.texture(png(1, 1, [(10, 20, 30)]))
     coat = {"clearcoatFactor": 1, "clearcoatTexture": one}
     for name in ("first", "second"):
         m.node(name, m.triangle(material=m.add("materials", {"name": name, "extensions": {
-            "KHR_materials_iridescence": {}, "KHR_materials_clearcoat": coat}})))
+            "KHR_materials_iridescence": {}, "KHR_materials_clearcoat": coat,
+            "KHR_materials_sheen": {"sheenColorTexture": one}}})))
     primitive = m.json["meshes"][0]["primitives"][0]
     primitive["attributes"]["JOINTS_1"] = m.accessor([0] * 12, "VEC4", UBYTE)
     m.save("losses")

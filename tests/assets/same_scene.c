@@ -45,6 +45,9 @@ static void assert_same_pbr(const DipPbrDef *one, const DipPbrDef *other) {
     assert_memory_equal(&one->normal_scale, &other->normal_scale, sizeof(float));
     assert_memory_equal(&one->coat, &other->coat, sizeof(float));
     assert_memory_equal(&one->coat_roughness, &other->coat_roughness, sizeof(float));
+    assert_memory_equal(one->sheen_lin, other->sheen_lin, sizeof one->sheen_lin);
+    assert_memory_equal(&one->sheen_roughness, &other->sheen_roughness, sizeof(float));
+    assert_memory_equal(&one->transmission, &other->transmission, sizeof(float));
 }
 
 static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef *other) {
@@ -77,6 +80,7 @@ static void assert_same_mesh(const DipMeshDef *one, const DipMeshDef *other) {
     assert_same_array(one->uv0, other->uv0, 2 * row);
     assert_same_array(one->uv1, other->uv1, 2 * row);
     assert_same_array(one->colours_lin, other->colours_lin, 3 * row);
+    assert_same_array(one->alphas, other->alphas, row);
     assert_same_array(one->indices, other->indices, one->index_count * sizeof *one->indices);
 }
 
@@ -163,6 +167,11 @@ static void check_pbr(const DipPbrDef *pbr, int texture_count) {
     assert_in_unit(pbr->occlusion_strength);
     assert_in_unit(pbr->coat);
     assert_in_unit(pbr->coat_roughness);
+    for (int i = 0; i < 3; ++i) {
+        assert_in_unit(pbr->sheen_lin[i]);
+    }
+    assert_in_unit(pbr->sheen_roughness);
+    assert_in_unit(pbr->transmission);
     assert_true(isfinite(pbr->normal_scale));
 }
 
@@ -234,9 +243,11 @@ static uint64_t sum_mesh(const DipMeshDef *mesh) {
     assert_finite(mesh->uv0, 2 * (size_t)mesh->vertex_count);
     assert_finite(mesh->uv1, 2 * (size_t)mesh->vertex_count);
     assert_finite(mesh->colours_lin, 3 * (size_t)mesh->vertex_count);
+    assert_finite(mesh->alphas, mesh->vertex_count);
     return strlen(mesh->name) + sum_bytes(mesh->positions, 3 * row) +
            sum_bytes(mesh->normals, 3 * row) + sum_bytes(mesh->uv0, 2 * row) +
-           sum_bytes(mesh->uv1, 2 * row) + sum_bytes(mesh->colours_lin, 3 * row);
+           sum_bytes(mesh->uv1, 2 * row) + sum_bytes(mesh->colours_lin, 3 * row) +
+           sum_bytes(mesh->alphas, row);
 }
 
 uint64_t read_whole_scene(const DipSceneDef *scene) {

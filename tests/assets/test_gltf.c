@@ -132,10 +132,34 @@ static void vertex_colours_are_linear_and_clamped(void **state) {
     const DipMeshDef *four = mesh_of(def, "four");
     assert_near_3(corner(four, four->colours_lin, 0, 3), 1.0, 0.2, 0.0);
     assert_near_3(corner(four, four->colours_lin, 1, 3), 0.0, 0.0, 1.0);
-    assert_int_equal(warnings.count, 1);
-    assert_string_equal(warnings.items[0].message, "the alpha of vertex colours is not drawn");
-    assert_string_equal(warnings.items[0].key, "cut");
+    assert_int_equal(warnings.count, 0);
     dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
+// The alpha of vertex colours is kept where it changes the surface: "whole" is opaque.
+static void vertex_alphas_belong_to_surfaces_that_clip_or_blend(void **state) {
+    (void)state;
+    static const double expected[3] = {0.0, 0.4, 1.0};
+    DipModel *model = load("colours.gltf", NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    const char *const names[] = {"four", "mixed"};
+    for (int i = 0; i < 2; i++) {
+        const DipMeshDef *mesh = mesh_of(def, names[i]);
+        assert_int_equal(def->materials[mesh->material].surface,
+                         i ? DIP_SURFACE_BLENDED : DIP_SURFACE_CLIPPED);
+        for (uint32_t k = 0; k < 3; k++) {
+            assert_near((double)*corner(mesh, mesh->alphas, k, 1), expected[k]);
+        }
+    }
+    assert_null(mesh_of(def, "three")->alphas);
+    const DipMeshDef *whole = mesh_of(def, "whole");
+    assert_null(whole->alphas);
+    assert_int_equal(def->materials[whole->material].surface, DIP_SURFACE_OPAQUE);
+    // A part without alpha does not blend, although its material is that of "mixed".
+    const DipMeshDef *solid = mesh_of(def, "solid");
+    assert_null(solid->alphas);
+    assert_int_equal(def->materials[solid->material].surface, DIP_SURFACE_OPAQUE);
     dip_model_destroy(&model);
 }
 
@@ -233,6 +257,9 @@ static void materials_have_their_factors(void **state) {
     assert_near_3(material_of(def, "glow")->pbr->emission_lin, 4.0, 2.0, 0.0);
     assert_near((double)material_of(def, "rough normals")->pbr->normal_scale, 0.5);
     assert_near((double)material_of(def, "shaded")->pbr->occlusion_strength, 0.25);
+    assert_near_3(material_of(def, "cloth")->pbr->sheen_lin, 0.5, 0.25, 1.0);
+    assert_near((double)material_of(def, "cloth")->pbr->sheen_roughness, 0.75);
+    assert_near_3(none->pbr->sheen_lin, 0.0, 0.0, 0.0);
     assert_near((double)material_of(def, "coat")->pbr->coat, 0.5);
     assert_near((double)material_of(def, "coat")->pbr->coat_roughness, 0.125);
     assert_false(material_of(def, "unlit")->lit);
@@ -289,7 +316,6 @@ static void materials_have_their_pictures(void **state) {
     dip_model_destroy(&model);
 }
 
-// A pane that transmits half of the light tints it green, whose luminance is 0.7152.
 static void transparent_surfaces_are_blended(void **state) {
     (void)state;
     DipErrorList warnings = {0};
@@ -301,7 +327,7 @@ static void transparent_surfaces_are_blended(void **state) {
         double opacity;
     } expected[] = {
         {"none", DIP_SURFACE_OPAQUE, 1.0},
-        {"pane", DIP_SURFACE_BLENDED, 1.0 - 0.5 * 0.7152},
+        {"pane", DIP_SURFACE_BLENDED, 1.0},
         {"blend", DIP_SURFACE_BLENDED, 0.5},
         {"blend picture", DIP_SURFACE_BLENDED, 1.0},
         {"blend opaque", DIP_SURFACE_OPAQUE, 1.0},
@@ -312,6 +338,8 @@ static void transparent_surfaces_are_blended(void **state) {
         assert_near((double)material->opacity, expected[i].opacity);
     }
     assert_true(material_of(def, "blend")->double_sided);
+    assert_near((double)material_of(def, "pane")->pbr->transmission, 0.5);
+    assert_near((double)material_of(def, "blend")->pbr->transmission, 0.0);
     assert_int_equal(warnings.count, 1);
     assert_non_null(strstr(warnings.items[0].message, "KHR_materials_transmission is drawn as"));
     dip_error_list_free(&warnings);
@@ -348,11 +376,12 @@ static void textures_have_coordinates_of_their_own(void **state) {
 static void features_that_are_not_drawn_are_named_once(void **state) {
     (void)state;
     static const char *const expected[] = {
-        "the effect of the glTF extension KHR_materials_sheen is not drawn",
+        "the effect of the glTF extension KHR_materials_anisotropy is not drawn",
         "the glTF extension KHR_materials_variants is not drawn",
         "the effect of the glTF extension ACME_smell is not drawn",
         "the effect of the glTF extension KHR_materials_iridescence is not drawn",
         "the picture clearcoatTexture is not drawn",
+        "the picture sheenColorTexture is not drawn",
         "a vertex follows its first four joints only",
         "the file has 2 scenes",
     };
@@ -640,6 +669,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(sparse_accessors_list_what_differs),
         cmocka_unit_test(quantized_numbers_keep_their_meaning),
         cmocka_unit_test(vertex_colours_are_linear_and_clamped),
+        cmocka_unit_test(vertex_alphas_belong_to_surfaces_that_clip_or_blend),
         cmocka_unit_test(instances_become_objects_of_one_mesh),
         cmocka_unit_test(skins_and_morph_targets_have_their_shape_at_rest),
         cmocka_unit_test(every_node_with_a_light_is_a_light),

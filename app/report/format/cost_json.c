@@ -51,10 +51,11 @@ static void forget_no_interval(cJSON *object) {
 // those versions did not do, such as blending, filters and shadows.
 static void add_counters(cJSON *counters) {
     static const char *const later[] = {
-        "fragments_pbr",      "fragments_occluded", "fragments_emitting",  "fragments_coated",
-        "fragments_blended",  "fragments_copied",   "pixels_filtered",     "edges_found",
-        "vertices_posed",     "fragments_shadowed", "shadow_texels",       "shadow_bytes",
-        "pixels_reprojected", "history_bytes",      "fragments_surrounded"};
+        "fragments_pbr",         "fragments_occluded", "fragments_emitting",   "fragments_coated",
+        "fragments_blended",     "fragments_copied",   "pixels_filtered",      "edges_found",
+        "vertices_posed",        "fragments_shadowed", "shadow_texels",        "shadow_bytes",
+        "pixels_reprojected",    "history_bytes",      "fragments_surrounded", "fragments_sheen",
+        "fragments_transmitting"};
     for (size_t i = 0; i < sizeof later / sizeof *later && cJSON_IsObject(counters); i++) {
         add_missing(counters, later[i], add_zero);
     }

@@ -6,6 +6,7 @@
 
 #include "renderer/pipeline/shader.h"
 #include "renderer/pipeline/texture/texture_layout.h"
+#include "renderer/simd/powers.h"
 #include "renderer/simd/vec.h"
 
 // Bounds of derivatives and lengths, in texels per pixel. MAX_DERIVATIVE exceeds the size of every
@@ -18,19 +19,6 @@ typedef struct Jacobian {
     Vf ux, vx; // dX: change along the screen's x
     Vf uy, vy; // dY: change along the screen's y
 } Jacobian;
-
-// Returns log2 of positive normal numbers. The result is exact at powers of two, and the function
-// is monotone; its error is below 1.4e-5. On [1, 2), the function computes log2(1 + t) = t (1 + (1
-// - t) r(t)), where the polynomial r interpolates at Chebyshev points.
-VEC_INLINE Vf log2_of(Vf x) {
-    const Vi bits = vi_bits(x);
-    const Vf exponent = vf_from_int((bits >> 23) - 127);
-    const Vf t = vf_bits((bits & 0x7fffff) | 0x3f800000) - 1.0f;
-    const Vf t2 = t * t; // for Estrin's scheme, which has a short dependency chain
-    const Vf r = (0.442654073f - 0.276569515f * t) +
-                 t2 * ((0.184100822f - 0.0972018316f * t) + 0.0256912634f * t2);
-    return exponent + t * (1.0f + (1.0f - t) * r);
-}
 
 // Clamps to +-MAX_DERIVATIVE. NaN becomes MAX_DERIVATIVE, which selects the smallest mip level.
 VEC_INLINE Vf bounded(Vf v) {

@@ -41,7 +41,8 @@ enum {
     DIP_REF_V0,
     DIP_REF_U1,
     DIP_REF_V1,
-    DIP_REF_X, // position relative to the eye, along the world's axes, in metres
+    DIP_REF_ALPHA, // of the vertices
+    DIP_REF_X,     // position relative to the eye, along the world's axes, in metres
     DIP_REF_Y,
     DIP_REF_Z,
     DIP_REF_NORMAL_X, // normal, of length 1 at the vertices
@@ -59,7 +60,7 @@ enum {
     DIP_REF_VARYINGS
 };
 
-enum { DIP_REF_DERIVED = 7 }; // number of varyings with derivatives: the first ones
+enum { DIP_REF_DERIVED = 8 }; // number of varyings with derivatives: the first ones
 
 typedef struct DipRefVertex {
     double x; // on the screen, to the right, in 1/256 pixel
@@ -102,7 +103,7 @@ typedef struct DipRefTriangle {
     int64_t time_ns;      // time of the clouds
     uint64_t patch; // number of a patch, which is shaded as one surface; unique among all objects
     bool mirrored;  // true if the object's transform mirrors, which reverses the winding
-    bool clipped;   // true if the alpha of `colour` clips the surface
+    bool clipped;   // true if the alpha of `colour` or of the vertices clips the surface
     bool blended;   // true if the surface is drawn over what lies behind it
     bool water;
     int min_x, max_x; // pixels of the frame that the triangle may touch, inclusive
@@ -164,6 +165,17 @@ double dip_reference_alpha_slope(const DipRefPosition *place, const DipRefFilter
 // Returns the share of what lies behind that a surface covers; 1 unless it is blended. filter: as
 // above.
 double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *filter);
+
+// A surface as it is drawn over what lies behind it: its colour, the share of the pixel that it
+// covers, and the shares of the three channels of what lies behind that are seen.
+enum { DIP_REF_LAYER = 7 };
+
+// Finds what is seen of what lies behind a surface whose colour and covered share are known.
+void dip_reference_see_through(const DipRefPosition *place, const DipRefFilter *filter,
+                               double layer[DIP_REF_LAYER]);
+
+// Draws a surface over a colour.
+void dip_reference_blend(const double layer[DIP_REF_LAYER], double rgb[3]);
 
 // Shades a triangle at a position; the result is linear light, 0..1. filter is the colour texture's
 // filter. If filter is NULL, all textures are read bilinearly from level 0.
@@ -256,6 +268,12 @@ void dip_reference_environment_soften(const DipRefEnvironment *environment, cons
 void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
                              const DipRefVaryings *varyings, const double texel[3], double rgb[3]);
 
+// pbr.c: finds the shares of the three channels of what lies behind that a transmitting surface,
+// whose own colour is base, lets through.
+void dip_reference_transmit_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                                const DipRefVaryings *varyings, const double texel[3],
+                                const double base[3], double through[3]);
+
 // sky.c: shades a sky surface. If filter is NULL, the texture is read bilinearly from level 0.
 void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,
                              const DipRefVaryings *varyings, double rgb[3]);
@@ -289,8 +307,8 @@ typedef struct DipRefPeel {
 DipRefPeel dip_reference_peel_begin(const double rgb[3], double depth);
 // Offers a triangle that covers the sample. Surfaces of equal depth keep their submission order.
 void dip_reference_peel_offer(DipRefPeel *peel, double depth, int32_t triangle);
-// Draws the farthest of the offered surfaces, with its colour and the share that it covers.
-void dip_reference_peel_blend(DipRefPeel *peel, const double rgba[4]);
+// Draws the farthest of the offered surfaces.
+void dip_reference_peel_blend(DipRefPeel *peel, const double layer[DIP_REF_LAYER]);
 
 // enlarge.c: enlarges the picture of a scale below 1. Its colours, in linear light, are rounded to
 // codes first. upscale: the step of the setting. Fails with MEMORY.

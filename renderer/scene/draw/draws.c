@@ -9,7 +9,7 @@
 #include <string.h>
 
 bool dip_draw_set_make(DipDrawSet *set, const DipScene *scene, bool reflects, DipError *err) {
-    const size_t room = (size_t)scene->object_count + (size_t)scene->blended_two_sided + 1;
+    const size_t room = (size_t)scene->object_count + (size_t)scene->blended_added_draws + 1;
     const size_t blended = (size_t)scene->blended_count;
     set->draws = calloc(room, sizeof *set->draws);
     set->uniforms = calloc(room, sizeof *set->uniforms);
@@ -178,9 +178,13 @@ static void set_lights(const DipDrawInput *input, const DipSceneObject *object,
 static void set_pbr(const DipMaterialKernels *kernels, const DipSceneMesh *mesh,
                     DipSurfaceUniforms *uniforms, DipDraw *draw) {
     draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
-    draw->fragment_shader = uniforms->pbr->environment
-                                ? kernels->dip_kernel_pbr_environment_fragment
-                                : kernels->dip_kernel_pbr_fragment;
+    if (uniforms->pbr->sheen || uniforms->pbr->transmission > 0.0f) {
+        draw->fragment_shader = kernels->dip_kernel_pbr_layered_fragment;
+    } else {
+        draw->fragment_shader = uniforms->pbr->environment
+                                    ? kernels->dip_kernel_pbr_environment_fragment
+                                    : kernels->dip_kernel_pbr_fragment;
+    }
     draw->varying_count = mesh->full_varying_count;
     // The plane of a triangle follows from the derivatives of the depth.
     const bool needs_plane = mesh->normal_mapped || uniforms->pbr->two_sided;
@@ -281,8 +285,8 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
             uniforms->base_colour_lin[c] = 1.0f;
         }
     }
-    const bool clipped =
-        material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_varying != DIP_ABSENT;
+    const int alpha_varyings = dip_surface_alpha_varyings(uniforms);
+    const bool clipped = material->surface == DIP_SURFACE_CLIPPED && alpha_varyings > 0;
     *draw = (DipDraw){
         .mesh =
             input->unshared ? dip_unshared_mesh(input->unshared, input->scene, index) : mesh->mesh,
@@ -293,7 +297,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
         .value_only_varying_count = mesh->layout.light_varying == DIP_ABSENT
                                         ? 0
                                         : mesh->varying_count - mesh->layout.light_varying,
-        .clip_varying_count = clipped ? uniforms->colour_varying + 2 : 0,
+        .clip_varying_count = clipped ? alpha_varyings : 0,
         .repeating_varyings = mesh->repeating_varyings,
         .uniforms = uniforms,
         .samplers = input->samplers[mesh->material],
@@ -317,30 +321,53 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     }
 }
 
+// The alpha of the target stays 1.
+static const DipDrawState draws_over = {
+    .blend = DIP_BLEND_MODE_ALPHA, .kept_channels = DIP_CHANNEL_ALPHA, .keep_depth = true};
+static const DipDrawState multiplies = {
+    .blend = DIP_BLEND_MODE_MULTIPLICATIVE, .kept_channels = DIP_CHANNEL_ALPHA, .keep_depth = true};
+static const DipDrawState adds = {
+    .blend = DIP_BLEND_MODE_ADDITIVE, .kept_channels = DIP_CHANNEL_ALPHA, .keep_depth = true};
+
+// Turns the draw that was added last into two: the first multiplies what lies behind by the share
+// that the surface lets through, and the second adds the surface's own light.
+static void transmit_last(const DipMaterialKernels *kernels, DipDrawSet *set) {
+    DipDraw *draw = &set->draws[set->count - 1];
+    draw[1] = draw[0];
+    draw[0].fragment_shader = kernels->dip_kernel_transmittance_fragment;
+    draw[0].state = &multiplies;
+    draw[1].state = &adds;
+    set->count++;
+}
+
 // Blends the draw that was added last. The shader of reflecting water computes the alpha itself. A
-// double-sided surface becomes two draws: first its back faces, then its front faces.
+// double-sided surface is drawn twice: first its back faces, then its front faces.
 static void blend_last(const DipDrawInput *input, const DipDrawView *pass, int object,
                        DipDrawSet *set) {
-    // The alpha of the target stays 1.
-    static const DipDrawState over = {
-        .blend = DIP_BLEND_MODE_ALPHA, .kept_channels = DIP_CHANNEL_ALPHA, .keep_depth = true};
     const DipScene *scene = input->scene;
     const DipSceneObject *shown = &scene->objects[object];
     const DipSceneMaterial *material = &scene->materials[scene->meshes[shown->mesh].material];
-    DipDraw *draw = &set->draws[set->count - 1];
-    DipSurfaceUniforms *uniforms = &set->uniforms[set->count - 1];
+    const int first = set->count - 1;
+    DipDraw *draw = &set->draws[first];
+    DipSurfaceUniforms *uniforms = &set->uniforms[first];
     if (draw->fragment_shader != input->kernels->dip_kernel_water_fragment) {
         uniforms->colour_shader = draw->fragment_shader;
         draw->fragment_shader = input->kernels->dip_kernel_blended_fragment;
     }
-    draw->state = &over;
+    draw->state = &draws_over;
     draw->own_shading = false; // the pixels of blended surfaces are never copied
+    if (uniforms->pbr && uniforms->pbr->transmission > 0.0f) {
+        transmit_last(input->kernels, set);
+    }
     if (material->double_sided) {
         const bool reversed = shown->mirrors != pass->mirrored;
-        draw->cull = reversed ? DIP_CULL_BACK : DIP_CULL_FRONT;
-        draw[1] = *draw;
-        draw[1].cull = reversed ? DIP_CULL_FRONT : DIP_CULL_BACK;
-        set->count++;
+        const int count = set->count - first;
+        for (int i = 0; i < count; i++) {
+            draw[i].cull = reversed ? DIP_CULL_BACK : DIP_CULL_FRONT;
+            draw[count + i] = draw[i];
+            draw[count + i].cull = reversed ? DIP_CULL_FRONT : DIP_CULL_BACK;
+        }
+        set->count += count;
     }
 }
 

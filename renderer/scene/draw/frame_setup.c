@@ -449,6 +449,8 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
         .fragments_emitting = passes->shader_counts[DIP_SHADER_COUNT_EMITTING],
         .fragments_coated = passes->shader_counts[DIP_SHADER_COUNT_COATED],
         .fragments_surrounded = passes->shader_counts[DIP_SHADER_COUNT_SURROUNDED],
+        .fragments_sheen = passes->shader_counts[DIP_SHADER_COUNT_SHEEN],
+        .fragments_transmitting = passes->shader_counts[DIP_SHADER_COUNT_TRANSMITTING],
         .fragments_shadowed = passes->shader_counts[DIP_SHADER_COUNT_SHADOWED],
         .fragments_blended = passes->fragments_ordered, // all ordered draws of a scene blend
         .fragments_sky = passes->shader_counts[DIP_SHADER_COUNT_SKY],

@@ -92,9 +92,10 @@ static void add_caster(DipShadows *shadows, const DipScene *scene,
     *uniforms = mesh->layout;
     round_matrix(exact->to_clip, uniforms->to_clip);
     memcpy(uniforms->origin, exact->origin, sizeof uniforms->origin);
-    const bool clipped = scene->materials[mesh->material].surface == DIP_SURFACE_CLIPPED &&
-                         uniforms->colour_varying != DIP_ABSENT;
-    const int varyings = clipped ? uniforms->colour_varying + 2 : 0;
+    const int alpha_varyings = dip_surface_alpha_varyings(uniforms);
+    const bool clipped =
+        scene->materials[mesh->material].surface == DIP_SURFACE_CLIPPED && alpha_varyings > 0;
+    const int varyings = clipped ? alpha_varyings : 0;
     uniforms->copied_varying_count = varyings;
     uniforms->light_varying = DIP_ABSENT;
     set->draws[set->count++] = (DipDraw){

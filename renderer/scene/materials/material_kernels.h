@@ -21,7 +21,11 @@
     X(void, dip_kernel_pbr_fragment, (DipFragmentBatch * batch))                                   \
     /* The same for surfaces that see an environment. */                                           \
     X(void, dip_kernel_pbr_environment_fragment, (DipFragmentBatch * batch))                       \
+    /* For surfaces with a sheen or transmission, whether they see an environment or not. */       \
+    X(void, dip_kernel_pbr_layered_fragment, (DipFragmentBatch * batch))                           \
     X(void, dip_kernel_blended_fragment, (DipFragmentBatch * batch))                               \
+    /* The share of what lies behind that a transmitting surface lets through. */                  \
+    X(void, dip_kernel_transmittance_fragment, (DipFragmentBatch * batch))                         \
     X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))                                   \
     X(void, dip_kernel_water_fragment, (DipFragmentBatch * batch))
 

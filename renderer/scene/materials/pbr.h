@@ -34,6 +34,19 @@ void dip_pbr_samples_make(DipPbrSample samples[DIP_PBR_SAMPLES]);
 // Computes the tables with + - * / and sqrt alone, so that they are the same on every machine.
 void dip_pbr_tables_make(DipPbrTables *tables);
 
+// The sheen of cloth. All but its colour follows from its roughness.
+typedef struct DipSheen {
+    float lin[3];
+    float greatest;     // the greatest of them
+    float exponent;     // of Charlie's distribution, for the squared sine
+    float scale;        // of the distribution
+    float albedo_slope; // log2 of the albedo is cosine * slope + shift
+    float albedo_shift;
+} DipSheen;
+
+// Describes a sheen. roughness: 0..1.
+DipSheen dip_sheen_make(const float lin[3], double roughness);
+
 // A metallic-roughness surface. The index of a varying is the first of two texture coordinates, or
 // DIP_ABSENT if the surface has no such map.
 typedef struct DipPbrUniforms {
@@ -56,6 +69,8 @@ typedef struct DipPbrUniforms {
     float emission_lin[3];
     float coat;
     float coat_roughness;
+    const DipSheen *sheen; // NULL: there is none
+    float transmission;    // share of what would be diffuse light that is let through
 } DipPbrUniforms;
 
 #endif

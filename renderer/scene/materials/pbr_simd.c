@@ -3,8 +3,9 @@
 #include "renderer/scene/materials/arrival_simd.h"
 #include "renderer/scene/materials/environment_simd.h"
 #include "renderer/scene/materials/facing_simd.h"
-#include "renderer/scene/materials/lobe_simd.h"
 #include "renderer/scene/materials/material_kernels.h"
+#include "renderer/scene/materials/pbr_lobe_simd.h"
+#include "renderer/scene/materials/sheen_simd.h"
 #include "renderer/scene/materials/shadow_simd.h"
 
 // Reflected share of a clear coat at normal incidence.
@@ -18,6 +19,13 @@ typedef struct Maps {
     float (*emission)[DIP_FRAGMENT_BATCH];
     const float *lit; // share of the light with shadows that arrives; NULL: there is none
 } Maps;
+
+// The textures that the shader reads for a batch.
+typedef struct Memory {
+    float texture[3][DIP_FRAGMENT_BATCH];
+    float normals[3][DIP_FRAGMENT_BATCH];
+    float maps[3][3][DIP_FRAGMENT_BATCH];
+} Memory;
 
 // A point that is shaded, relative to the eye.
 typedef struct PbrPoint {
@@ -141,11 +149,6 @@ VEC_INLINE Channel channel_of(const DipPbrUniforms *pbr, const PbrPoint *point, 
     return channel;
 }
 
-// Returns 1 / (A + B) - 1: what a white lobe loses, relative to what it keeps.
-VEC_INLINE Vf lost_light(const Lobe *lobe) {
-    return vf_splat(1.0f) / vf_max(lobe->a + lobe->b, vf_splat(1e-3f)) - 1.0f;
-}
-
 VEC_INLINE Vf surroundings(const DipLightingUniforms *lighting, int c, Vf height) {
     return vf_max(height * (1.5f * lighting->sky_lin[c]) + lighting->ambient_lin[c],
                   vf_splat(0.0f));
@@ -182,27 +185,37 @@ VEC_INLINE void gather_soft_light(const DipLightingUniforms *lighting,
     }
 }
 
-// Adds what a light gives to the surface.
+// Adds what a light gives to the surface. sheen: NULL if the surface has none.
 VEC_INLINE void add_light(const DipPbrUniforms *pbr, const Lobe *lobe, const PbrPoint *point,
                           const DipLightUniforms *light, Vf lit, const Channel channels[3], Vf f90,
-                          Vf sum[3]) {
+                          const SheenPoint *sheen, Vf sum[3]) {
     const Arrival arrival = arrive(light, point->place);
     const Vf3 colour = arriving_colour(light, arrival.share * lit);
     const LightShares shares = meet_light(lobe, point->to_eye, arrival.to_light);
     const Vf kept = (1.0f - pbr->f0_greatest) - shares.fresnel * (pbr->f90 - pbr->f0_greatest);
     const Vf diffuse = kept * shares.facing;
     const Vf arriving[3] = {colour.x, colour.y, colour.z};
+    Vf below = vf_splat(1.0f);
+    Vf scattered = vf_splat(0.0f);
+    if (sheen) {
+        const Vf met = vf_min(shares.facing, vf_splat(1.0f));
+        const Vf albedo = vf_max(sheen->albedo, sheen_albedo(sheen->sheen, met));
+        below = 1.0f - albedo * sheen->sheen->greatest;
+        scattered = sheen_of_light(sheen->sheen, lobe, point->to_eye, arrival.to_light, met);
+    }
     for (int c = 0; c < 3; c++) {
         const Vf f0 = channels[c].f0;
         const Vf highlight = (f0 + (f90 - f0) * shares.fresnel) * channels[c].gain;
-        sum[c] =
-            sum[c] + arriving[c] * (highlight * shares.highlight + channels[c].diffuse * diffuse);
+        const Vf base = highlight * shares.highlight + channels[c].diffuse * diffuse;
+        const Vf share = sheen ? base * below + scattered * sheen->sheen->lin[c] : base;
+        sum[c] = sum[c] + arriving[c] * share;
     }
 }
 
 VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms,
                               const DipEnvironmentMap *environment, const Lobe *lobe,
-                              const PbrPoint *point, Vf sum[3]) {
+                              const PbrPoint *point, bool layered, const SheenPoint *sheen,
+                              Vf sum[3]) {
     const DipPbrUniforms *pbr = uniforms->pbr;
     const DipLightingUniforms *lighting = uniforms->lighting;
     const Vf base[3] = {point->base.x, point->base.y, point->base.z};
@@ -216,13 +229,21 @@ VEC_INLINE void light_surface(const DipSurfaceUniforms *uniforms,
     Channel channels[3];
     for (int c = 0; c < 3; c++) {
         channels[c] = channel_of(pbr, point, c, base[c], lost);
+        if (layered) { // What is let through does not become diffuse light.
+            channels[c].diffuse = channels[c].diffuse * (1.0f - pbr->transmission);
+        }
         const Vf mirrored = (channels[c].f0 * lobe->a + f90 * lobe->b) * channels[c].gain;
         sum[c] = (mirrored * seen[c] + (kept * channels[c].diffuse) * soft[c]) * point->occlusion;
+        if (sheen) {
+            const Vf below = 1.0f - sheen->albedo * sheen->sheen->greatest;
+            const Vf scattered = sheen->albedo * sheen->sheen->lin[c];
+            sum[c] = sum[c] * below + scattered * soft[c] * point->occlusion;
+        }
     }
     for (int l = 0; l < lighting->count; l++) {
         if (uniforms->lights >> l & 1) {
             add_light(pbr, lobe, point, &lighting->lights[l], lit_by(uniforms, l, point->lit),
-                      channels, f90, sum);
+                      channels, f90, sheen, sum);
         }
     }
 }
@@ -283,13 +304,19 @@ VEC_INLINE PbrPoint find_point(const DipFragmentBatch *batch, int i, Sights *sig
 }
 
 VEC_INLINE void shade_fragments(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                                int i, Sights *sights, const Maps *maps, const Widths *widths) {
+                                bool layered, int i, Sights *sights, const Maps *maps,
+                                const Widths *widths) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const PbrPoint point = find_point(batch, i, sights, maps);
     const Lobe lobe = surface_lobe(pbr, i, sights, point.to_eye, maps, widths->surface);
     Vf sum[3];
-    light_surface(uniforms, environment, &lobe, &point, sum);
+    SheenPoint sheen;
+    const bool has_sheen = layered && pbr->sheen;
+    if (has_sheen) {
+        sheen = (SheenPoint){pbr->sheen, sheen_albedo(pbr->sheen, lobe.n_v)};
+    }
+    light_surface(uniforms, environment, &lobe, &point, layered, has_sheen ? &sheen : NULL, sum);
     for (int c = 0; c < 3 && pbr->emits; c++) {
         const Vf share = maps->emission ? vf_load(maps->emission[c] + i) : vf_splat(1.0f);
         sum[c] = sum[c] + share * pbr->emission_lin[c];
@@ -347,7 +374,7 @@ static bool has_maps(const Maps *maps) {
 // Shades all fragments of a batch, whose own colours and maps have been read. Surfaces without maps
 // and coat have a loop of their own, in which the compiler leaves out what the others need.
 VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
-                            const Maps *maps) {
+                            bool layered, const Maps *maps) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const Width surface = width_of_all(pbr->roughness);
@@ -357,7 +384,7 @@ VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *en
         const Maps none = {.normal = NULL};
         const Widths alone = {.surface = &surface};
         for (int i = 0; i < batch->count; i += DIP_LANES) {
-            shade_fragments(batch, environment, i, &sights, &none, &alone);
+            shade_fragments(batch, environment, layered, i, &sights, &none, &alone);
         }
         return;
     }
@@ -365,41 +392,97 @@ VEC_INLINE void shade_lobes(DipFragmentBatch *batch, const DipEnvironmentMap *en
     const Widths widths = {.surface = maps->metal_rough || maps->normal ? NULL : &surface,
                            .coat = pbr->coat > 0.0f ? &coat : NULL};
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        shade_fragments(batch, environment, i, &sights, maps, &widths);
+        shade_fragments(batch, environment, layered, i, &sights, maps, &widths);
     }
 }
 
-VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *environment) {
+// Reads the own colours and the maps of a batch.
+VEC_INLINE void begin_batch(DipFragmentBatch *batch, Memory *memory, Maps *maps) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    float texture[3][DIP_FRAGMENT_BATCH];
-    float normals[3][DIP_FRAGMENT_BATCH];
-    float memory[3][3][DIP_FRAGMENT_BATCH];
-    Maps maps = {.normal = NULL};
+    *maps = (Maps){.normal = NULL};
     if (uniforms->normal_map_varying != DIP_ABSENT) {
-        maps.normal = normals;
-        start_mapped_colour(batch, texture, normals);
+        maps->normal = memory->normals;
+        start_mapped_colour(batch, memory->texture, memory->normals);
     } else {
-        start_colour(batch, texture);
+        start_colour(batch, memory->texture);
     }
     if (uniforms->light_varying != DIP_ABSENT) {
         scale_colour(batch, batch->varying + uniforms->light_varying, 1.0f);
     }
-    read_maps(batch, memory, &maps);
+    read_maps(batch, memory->maps, maps);
+}
+
+// environment: NULL for the surroundings of the lighting. layered: the surface may have a sheen or
+// transmit light.
+VEC_INLINE void shade_batch(DipFragmentBatch *batch, const DipEnvironmentMap *environment,
+                            bool layered) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    Memory memory;
+    Maps maps;
+    begin_batch(batch, &memory, &maps);
     float lit[DIP_FRAGMENT_BATCH];
     if (uniforms->shadow) {
         read_shadow(batch, uniforms->normal_varying, lit);
         maps.lit = lit;
     }
-    shade_lobes(batch, environment, &maps);
+    shade_lobes(batch, environment, layered, &maps);
     count_parts(batch, &maps);
 }
 
 void DIP_KERNEL(dip_kernel_pbr_fragment)(DipFragmentBatch *batch) {
-    shade_batch(batch, NULL);
+    shade_batch(batch, NULL, false);
 }
 
 void DIP_KERNEL(dip_kernel_pbr_environment_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    shade_batch(batch, uniforms->pbr->environment);
+    shade_batch(batch, uniforms->pbr->environment, false);
     batch->work.counts[DIP_SHADER_COUNT_SURROUNDED] += (uint64_t)batch->count;
+}
+
+void DIP_KERNEL(dip_kernel_pbr_layered_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    const uint64_t count = (uint64_t)batch->count;
+    shade_batch(batch, pbr->environment, true);
+    batch->work.counts[DIP_SHADER_COUNT_SURROUNDED] += pbr->environment ? count : 0;
+    batch->work.counts[DIP_SHADER_COUNT_SHEEN] += pbr->sheen ? count : 0;
+}
+
+// --- transmission --------------------------------------------------------------------------------
+
+// Computes the share of what lies behind that a surface and its coat let through.
+VEC_INLINE void find_transmittance(DipFragmentBatch *batch, int i, Sights *sights, const Maps *maps,
+                                   const Width *known, const float *opacity) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    const PbrPoint point = find_point(batch, i, sights, maps);
+    const Lobe lobe = surface_lobe(pbr, i, sights, point.to_eye, maps, known);
+    const Vf base[3] = {point.base.x, point.base.y, point.base.z};
+    const Vf f90 = (1.0f - point.metallic) * pbr->f90 + point.metallic;
+    const Vf rest = 1.0f - clamp01(vf3_dot(vf3_load(sights->mesh, i), point.to_eye));
+    const Vf fresnel = (rest * rest) * (rest * rest) * rest * (1.0f - COAT_F0) + COAT_F0;
+    const Vf clear = (1.0f - point.metallic) * pbr->transmission * (1.0f - fresnel * pbr->coat);
+    const Vf covered = vf_load(opacity + i);
+    for (int c = 0; c < 3; c++) {
+        const Channel channel = channel_of(pbr, &point, c, base[c], vf_splat(0.0f));
+        const Vf kept = clamp01(1.0f - (channel.f0 * lobe.a + f90 * lobe.b));
+        vf_store(batch->colour[c] + i, (1.0f - covered) + covered * (clear * base[c] * kept));
+    }
+}
+
+void DIP_KERNEL(dip_kernel_transmittance_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    float opacity[DIP_FRAGMENT_BATCH];
+    Memory memory;
+    Maps maps;
+    begin_batch(batch, &memory, &maps);
+    read_opacity(batch, opacity);
+    Sights sights;
+    find_sights(batch, &maps, &sights);
+    const Width surface = width_of_all(uniforms->pbr->roughness);
+    const Width *known = maps.metal_rough || maps.normal ? NULL : &surface;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        find_transmittance(batch, i, &sights, &maps, known, opacity);
+    }
+    batch->work.counts[DIP_SHADER_COUNT_TRANSMITTING] += (uint64_t)batch->count;
 }

@@ -123,6 +123,21 @@ static uint32_t grazing_entry(const DipPbrSample samples[SAMPLES], double z) {
     return encode(sum / SAMPLES);
 }
 
+DipSheen dip_sheen_make(const float lin[3], double roughness) {
+    static const double log2_e = 1.44269504088896340736;
+    const double r = larger(roughness, 0.1);
+    const double exponent = 0.5 / (r * r);
+    const double slope = -1.9362 + 1.0678 * r + 0.4573 * r * r - 0.8469 / (r + 0.1);
+    const double shift = -0.6014 + 0.5538 * r - 0.4670 * r * r - 0.1255 / (r + 0.1);
+    return (DipSheen){.lin = {lin[0], lin[1], lin[2]},
+                      .greatest =
+                          (float)larger((double)lin[0], larger((double)lin[1], (double)lin[2])),
+                      .exponent = (float)exponent,
+                      .scale = (float)(1.0 + exponent),
+                      .albedo_slope = (float)(slope * log2_e),
+                      .albedo_shift = (float)(shift * log2_e)};
+}
+
 void dip_pbr_tables_make(DipPbrTables *tables) {
     DipPbrSample samples[SAMPLES];
     dip_pbr_samples_make(samples);

@@ -24,6 +24,8 @@ enum {
     DIP_SHADER_COUNT_COATED,
     DIP_SHADER_COUNT_SURROUNDED, // by an environment
     DIP_SHADER_COUNT_SHADOWED,   // fragments that read the shadow map
+    DIP_SHADER_COUNT_SHEEN,
+    DIP_SHADER_COUNT_TRANSMITTING,
 };
 
 enum {
@@ -108,10 +110,11 @@ typedef struct DipSkyUniforms {
     float tint_lin[3];
 } DipSkyUniforms;
 
-// A vertex has these attributes, in this order: the position; the texture coordinates, which are
-// copied to the first varyings in the same order; the normal, if the surface is lit or
-// normal-mapped; and the vertex colour, if the mesh has one. The light varying is the light of the
-// vertex times its colour; on a surface whose fragments are lit it is the vertex colour alone.
+// A vertex has these attributes, in this order: the position; the texture coordinates and the
+// alpha, which are copied to the first varyings in the same order; the normal, if the surface is
+// lit or normal-mapped; and the vertex colour, if the mesh has one. The light varying is the light
+// of the vertex times its colour; on a surface whose fragments are lit it is the vertex colour
+// alone.
 typedef struct DipSurfaceUniforms {
     float origin[3];          // subtracted from a vertex's position, see dip_view_object_origin
     float to_clip[16];        // row-major; takes the difference to clip space
@@ -124,6 +127,7 @@ typedef struct DipSurfaceUniforms {
     int light_varying;     // three varyings; DIP_ABSENT: the light is 1
     int colour_varying;    // two varyings: coordinates of the colour texture
     int light_map_varying; // two varyings: coordinates of the light map
+    int alpha_varying;     // index of one varying, the alpha of the vertices; DIP_ABSENT: 1
     float base_colour_lin[3];
     float light_map_scale;
     float alpha_cutoff;
@@ -155,8 +159,15 @@ typedef struct DipSurfaceUniforms {
     const DipPbrUniforms *pbr;
     // The next three are set for blended surfaces.
     float opacity;
-    bool has_alpha;                   // the alpha of the colour texture multiplies the opacity
+    bool has_alpha; // the alpha of the colour texture and the vertices multiplies the opacity
     DipFragmentShader *colour_shader; // computes the colour
 } DipSurfaceUniforms;
+
+// Returns how many of the first varyings the alpha of a clipped surface needs; 0: it has none.
+static inline int dip_surface_alpha_varyings(const DipSurfaceUniforms *uniforms) {
+    const int of_texture =
+        uniforms->colour_varying == DIP_ABSENT ? 0 : uniforms->colour_varying + 2;
+    return uniforms->alpha_varying == DIP_ABSENT ? of_texture : uniforms->alpha_varying + 1;
+}
 
 #endif

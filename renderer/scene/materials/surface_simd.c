@@ -46,8 +46,7 @@ void DIP_KERNEL(dip_kernel_surface_fragment)(DipFragmentBatch *batch) {
 void DIP_KERNEL(dip_kernel_surface_clip)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float alpha[DIP_FRAGMENT_BATCH];
-    batch->sample_alpha(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
-                        uniforms->colour_varying, alpha);
+    read_alpha(batch, alpha);
     for (int i = 0; i < batch->count; i++) {
         batch->keep[i] = alpha[i] >= uniforms->alpha_cutoff;
     }
@@ -70,13 +69,39 @@ VEC_INLINE Vi alpha_to_coverage(Vf alpha, Vf slope, float cutoff, int sample_cou
     return covered;
 }
 
+// Reads the alpha of the texture and the vertices, and bounds how fast it changes: the changes of
+// both factors are added.
+VEC_INLINE void read_alpha_slope(DipFragmentBatch *batch, float *alpha, float *slope) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const int varying = uniforms->alpha_varying;
+    if (uniforms->colour_varying != DIP_ABSENT) {
+        batch->sample_alpha_slope(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                                  uniforms->colour_varying, alpha, slope);
+    }
+    if (varying == DIP_ABSENT) {
+        return;
+    }
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const Vf own = vertex_alpha(batch, i);
+        const Vf change = vf_abs(vf_load(batch->varying_dx[varying] + i)) +
+                          vf_abs(vf_load(batch->varying_dy[varying] + i));
+        if (uniforms->colour_varying == DIP_ABSENT) {
+            vf_store(alpha + i, own);
+            vf_store(slope + i, change);
+        } else {
+            const Vf texture = vf_load(alpha + i);
+            vf_store(alpha + i, texture * own);
+            vf_store(slope + i, vf_load(slope + i) * own + texture * change);
+        }
+    }
+}
+
 void DIP_KERNEL(dip_kernel_surface_cover)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float alpha[DIP_FRAGMENT_BATCH];
     float slope[DIP_FRAGMENT_BATCH];
     int32_t covered[DIP_FRAGMENT_BATCH];
-    batch->sample_alpha_slope(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
-                              uniforms->colour_varying, alpha, slope);
+    read_alpha_slope(batch, alpha, slope);
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         vi_store(covered + i, alpha_to_coverage(vf_load(alpha + i), vf_load(slope + i),
                                                 uniforms->alpha_cutoff, uniforms->sample_count));
@@ -91,15 +116,5 @@ void DIP_KERNEL(dip_kernel_surface_cover)(DipFragmentBatch *batch) {
 void DIP_KERNEL(dip_kernel_blended_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     uniforms->colour_shader(batch);
-    if (uniforms->colour_varying != DIP_ABSENT && uniforms->has_alpha) {
-        batch->sample_alpha(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
-                            uniforms->colour_varying, batch->alpha);
-        for (int i = 0; i < batch->count; i += DIP_LANES) {
-            vf_store(batch->alpha + i, vf_load(batch->alpha + i) * uniforms->opacity);
-        }
-        return;
-    }
-    for (int i = 0; i < batch->count; i += DIP_LANES) {
-        vf_store(batch->alpha + i, vf_splat(uniforms->opacity));
-    }
+    read_opacity(batch, batch->alpha);
 }

@@ -123,4 +123,45 @@ VEC_INLINE void start_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGM
     }
 }
 
+// Returns the alpha of the vertices, which rounding may have carried out of 0..1.
+VEC_INLINE Vf vertex_alpha(const DipFragmentBatch *batch, int i) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    return clamp01(vf_load(batch->varying[uniforms->alpha_varying] + i));
+}
+
+// Reads the alpha of the texture and the vertices.
+VEC_INLINE void read_alpha(DipFragmentBatch *batch, float *alpha) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    if (uniforms->colour_varying != DIP_ABSENT) {
+        batch->sample_alpha(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                            uniforms->colour_varying, alpha);
+    }
+    if (uniforms->alpha_varying == DIP_ABSENT) {
+        return;
+    }
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const Vf of_vertices = vertex_alpha(batch, i);
+        vf_store(alpha + i, uniforms->colour_varying == DIP_ABSENT
+                                ? of_vertices
+                                : vf_load(alpha + i) * of_vertices);
+    }
+}
+
+// Computes the share of what lies behind that a blended surface covers.
+VEC_INLINE void read_opacity(DipFragmentBatch *batch, float *opacity) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const bool varies =
+        uniforms->colour_varying != DIP_ABSENT || uniforms->alpha_varying != DIP_ABSENT;
+    if (varies && uniforms->has_alpha) {
+        read_alpha(batch, opacity);
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
+            vf_store(opacity + i, vf_load(opacity + i) * uniforms->opacity);
+        }
+        return;
+    }
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        vf_store(opacity + i, vf_splat(uniforms->opacity));
+    }
+}
+
 #endif

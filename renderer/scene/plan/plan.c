@@ -68,6 +68,16 @@ static bool is_coated(const DipScene *scene, int object) {
     return pbr && pbr->coat > 0.0f;
 }
 
+static bool has_sheen(const DipScene *scene, int object) {
+    const DipPbrUniforms *pbr = mesh_of(scene, object)->full_layout.pbr;
+    return pbr && pbr->sheen;
+}
+
+static bool transmits(const DipScene *scene, int object) {
+    const DipPbrUniforms *pbr = mesh_of(scene, object)->full_layout.pbr;
+    return pbr && pbr->transmission > 0.0f;
+}
+
 static bool is_blended(const DipScene *scene, int object) {
     return material_of(scene, object)->blended;
 }
@@ -303,7 +313,8 @@ static DipEffect plan_pbr(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("no metallic-roughness surface is in view");
 }
 
-// Occlusion, emission and coats are parts of metallic-roughness surfaces: without `pbr`, none runs.
+// Occlusion, emission, coats, sheens and transmission are parts of metallic-roughness surfaces:
+// without `pbr`, none runs.
 static DipEffect plan_occlusion(const DipPlanInput *input, DipFramePlan *plan) {
     if (!plan->effects.pbr.run) {
         return plan->effects.pbr;
@@ -338,6 +349,30 @@ static DipEffect plan_coat(const DipPlanInput *input, DipFramePlan *plan) {
     return input->force_all || any_in_view(input, plan, is_coated)
                ? run(input, "surfaces with a clear coat are in view")
                : skip("no surface with a clear coat is in view");
+}
+
+static DipEffect plan_sheen(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!plan->effects.pbr.run) {
+        return plan->effects.pbr;
+    }
+    if (!input->scene->has_sheen) {
+        return skip("no metallic-roughness surface has a sheen");
+    }
+    return input->force_all || any_in_view(input, plan, has_sheen)
+               ? run(input, "surfaces with a sheen are in view")
+               : skip("no surface with a sheen is in view");
+}
+
+static DipEffect plan_transmission(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!plan->effects.pbr.run) {
+        return plan->effects.pbr;
+    }
+    if (!input->scene->has_transmission) {
+        return skip("no metallic-roughness surface transmits light");
+    }
+    return input->force_all || any_in_view(input, plan, transmits)
+               ? run(input, "surfaces that transmit light are in view")
+               : skip("no surface that transmits light is in view");
 }
 
 // All metallic-roughness surfaces of a scene with an environment see it.
@@ -436,6 +471,8 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters,
     settle(&effects->occlusion, counters->fragments_occluded + more->fragments_occluded);
     settle(&effects->emission, counters->fragments_emitting + more->fragments_emitting);
     settle(&effects->coat, counters->fragments_coated + more->fragments_coated);
+    settle(&effects->sheen, counters->fragments_sheen + more->fragments_sheen);
+    settle(&effects->transmission, counters->fragments_transmitting + more->fragments_transmitting);
     settle(&effects->environment, counters->fragments_surrounded + more->fragments_surrounded);
     settle(&effects->sky, counters->fragments_sky + more->fragments_sky);
     settle(&effects->blend, counters->fragments_blended);

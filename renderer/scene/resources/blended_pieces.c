@@ -191,6 +191,7 @@ static void fill_pieces(const DipMeshDef *mesh, const uint32_t *piece, Pieces *p
     const float *uv0 = move_attribute(mesh->uv0, 2, mesh, place, &memory);
     const float *uv1 = move_attribute(mesh->uv1, 2, mesh, place, &memory);
     const float *colours = move_attribute(mesh->colours_lin, 3, mesh, place, &memory);
+    const float *alphas = move_attribute(mesh->alphas, 1, mesh, place, &memory);
     for (int p = 0; p < pieces->count; p++) {
         DipMeshDef *out = &pieces->meshes[p];
         const size_t at = first[p];
@@ -201,12 +202,13 @@ static void fill_pieces(const DipMeshDef *mesh, const uint32_t *piece, Pieces *p
         out->uv0 = move_on(uv0, 2 * at);
         out->uv1 = move_on(uv1, 2 * at);
         out->colours_lin = move_on(colours, 3 * at);
+        out->alphas = move_on(alphas, at);
     }
 }
 
 static size_t floats_of_vertex(const DipMeshDef *mesh) {
     return 3 + (mesh->normals ? 3 : 0) + (mesh->uv0 ? 2 : 0) + (mesh->uv1 ? 2 : 0) +
-           (mesh->colours_lin ? 3 : 0);
+           (mesh->colours_lin ? 3 : 0) + (mesh->alphas ? 1 : 0);
 }
 
 // Cuts a mesh into at most `most` pieces. A mesh in one piece stays as it is.

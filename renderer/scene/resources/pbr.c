@@ -16,20 +16,30 @@ bool dip_mesh_has_pbr(const DipSceneDef *def, const DipMeshDef *mesh) {
     return may_have_pbr(material) && mesh->normals && !light_mapped;
 }
 
-static bool has_any(const DipSceneDef *def) {
+static bool has_sheen(const DipPbrDef *pbr) {
+    return pbr->sheen_lin[0] > 0.0f || pbr->sheen_lin[1] > 0.0f || pbr->sheen_lin[2] > 0.0f;
+}
+
+// Finds out whether some mesh has a metallic-roughness surface, and one with a sheen.
+static void find_parts(const DipSceneDef *def, bool *any, bool *sheen) {
+    *any = *sheen = false;
     for (int i = 0; i < def->mesh_count; i++) {
-        if (dip_mesh_has_pbr(def, &def->meshes[i])) {
-            return true;
+        const DipMeshDef *mesh = &def->meshes[i];
+        if (dip_mesh_has_pbr(def, mesh)) {
+            *any = true;
+            *sheen = *sheen || has_sheen(def->materials[mesh->material].pbr);
         }
     }
-    return false;
 }
 
 bool dip_scene_pbr_create(const DipSceneDef *def, DipPool *pool, DipScenePbr **out, DipError *err) {
     // An environment lights surfaces by itself.
     static const DipLightingDef nothing = {.light_count = 0};
+    bool any;
+    bool sheen;
     *out = NULL;
-    if (!has_any(def)) {
+    find_parts(def, &any, &sheen);
+    if (!any) {
         return true;
     }
     DipScenePbr *pbr = calloc(1, sizeof *pbr + (size_t)def->mesh_count * sizeof *pbr->surfaces);
@@ -39,7 +49,11 @@ bool dip_scene_pbr_create(const DipSceneDef *def, DipPool *pool, DipScenePbr **o
     if (pbr && def->environment) {
         pbr->environment = dip_environment_map_create(def->environment, pool);
     }
-    if (!pbr || (!def->lighting && !pbr->fixed) || (def->environment && !pbr->environment)) {
+    if (pbr && sheen) {
+        pbr->sheens = calloc((size_t)def->mesh_count, sizeof *pbr->sheens);
+    }
+    if (!pbr || (!def->lighting && !pbr->fixed) || (def->environment && !pbr->environment) ||
+        (sheen && !pbr->sheens)) {
         dip_scene_pbr_destroy(&pbr);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
     }
@@ -52,6 +66,7 @@ void dip_scene_pbr_destroy(DipScenePbr **pbr) {
     if (*pbr) {
         free((*pbr)->fixed);
         free((*pbr)->environment);
+        free((*pbr)->sheens);
     }
     free(*pbr);
     *pbr = NULL;
@@ -107,6 +122,7 @@ DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
         .occlusion_strength = pbr->occlusion_strength,
         .coat = pbr->coat,
         .coat_roughness = pbr->coat_roughness,
+        .transmission = dip_pbr_transmission(material),
     };
     if (occludes(pbr)) {
         surface.occlusion_varying = pbr->occlusion_at_uv1 ? uv1 : uv0;
@@ -124,4 +140,11 @@ DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
             pbr->f0_lin[c] > surface.f0_greatest ? pbr->f0_lin[c] : surface.f0_greatest;
     }
     return surface;
+}
+
+void dip_pbr_add_sheen(const DipPbrDef *def, DipSheen *sheen, DipPbrUniforms *surface) {
+    if (sheen && has_sheen(def)) {
+        *sheen = dip_sheen_make(def->sheen_lin, (double)def->sheen_roughness);
+        surface->sheen = sheen;
+    }
 }

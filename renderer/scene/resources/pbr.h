@@ -14,7 +14,8 @@ typedef struct DipScenePbr {
     DipPbrTables tables;
     DipSceneLighting *fixed; // the fixed light, in a scene without lights of its own; or NULL
     DipEnvironmentMap *environment; // NULL: the surroundings of the lighting
-    DipPbrUniforms surfaces[];      // one per mesh; meshes without such a surface do not use theirs
+    DipSheen *sheens; // one per mesh; those of meshes without sheen are not used. NULL: none has it
+    DipPbrUniforms surfaces[]; // one per mesh; meshes without such a surface do not use theirs
 } DipScenePbr;
 
 // Returns whether the surface of a mesh is drawn by its metallic-roughness description: it must be
@@ -30,6 +31,16 @@ void dip_scene_pbr_destroy(DipScenePbr **pbr);
 // coordinates, or DIP_ABSENT.
 DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
                                const DipPbrTables *tables, int uv0, int uv1);
+
+// Returns the transmission of a material: 0 unless it is blended.
+static inline float dip_pbr_transmission(const DipMaterialDef *material) {
+    const bool blended = material->surface == DIP_SURFACE_BLENDED;
+    return blended && material->pbr ? material->pbr->transmission : 0.0f;
+}
+
+// Gives a surface its sheen, if it has one, which is kept in *sheen. sheen may be NULL where no
+// surface has one.
+void dip_pbr_add_sheen(const DipPbrDef *def, DipSheen *sheen, DipPbrUniforms *surface);
 
 // The textures of a metallic-roughness material that are drawn, or DIP_NO_TEXTURE.
 typedef struct DipPbrMaps {

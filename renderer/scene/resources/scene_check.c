@@ -54,6 +54,9 @@ static bool check_pbr(const DipSceneDef *def, const DipMaterialDef *material, Di
             check_floats(&pbr->normal_scale, 1, 1, name, "normal_scale", err) &&
             check_range(&pbr->coat, 1, 0.0, 1.0, name, "coat", err) &&
             check_range(&pbr->coat_roughness, 1, 0.0, 1.0, name, "coat_roughness", err) &&
+            check_range(&pbr->transmission, 1, 0.0, 1.0, name, "pbr.transmission", err) &&
+            check_range(pbr->sheen_lin, 3, 0.0, 1.0, name, "sheen_lin", err) &&
+            check_range(&pbr->sheen_roughness, 1, 0.0, 1.0, name, "sheen_roughness", err) &&
             check_index(pbr->metal_rough_map, textures, name, "metal_rough_map", err) &&
             check_index(pbr->occlusion_map, textures, name, "occlusion_map", err) &&
             check_index(pbr->emission_map, textures, name, "emission_map", err));
@@ -174,7 +177,8 @@ static bool check_mesh(const DipSceneDef *def, const DipMeshDef *mesh, DipError 
     return check_floats(mesh->normals, 3 * count, 3, mesh->name, "normals", err) &&
            check_floats(mesh->uv0, 2 * count, 2, mesh->name, "uv0", err) &&
            check_floats(mesh->uv1, 2 * count, 2, mesh->name, "uv1", err) &&
-           check_floats(mesh->colours_lin, 3 * count, 3, mesh->name, "colours_lin", err);
+           check_floats(mesh->colours_lin, 3 * count, 3, mesh->name, "colours_lin", err) &&
+           (!mesh->alphas || check_range(mesh->alphas, count, 0.0, 1.0, mesh->name, "alphas", err));
 }
 
 static bool check_object(const DipSceneDef *def, const DipObjectDef *object, DipError *err) {

@@ -88,9 +88,12 @@ struct DipScene {
     bool has_occlusion;      // some metallic-roughness mesh has an occlusion map
     bool has_emission;       // some metallic-roughness mesh sends out light
     bool has_coat;           // some metallic-roughness mesh has a clear coat
+    bool has_transmission;   // some metallic-roughness mesh transmits light
+    bool has_sheen;          // some metallic-roughness mesh has a sheen
     bool has_sky;            // some mesh is a sky with moving clouds
     int blended_count;       // objects whose material is blended
-    int blended_two_sided;   // those of them that are double-sided, which take two draws each
+    int blended_added_draws; // draws that these take beyond one each: a double-sided object takes
+                             // two, a transmitting one two for each side
     DipSkyDef sky;
     DipSceneLighting *lighting; // NULL: the fixed light of sky and sun
     DipScenePbr *pbr;           // NULL: no mesh has a metallic-roughness surface

@@ -55,6 +55,11 @@ static bool is_lit_by_lights(const DipSceneDef *def, const DipMeshDef *mesh,
            mesh->normals && !light_mapped;
 }
 
+// Returns the opacity of a surface that is drawn without its metallic-roughness description.
+static float opacity_of(const DipMaterialDef *material) {
+    return material->opacity * (1.0f - dip_pbr_transmission(material));
+}
+
 // Returns the uniforms that depend on the material alone. The mesh has no attributes and varyings
 // yet.
 static DipSurfaceUniforms uniforms_of(const DipMaterialDef *material) {
@@ -64,6 +69,7 @@ static DipSurfaceUniforms uniforms_of(const DipMaterialDef *material) {
         .light_varying = DIP_ABSENT,
         .colour_varying = DIP_ABSENT,
         .light_map_varying = DIP_ABSENT,
+        .alpha_varying = DIP_ABSENT,
         .normal_map_varying = DIP_ABSENT,
         .normal_varying = DIP_ABSENT,
         .depth_varying = DIP_ABSENT,
@@ -74,7 +80,7 @@ static DipSurfaceUniforms uniforms_of(const DipMaterialDef *material) {
         .light_map_scale = material->light_map_scale,
         .alpha_cutoff = material->alpha_cutoff,
         .opacity = material->surface == DIP_SURFACE_WATER ? 1.0f - material->transmission
-                                                          : material->opacity,
+                                                          : opacity_of(material),
         .has_alpha = material->surface != DIP_SURFACE_WATER,
     };
     memcpy(uniforms.base_colour_lin, material->base_colour_lin, sizeof uniforms.base_colour_lin);
@@ -82,9 +88,15 @@ static DipSurfaceUniforms uniforms_of(const DipMaterialDef *material) {
     return uniforms;
 }
 
-// Adds the texture coordinates that the maps of a mesh use.
-static void add_coordinates(const DipMeshDef *mesh, const DipMaterialDef *material,
-                            DipVertexLayout *layout, DipSceneMesh *out) {
+// Whether the alpha of the vertices changes the surface of a mesh.
+static bool has_alphas(const DipMeshDef *mesh, const DipMaterialDef *material) {
+    return mesh->alphas &&
+           (material->surface == DIP_SURFACE_CLIPPED || material->surface == DIP_SURFACE_BLENDED);
+}
+
+// Adds the texture coordinates that the maps of a mesh use, and the alpha of its vertices.
+static void add_copied(const DipMeshDef *mesh, const DipMaterialDef *material,
+                       DipVertexLayout *layout, DipSceneMesh *out) {
     DipSurfaceUniforms *uniforms = &out->layout;
     const bool textured = material->colour_texture != DIP_NO_TEXTURE && mesh->uv0;
     const bool light_mapped = material->light_map != DIP_NO_TEXTURE && mesh->uv1;
@@ -98,6 +110,9 @@ static void add_coordinates(const DipMeshDef *mesh, const DipMaterialDef *materi
     if (light_mapped || pbr1) {
         out->uv_varyings[1] = add_source(layout, mesh->uv1, 2) - 3;
         uniforms->light_map_varying = light_mapped ? out->uv_varyings[1] : DIP_ABSENT;
+    }
+    if (has_alphas(mesh, material)) {
+        uniforms->alpha_varying = add_source(layout, mesh->alphas, 1) - 3;
     }
     uniforms->copied_varying_count = layout->attribute_count - 3;
 }
@@ -113,10 +128,12 @@ DipVertexLayout dip_mesh_lay_out(const DipSceneDef *def, const DipMeshDef *mesh,
     out->normal_mapped = dip_material_draws_normal_map(material) && mesh->uv0 && mesh->normals &&
                          (light_mapped || material->lit);
     out->pbr = dip_mesh_has_pbr(def, mesh);
-    add_coordinates(mesh, material, &layout, out);
+    add_copied(mesh, material, &layout, out);
     out->sky = material->surface == DIP_SURFACE_SKY && uniforms->colour_varying != DIP_ABSENT;
     out->lit_by_lights = is_lit_by_lights(def, mesh, material);
-    out->fragments_lit = out->lit_by_lights && def->lighting->shading == DIP_SHADING_PHONG;
+    // Light at the vertices needs so many varyings that no room is left for their alpha.
+    const bool phong = def->lighting && def->lighting->shading == DIP_SHADING_PHONG;
+    out->fragments_lit = out->lit_by_lights && (phong || has_alphas(mesh, material));
     const bool lit = !light_mapped && material->lit && mesh->normals;
     int normal_attribute = DIP_ABSENT;
     if (lit || out->normal_mapped) {
@@ -129,6 +146,7 @@ DipVertexLayout dip_mesh_lay_out(const DipSceneDef *def, const DipMeshDef *mesh,
     }
     if (out->normal_mapped || out->pbr) {
         out->full_layout = out->layout;
+        out->full_layout.opacity = out->pbr ? material->opacity : out->layout.opacity;
         out->full_layout.normal_map_varying = out->normal_mapped ? 0 : DIP_ABSENT;
         out->full_varying_count = lay_out_lit_fragments(&out->full_layout, normal_attribute);
     }

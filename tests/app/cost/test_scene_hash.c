@@ -145,6 +145,9 @@ static void a_material_is_hashed(void **state) {
         NUMBERS(DipPbrDef, normal_scale, float),
         NUMBERS(DipPbrDef, coat, float),
         NUMBERS(DipPbrDef, coat_roughness, float),
+        NUMBERS(DipPbrDef, sheen_lin, float),
+        NUMBERS(DipPbrDef, sheen_roughness, float),
+        NUMBERS(DipPbrDef, transmission, float),
     };
     EXPECT_ALL_HASHED(pbr, pbr_fields);
 }
@@ -205,14 +208,15 @@ static void textures_and_places_are_hashed(void **state) {
 
 static void a_part_that_is_there_is_not_a_part_that_is_missing(void **state) {
     (void)state;
-    char hashes[6][33];
-    for (int i = 0; i < 6; i++) {
+    char hashes[7][33];
+    for (int i = 0; i < 7; i++) {
         make_scene();
         material.pbr = i == 1 ? NULL : material.pbr;
         scene.lighting = i == 2 ? NULL : scene.lighting;
         scene.environment = i == 3 ? NULL : scene.environment;
         lighting.light_count = i == 4 ? 0 : lighting.light_count;
         mesh.uv0 = i == 5 ? triangle : NULL;
+        mesh.alphas = i == 6 ? triangle : NULL;
         hash_scene(hashes[i]);
         for (int before = 0; before < i; before++) {
             assert_string_not_equal(hashes[before], hashes[i]);

@@ -311,3 +311,24 @@ def transmission():
     for k, (c, r) in enumerate((((1, 1, 1), 0), ((.2, .9, .4), 0), ((1, 1, 1), .5))):
         m.put(quad(1, 1), m.material(c + (1,), 0.0, float(r), ext=glass), (1.2 * (k - 1), 0, 0))
     return m, look((0, 0, 4.5), (0, 0, 0)), 38
+
+
+def glass():
+    m = Model("glass",
+              "The board is seen through smooth panes: clear, tinted, half as transmissive with a "
+              "white base, of metal 0.5, coated, and of alpha 0.5. All mirror the surroundings.")
+    m.put(quad(6, 3), m.textured(m.texture(checker(12, 192, (250, 250, 250), (160, 30, 30)))),
+          (0, 0, -1))
+    full = {"KHR_materials_transmission": {"transmissionFactor": 1.0}}
+    half = {"KHR_materials_transmission": {"transmissionFactor": 0.5}}
+    coated = {**full, "KHR_materials_clearcoat": {"clearcoatFactor": 1.0},
+              "KHR_materials_ior": {"ior": 1.8}}
+    panes = [m.material((1, 1, 1, 1), 0.0, 0.0, ext=full),
+             m.material((.2, .9, .4, 1), 0.0, 0.0, ext=full),
+             m.material((.9, .9, .9, 1), 0.0, 0.0, ext=half),
+             m.material((.9, .7, .4, 1), 0.5, 0.0, ext=full),
+             m.material((.7, .8, 1, 1), 0.0, 0.0, ext=coated),
+             m.material((.8, .8, .3, .5), 0.0, 0.0, ext=full, alphaMode="BLEND")]
+    for k, pane in enumerate(panes):
+        m.put(quad(.9, .9), pane, (1.05 * (k % 3 - 1), .5 - k // 3, 0))
+    return m, look((0.3, 0.2, 4.5), (0, 0, 0)), 38

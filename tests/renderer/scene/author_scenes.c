@@ -296,6 +296,11 @@ void author_make_parts(AuthorScene *scene) {
             pbr->coat = i == 3 ? 1.0f : 0.6f;
             pbr->coat_roughness = i == 3 ? 0.05f : 0.4f;
         }
+        if (i == 0 || i == 5) {
+            pbr->sheen_lin[0] = 0.9f;
+            pbr->sheen_lin[1] = pbr->sheen_lin[2] = 0.6f;
+            pbr->sheen_roughness = i ? 0.3f : 0.7f;
+        }
         if (i == 4 || i == 5) {
             pbr->emission_map = glow;
             pbr->emission_at_uv1 = true;

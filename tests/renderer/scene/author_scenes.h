@@ -55,7 +55,8 @@ void author_make_balls(AuthorScene *scene);
 void author_ball(int row, int column, double centre[3], float *metallic, float *roughness);
 extern const float author_gold_lin[3];
 
-// Balls and a wall with all parts of metallic-roughness surfaces: maps, coat, emission, both sides,
+// Balls and a wall with all parts of metallic-roughness surfaces: maps, coat, sheen, emission, both
+// sides,
 // and three lights of the scene.
 void author_make_parts(AuthorScene *scene);
 

@@ -443,6 +443,9 @@ static void the_plan_names_the_parts_that_run(void **state) {
     assert_true(frame.counters.fragments_coated > 0);
     assert_true(frame.counters.fragments_emitting > 0);
     assert_true(frame.counters.fragments_occluded > 0);
+    assert_true(frame.effects.sheen.run);
+    assert_true(frame.counters.fragments_sheen > 0);
+    assert_true(frame.counters.fragments_sheen < frame.counters.fragments_pbr);
     close_stage(&stage);
     author_free(&scene);
 }
@@ -456,6 +459,8 @@ static void absent_parts_do_not_run(void **state) {
     assert_false(frame.effects.occlusion.run || frame.effects.emission.run);
     assert_false(frame.effects.coat.run || frame.effects.normal_map.run);
     assert_string_equal(frame.effects.coat.why, "no metallic-roughness surface has a clear coat");
+    assert_false(frame.effects.sheen.run);
+    assert_string_equal(frame.effects.sheen.why, "no metallic-roughness surface has a sheen");
     assert_int_equal(frame.counters.fragments_pbr, frame.counters.fragments_shaded);
     assert_int_equal(frame.counters.texture_probes, 0);
     close_stage(&stage);
@@ -539,7 +544,10 @@ static void wrong_numbers_are_refused(void **state) {
                 {offsetof(DipPbrDef, emission_lin), "emission_lin"},
                 {offsetof(DipPbrDef, normal_scale), "normal_scale"},
                 {offsetof(DipPbrDef, coat), "coat"},
-                {offsetof(DipPbrDef, coat_roughness), "coat_roughness"}};
+                {offsetof(DipPbrDef, coat_roughness), "coat_roughness"},
+                {offsetof(DipPbrDef, transmission), "pbr.transmission"},
+                {offsetof(DipPbrDef, sheen_lin), "sheen_lin"},
+                {offsetof(DipPbrDef, sheen_roughness), "sheen_roughness"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         DipError err = {0};
         author_make_balls(&scene);
