@@ -46,7 +46,7 @@ DipSynthetic *dip_synthetic_create(uint32_t vertex_count, uint32_t index_count, 
     }
     if (!s || !s->rgba8 || !s->positions || !s->normals || !s->uv || !s->indices) {
         dip_synthetic_destroy(&s);
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--scene", "out of memory");
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
         return NULL;
     }
     paint(s->rgba8);

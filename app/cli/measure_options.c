@@ -11,9 +11,11 @@
 static const DipOptionRow rows[] = {
     {"--rounds", "N", DIP_OPTION_INTEGER, FIELD(rounds), .least = 1,
      .most = DIP_MEASURE_MOST_ROUNDS,
-     .text = "Time in this many rounds; with --starts, in this many for each start. A round draws "
-             "everything that is compared once, in a new random order. The default is 4 for cost, "
-             "10 for bench, and 8 for cost diff (1 if it compares a program with a report)."},
+     .text = "Time in this many rounds; with --starts, in this many for each start. A round "
+             "visits all sets of settings that are compared, in a new random order. In cost, a "
+             "visit draws only some of the frames, and the rounds together draw all of them. The "
+             "default is 4 for cost, 10 for bench, and 8 for cost diff (1 if it compares a program "
+             "with a report)."},
     {"--seed", "N", DIP_OPTION_INTEGER, FIELD(seed), .given = FIELD(has_seed), .most = INT32_MAX,
      .text = "Seed of the random order of frames. The default comes from the clock."},
 };
