@@ -31,13 +31,14 @@ static void hash_pbr(const DipPbrDef *pbr, DipHash *hash) {
     }
     const int indices[] = {pbr->metal_rough_map, pbr->occlusion_map, pbr->occlusion_at_uv1,
                            pbr->emission_map, pbr->emission_at_uv1};
-    const float shares[] = {pbr->metallic,           pbr->roughness,    pbr->f90,
-                            pbr->occlusion_strength, pbr->normal_scale, pbr->coat,
-                            pbr->coat_roughness};
+    const float shares[] = {pbr->metallic,           pbr->roughness,       pbr->f90,
+                            pbr->occlusion_strength, pbr->normal_scale,    pbr->coat,
+                            pbr->coat_roughness,     pbr->sheen_roughness, pbr->transmission};
     hash_integers(hash, indices, DIP_ARRAY_COUNT(indices));
     hash_floats(hash, shares, DIP_ARRAY_COUNT(shares));
     hash_floats(hash, pbr->f0_lin, 3);
     hash_floats(hash, pbr->emission_lin, 3);
+    hash_floats(hash, pbr->sheen_lin, 3);
 }
 
 static void hash_materials(const DipSceneDef *def, DipHash *hash) {

@@ -145,6 +145,9 @@ static void a_material_is_hashed(void **state) {
         NUMBERS(DipPbrDef, normal_scale, float),
         NUMBERS(DipPbrDef, coat, float),
         NUMBERS(DipPbrDef, coat_roughness, float),
+        NUMBERS(DipPbrDef, sheen_lin, float),
+        NUMBERS(DipPbrDef, sheen_roughness, float),
+        NUMBERS(DipPbrDef, transmission, float),
     };
     EXPECT_ALL_HASHED(pbr, pbr_fields);
 }
