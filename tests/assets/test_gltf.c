@@ -326,10 +326,8 @@ static void transparent_surfaces_are_blended(void **state) {
         DipSurface surface;
         double opacity;
     } expected[] = {
-        {"none", DIP_SURFACE_OPAQUE, 1.0},
-        {"pane", DIP_SURFACE_BLENDED, 1.0},
-        {"blend", DIP_SURFACE_BLENDED, 0.5},
-        {"blend picture", DIP_SURFACE_BLENDED, 1.0},
+        {"none", DIP_SURFACE_OPAQUE, 1.0},         {"pane", DIP_SURFACE_BLENDED, 1.0},
+        {"blend", DIP_SURFACE_BLENDED, 0.5},       {"blend picture", DIP_SURFACE_BLENDED, 1.0},
         {"blend opaque", DIP_SURFACE_OPAQUE, 1.0},
     };
     for (size_t i = 0; i < sizeof expected / sizeof *expected; ++i) {

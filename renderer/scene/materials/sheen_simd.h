@@ -23,8 +23,8 @@ VEC_INLINE Vf sheen_of_light(const DipSheen *sheen, const Lobe *lobe, Vf3 to_eye
                              Vf n_l) {
     const Vf sum2 = vf_max(vf3_dot(to_eye, to_light) * 2.0f + 2.0f, vf_splat(1e-6f));
     const Vf along = vf_max(vf3_dot(lobe->normal, to_light) + lobe->facing, vf_splat(0.0f));
-    const Vf sine2 = vf_min(vf_max(1.0f - along * along / sum2, vf_splat(0.0078125f)),
-                            vf_splat(1.0f));
+    const Vf sine2 =
+        vf_min(vf_max(1.0f - along * along / sum2, vf_splat(0.0078125f)), vf_splat(1.0f));
     const Vf distribution = exp2_of(log2_of(sine2) * sheen->exponent) * sheen->scale;
     const Vf open = vf_max((n_l + lobe->n_v - n_l * lobe->n_v) * 4.0f, vf_splat(1.0f));
     return distribution * n_l / open;
