@@ -66,17 +66,19 @@ static bool draw(const DipScene *scene, const Input *input, DipIsa isa,
     return drawn;
 }
 
-static void check_scene(const DipSceneDef *def, const Input *input) {
+// Returns false if the renderer refuses the scene or the frame.
+static bool check_scene(const DipSceneDef *def, const Input *input) {
     static uint8_t scalar[HEIGHT][WIDTH][4];
     static uint8_t best[HEIGHT][WIDTH][4];
     DipScene *scene = is_small(def) ? dip_scene_create(def, NULL, NULL) : NULL;
     if (!scene) {
-        return;
+        return false;
     }
     const bool drawn = draw(scene, input, DIP_ISA_SCALAR, scalar);
     FUZZ_CHECK(drawn == draw(scene, input, dip_renderer_default_def().isa, best));
     FUZZ_CHECK(!drawn || memcmp(scalar, best, sizeof best) == 0);
     dip_scene_destroy(&scene);
+    return drawn;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
@@ -92,12 +94,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     }
     uint8_t *copy = fuzz_copy(bytes + sizeof input, size_bytes - sizeof input, false);
     DipScenePack pack;
-    if (dip_scene_pack_read(copy, size_bytes - sizeof input, &pack, NULL)) {
-        check_scene(&pack.scene, &input);
-    }
+    const bool drawn = dip_scene_pack_read(copy, size_bytes - sizeof input, &pack, NULL) &&
+                       check_scene(&pack.scene, &input);
     dip_scene_pack_free(&pack);
     free(copy);
-    return 0;
+    return drawn ? 0 : -1; // What is not drawn is left to fuzz_scene_pack.
 }
 
 #ifdef FUZZ_WITH_LIBFUZZER

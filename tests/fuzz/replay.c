@@ -1,4 +1,5 @@
 // Gives files to a fuzzer's entry point, as libFuzzer does. The arguments are files and folders.
+// Fails if the entry point refuses every file: then the corpus has an old format and tests nothing.
 #include "tests/fuzz/fuzz.h"
 
 #include <dirent.h>
@@ -8,6 +9,8 @@
 #include <sys/stat.h>
 
 enum { MOST_BYTES = 1 << 24 };
+
+static int accepted; // inputs for which the entry point has not returned -1
 
 static bool replay_file(const char *path) {
     FILE *file = fopen(path, "rb");
@@ -22,7 +25,7 @@ static bool replay_file(const char *path) {
     free(bytes);
     printf("%s\n", path); // The last line names the input at fault.
     fflush(stdout);
-    LLVMFuzzerTestOneInput(exact, size_bytes);
+    accepted += LLVMFuzzerTestOneInput(exact, size_bytes) == 0;
     free(exact);
     return true;
 }
@@ -59,6 +62,6 @@ int main(int argc, char **argv) {
         }
         count += more;
     }
-    printf("%d inputs replayed\n", count);
-    return count > 0 ? 0 : 1;
+    printf("%d inputs replayed, %d of them accepted\n", count, accepted);
+    return accepted > 0 ? 0 : 1;
 }
