@@ -395,19 +395,19 @@ static void a_required_material_extension_gives_a_warning(void **state) {
     (void)state;
     size_t size_bytes = 0;
     uint8_t *bytes = fixture_read(fixture_data("square.gltf"), &size_bytes);
-    static const char required[] = "{\"extensionsRequired\":[\"KHR_materials_sheen\"],";
+    static const char required[] = "{\"extensionsRequired\":[\"KHR_materials_anisotropy\"],";
     char *text = malloc(sizeof required + size_bytes);
     memcpy(text, required, sizeof required - 1);
     memcpy(text + sizeof required - 1, bytes + 1, size_bytes - 1); // without the first brace
-    fixture_write("sheen.gltf", text, sizeof required - 1 + size_bytes - 1);
+    fixture_write("anisotropy.gltf", text, sizeof required - 1 + size_bytes - 1);
     free(text);
     free(bytes);
     DipErrorList warnings = {0};
-    DipModel *model = load(fixture_path("sheen.gltf"), NULL, &warnings);
+    DipModel *model = load(fixture_path("anisotropy.gltf"), NULL, &warnings);
     assert_int_equal(warnings.count, 1);
     assert_string_equal(warnings.items[0].key, "extensionsRequired");
     assert_string_equal(warnings.items[0].message,
-                        "the effect of the glTF extension KHR_materials_sheen is not drawn");
+                        "the effect of the glTF extension KHR_materials_anisotropy is not drawn");
     dip_error_list_free(&warnings);
     dip_model_destroy(&model);
 }
