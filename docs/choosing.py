@@ -138,7 +138,9 @@ def panel_of(front):
                          if each[1] <= fastest - share * (fastest - best) + 1e-9))
              for name, share in PANEL.items()]
     blended = [each for each in within if "taa=history" in each[2]]
-    return panel + [("Best with history", blended[-1])] * bool(blended)
+    if blended:
+        panel.append(("Best with history", blended[-1]))
+    return panel
 
 
 def fronts(diptych, folder, *options):
