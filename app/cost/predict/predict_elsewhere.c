@@ -74,9 +74,9 @@ static bool list_combinations(DipCostElsewherePrediction *p, const char *name, D
 // --- counting ------------------------------------------------------------------------------------
 
 // Mends the counters, which come from only a few of the timed frames. Counts the work of one
-// combination in all timed frames: that of the baseline if it is listed, otherwise that of the
-// first combination. Scales the counters of all combinations by the ratio of its work in all frames
-// to its work in the few.
+// combination in all timed frames. This is the baseline, or the first combination if the baseline
+// is not listed. Then scales the counters of all combinations by the ratio of this one's work in
+// all frames to its work in the few.
 static bool scale_counters(DipCostContext *there, DipError *err) {
     DipCostReport *report = there->report;
     const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);

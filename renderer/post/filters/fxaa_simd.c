@@ -3,8 +3,8 @@
 #include "renderer/post/filters/post_kernels.h"
 #include "renderer/simd/pairs.h"
 
-// A pixel is at an edge if the luma of its neighbourhood differs by this share
-// of the greatest luma there, and by this much at least.
+// A pixel is at an edge if the luma of its neighbourhood differs by this share of the greatest luma
+// there, and by this much at least.
 static const float edge_share = 0.125f;
 static const float edge_least = 0.0312f;
 static const float subpixel_share = 0.75f; // how much single pixels and thin lines are blurred
@@ -16,15 +16,13 @@ static const int places[PLACE_COUNT] = {2, 5, 9, 17, 41};
 // The neighbourhoods of several pixels in the plane of luma.
 typedef struct Around {
     const float *luma;
-    Vi at;    // places of the pixels
-    Vi along; // distance in the plane to the next pixel along the edge
-    Vi step;  // distance in the plane to the pixel on the other side of the edge
-    // Four pixels, two along the edge and two across it, lie in two rows. Where
-    // their first row begins, relative to the first pixel along the edge, and the
-    // distance to the second row.
-    Mask horizontal; // the edge is
-    Vi begin;
-    Vi second;
+    Vi at;           // places of the pixels
+    Vi along;        // distance in the plane to the next pixel along the edge
+    Vi step;         // distance in the plane to the pixel on the other side of the edge
+    Mask horizontal; // lanes whose edge is horizontal
+    // Four pixels, two along the edge and two across it, lie in two rows.
+    Vi begin;  // where the first row begins, relative to the first pixel along the edge
+    Vi second; // distance in the plane from the first row to the second
 } Around;
 
 // Luma of two neighbours in a row, which are gathered at once.
@@ -67,8 +65,7 @@ typedef struct End {
     Vf difference;      // how far the luma is from the edge's mean there
 } End;
 
-// Searches along the edge in both directions until the luma leaves the edge's
-// mean.
+// Searches along the edge in both directions until the luma leaves the edge's mean.
 VEC_INLINE void find_ends(const Around *around, Vf mean, Vf enough, End ends[2]) {
     for (int d = 0; d < 2; d++) {
         ends[d] = (End){VEC_ALL_LANES, vf_splat(0.0f), vf_splat(0.0f)};
@@ -85,9 +82,8 @@ VEC_INLINE void find_ends(const Around *around, Vf mean, Vf enough, End ends[2])
     }
 }
 
-// Returns the share, 0..1/2 or more, of the pixel on the other side of the
-// edge, and sets the fields of `around` that depend on the edge. The neighbours
-// are gathered by rows.
+// Returns the share, 0..1/2 or more, of the pixel on the other side of the edge, and sets the
+// fields of `around` that depend on the edge. The neighbours are gathered by rows.
 VEC_INLINE Vf shift_of(Around *around, int stride, Mask *before) {
     const float *luma = around->luma;
     const Vi at = around->at;

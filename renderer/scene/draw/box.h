@@ -12,9 +12,10 @@ enum { DIP_BOX_MAX_RATIO = 2 }; // most pixels of the larger picture per pixel, 
 
 // A larger picture and the smaller one that it is averaged to. Along each axis, the ratio of the
 // sizes is 1..DIP_BOX_MAX_RATIO; it need not be the same along both. Pixel x of a row becomes the
-// mean over the larger picture's pixels from x * ratio to (x + 1) * ratio, each weighted by the
-// length that lies within; likewise for rows. The mean of 16-bit linear light is rounded to 16
-// bits, halves up, before it is encoded. Nothing else is rounded: overlaps are whole numbers.
+// mean over the larger picture from x * ratio to (x + 1) * ratio, in which a pixel counts by the
+// part of its width that lies there. Rows are averaged in the same way. The mean of 16-bit linear
+// light is rounded to 16 bits, halves up, before it is encoded. Nothing else is rounded: overlaps
+// are whole numbers.
 typedef struct DipBoxFilter {
     DipTarget from; // the larger picture; its pixels are read only where it has no light
     DipTarget to;   // the smaller picture; each pixel's fourth byte becomes 255

@@ -26,7 +26,7 @@ typedef struct Width {
     int only_row; // row.index if it is the same in all lanes, else DIP_ABSENT
 } Width;
 
-// A lobe of reflected light: that of the surface or that of its coat.
+// One lobe of reflected light. The surface has one, and its clear coat has another.
 typedef struct Lobe {
     Vf3 normal; // unit
     Vf facing;  // n.v

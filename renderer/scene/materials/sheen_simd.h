@@ -1,5 +1,5 @@
 // The sheen of cloth: light that fibres scatter at grazing angles. docs/picture.md, Metal and
-// gloss, defines the formulas. Only *_simd.c files may include it.
+// gloss, defines the formulas. Only *_simd.c files may include this header.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SHEEN_SIMD_H
 #define DIP_RENDERER_SCENE_MATERIALS_SHEEN_SIMD_H
 

@@ -25,8 +25,8 @@ THREADS = 2
 # Prices of the settings panel, with the path's own rows: a step, and the pane that it is asked for.
 PANES = ["aa=4,aaa=on,asd=2,af=16,aaf=on", "aa=8,aaa=on,asd=4,af=4,aaf=on"]
 STEPS = [("aa", 5), ("aaa", 2), ("asd", 2), ("af", 5), ("aaf", 2)]
-# Of the settings beyond the samples, at panes where a report has measured their steps.
-OTHER_PANES = ["aa=none", "aa=4", "scale=1/1.5"]
+# Of the other settings, at the baseline, where the report has measured their steps.
+OTHER_PANES = ["aa=none"]
 OTHER_STEPS = [("taa", 3), ("miplod", 6), ("scale", 8), ("upscale", 3), ("post", 3), ("sharpen", 4)]
 SUMS = ["aa=2,af=4", "aa=4,af=16", "aa=4,aaa=on,asd=2,af=16", "aa=8,af=8", "aa=8,aaa=on,af=16,aaf=on",
         "aa=6,aaa=on,asd=3,af=2"]
