@@ -475,6 +475,8 @@ static void good_and_bad_drops_never_end_the_preview(void **state) {
                  {"", "", false},
                  {"scene.ini", "Opened scene.ini", true}};
     turn();
+    wait_for("Reloaded"); // The folder's new models, so that no drop waits for them.
+    wait_seconds(4);
     for (size_t i = 0; i < sizeof drops / sizeof drops[0]; ++i) {
         drop(drops[i].file);
         wait_for_result();
