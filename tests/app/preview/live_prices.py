@@ -4,15 +4,14 @@
     live_prices.py DIPTYCH PRINT MEASURE FOLDER [--poses N] [--rounds N] [--report COST.JSON]
 
 Measures a report of the courtyard, or takes one that was measured with its ini and two threads.
-Then rests at N poses along the path DEFAULT and measures there as the preview does (MEASURE,
-measure_prices.c). Prints, for each step, the report's price (PRINT, print_prices.c) with its
-interval and the mean of the rough prices over the poses; which share of the steps lies within the
-report's interval; and how well prices that are added up predict the sums that were measured: with
+Then rests at N poses along each path on which the report has measured one of the steps, and
+measures there as the preview does (MEASURE, measure_prices.c). Prints, for each step, the report's
+price (PRINT, print_prices.c) with its interval and the mean of the rough prices over the poses of
+the same path; which share of the steps lies within the report's interval; and how well prices that are added up predict the sums that were measured: with
 all prices of the report, and without those of combinations of adaptive AA or advanced AF.
 Asserts only that every price is known, since times depend on the machine.
 """
 import argparse
-import itertools
 import json
 import math
 import pathlib
@@ -56,37 +55,55 @@ def run(command, lines):
     return [json.loads(answer) for answer in answers]
 
 
-def level_of(report, lines, answers):
+def level_of(report, path, answers):
     """The factor from this run's milliseconds to the report's: whole runs differ, ratios do not."""
-    base = report["rows"][report["paths"][0]["base_row"]]["ms"]
-    now = [answer["base"] for line, answer in zip(itertools.cycle(lines), answers)
-           if line.startswith("sum")]
-    print(f"the base takes {base:.3f} ms in the report and {statistics.mean(now):.3f} ms now; the "
-          "rough prices below are in the report's milliseconds")
+    base = report["rows"][path["base_row"]]["ms"]
+    now = [answer["base"] for answer in answers if "base" in answer]
+    print(f"path {path['name']}: the base takes {base:.3f} ms in the report and "
+          f"{statistics.mean(now):.3f} ms now; its rough prices below are in the report's "
+          "milliseconds")
     return base / statistics.mean(now)
 
 
-def mean_of(answers, count, poses, level):
-    """The mean of each question's answers over the poses, with its standard error."""
+def rough_prices(options, header, path, lines):
+    """The mean of each line's rough prices over the poses of a path, with its standard error."""
+    count, poses = len(lines), options.poses
+    answers = run([options.measure, options.folder / "config/courtyard.ini", header["width"],
+                   header["height"], header["threads"], poses, path["name"]], lines)
+    unknown = [line for line, answer in zip(lines * poses, answers)
+               if answer["state"] == "unknown"]
+    assert not unknown and len(answers) == count * poses, (path["name"], unknown)
+    level = level_of(header, path, answers)
     for index in range(count):
         ms = [level * answers[pose * count + index]["ms"] for pose in range(poses)]
         yield statistics.mean(ms), statistics.stdev(ms) / math.sqrt(poses)
 
 
+def rough_prices_of_all(options, header, lines, known):
+    """Of each line, on the path on which the report has measured it; sums belong to the first."""
+    rough = {}
+    for number, path in enumerate(header["paths"]):
+        first = number == 0
+        here = [line for line, price in zip(lines, known)
+                if price.get("path", path["name"] if first else "") == path["name"]]
+        if here and not first:
+            here = here + ["sum aa=none"]  # Its answer has the path's base.
+        rough.update(zip(here, rough_prices(options, header, path, here)) if here else {})
+    return [rough.get(line) for line in lines]
+
+
 def compare_steps(lines, known, rough):
-    """Of the steps of path DEFAULT; the others belong to other pictures."""
     within = near = count = 0
-    for line, price, (ms, error) in zip(lines, known, rough):
+    for line, price, mean in zip(lines, known, rough):
         if not line.startswith("step") or price["state"] != "measured":
             continue
-        if price["path"] != "DEFAULT":
-            continue
         count += 1
+        ms, error = mean
         inside = price["low"] <= ms <= price["high"]
         overlaps = price["low"] <= ms + 2 * error and ms - 2 * error <= price["high"]
         within += inside
         near += overlaps
-        print(f'{line:48} report {price["ms"]:+7.3f} ({price["low"]:+7.3f} to '
+        print(f'{line:48} {price["path"]:8} report {price["ms"]:+7.3f} ({price["low"]:+7.3f} to '
               f'{price["high"]:+7.3f})  rough {ms:+7.3f} +- {2 * error:.3f}'
               f'{"" if inside else "  near" if overlaps else "  OUTSIDE"}')
     print(f"{within} of {count} rough prices lie within the report's intervals, {near} with their "
@@ -94,8 +111,9 @@ def compare_steps(lines, known, rough):
 
 
 def compare_sums(lines, known, rough):
-    for line, price, (ms, error) in zip(lines, known, rough):
+    for line, price, mean in zip(lines, known, rough):
         if line.startswith("sum"):
+            ms, error = mean
             added = price["ms"] - price["together"]
             print(f'{line:48} measured {price["ms"]:7.3f} ms, prices added {added:7.3f} '
                   f'({100 * (added / price["ms"] - 1):+.1f} %), rough {ms:7.3f} +- {2 * error:.3f}')
@@ -115,13 +133,25 @@ def write_smaller_report(report, out):
         steps = dict(part.split("=") for part in report["rows"][index]["settings"].split(","))
         return ((steps["aaa"] == "off" or steps["af"] == "none") and
                 (steps["aaf"] == "off" or steps["aa"] == "none"))
-    first = report["combined_first"]
-    kept = list(range(first)) + [i for i in range(first, len(report["rows"])) if is_kept(i)]
-    index_of = {old: new for new, old in enumerate(kept)}
-    same = [dict(pair, row=index_of[pair["row"]]) for pair in report["same_pictures"]
-            if pair["row"] in index_of]
+    swept = {step["row"] for sweep in report["sweeps"] for step in sweep["steps"]}
+    kept = [i for i in range(len(report["rows"]))
+            if i < report["combined_first"] or i in swept or is_kept(i)]
+    index_of = {old: new for new, old in enumerate(kept)} | {-1: -1}  # -1: not measured.
+
+    def of_kept_rows(key):
+        return [dict(item, row=index_of[item["row"]]) for item in report[key]
+                if item["row"] in index_of]
+
+    def at_kept_rows(item):
+        return dict(item, row=index_of.get(item["row"], -1))
+    predicted = report["predicted"] and dict(report["predicted"], combinations=[
+        at_kept_rows(item) for item in report["predicted"]["combinations"]])
+    sweeps = [dict(sweep, steps=[at_kept_rows(step) for step in sweep["steps"]])
+              for sweep in report["sweeps"]]
     (out / "smaller.json").write_text(json.dumps(dict(
-        report, rows=[report["rows"][i] for i in kept], same_pictures=same)))
+        report, rows=[report["rows"][i] for i in kept], advice=[], sweeps=sweeps,
+        predicted=predicted, visits=of_kept_rows("visits"),
+        same_pictures=of_kept_rows("same_pictures"))))
     return out / "smaller.json"
 
 
@@ -150,13 +180,7 @@ def main():
         report = options.report or measure_report(options, pathlib.Path(work))
         header = json.loads(report.read_text())
         known = run([options.print, report], lines)
-        answers = run([options.measure, options.folder / "config/courtyard.ini", header["width"],
-                       header["height"], header["threads"], options.poses], lines)
-        unknown = [line for line, answer in zip(lines * options.poses, answers)
-                   if answer["state"] == "unknown"]
-        assert not unknown and len(answers) == len(lines) * options.poses, unknown
-        level = level_of(header, lines, answers)
-        rough = list(mean_of(answers, len(lines), options.poses, level))
+        rough = rough_prices_of_all(options, header, lines, known)
         compare_steps(lines, known, rough)
         compare_sums(lines, known, rough)
         compare_all_sums(options, report, pathlib.Path(work))

@@ -1,10 +1,10 @@
 // Measures rough prices as the preview does, without a window, for scripts:
 //
-//     measure_prices INI WIDTH HEIGHT THREADS POSES
+//     measure_prices INI WIDTH HEIGHT THREADS POSES PATH
 //
 // Standard input asks for prices, one per line (price_lines.h). The program rests at as many poses
-// as it is told, spread evenly along the path DEFAULT of the ini. At each pose it measures with
-// every line's settings in the requested pane, and answers all lines.
+// as it is told, spread evenly along the path of this name in the ini, such as DEFAULT or AF. At
+// each pose it measures with every line's settings in the requested pane, and answers all lines.
 #include "app/preview/live/live_prices.h"
 #include "tests/app/preview/price_lines.h"
 
@@ -59,7 +59,8 @@ static bool answer_at(DipLivePrices *live, const DipPrices *prices, const DipLiv
 static bool answer_along_path(DipSession *session, int poses) {
     DipPrices *prices = dip_prices_create(NULL);
     DipLivePrices *live = prices ? dip_live_prices_create(session, prices, NULL) : NULL;
-    const int64_t duration_ns = dip_campath_info(session->track.categories[0].path).duration_ns;
+    const DipCamPath *path = session->track.categories[session->track.active].path;
+    const int64_t duration_ns = dip_campath_info(path).duration_ns;
     bool done = live != NULL;
     for (int i = 0; done && i < poses; i++) {
         DipLivePicture picture = {.time_ns = duration_ns / (2 * poses) * (2 * i + 1),
@@ -74,11 +75,12 @@ static bool answer_along_path(DipSession *session, int poses) {
 }
 
 int main(int argc, char **argv) {
-    if (argc != 6 || !read_lines()) {
-        return fail("give INI WIDTH HEIGHT THREADS POSES and at least one line");
+    if (argc != 7 || !read_lines()) {
+        return fail("give INI WIDTH HEIGHT THREADS POSES PATH and at least one line");
     }
     const DipSessionOptions options = {
         .config = argv[1],
+        .category = argv[6],
         .has_size = true,
         .size = {atoi(argv[2]), atoi(argv[3])},
         .has_threads = true,

@@ -26,7 +26,7 @@ int main(int argc, char **argv) {
     const bool known = prices && dip_cost_read_json(&report, argv[1], &err) &&
                        dip_prices_set_report(prices, &report, &err);
     if (!known) {
-        fprintf(stderr, "print_prices: %s\n", err.message);
+        fprintf(stderr, "print_prices: %s: %s\n", err.key, err.message);
     }
     const int code = known ? answer_lines(prices) : 2;
     dip_prices_destroy(&prices);
