@@ -1,7 +1,8 @@
 // Measures every combination of a plan (plan.h) in interleaved rounds
-// (app/measure/timing/driver.h). Each round draws every frame of every combination at least
-// once; the base, with which others are compared, is drawn again beside each few of them. The
-// results are the times of every frame in every round, and the work of every frame.
+// (app/measure/timing/driver.h). Each round draws every frame of every combination. It
+// draws them in groups of a few combinations, and each group also draws the base with which they
+// are compared. The results are the times of every frame in every round, and the work of every
+// frame.
 #ifndef DIP_APP_BENCH_MEASURE_H
 #define DIP_APP_BENCH_MEASURE_H
 
@@ -19,15 +20,15 @@ typedef struct DipBenchResult {
     // two programs, the second one's ratios are to the mean times of the first one, and the
     // first one's ratios are 1.
     DipEstimate *ratios;
-    // [combination]: how many times as fast the combination is as with the fewest threads. Filled
-    // in only if there is one program.
+    // [combination]: the speed-up of the combination over the same combination with the fewest
+    // threads. Filled in only if there is one program.
     DipEstimate *speed_ups;
 } DipBenchResult;
 
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
 void dip_bench_result_free(DipBenchResult *result);
 
-// Stores the times of one drawing of a combination: of frame timed->frame in round timed->round.
+// Stores the times of a combination in one frame of one round: timed->frame and timed->round.
 void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed);
 
 // Returns the times of a combination in a stage, in milliseconds: rounds * frames values,

@@ -1,6 +1,5 @@
 // Makes the plan of a bench. An axis is a property that can vary, such as the picture's size
-// (options.h). The plan has the values on each axis, and every combination of these values with its
-// label.
+// (options.h). The plan has the values on each axis and all combinations of these values.
 #ifndef DIP_APP_BENCH_PLAN_H
 #define DIP_APP_BENCH_PLAN_H
 
@@ -34,11 +33,11 @@ typedef struct DipBenchPlan {
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
                          const DipBenchOptions *options);
 
-// Returns the combination with the fewest threads and otherwise the same values.
+// Returns the combination with the fewest threads and otherwise the values of `combination`.
 int dip_bench_fewest_threads(const DipBenchPlan *plan, int combination);
 
 // Returns the combination with the first instruction set and number of threads and otherwise the
-// same values. The pictures of both combinations are the same to the bit.
+// values of `combination`. The pictures of both combinations are the same to the bit.
 int dip_bench_same_pictures(const DipBenchPlan *plan, int combination);
 
 // The values of a combination.

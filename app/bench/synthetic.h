@@ -1,5 +1,4 @@
-// Makes scenes that are computed by formulas and may have very many small triangles. The renderer
-// is not optimised for such scenes.
+// Makes scenes that are computed by formulas and may have very many small triangles.
 #ifndef DIP_APP_BENCH_SYNTHETIC_H
 #define DIP_APP_BENCH_SYNTHETIC_H
 

@@ -52,8 +52,8 @@ int dip_machine_processor_count(void) {
 
 // Times a chain of additions, each of which needs the result of the one before and takes one cycle.
 // The empty assembler statements hide the values from the compiler. The addend is in a register,
-// since some processors merge successive additions of constants. The result is the time of the
-// fastest round.
+// since some processors merge successive additions of constants. The result is the time of one
+// addition in the fastest round.
 double dip_machine_ns_per_cycle(void) {
     enum { ROUNDS = 60, STEPS = 200000, PER_STEP = 8 };
     double fastest = 1e30;

@@ -15,8 +15,8 @@ static const int64_t other_period_ns = INT64_C(10000000000);
 // Expected times, of the work that begins next and of the parts of the command that come after it;
 // 0 if they are not known.
 static double next_s, later_s;
-// Once this share of the work is done, the expected time and the time extrapolated from the work so
-// far have equal weights.
+// When this share of the work is done, the expected time and the time extrapolated from the work so
+// far have equal weights. Later, the extrapolated time weighs more.
 static const double early = 0.05;
 
 void dip_progress_expect(double own_s, double all_later_s) {

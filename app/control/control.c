@@ -83,7 +83,8 @@ static bool skip(Client *client) {
 typedef enum Line {
     NO_LINE,
     WHOLE_LINE,
-    LONG_LINE // A line is too long. It is skipped, also what still arrives of it; reported once.
+    LONG_LINE // A line is too long. It is reported once and skipped, including the part that has
+              // not arrived yet.
 } Line;
 
 // Finds the first line. Its text is not terminated, and is valid until remove_line is called.
@@ -185,7 +186,8 @@ static cJSON *begin_reply(const DipControlId *id, bool ok) {
         cJSON_AddNullToObject(reply, "id");
         break;
     case DIP_CONTROL_ID_NUMBER:
-        snprintf(number, sizeof number, "%.0f", id->number); // cJSON prints only 15 digits.
+        // cJSON would round some whole numbers near 2^53 to 15 digits.
+        snprintf(number, sizeof number, "%.0f", id->number);
         cJSON_AddRawToObject(reply, "id", number);
         break;
     case DIP_CONTROL_ID_TEXT:
@@ -376,7 +378,9 @@ void dip_control_close(DipControl **control_pointer) {
     free(control);
 }
 
-// Returns whether the connection has served its purpose and can be closed.
+// Returns whether the connection can be closed: the client has ended its input, all its requests
+// are answered, and no event can reach it any more, because it has no subscriptions or no longer
+// reads.
 static bool is_done(const Client *client) {
     const bool answered = client->ended && client->in_bytes == 0 && client->out_bytes == 0;
     return answered && (client->broken || client->topics == 0 || dip_wire_is_cut(&client->wire));

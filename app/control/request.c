@@ -187,8 +187,8 @@ static bool check_number(const Field *field, const cJSON *item, DipError *err) {
            refuse_type(field->name, item, whole ? "a whole number" : "a number", err);
 }
 
-// Reads a text that is one of the field's names, and sets this name's bit. `what` is a word for the
-// names: "topic" in the message "'x' is no topic, accepted ...".
+// Reads a text that is one of the field's names, and sets this name's bit. `what` is the word
+// for such a name in the message: "request" in "'x' is no request, accepted ...".
 static bool read_name(const Field *field, const char *what, const cJSON *item, unsigned *bits,
                       DipError *err) {
     const Words accepted = list_names(field->names, field->size);
@@ -353,12 +353,11 @@ static bool read_id(const cJSON *object, DipControlId *id, DipError *err) {
 }
 
 // Refuses a second "id" or "request".
-static bool check_envelope(const cJSON *object, DipError *err) {
-    const cJSON *item;
+static bool check_once(const cJSON *object, const char *key, DipError *err) {
+    const cJSON *item, *first = cJSON_GetObjectItemCaseSensitive(object, key);
     cJSON_ArrayForEach(item, object) {
-        if (is_envelope(item->string) &&
-            cJSON_GetObjectItemCaseSensitive(object, item->string) != item) {
-            return given_twice(item->string, err);
+        if (item != first && strcmp(item->string, key) == 0) {
+            return given_twice(key, err);
         }
     }
     return true;
@@ -371,8 +370,9 @@ static bool read_object(const cJSON *object, DipControlRequest *request, DipErro
                              "%s found, accepted an object such as {\"request\":\"get\"}",
                              found.text);
     }
-    if (!check_envelope(object, err) || !read_id(object, &request->id, err) ||
-        !read_verb(object, &request->verb, err) || !read_fields(object, request, err)) {
+    if (!check_once(object, "id", err) || !read_id(object, &request->id, err) ||
+        !check_once(object, "request", err) || !read_verb(object, &request->verb, err) ||
+        !read_fields(object, request, err)) {
         return false;
     }
     if (request->verb == DIP_CONTROL_GET && request->parts == 0) {

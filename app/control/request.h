@@ -121,9 +121,9 @@ typedef struct DipControlRequest {
     // (dip_control_change_settings).
     char settings[DIP_CONTROL_TEXT_SIZE];
     char change[DIP_CONTROL_TEXT_SIZE];
-    unsigned notices;                     // SET: with DIP_CONTROL_OFF, the status line says nothing
-                                          // about the change.
-    unsigned show;                        // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF.
+    unsigned notices; // SET: with DIP_CONTROL_OFF, the status line says nothing
+                      // about the change.
+    unsigned show;    // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF. With both, OFF counts.
     char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
     char name[DIP_CONTROL_NAME_SIZE];     // SCENE, ANIMATION: name of a scene or animation.
     char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT: file to write.
@@ -138,7 +138,7 @@ typedef struct DipControlRequest {
 } DipControlRequest;
 
 // Reads a request from a line without its line feed. On failure, *err says what was found and what
-// is accepted, and request->id holds the line's id if that is valid. Thread-safe.
+// is accepted, and request->id holds the line's id if that is valid and given once. Thread-safe.
 bool dip_control_request_read(const char *line, size_t length, DipControlRequest *request,
                               DipError *err);
 

@@ -169,8 +169,8 @@ DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost) {
 
 // --- truths --------------------------------------------------------------------------------------
 
-// Returns how many times as wide and high as the truth a gallery scene is drawn, before its pixels
-// are averaged.
+// Returns k: a gallery scene is drawn k times as wide and high as its truth, and each k x k of its
+// pixels are averaged.
 static int scale_of(const DipTruthDef *def) {
     const int longer = def->width > def->height ? def->width : def->height;
     int scale = 2;
@@ -198,8 +198,8 @@ static void average(const DipFrame *frame, int scale, int width, int height, dou
 
 // Draws one half of the truth of a gallery scene. (A truth is the mean of two halves.) The
 // reference renderer cannot draw such a scene. Instead, the pipeline draws it several times as wide
-// and high, with the best settings, and the pixels are averaged in linear light. Each half has at
-// least def->samples samples for each pixel, unless the frame would be larger than
+// and high, with 8 samples per pixel and advanced AF, and the pixels are averaged in linear light.
+// Each half has at least def->samples samples for each pixel, unless the frame would be larger than
 // DIP_MAX_FRAME_SIZE. The truth cannot show a fault that the pipeline has at every size. The two
 // halves have different sample patterns.
 static bool draw_gallery_truth(const DipTruthDef *def, int half, double *rgb_lin, DipError *err) {

@@ -19,9 +19,9 @@
 // they are measured.
 typedef struct DipCostForecast {
     double picture_s;   // Time in which one picture is drawn and judged.
-    double row_ms;      // Time of a frame of the rows that are timed first.
-    int swept_rows;     // Number of rows whose errors are measured first.
-    int timed_rows;     // Number of rows that are timed first.
+    double row_ms;      // Mean time of a frame of the rows of the phase TIMES (steps.h).
+    int swept_rows;     // Number of rows of the phase SWEEPS.
+    int timed_rows;     // Number of rows of the phase TIMES. Later phases time more.
     int counted_frames; // Number of frames that are drawn to count work.
     int goes;           // How often best combinations have been measured so far (best.c).
 } DipCostForecast;
@@ -55,8 +55,9 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
 void dip_cost_context_close(DipCostContext *cost);
 
 // dip_cost_draw_timed draws the timed frame `index` of a path, 0..dip_cost_frame_count - 1. Call
-// dip_cost_prepare_timed with the same arguments before. If the settings blend frames with a
-// history of earlier frames (taa=history), it draws the frame before this one, if there is one.
+// dip_cost_prepare_timed with the same arguments before. It lets the renderer's history begin anew.
+// If the settings blend frames with a history of earlier frames (taa=history), it then draws the
+// frame before `index`, if there is one.
 bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipError *err);
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,

@@ -14,8 +14,9 @@
 //
 // A term of a stage is one kind of work. Its amount comes from the exact counters of a frame and
 // from the settings. No counter tells which reads miss the processor's caches. Reads that miss them
-// more often than others therefore have terms of their own: those of all mip levels
-// (miplod=high-quality), those of uncompressed textures, and those of advanced AF's probes.
+// more often than others therefore have terms of their own: reads that may use the largest mip
+// levels (miplod=high-quality, sharp and sharper), reads of uncompressed textures, and probes of
+// advanced AF.
 //
 // The terms of FLIP come from the settings alone, since the error of antialiasing and that of
 // filtering nearly add up. There are terms for antialiasing, for the clipping of alpha-clipped
@@ -65,8 +66,8 @@ DipCostModel dip_cost_model_fit(const DipCostReport *report, DipCostModelled wha
 
 // Fits prices of time that are meant for another size, another camera path or another number of
 // threads than the report's. `there` holds a few combinations that were timed under these other
-// conditions. Together they count 30 times as much as all rows of the report, so the rows decide
-// only what these combinations leave open.
+// conditions. Together they count 30 times as much as all rows of the report and its
+// combinations at half the size, which decide only what `there` leaves open.
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
                                       const DipCostElsewhere *there, int there_count);
 

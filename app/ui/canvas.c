@@ -76,9 +76,9 @@ static uint8_t *pixel_at(const DipCanvas *canvas, int x, int y) {
     return canvas->rgba8 + 4 * ((size_t)y * (size_t)canvas->width + (size_t)x);
 }
 
-// Returns the exact rounded value of product / 255, where `product` is a product of two bytes.
-static unsigned divide_by_255(unsigned product) {
-    return (product + 128 + ((product + 128) >> 8)) >> 8;
+// Returns value / 255, rounded exactly, for a value of at most 255 * 255.
+static unsigned divide_by_255(unsigned value) {
+    return (value + 128 + ((value + 128) >> 8)) >> 8;
 }
 
 static void blend_pixel(uint8_t *pixel, DipColour colour, unsigned alpha) {
@@ -90,8 +90,8 @@ static void blend_pixel(uint8_t *pixel, DipColour colour, unsigned alpha) {
 
 enum { BLOCK_BYTES = 16 };
 
-// Blends blocks of four pixels. Each byte becomes (byte * rest + share) / 255, where `rest` is 255
-// minus the colour's alpha. `share` is the colour's byte times its alpha, plus 128 for rounding. No
+// Blends blocks of four pixels. Each byte becomes (byte * rest + colour * alpha) / 255, rounded
+// exactly, where `rest` is 255 - alpha. `share` is colour * alpha + 128, as divide_by_255 adds. No
 // sum is greater than 65407, so compilers can turn the loop into 16-bit vector code.
 static void blend_blocks(uint8_t *restrict bytes, size_t block_count,
                          const uint16_t share[BLOCK_BYTES], uint16_t rest) {

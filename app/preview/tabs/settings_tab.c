@@ -15,8 +15,9 @@ enum {
     GROUP_WIDTH = 94,
     EDITOR_WIDTH = 376,
     SUM_WIDTH = 282,
-    WIDE = 1180,  // Narrowest dock with the list, the editor and the sum side by side.
-    MEDIUM = 560, // Narrowest dock with the list, and the editor above the sum.
+    WIDE = 1180,  // Least width of a dock that shows the list, the editor and the sum side by side.
+    MEDIUM = 560, // Least width of a dock that shows the list and, to its right, the editor above
+                  // the sum.
     ENTRY_HEIGHT = 21,
     LINE_HEIGHT = 19,
     FOOT_HEIGHT = 30,
@@ -24,8 +25,8 @@ enum {
     EDITOR_HEIGHT = 78 // Height of an editor that stands above the sum.
 };
 
-// The settings in the order in which a frame uses them, and the words of their groups. A column
-// ends at an entry without a name.
+// The settings in the order in which the tab shows them, and the names of their groups. An entry
+// whose group is "" belongs to the group above it. A column ends at an entry whose group is NULL.
 enum { COLUMNS = 2, ENTRIES = 8 };
 static const struct {
     const char *group;

@@ -16,8 +16,8 @@ static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
                                   .skips_focus = true,
                                   .takes_wheel = state->manual || dip_loupe_is_on(&state->tools)};
     const DipUiInput input = dip_ui_control(ui, &control);
-    if (input.began && !input.focuses) { // A press that gives the window the focus does nothing
-                                         // else.
+    // A press that gives the window the focus does not choose a pane.
+    if (input.began && !input.focuses) {
         if (!state->edited[pane]) {
             dip_preview_notice(state, dip_ui_now_ns(ui), "Keys and panel change the %s pane",
                                dip_pane_names[pane]);

@@ -22,8 +22,8 @@ static int row_of(const DipFieldAt *at) {
     return (int)((const DipCostRow *)at->item - report_of(at)->rows);
 }
 
-// Initialisers of a DipField that is an object in JSON, but whose fields are members of the item
-// itself.
+// Initialises a DipField that is an object in JSON but no struct in C: its fields are members of
+// the struct that has this field.
 #define PART .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON
 
 static bool is_row(const DipCostReport *report, int row) {
@@ -192,6 +192,8 @@ METRIC_LIST(METRIC_FUNCTIONS)
 
 // --- viewpoints ----------------------------------------------------------------------------------
 
+// A DipCostTail begins with its DipFlipTail, so the offsets in tail_fields also hold for a
+// DipFlipTail alone.
 #define TAIL_FIELD(name, MEMBER, MOST, title, means, DIGITS)                                       \
     {                                                                                              \
         name, title, NULL, means, DIP_FACT(NUMBER, DipCostTail, flip.MEMBER), .most = MOST,        \
@@ -230,8 +232,8 @@ static const DipField tail_fields[] = {
      "tail of a row.",
      DIP_COMPUTED(WHOLE, DipCostTail, worst_viewpoint)},
     {"place", "where", NULL,
-     "Camera path and viewpoint of the block with the greatest mean FLIP; only in the tail of a "
-     "row.",
+     "Viewpoint, frame, size and position of the block with the greatest mean FLIP; only in the "
+     "tail of a row.",
      DIP_SHOWN(TEXT, derive_place)},
 };
 static const DipRecord viewpoint_tail_record = {
@@ -253,8 +255,7 @@ static const void *derive_tail(const DipFieldAt *at, DipFieldScratch *scratch) {
     return tail->viewpoints > 0 ? tail : NULL;
 }
 
-// A judged viewpoint of a row. The distribution of FLIP comes first, as in DipCostTail, so that the
-// offsets in tail_fields hold for both.
+// A judged viewpoint of a row.
 typedef struct Viewpoint {
     DipFlipTail tail;
     int place;
@@ -427,9 +428,10 @@ static DipErrorCode open_rows(const DipFieldAt *at, int count) {
 
 // --- visits --------------------------------------------------------------------------------------
 
-// The greatest number of times that a file may have for each frame of each row, on average over all
-// rows. Real reports have fewer. They have several times per frame where rows were timed again for
-// advice, and for a baseline, whose frames are timed in every block (app/measure/timing/driver.h).
+// The greatest number of measured times in a file, divided by the number of its rows and the number
+// of frames of a path. Real reports have fewer. A frame has several measured times if its row was
+// timed again for advice, or if the row is a baseline, whose frames are timed in every block
+// (app/measure/timing/driver.h).
 enum { MOST_TIMES = 64 };
 
 // A visit (app/measure/timing/driver.h): successive frames of the log that have the same row,
@@ -586,7 +588,9 @@ static const DipField path_fields[] = {
      OF_PATH(WHOLE, base_rows), .most = DIP_COST_MAX_ROWS - 1},
     {"same_row", NULL, NULL, "The baseline once more, timed as if it were another setting (A/A).",
      OF_PATH(WHOLE, same_rows), .most = DIP_COST_MAX_ROWS - 1},
-    {"floor", NULL, NULL, "Estimates of the metrics that the noise of the path's truths alone has.",
+    {"floor", NULL, NULL,
+     "Estimates of the metrics that a perfect picture has, because of the noise in the path's "
+     "truths.",
      DIP_DERIVED(RECORD, derive_floor), .record = &dip_cost_metrics_record},
 };
 static const DipRecord path_record = DIP_RECORD_OF_ARRAYS(
@@ -802,8 +806,8 @@ DIP_OF_ITEM(bool, check_elsewhere, isfinite(((const DipCostElsewhere *)at->item)
 
 const DipRecord dip_cost_elsewhere_record =
     DIP_RECORD("combination elsewhere",
-               "A combination that was timed at another size, on another path or with other "
-               "threads, in milliseconds of the report.",
+               "A combination that was timed at another size, on another path or with another "
+               "number of threads.",
                elsewhere_fields, DipCostElsewhere, check_elsewhere);
 
 enum { MOST_SIDE = 16384 }; // Greatest width and height of a picture, in pixels.
@@ -977,7 +981,8 @@ static const DipField machine_fields[] = {
     {"settled", NULL, NULL, "Whether the times of frames were steady before the first round began.",
      DIP_FACT(FLAG, DipCostReport, machine.settled)},
     {"doubt", NULL, NULL,
-     "Standard error of the logarithm of all times that an amber verdict adds to their intervals.",
+     "Standard error of the logarithm of a time by which an amber verdict widens the intervals "
+     "of all times.",
      DIP_COMPUTED(NUMBER, DipCostReport, doubt), .digits = 3},
     {"starts", NULL, NULL,
      "Number of starts of the program, each with rounds / starts rounds; 0 without times.",

@@ -1,5 +1,6 @@
-// Finds whole times of combinations, as measured, as predicted, or as the sum of prices. Lists the
-// candidates for a choice from these times.
+// Finds a combination's time of a frame: as measured, as predicted, or as the base's time plus the
+// prices of the steps that differ from the base. Lists the candidates for a choice from these
+// times.
 #include "app/report/prices/prices.h"
 
 #include "app/report/report.h"
@@ -131,8 +132,8 @@ static bool is_required(DipSetting setting, int step) {
 }
 
 // Returns how much is known of the prices of all steps for a pane with the settings `like`. For
-// steps of AF and advanced AF, the price without antialiasing suffices, since the price with any
-// antialiasing can be guessed from it.
+// steps of AF and advanced AF, the price with the base's antialiasing suffices, since it stands for
+// the price with any other antialiasing that was not measured.
 static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like) {
     DipQuality plain = *like;
     plain.step[DIP_SETTING_AA] = view->base.step[DIP_SETTING_AA];
