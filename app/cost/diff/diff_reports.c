@@ -250,14 +250,14 @@ static void compare_times(const DipCostReport *const reports[2], const int rows[
 }
 
 // Computes bounds of the changes that are so wide that all of them together hold with a probability
-// of 95 % (Bonferroni's correction), if there are at most 250. Of a hundred intervals of 95 % each,
-// about five would miss the truth.
+// of 95 % (Bonferroni's correction). Of a hundred intervals of 95 % each, about five would miss the
+// truth.
 static void widen_bounds(DipCostDiff *diff) {
     int count = 0;
     for (int r = 0; r < diff->row_count; r++) {
         count += diff->rows[r].timed;
     }
-    const double probability = fmin(1.0 - 0.025 / fmax(count, 1.0), 0.9999);
+    const double probability = 1.0 - 0.025 / fmax(count, 1.0);
     for (int r = 0; r < diff->row_count; r++) {
         DipCostDiffRow *row = &diff->rows[r];
         const DipEstimate *change = &row->change;

@@ -41,8 +41,8 @@ static double student_below(double t, double degrees) {
 }
 
 double dip_student_quantile(double probability, double degrees) {
-    DIP_ASSERT(probability >= 0.5 && probability <= 0.9999 && degrees >= 1.0);
-    double low = 0.0, high = 1e5;
+    DIP_ASSERT(probability >= 0.5 && probability <= 0.999999 && degrees >= 1.0);
+    double low = 0.0, high = 1e6;
     while (high - low > 1e-12 * (1.0 + low)) {
         const double middle = 0.5 * (low + high);
         *(student_below(middle, degrees) < probability ? &low : &high) = middle;

@@ -40,7 +40,7 @@ DIP_API DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_e
 DIP_API double dip_estimate_chance_below(const DipEstimate *estimate, double limit,
                                          double common_error);
 
-// Returns the quantile of Student's t distribution for a probability in 0.5..0.9999. `degrees` is
+// Returns the quantile of Student's t distribution for a probability in 0.5..0.999999. `degrees` is
 // the number of degrees of freedom (1 or more; INFINITY for a normal distribution).
 DIP_API double dip_student_quantile(double probability, double degrees);
 

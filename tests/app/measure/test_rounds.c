@@ -597,6 +597,16 @@ static void student_has_the_published_quantiles(void **state) {
         assert_true(fabs(got - table[i].value) < (table[i].degrees == 3.5 ? 0.05 : 6e-4));
     }
     assert_true(fabs(dip_student_quantile(0.5, 4)) < 1e-9);
+    // Closed forms for 1 and 2 degrees of freedom, and the normal distribution, at the bounds of
+    // the most rows that a report has.
+    for (double beyond = 1e-6; beyond < 0.5; beyond *= 3.0) {
+        const double p = 1.0 - beyond;
+        const double cauchy = 1.0 / tan(DIP_PI * beyond);
+        const double two = (2.0 * p - 1.0) / sqrt(2.0 * p * beyond);
+        assert_true(fabs(dip_student_quantile(p, 1.0) / cauchy - 1.0) < 1e-8);
+        assert_true(fabs(dip_student_quantile(p, 2.0) / two - 1.0) < 1e-8);
+    }
+    assert_true(fabs(dip_student_quantile(0.999999, INFINITY) - 4.753424) < 1e-6);
 }
 
 static void an_estimate_says_how_likely_a_limit_holds(void **state) {
