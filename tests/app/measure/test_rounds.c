@@ -4,6 +4,7 @@
 #include "app/measure/stats/rounds.h"
 #include "app/measure/stats/estimate.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/trig.h"
 #include "tests/app/measure/noise.h"
 
 #include <setjmp.h>
