@@ -90,8 +90,7 @@ static bool make_merge(DipPipeline *pipeline, const DipPass *pass, DipError *err
 
 // Allocates what passes need that hand over their light (DipPass.tile_done).
 static bool make_light(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
-    const bool hands_light = pass->tile_done && !dip_pass_is_merged(pass);
-    for (int w = 0; hands_light && w < pipeline->worker_count; w++) {
+    for (int w = 0; dip_pass_hands_light(pass) && w < pipeline->worker_count; w++) {
         if (!dip_tile_worker_make_light(pipeline->workers[w])) {
             return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass",
                                  "no memory for the light of a tile");

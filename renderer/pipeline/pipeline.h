@@ -125,7 +125,8 @@ typedef struct DipAttachments {
 // Takes a finished tile of a pass. pixels: the tile's part of the target. light16: the colours of
 // these pixels before they are encoded, in 16-bit linear light; the pixel in column x and row y of
 // the tile has red, green and blue in light16[c * DIP_TARGET_TILE * DIP_TARGET_TILE + y *
-// DIP_TARGET_TILE + x], c = 0..2. NULL if the pass is merged; then the target has the pixels.
+// DIP_TARGET_TILE + x], c = 0..2. NULL if the pass is merged for another reason than ordered draws
+// (state.h); then the target has the pixels.
 // Worker threads call the function for different tiles at once.
 typedef void DipTileDone(void *context, const DipTargetRegion *pixels, const uint16_t *light16);
 
@@ -172,8 +173,8 @@ typedef struct DipPass {
     DipTargetRegion viewport;
     // Pixels outside this rectangle are left untouched, to the pixel. All 0: the whole target.
     DipTargetRegion scissor;
-    // Called when a tile is finished, or NULL. A pass that is not merged (state.h) then hands its
-    // colours to this function instead of storing them in the target.
+    // Called when a tile is finished, or NULL. A pass that is not merged (state.h), or only for its
+    // ordered draws, then hands its colours to this function instead of storing them in the target.
     DipTileDone *tile_done;
     void *tile_context;
     // Where the pass also stores the depth of sample 0 of each pixel of the target, z / w of the

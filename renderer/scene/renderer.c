@@ -120,7 +120,7 @@ static void free_scaled(DipScaled *scaled) {
     dip_pipeline_destroy(&scaled->pipeline);
     dip_lines_free(scaled->target.rgba8);
     dip_lines_free(scaled->light16);
-    free(scaled->tables);
+    free(scaled->codes);
     *scaled = (DipScaled){0};
 }
 
@@ -130,13 +130,12 @@ static bool make_average(const DipRenderer *renderer, DipScaled *scaled, DipErro
     const size_t bytes =
         dip_box_light_bytes(from->width, from->height, renderer->width, renderer->height);
     scaled->light16 = bytes ? dip_lines_alloc(bytes) : NULL;
-    scaled->tables = malloc(sizeof *scaled->tables);
-    if ((bytes && !scaled->light16) || !scaled->tables) {
+    scaled->codes = malloc(sizeof *scaled->codes);
+    if ((bytes && !scaled->light16) || !scaled->codes) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scale", "no memory for %dx%d pixels",
                              from->width, from->height);
     }
-    dip_srgb_encode_table(&scaled->tables->codes);
-    dip_box_light_of_codes(scaled->tables->light_of);
+    dip_srgb_encode_table(scaled->codes);
     return true;
 }
 

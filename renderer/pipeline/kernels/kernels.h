@@ -34,6 +34,9 @@
     /* Averages the samples of a block to bytes R, G, B, A. srgb_code NULL: linear codes. */       \
     X(void, dip_kernel_resolve_codes,                                                              \
       (const DipTileColours *colours, int block, const uint8_t *srgb_code, uint32_t *rgba8))       \
+    /* Averages the colours of the samples of a block to 16-bit linear light. */                   \
+    X(void, dip_kernel_resolve_light16,                                                            \
+      (const DipTileColours *colours, int block, int32_t(*light16)[DIP_BLOCK_PIXELS]))             \
     /* Averages the samples of a block to floats. */                                               \
     X(void, dip_kernel_resolve_light,                                                              \
       (const DipTileColours *colours, int block, float(*light)[DIP_BLOCK_PIXELS]))                 \

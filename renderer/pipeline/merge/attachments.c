@@ -172,6 +172,22 @@ static void store_clear(const DipMergePass *pass, const DipTile *tile, int block
     store_codes(pass, tile, block, rgba8);
 }
 
+// Stores the mean of each pixel's samples in the light of the tile.
+static void resolve_to_light16(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
+                               int block, uint16_t *light16) {
+    int32_t means[3][DIP_BLOCK_PIXELS];
+    dip_merge_ready_block(pass, merge, tile, block);
+    pass->kernels->dip_kernel_resolve_light16(&merge->colours, block, means);
+    light16 += block / DIP_TILE_BLOCKS * DIP_BLOCK * DIP_TILE + block % DIP_TILE_BLOCKS * DIP_BLOCK;
+    for (int c = 0; c < 3; c++, light16 += DIP_TILE_PIXELS) {
+        for (int y = 0; y < DIP_BLOCK; y++) {
+            for (int x = 0; x < DIP_BLOCK; x++) {
+                light16[y * DIP_TILE + x] = (uint16_t)means[c][dip_block_pixel(x, y)];
+            }
+        }
+    }
+}
+
 // Stores the mean of each pixel's samples in the target.
 static void resolve_colours(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
                             int block) {
@@ -320,7 +336,8 @@ static void store_stencil(const DipMergePass *pass, const DipMergeTile *merge, c
     }
 }
 
-void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile) {
+void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
+                           uint16_t *light16) {
     const DipAttachments *a = &pass->pass->attachments;
     if (a->depth && a->depth_store == DIP_STORE_KEEP) {
         store_depths(pass, tile);
@@ -329,7 +346,9 @@ void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const 
         if (!dip_block_is_drawn(tile, block)) {
             continue;
         }
-        if (pass->resolves) {
+        if (light16) {
+            resolve_to_light16(pass, merge, tile, block, light16);
+        } else if (pass->resolves) {
             resolve_colours(pass, merge, tile, block);
         }
         if (a->samples && a->colour_store == DIP_STORE_KEEP) {

@@ -47,6 +47,10 @@ bool dip_pass_is_merged(const DipPass *pass) {
     return dip_pass_merges_all_tiles(pass) || has_ordered_draws(pass);
 }
 
+bool dip_pass_hands_light(const DipPass *pass) {
+    return pass->tile_done && !dip_pass_merges_all_tiles(pass);
+}
+
 static void cut(DipTargetRegion *region, const DipTargetRegion *by) {
     if (is_set(by)) {
         region->x0 = by->x0 > region->x0 ? by->x0 : region->x0;

@@ -46,6 +46,9 @@ bool dip_pass_is_merged(const DipPass *pass);
 // Whether a merged pass must merge even the tiles that no ordered draw reaches.
 bool dip_pass_merges_all_tiles(const DipPass *pass);
 
+// Whether a pass hands the light of its tiles to DipPass.tile_done.
+bool dip_pass_hands_light(const DipPass *pass);
+
 // Whether a pass draws colours, into samples or a target.
 bool dip_pass_has_colours(const DipPass *pass);
 
@@ -90,7 +93,10 @@ void dip_load_colours(const DipMergePass *pass, const DipTile *tile, int block,
                       float *const light[4]);
 void dip_load_depths(const DipMergePass *pass, DipTile *tile);
 void dip_load_stencil(const DipMergePass *pass, const DipTile *tile, uint8_t *stencil);
-void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile);
+// light16: where the means of the samples go instead of to the target, laid out for a DipTileDone;
+// or NULL.
+void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
+                           uint16_t *light16);
 
 // Stores the depths of the tile's drawn blocks in DipPass.depths, whether or not the pass is
 // merged.

@@ -43,6 +43,18 @@ void DIP_KERNEL(dip_kernel_resolve_codes)(const DipTileColours *colours, int blo
     }
 }
 
+void DIP_KERNEL(dip_kernel_resolve_light16)(const DipTileColours *colours, int block,
+                                            int32_t (*light16)[DIP_BLOCK_PIXELS]) {
+    const int first = block * colours->sample_count * DIP_BLOCK_PIXELS;
+    for (int i = 0; i < DIP_BLOCK_PIXELS; i += DIP_LANES) {
+        const bool split = dip_is_split(colours, block * 4 + i / DIP_SUB_BLOCK_PIXELS);
+        for (int c = 0; c < 3; c++) {
+            vi_store(light16[c] + i,
+                     mean16(colours->channel[c], first + i, colours->sample_count, split));
+        }
+    }
+}
+
 void DIP_KERNEL(dip_kernel_resolve_light)(const DipTileColours *colours, int block,
                                           float (*light)[DIP_BLOCK_PIXELS]) {
     const int sample_count = colours->sample_count;

@@ -160,7 +160,8 @@ void dip_merged_tile_draw(DipTileWorker *worker, int index) {
     end_ordered_draw(worker);
     shade_plain_draws(worker);
     const int64_t drawn_ns = dip_clock_ns();
-    dip_store_attachments(&worker->pass->merge, &worker->merge, &worker->tile);
+    dip_store_attachments(&worker->pass->merge, &worker->merge, &worker->tile,
+                          worker->shading.light16);
     work->stage_ns[DIP_TILE_STAGE_RASTER] += drawn_ns - begin_ns - worker->shading_ns;
     work->stage_ns[DIP_TILE_STAGE_SHADING] = worker->shading_ns;
     work->stage_ns[DIP_TILE_STAGE_RESOLVE] = dip_clock_ns() - drawn_ns;

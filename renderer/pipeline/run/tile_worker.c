@@ -200,7 +200,7 @@ static void begin_tile(DipTileWorker *worker, int index) {
     shading->context = worker;
     shading->width = target->width - tile->x0 < DIP_TILE ? target->width - tile->x0 : DIP_TILE;
     shading->height = target->height - tile->y0 < DIP_TILE ? target->height - tile->y0 : DIP_TILE;
-    shading->light16 = pass->pass->tile_done && !pass->merged ? worker->light16 : NULL;
+    shading->light16 = dip_pass_hands_light(pass->pass) ? worker->light16 : NULL;
     shading->clear_rgba8 = pass->clear_rgba8;
     memcpy(shading->clear_linear16, pass->clear_linear16, sizeof shading->clear_linear16);
     shading->multi_fragment_count = 0;

@@ -6,8 +6,6 @@
 // is a whole number, and the overlaps of a pixel of the smaller picture add up to `from`.
 #include "renderer/scene/draw/box.h"
 
-#include "renderer/base/srgb.h"
-
 #include <stdbool.h>
 #include <string.h>
 
@@ -71,14 +69,6 @@ size_t dip_box_light_bytes(int from_width, int from_height, int width, int heigh
     return doubled ? 0 : (size_t)from_width * (size_t)from_height * CHANNELS * sizeof(uint16_t);
 }
 
-void dip_box_light_of_codes(uint16_t light_of[256]) {
-    DipSrgbDecodeTable table;
-    dip_srgb_decode_table(&table);
-    for (int code = 0; code < 256; code++) {
-        light_of[code] = (uint16_t)(DIP_LINEAR16_MAX * table.linear[code] + 0.5);
-    }
-}
-
 // Averages the four pixels of each pixel of a tile of twice the size. Tiles begin at even pixels.
 static void halve_tile(const DipBoxFilter *box, const DipTargetRegion *pixels,
                        const uint16_t *light16) {
@@ -102,8 +92,8 @@ static void halve_tile(const DipBoxFilter *box, const DipTargetRegion *pixels,
 // Copies the light of a tile to the light of the picture.
 static void keep_tile(const DipBoxFilter *box, const DipTargetRegion *pixels,
                       const uint16_t *light16) {
-    const size_t width = (size_t)box->from.width;
-    const size_t plane = width * (size_t)box->from.height;
+    const size_t width = (size_t)box->from_width;
+    const size_t plane = width * (size_t)box->from_height;
     const size_t bytes = (size_t)(pixels->x1 - pixels->x0) * sizeof *light16;
     for (size_t c = 0; c < CHANNELS; c++) {
         uint16_t *to = box->light16 + c * plane + (size_t)pixels->x0;
@@ -114,35 +104,12 @@ static void keep_tile(const DipBoxFilter *box, const DipTargetRegion *pixels,
     }
 }
 
-// Finds the light of a tile's sRGB codes. stride and plane: distances from one row and from one
-// channel of the light to the next.
-static void decode_tile(const DipBoxFilter *box, const DipTargetRegion *pixels, uint16_t *light16,
-                        size_t stride, size_t plane) {
-    for (int y = pixels->y0; y < pixels->y1; y++, light16 += stride) {
-        const uint8_t *from =
-            box->from.rgba8 + (size_t)y * box->from.stride_bytes + (size_t)pixels->x0 * 4;
-        for (int x = 0; x < pixels->x1 - pixels->x0; x++, from += 4) {
-            for (size_t c = 0; c < CHANNELS; c++) {
-                light16[c * plane + (size_t)x] = box->light_of[from[c]];
-            }
-        }
-    }
-}
-
 void dip_box_take_tile(void *context, const DipTargetRegion *pixels, const uint16_t *light16) {
     const DipBoxFilter *box = context;
-    const size_t width = (size_t)box->from.width;
-    uint16_t decoded[CHANNELS * TILE_PIXELS];
-    if (box->light16 && light16) {
+    if (box->light16) {
         keep_tile(box, pixels, light16);
-    } else if (box->light16) {
-        uint16_t *to = box->light16 + (size_t)pixels->y0 * width + (size_t)pixels->x0;
-        decode_tile(box, pixels, to, width, width * (size_t)box->from.height);
-    } else if (light16) {
-        halve_tile(box, pixels, light16);
     } else {
-        decode_tile(box, pixels, decoded, TILE, TILE_PIXELS);
-        halve_tile(box, pixels, decoded);
+        halve_tile(box, pixels, light16);
     }
 }
 
@@ -196,8 +163,8 @@ static void sum_rows(const uint16_t *plane, size_t width, Axis axis, int y, cons
 // whole quotients to their number and no other quotient to the next.
 static void average(const DipBoxFilter *box, const Taps *taps, Axis across, Axis down, int y,
                     int x0, int x1) {
-    const size_t width = (size_t)box->from.width;
-    const size_t plane = width * (size_t)box->from.height;
+    const size_t width = (size_t)box->from_width;
+    const size_t plane = width * (size_t)box->from_height;
     const double whole = (double)across.from * down.from;
     const double inverse = 1.0 / whole;
     uint32_t means[CHANNELS][CHUNK];
@@ -220,8 +187,8 @@ static void average(const DipBoxFilter *box, const Taps *taps, Axis across, Axis
 static void average_rows(void *context, int job, int worker) {
     (void)worker;
     const DipBoxFilter *box = context;
-    const Axis across = axis_of(box->from.width, box->to.width);
-    const Axis down = axis_of(box->from.height, box->to.height);
+    const Axis across = axis_of(box->from_width, box->to.width);
+    const Axis down = axis_of(box->from_height, box->to.height);
     const int end = (job + 1) * ROWS < box->to.height ? (job + 1) * ROWS : box->to.height;
     for (int x = 0; x < box->to.width; x += CHUNK) {
         const int x1 = x + CHUNK < box->to.width ? x + CHUNK : box->to.width;

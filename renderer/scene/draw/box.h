@@ -17,23 +17,20 @@ enum { DIP_BOX_MAX_RATIO = 2 }; // most pixels of the larger picture per pixel, 
 // light is rounded to 16 bits, halves up, before it is encoded. Nothing else is rounded: overlaps
 // are whole numbers.
 typedef struct DipBoxFilter {
-    DipTarget from; // the larger picture; its pixels are read only where it has no light
-    DipTarget to;   // the smaller picture; each pixel's fourth byte becomes 255
+    int from_width; // of the larger picture
+    int from_height;
+    DipTarget to; // the smaller picture; each pixel's fourth byte becomes 255
     // The larger picture's light: planes of red, green and blue, in rows without gaps. NULL if both
     // ratios are 2: each tile is then averaged at once, and dip_box_filter has nothing left to do.
     uint16_t *light16;
     const uint8_t *srgb_code; // sRGB code of each 16-bit light (DipSrgbEncodeTable)
-    const uint16_t *light_of; // 16-bit light of the 256 codes (dip_box_light_of_codes)
 } DipBoxFilter;
 
 // Returns the memory in bytes that `light16` takes for a picture of this size; 0 if it is NULL.
 size_t dip_box_light_bytes(int from_width, int from_height, int width, int height);
 
-// Fills in the light of each sRGB code, rounded to 16 bits.
-void dip_box_light_of_codes(uint16_t light_of[256]);
-
-// Takes a tile of the larger picture, as a DipTileDone whose context is the DipBoxFilter. If the
-// tile has no light, its light is that of the larger picture's sRGB codes.
+// Takes a tile of the larger picture, as a DipTileDone whose context is the DipBoxFilter. light16
+// is not NULL.
 void dip_box_take_tile(void *box, const DipTargetRegion *pixels, const uint16_t *light16);
 
 // Fills in what is left of the smaller picture once all tiles are taken, on the pool or, if the

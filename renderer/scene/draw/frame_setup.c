@@ -158,20 +158,19 @@ static void make_mirrored_pass(FrameSetup *setup) {
     set_draws(renderer, setup->scene, seen, &mirror->set, pass);
 }
 
-// Averages the larger picture of a render scale to the frame. A pass with blended surfaces is
-// merged, and hands over no light; then the light is that of its codes.
+// Averages the larger picture of a render scale to the frame.
 static void average_pass(FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
     const DipScaled *scaled = &renderer->scaled;
     setup->box = (DipBoxFilter){
-        .from = scaled->target,
+        .from_width = scaled->target.width,
+        .from_height = scaled->target.height,
         .to = {.rgba8 = renderer->rgba8,
                .stride_bytes = renderer->stride_bytes,
                .width = renderer->width,
                .height = renderer->height},
         .light16 = scaled->light16,
-        .srgb_code = scaled->tables->codes.code,
-        .light_of = scaled->tables->light_of,
+        .srgb_code = scaled->codes->code,
     };
     setup->pass.tile_done = dip_box_take_tile;
     setup->pass.tile_context = &setup->box;
@@ -194,7 +193,7 @@ static void make_scene_pass(FrameSetup *setup) {
         setup->pass.region = setup->readback->region;
     }
     set_draws(renderer, setup->scene, seen, &renderer->set, &setup->pass);
-    if (renderer->scaled.tables) {
+    if (renderer->scaled.codes) {
         average_pass(setup);
     }
 }
@@ -483,7 +482,7 @@ static void end_frame(const FrameSetup *setup) {
     frame->stages.total_ms += setup->posing_ms;
     const bool reflects = setup->plan.effects.reflection.run;
     const DipTarget picture =
-        renderer->scaled.tables ? shrink(setup) : dip_renderer_target(renderer);
+        renderer->scaled.codes ? shrink(setup) : dip_renderer_target(renderer);
     frame->rgba8 = picture.rgba8;
     frame->stride_bytes = picture.stride_bytes;
     count_mirror(&renderer->mirror, reflects, &frame->counters);

@@ -24,12 +24,6 @@ typedef struct DipMirror {
     DipMaterialSamplers *samplers;
 } DipMirror;
 
-// The tables of a box filter.
-typedef struct DipScaledTables {
-    DipSrgbEncodeTable codes;
-    uint16_t light_of[256];
-} DipScaledTables;
-
 // The larger or smaller picture that a render scale draws. All members are 0 while a frame is drawn
 // at its own size. A smaller picture is enlarged by the filters of the finished picture.
 typedef struct DipScaled {
@@ -37,7 +31,7 @@ typedef struct DipScaled {
     DipTarget target;
     // What averages a larger picture (box.h); NULL for a smaller one.
     uint16_t *light16; // NULL for twice the size, too
-    DipScaledTables *tables;
+    DipSrgbEncodeTable *codes;
 } DipScaled;
 
 // What the last frame of a renderer with a history showed.

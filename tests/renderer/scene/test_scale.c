@@ -40,7 +40,8 @@ static void make_pictures(Pictures *pictures, Random *random, int from_width, in
     for (size_t i = 0; i < from; i++) {
         pictures->light16[i] = (uint16_t)random_u64(random);
     }
-    pictures->box = (DipBoxFilter){.from = {.width = from_width, .height = from_height},
+    pictures->box = (DipBoxFilter){.from_width = from_width,
+                                   .from_height = from_height,
                                    .to = {.rgba8 = pictures->rgba8,
                                           .stride_bytes = (size_t)width * 4,
                                           .width = width,
@@ -57,23 +58,23 @@ static void free_pictures(Pictures *pictures) {
 }
 
 static uint16_t light_at(const Pictures *pictures, int x, int y, int c) {
-    return pictures->light16[3 * (y * pictures->box.from.width + x) + c];
+    return pictures->light16[3 * (y * pictures->box.from_width + x) + c];
 }
 
 static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
-// Hands the picture over as the tiles of a pass are, without light if it has none, and averages it.
+// Hands the picture over as the tiles of a pass are, and averages it.
 static void average(const Pictures *pictures, DipPool *pool) {
     enum { TILE = DIP_TARGET_TILE };
     static uint16_t light16[3 * TILE * TILE];
     DipBoxFilter box = pictures->box;
-    for (int y0 = 0; y0 < box.from.height; y0 += TILE) {
-        for (int x0 = 0; x0 < box.from.width; x0 += TILE) {
-            const DipTargetRegion pixels = {x0, y0, smaller(x0 + TILE, box.from.width),
-                                            smaller(y0 + TILE, box.from.height)};
-            for (int y = y0; pictures->light16 && y < pixels.y1; y++) {
+    for (int y0 = 0; y0 < box.from_height; y0 += TILE) {
+        for (int x0 = 0; x0 < box.from_width; x0 += TILE) {
+            const DipTargetRegion pixels = {x0, y0, smaller(x0 + TILE, box.from_width),
+                                            smaller(y0 + TILE, box.from_height)};
+            for (int y = y0; y < pixels.y1; y++) {
                 for (int x = x0; x < pixels.x1; x++) {
                     for (int c = 0; c < 3; c++) {
                         light16[c * TILE * TILE + (y - y0) * TILE + x - x0] =
@@ -81,7 +82,7 @@ static void average(const Pictures *pictures, DipPool *pool) {
                     }
                 }
             }
-            dip_box_take_tile(&box, &pixels, pictures->light16 ? light16 : NULL);
+            dip_box_take_tile(&box, &pixels, light16);
         }
     }
     dip_box_filter(&box, pool);
@@ -90,13 +91,13 @@ static void average(const Pictures *pictures, DipPool *pool) {
 // Returns the mean of a channel over the part of the larger picture that belongs to a pixel, in
 // double precision.
 static double mean_at(const Pictures *pictures, int x, int y, int c) {
-    const DipTarget *from = &pictures->box.from, *to = &pictures->box.to;
-    const double across = (double)from->width / to->width;
-    const double down = (double)from->height / to->height;
+    const DipBoxFilter *box = &pictures->box;
+    const double across = (double)box->from_width / box->to.width;
+    const double down = (double)box->from_height / box->to.height;
     double sum = 0.0;
-    for (int j = 0; j < from->height; j++) {
+    for (int j = 0; j < box->from_height; j++) {
         const double high = fmin(j + 1.0, (y + 1) * down) - fmax(j, y * down);
-        for (int i = 0; high > 0.0 && i < from->width; i++) {
+        for (int i = 0; high > 0.0 && i < box->from_width; i++) {
             const double wide = fmin(i + 1.0, (x + 1) * across) - fmax(i, x * across);
             if (wide > 0.0) {
                 sum += wide * high * light_at(pictures, i, j, c);
@@ -135,7 +136,7 @@ static void filters_match_double_precision_at_every_ratio(void **state) {
 // the nearest whole number, halves up. Lengths are in units of 1 / (from * to).
 static uint32_t whole_mean(const Pictures *pictures, int x, int y, int c) {
     const DipBoxFilter *box = &pictures->box;
-    const int64_t from[2] = {box->from.width, box->from.height};
+    const int64_t from[2] = {box->from_width, box->from_height};
     const int64_t to[2] = {box->to.width, box->to.height}, at[2] = {x, y};
     uint64_t sum = 0;
     int64_t begin[2], end[2];
@@ -177,7 +178,7 @@ static void every_ratio_is_exact_in_whole_numbers(void **state) {
         make_pictures(&pictures, &random, random_int(&random, width, 2 * width),
                       random_int(&random, height, 2 * height), width, height);
         if (i % 3 == 0) { // Few different lights give means at halves.
-            const int count = 3 * pictures.box.from.width * pictures.box.from.height;
+            const int count = 3 * pictures.box.from_width * pictures.box.from_height;
             for (int k = 0; k < count; k++) {
                 pictures.light16[k] = (uint16_t)(65535 - pictures.light16[k] % 2);
             }
@@ -218,48 +219,6 @@ static void twice_the_size_is_the_rounded_mean_of_four_whole_numbers(void **stat
         }
     }
     free_pictures(&pictures);
-}
-
-// A pass that is merged hands over no light: the light is that of the codes in its target.
-static void a_tile_without_light_has_the_light_of_its_codes(void **state) {
-    (void)state;
-    static const int sizes[][4] = {{140, 70, 70, 35}, {150, 75, 100, 50}, {65, 3, 65, 3}};
-    Random random = {12};
-    uint16_t light_of[256];
-    dip_box_light_of_codes(light_of);
-    for (int code = 0; code < 256; code++) {
-        assert_int_equal(codes.code[light_of[code]], code);
-        assert_int_equal(light_of[code], (int)(65535 * dip_srgb_decode(code / 255.0) + 0.5));
-    }
-    for (int s = 0; s < 3; s++) {
-        Pictures pictures;
-        make_pictures(&pictures, &random, sizes[s][0], sizes[s][1], sizes[s][2], sizes[s][3]);
-        const int count = sizes[s][0] * sizes[s][1];
-        const size_t bytes = (size_t)sizes[s][2] * (size_t)sizes[s][3] * 4;
-        uint8_t *rgba8 = malloc((size_t)count * 4);
-        uint8_t *expected = malloc(bytes);
-        assert_non_null(rgba8);
-        assert_non_null(expected);
-        for (int i = 0; i < 4 * count; i++) {
-            rgba8[i] = (uint8_t)random_u64(&random);
-        }
-        for (int i = 0; i < 3 * count; i++) {
-            pictures.light16[i] = light_of[rgba8[i / 3 * 4 + i % 3]];
-        }
-        average(&pictures, NULL);
-        memcpy(expected, pictures.rgba8, bytes);
-        memset(pictures.rgba8, 1, bytes);
-        free(pictures.light16);
-        pictures.light16 = NULL;
-        pictures.box.from.rgba8 = rgba8;
-        pictures.box.from.stride_bytes = (size_t)sizes[s][0] * 4;
-        pictures.box.light_of = light_of;
-        average(&pictures, NULL);
-        assert_memory_equal(pictures.rgba8, expected, bytes);
-        free(rgba8);
-        free(expected);
-        free_pictures(&pictures);
-    }
 }
 
 static void a_single_colour_stays_exact(void **state) {
@@ -385,6 +344,98 @@ static void the_light_of_tiles_is_the_mean_of_the_samples(void **state) {
     }
     dip_mesh_destroy(&mesh);
     free(samples);
+}
+
+// What a pass with an ordered draw is drawn to.
+typedef struct OrderedPictures {
+    LitPicture light16;
+    uint8_t codes[LIT_HEIGHT][LIT_WIDTH][4];
+    float floats[LIT_HEIGHT][LIT_WIDTH][4];
+} OrderedPictures;
+
+// Draws a pass to the light of its tiles, to sRGB codes, and to floats.
+static void draw_three_times(DipPipeline *pipeline, const DipPass *pass, OrderedPictures *out) {
+    DipPass other = *pass;
+    memset(out, 1, sizeof *out);
+    other.target = (DipTarget){.rgba8 = &out->codes[0][0][0],
+                               .stride_bytes = LIT_WIDTH * 4,
+                               .width = LIT_WIDTH,
+                               .height = LIT_HEIGHT};
+    other.tile_done = keep_light;
+    other.tile_context = &out->light16;
+    assert_true(dip_pipeline_draw(pipeline, &other, NULL, NULL, NULL));
+    for (size_t i = 0; i < sizeof out->codes; i++) {
+        assert_int_equal((&out->codes[0][0][0])[i], 1); // The target stays as it was.
+    }
+    other.tile_done = NULL;
+    assert_true(dip_pipeline_draw(pipeline, &other, NULL, NULL, NULL));
+    other.target.format = DIP_FORMAT_RGBA32F;
+    other.target.rgba8 = (uint8_t *)&out->floats[0][0][0];
+    other.target.stride_bytes = LIT_WIDTH * sizeof out->floats[0][0];
+    assert_true(dip_pipeline_draw(pipeline, &other, NULL, NULL, NULL));
+}
+
+// Ordered draws change nothing of this, in the tiles that they reach and in the others: the light
+// has the code that the pixel has without it, and is as precise as the floats of another target but
+// for the rounding of the samples. Where an ordered draw blends nothing, the light has the same
+// bits as without it.
+static void the_light_of_tiles_is_the_same_beside_ordered_draws(void **state) {
+    (void)state;
+    static OrderedPictures plain, glass, nothing;
+    static const float vertices[6][3] = {{-0.9f, -0.8f, 0}, {0.7f, -0.3f, 0}, {-0.1f, 0.9f, 0},
+                                         {-1.0f, 0.1f, 0},  {-0.2f, 0.3f, 0}, {-0.6f, 1.0f, 0}};
+    static const uint32_t indices[2][3] = {{0, 1, 2}, {3, 4, 5}};
+    const DipDrawState blend = {
+        .depth_test = DIP_DEPTH_ALWAYS,
+        .blend = {true,
+                  {DIP_BLEND_CONSTANT, DIP_BLEND_ONE_MINUS_CONSTANT, DIP_BLEND_ADD},
+                  DIP_BLEND_ALPHA_IS_SOURCE,
+                  {0.3f, 0.6f, 0.9f, 0.0f}}};
+    const DipDrawState blend_nothing = {.depth_test = DIP_DEPTH_ALWAYS,
+                                        .blend = {true,
+                                                  {DIP_BLEND_ZERO, DIP_BLEND_ONE, DIP_BLEND_ADD},
+                                                  DIP_BLEND_ALPHA_IS_SOURCE,
+                                                  {0.0f, 0.0f, 0.0f, 0.0f}}};
+    DipDraw draws[2];
+    for (int d = 0; d < 2; d++) {
+        const DipMeshData data = {"triangle", &vertices[0][0], 3, 6, indices[d], 3};
+        draws[d] = (DipDraw){.mesh = dip_mesh_create(&data, NULL),
+                             .vertex_shader = place,
+                             .fragment_shader = shade,
+                             .varying_count = 2};
+    }
+    for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+        DipPipeline *pipeline =
+            dip_isa_available((DipIsa)isa)
+                ? dip_pipeline_create(NULL, (DipIsa)isa, LIT_WIDTH, LIT_HEIGHT, NULL)
+                : NULL;
+        static const int counts[] = {1, 2, 4, 6, 8};
+        for (int s = 0; pipeline && s < 5; s++) {
+            DipPass pass = {.draws = draws,
+                            .draw_count = 1,
+                            .sample_count = counts[s],
+                            .clear_lin = {0.1f, 0.7f, 1.0f}};
+            draw_three_times(pipeline, &pass, &plain);
+            pass.draw_count = 2;
+            draws[1].state = &blend;
+            draw_three_times(pipeline, &pass, &glass);
+            draws[1].state = &blend_nothing;
+            draw_three_times(pipeline, &pass, &nothing);
+            assert_memory_equal(plain.light16, nothing.light16, sizeof plain.light16);
+            int blended = 0;
+            for (int i = 0; i < LIT_WIDTH * LIT_HEIGHT * 3; i++) {
+                const int x = i / 3 % LIT_WIDTH, y = i / 3 / LIT_WIDTH, c = i % 3;
+                const uint16_t light = glass.light16[y][x][c];
+                assert_int_equal(glass.codes[y][x][c], codes.code[light]);
+                assert_true(fabs(65535.0 * (double)glass.floats[y][x][c] - light) <= 1.01);
+                blended += light != plain.light16[y][x][c];
+            }
+            assert_true(blended > 1000);
+        }
+        dip_pipeline_destroy(&pipeline);
+    }
+    dip_mesh_destroy((DipMesh **)&draws[0].mesh);
+    dip_mesh_destroy((DipMesh **)&draws[1].mesh);
 }
 
 // --- frames --------------------------------------------------------------------------------------
@@ -533,9 +584,9 @@ int main(void) {
         cmocka_unit_test(filters_match_double_precision_at_every_ratio),
         cmocka_unit_test(every_ratio_is_exact_in_whole_numbers),
         cmocka_unit_test(twice_the_size_is_the_rounded_mean_of_four_whole_numbers),
-        cmocka_unit_test(a_tile_without_light_has_the_light_of_its_codes),
         cmocka_unit_test(a_single_colour_stays_exact),
         cmocka_unit_test(the_light_of_tiles_is_the_mean_of_the_samples),
+        cmocka_unit_test(the_light_of_tiles_is_the_same_beside_ordered_draws),
         cmocka_unit_test(sizes_are_rounded_to_the_nearest_whole_number),
         cmocka_unit_test(the_work_is_that_of_a_larger_frame),
         cmocka_unit_test(a_scale_that_is_turned_off_leaves_nothing),
