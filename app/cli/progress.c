@@ -85,12 +85,15 @@ void dip_progress_end(DipProgress *progress, int64_t done) {
 static volatile sig_atomic_t interrupted;
 
 static void interrupt(int signal_number) {
-    (void)signal_number;
+    if (interrupted) {
+        signal(signal_number, SIG_DFL);
+        raise(signal_number);
+    }
     interrupted = 1;
 }
 
 void dip_interrupt_watch(void) {
-    const struct sigaction on_interrupt = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    const struct sigaction on_interrupt = {.sa_handler = interrupt};
     sigaction(SIGINT, &on_interrupt, NULL);
     sigaction(SIGTERM, &on_interrupt, NULL);
 }

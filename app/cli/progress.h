@@ -39,8 +39,8 @@ double dip_progress_elapsed_s(const DipProgress *progress);
 // nothing if standard error is not a terminal.
 void dip_progress_clear(void);
 
-// From now on, the first SIGINT (Ctrl-C) and the first SIGTERM only set a flag. A second one of
-// the same kind ends the program at once.
+// From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second ends the program
+// at once, whichever of both it is.
 void dip_interrupt_watch(void);
 
 // Returns whether one of these signals has come.

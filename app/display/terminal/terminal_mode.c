@@ -146,7 +146,7 @@ static void use_signal_stack(void) {
 }
 
 // Takes over the signals. If the process ignores a signal that asks for something (as SIGHUP
-// under nohup), the signal stays ignored.
+// under nohup), or SIGQUIT, the signal stays ignored.
 static void take_signals(void) {
     struct sigaction polite = {.sa_handler = take_polite_signal};
     struct sigaction crash = {.sa_sigaction = take_crash_signal,
@@ -157,7 +157,8 @@ static void take_signals(void) {
     for (int i = 0; i < SIGNAL_COUNT; ++i) {
         struct sigaction *before = &mode.before_ours[i];
         sigaction(signals[i].number, signals[i].asks ? &polite : &crash, before);
-        if (signals[i].asks && before->sa_handler == SIG_IGN) {
+        const bool may_be_ignored = signals[i].asks || signals[i].number == SIGQUIT;
+        if (may_be_ignored && before->sa_handler == SIG_IGN) {
             sigaction(signals[i].number, before, NULL);
         }
     }

@@ -53,18 +53,29 @@ has "^  4  500 triangles, scale 0\.5 \(16x12\) +median .* $estimate$"
 catches() {
     sed -n 's/^SigCgt:.*\(.\)$/\1/p' "/proc/$1/status" 2>/dev/null | grep -q '[2367abef]'
 }
-for wait in 0 1.5; do
+begin_bench() {
     "$diptych" bench --rounds 1000 >out.txt 2>err.txt &
     for tenth in $(seq 600); do
         catches $! && break
         kill -0 $! 2>/dev/null || break
         sleep 0.1
     done
+}
+for wait in 0 1.5; do
+    begin_bench
     sleep $wait
     kill -INT $!
     wait $!
     [ $? = 1 ] || fail "Ctrl-C after $wait s must end bench with code 1"
     has '\[bench\] interrupted' err.txt
 done
+# Both signals arrive before the program can act on the first one: the second ends it at once.
+begin_bench
+kill -STOP $!
+kill -INT $!
+kill -TERM $!
+kill -CONT $!
+wait $!
+[ $? -gt 128 ] || fail "a second signal of another kind must end bench at once"
 
 finish

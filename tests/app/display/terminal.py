@@ -64,7 +64,7 @@ class Screen:
 class Terminal:
     """A pseudo terminal with the program in it."""
 
-    def __init__(self, *arguments, columns=100, rows=30, **variables):
+    def __init__(self, *arguments, columns=100, rows=30, ignored=(), **variables):
         environment = {k: v for k, v in os.environ.items()
                        if k not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "COLORTERM",
                                     "NO_COLOR", "LC_ALL", "LC_CTYPE")}
@@ -82,6 +82,8 @@ class Terminal:
                 os.dup2(self.slave, fd)
             os.close(self.slave)
             os.close(self.master)
+            for number in ignored:
+                signal.signal(number, signal.SIG_IGN)
             os.execve(PROGRAM, [PROGRAM, *arguments], environment)
 
     def resize(self, columns, rows):
@@ -238,6 +240,19 @@ def test_crashes():
         if not os.environ.get("DIP_SANITIZED"):
             assert os.WIFSIGNALED(status) and os.WTERMSIG(status) == number, number.name
         terminal.assert_restored(number.name)
+        terminal.close()
+
+
+def test_an_ignored_signal_changes_nothing():
+    """A program that was started with SIGQUIT or SIGHUP ignored keeps its picture."""
+    for number in (signal.SIGQUIT, signal.SIGHUP):
+        terminal = started(ignored=[number])
+        os.kill(terminal.pid, number)
+        came = terminal.read(0.5)
+        assert b"\x1b[?1049l" not in came, f"{number.name} restores the terminal"
+        terminal.keys(b"\x1b")
+        assert terminal.wait_end() == 0
+        terminal.assert_restored(f"ignored {number.name}")
         terminal.close()
 
 
