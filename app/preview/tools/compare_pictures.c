@@ -93,14 +93,15 @@ void dip_compare_pictures(DipUi *ui, DipWindow *window) {
 
 // --- over the panes ------------------------------------------------------------------------------
 
-// Moves the divider to a pointer that drags or, with Shift, to the middle. A drag may begin
-// anywhere in the picture. While the user flies the camera, only a drag near the divider moves it.
+// Moves the divider to a pointer that drags with the left button or, with Shift, to the middle. A
+// drag may begin anywhere in the picture. (A drag with the right button flies the camera.) While
+// the user flies the camera, only a drag near the divider moves it.
 static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) {
     DipToolState *tools = &window->state->tools;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);
     const DipRect left = dip_compare_visible(window, DIP_PANE_CURRENT);
     const int off = abs(input->x - left.x - left.width);
-    if (!input->held || !input->moved || shown.width < 1 ||
+    if (!input->held || input->button != DIP_MOUSE_LEFT || !input->moved || shown.width < 1 ||
         (window->state->manual && off > 2 * dip_ui_px(ui, HANDLE))) {
         return;
     }

@@ -277,6 +277,11 @@ static void test_divider_is_dragged_and_stays_in_the_picture(void **state) {
     dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_UP, DIP_MOUSE_LEFT, 0, 60);
     dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_MOVE, DIP_MOUSE_LEFT, shown.x + 10, 60);
     assert_true(tw.state.tools.divider >= 1.0);
+    // The right button flies the camera, from the first pixel on.
+    dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_DOWN, DIP_MOUSE_RIGHT, shown.x + 140, 50);
+    dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_MOVE, DIP_MOUSE_RIGHT, shown.x + 138, 50);
+    dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_UP, DIP_MOUSE_RIGHT, shown.x + 138, 50);
+    assert_true(tw.state.tools.divider >= 1.0);
 }
 
 static void test_position_tells_the_pane_and_the_pixel(void **state) {
