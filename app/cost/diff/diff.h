@@ -154,8 +154,8 @@ void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
 
 // Computes the rows' marks, and the numbers of slower, faster and failed rows. A row is marked as
 // slower if surely_above is greater than the limit, and as faster if surely_below is less than
-// 1 / limit. Marks no row if the times may not be compared, if a machine's verdict is red, or if
-// two reports come from different machines.
+// 1/limit. Marks no baseline of a report, and no row at all if the times may not be compared, if a
+// machine's verdict is red, or if two reports come from different machines.
 void dip_cost_diff_mark(DipCostDiff *diff);
 
 // --- groups of exact differences -----------------------------------------------------------------
@@ -239,10 +239,10 @@ bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *c
                             DipCostDiff *diff, DipError *err);
 
 // Measures rows of a report again with another program: the rows of the report's first path whose
-// settings `arguments` lists. Makes a new report with the baseline and these rows. It has no
-// errors, and each row's ratio is its time / the time of the baseline in the same program. Fails as
-// dip_cost_diff_programs does, and with DIP_ERROR_MISSING if the report has no times or none of the
-// settings. On success the caller frees the new report.
+// settings `arguments` lists, except the baseline. Makes a new report with the baseline and these
+// rows. It has no errors, and each row's ratio is its time / the time of the baseline in the same
+// program. Fails as dip_cost_diff_programs does, and with DIP_ERROR_MISSING if the report has no
+// times or none of these rows. On success the caller frees the new report.
 bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const char *program,
                                   const DipCostReport *report, DipCostReport *measured,
                                   DipError *err);

@@ -13,7 +13,8 @@
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
 // models of times and errors (fit.h) from its composed work (combinations.h). If there are too few
-// rows for the models or for composing the work, its time is the sum of prices.
+// rows for the models or for composing the work, its time is the time of the base, or of a
+// combination nearer to it, plus the prices of the steps that this one lacks.
 #ifndef DIP_APP_REPORT_PRICES_PRICES_H
 #define DIP_APP_REPORT_PRICES_PRICES_H
 
