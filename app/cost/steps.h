@@ -7,11 +7,11 @@
 #include "app/cost/context.h"
 #include "app/report/fit.h"
 
-// Looks for about a second how busy other programs keep the machine: times the baseline beside a
-// second copy of itself, and warns if the verdict on these times (verdict.h) is red, or if the
-// waiting time of the threads alone is not green. (The report's own verdict comes later, from all
-// of its times.) Sets cost->baseline_ms. There is at most one warning for each context, either from
-// this function or from dip_cost_look_at_times.
+// Finds out with fewer than a hundred frames how busy other programs keep the machine: times the
+// baseline beside a second copy of itself. Warns if the verdict on these times (verdict.h) is red,
+// or if the waiting time of the threads alone is not green. (The report's own verdict comes later,
+// from all of its times.) Sets cost->baseline_ms. There is at most one warning for each context,
+// either from this function or from dip_cost_look_at_times.
 bool dip_cost_look_at_machine(DipCostContext *cost, DipError *err);
 
 // Warns if the threads waited so long for a core while these frames were drawn that a verdict on
@@ -76,9 +76,9 @@ bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int ti
 // dip_cost_time_smaller.
 bool dip_cost_predict(DipCostContext *cost, DipError *err);
 
-// Times rows again if it is unclear whether they are within a budget, and if they are clearly
-// better than the row that is advised for this budget or if no row is advised. Does nothing if the
-// verdict on the machine is red.
+// Times rows again if it is unclear whether they are within a budget. If a row is advised for this
+// budget, does so only for rows that are clearly better than it. Does nothing if the verdict on the
+// machine is red.
 bool dip_cost_advise(DipCostContext *cost, DipError *err);
 
 // Answers requests for timed frames on standard input until it is closed. dip_cost_time_rows starts
@@ -105,13 +105,13 @@ bool dip_cost_list_predictions(DipCostReport *report, DipError *err);
 // Fills in the counters of every combination in report->predicted: means over a few frames. Draws
 // every combination if there are at most DIP_COST_MOST_COUNTED. Otherwise draws the corners and
 // those that differ from the baseline in at most one group of settings, and composes the counters
-// of the others from theirs (combinations.h); those that it cannot compose are drawn, too. Shows
-// its progress on standard error.
+// of the others from theirs (combinations.h). Draws those that it cannot compose, too. Shows its
+// progress on standard error.
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
 
 // If report->predicted has only a sample of the combinations, removes the slow ones from it: those
-// that differ from the baseline in several groups of settings and take at least about four times as
-// long. They would tell much about prices, but measuring them would take too long.
+// that differ from the baseline in several groups of settings and take more than about four times
+// the baseline's time. They would tell much about prices, but measuring them would take too long.
 void dip_cost_drop_slow_sample(DipCostReport *report);
 
 // Composes the counters of a combination from those of counted combinations in report->predicted

@@ -11,9 +11,9 @@
 enum { DIP_COST_MAX_INTERACTIONS = DIP_SETTING_COUNT * (DIP_SETTING_COUNT - 1) / 2 };
 
 // How the last steps of two settings act together. Four rows that differ only in these settings
-// show it: `neither` has both at their first step; `a` and `b` have only one of the settings, the
-// first or the second, at its last step; `both` has both at their last step. `flip` and `time` are
-// means over all combinations of the other settings for which these four rows were measured.
+// show it: `neither` has both at their first step; `a` has only the first setting at its last step,
+// and `b` only the second; `both` has both at their last step. `flip` and `time` are means over all
+// combinations of the other settings for which these four rows were measured.
 typedef struct DipCostInteraction {
     DipSetting a;
     DipSetting b;

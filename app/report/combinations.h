@@ -24,9 +24,9 @@ int64_t dip_cost_count_combinations_of(const DipQuality *baseline, unsigned sett
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask);
 
 // Alternating temporal AA does nothing without AA, advanced AF does nothing without AF, and an
-// upscaling filter does nothing without a scale below 1. If AA or AF is off, or the scale is not
-// below 1, reports and prices measure temporal AA together with this step of AA, advanced AF
-// together with this step of AF, and upscaling filters together with this step of scale.
+// upscaling filter does nothing without a scale below 1. Reports and prices therefore measure
+// temporal AA together with this step of AA if AA is off, advanced AF together with this step of AF
+// if AF is off, and upscaling filters together with this step of scale if the scale is not below 1.
 enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE = DIP_SCALE_1_1_5 };
 
 // --- composed work -------------------------------------------------------------------------------

@@ -142,10 +142,10 @@ const char *dip_cost_diff_title(int quantity);
 // Returns whether a row's quantity is known on both sides and differs.
 bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
 
-// Returns by what share a quantity grew from A to B (0.1 if B's value is 10 % greater), 0 if it
-// does not differ or is not known, or INFINITY if it is 0 in A only. PSNR and SSIM are turned into
-// errors that grow when the picture gets worse: the root mean square difference that PSNR stands
-// for, and 1 - SSIM.
+// Returns by what share a quantity grew from A to B: 0.1 if B's value is 10 % greater. Returns 0 if
+// the quantity does not differ or is not known, and INFINITY if it is 0 in A only. PSNR and SSIM
+// are turned into errors that grow when the picture gets worse: the root mean square difference
+// that PSNR stands for, and 1 - SSIM.
 double dip_cost_diff_growth(const DipCostDiffRow *row, int quantity);
 
 // Leaves out the counters that are 0 in all rows of one side and in no row of the other, and adds a

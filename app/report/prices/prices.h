@@ -3,13 +3,13 @@
 // the report was read from a file or is being filled by the preview (dip_cost_is_view).
 //
 // The base is the combination with the settings of the report's baseline. The price of a step is
-// the difference that the step makes to the base, on a path on which both were measured, or on path
-// 0 if one of the two is predicted. A setting that has no effect alone is priced together with its
-// company: the settings that it needs, which are then set both with the step and without it
-// (view.h). AF and advanced AF are also priced together with the antialiasing of the pane (one of
-// the preview's two pictures), so that prices add up. If that price was not measured, the price
-// with the pane's AA but the base's adaptive AA stands for it if more is known of it, or else the
-// price with the base's antialiasing.
+// the difference that the step makes to the base. It comes from a path on which rows with and
+// without the step were measured, or from path 0 if one of the two is predicted. A setting that has
+// no effect alone is priced together with its company: the settings that it needs, which are then
+// set both with the step and without it (view.h). AF and advanced AF are also priced together with
+// the antialiasing of the pane (one of the preview's two pictures), so that prices add up. If that
+// price was not measured, the price with the pane's AA but the base's adaptive AA stands for it if
+// more is known of it, or else the price with the base's antialiasing.
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
 // models of times and errors (fit.h) from its composed work (combinations.h). If there are too few
@@ -27,7 +27,7 @@ typedef enum DipPriceState {
                        // and error of a combination with this step (DipPriceQuestion.with, view.h).
     DIP_PRICE_MEASURED,  // Measured along a path.
     DIP_PRICE_PREDICTED, // Not timed, but predicted by a report's model (fit.h).
-    DIP_PRICE_ROUGH      // Measured with a few frames of one picture, or the sum of prices.
+    DIP_PRICE_ROUGH      // Measured with a few frames of one picture, or computed by adding prices.
 } DipPriceState;
 
 // How a time may be shown. Every part of the program that shows or uses a price asks
@@ -36,7 +36,8 @@ typedef enum DipPriceState {
 typedef enum DipPriceTrust {
     DIP_PRICE_TRUST_UNKNOWN,  // There is no number.
     DIP_PRICE_TRUST_DOUBTFUL, // The interval is too wide, or the machine was too busy. The time is
-                              // shown with one digit and "?"; it has no bar and enters no sum.
+                              // shown with one digit and "?". It has no bar of its own, and in a
+                              // sum it is part of the rest.
     DIP_PRICE_TRUST_ZERO,     // The time is 0 as far as anyone can tell: "≈ 0".
     DIP_PRICE_TRUST_KNOWN
 } DipPriceTrust;
