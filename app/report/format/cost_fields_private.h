@@ -71,6 +71,7 @@ bool dip_cost_are_sums(const DipMetricSums *sums);
 
 // --- lists and records of the report -------------------------------------------------------------
 
+// The comments name the file that defines each list or record, and the item of each record.
 extern const DipFieldList dip_cost_row_list;         // row_fields.c
 extern const DipFieldList dip_cost_visit_list;       // visit_fields.c
 extern const DipFieldList dip_cost_floor_list;       // path_fields.c
