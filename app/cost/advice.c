@@ -1,6 +1,7 @@
-// Checks the advice for each time budget (app/report/choice.h). A combination that is clearly
-// better than the advised one is timed again if it is unclear whether it fits the budget. This is
-// repeated until it is clear for all such combinations, but at most MOST_RACES times.
+// Checks the advice for each time budget (app/report/choice.h). A combination is timed again if it
+// is unclear whether it fits the budget, and if it is clearly better than the advised one or none
+// is advised. This is repeated until it is clear for all such combinations, but at most MOST_RACES
+// times.
 #include "app/cost/steps.h"
 
 #include "app/cli/progress.h"

@@ -109,8 +109,8 @@ bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int pa
     return draw_on_path(cost, quality, path, index, frame, err);
 }
 
-// Draws frame `index` of a burst. If the settings have a history, draws before frame 0 the frames
-// that precede the burst.
+// Draws frame `index` of a burst. If the settings have a history, draws before frame 0 the
+// DIP_FRAMES_BEFORE frames that precede the burst, as far as the path has them.
 static bool draw_burst_frame(DipCostContext *cost, const DipCostRow *row, int viewpoint, int index,
                              DipFrame *frame, DipError *err) {
     int first = index;
@@ -169,8 +169,8 @@ DipCostFrameSource dip_cost_drawn_frames(DipCostContext *cost) {
 
 // --- truths --------------------------------------------------------------------------------------
 
-// Returns k: a gallery scene is drawn k times as wide and high as its truth, and each k x k of its
-// pixels are averaged.
+// Returns k: a gallery scene is drawn k times as wide and high as its truth, and its pixels are
+// averaged in blocks of k x k.
 static int scale_of(const DipTruthDef *def) {
     const int longer = def->width > def->height ? def->width : def->height;
     int scale = 2;
@@ -180,7 +180,7 @@ static int scale_of(const DipTruthDef *def) {
     return scale * longer <= DIP_MAX_FRAME_SIZE ? scale : 1;
 }
 
-// Averages blocks of scale x scale pixels in linear light.
+// Averages blocks of scale x scale pixels in linear light, and adds the results to rgb_lin.
 static void average(const DipFrame *frame, int scale, int width, int height, double *rgb_lin) {
     DipSrgbDecodeTable table;
     dip_srgb_decode_table(&table);
@@ -197,11 +197,12 @@ static void average(const DipFrame *frame, int scale, int width, int height, dou
 }
 
 // Draws one half of the truth of a gallery scene. (A truth is the mean of two halves.) The
-// reference renderer cannot draw such a scene. Instead, the pipeline draws it several times as wide
-// and high, with 8 samples per pixel and advanced AF, and the pixels are averaged in linear light.
-// Each half has at least def->samples samples for each pixel, unless the frame would be larger than
-// DIP_MAX_FRAME_SIZE. The truth cannot show a fault that the pipeline has at every size. The two
-// halves have different sample patterns.
+// reference renderer cannot draw such a scene. Instead, the pipeline draws it larger (scale_of),
+// with 8 samples per pixel and advanced AF, and the pixels are averaged in linear light. Each half
+// has at least def->samples samples for each pixel, unless the frame would then be wider or higher
+// than DIP_MAX_FRAME_SIZE. If even a frame of twice the width and height would be, it is not drawn
+// larger. The truth cannot show a fault that the pipeline has at every size. The two halves have
+// different sample patterns.
 static bool draw_gallery_truth(const DipTruthDef *def, int half, double *rgb_lin, DipError *err) {
     const DipCostContext *cost = def->context;
     const int scale = scale_of(def);

@@ -22,7 +22,7 @@ typedef struct DipCostForecast {
     double row_ms;      // Mean time of a frame of the rows of the phase TIMES (steps.h).
     int swept_rows;     // Number of rows of the phase SWEEPS.
     int timed_rows;     // Number of rows of the phase TIMES. Later phases time more.
-    int counted_frames; // Number of frames that are drawn to count work.
+    int counted_frames; // About how many frames are drawn to count work.
     int goes;           // How often best combinations have been measured so far (best.c).
 } DipCostForecast;
 
@@ -33,7 +33,7 @@ typedef struct DipCostContext {
     DipCostReport *report;
     DipCostJournal *journal; // NULL if no rows are judged or timed (steps.h).
     const char *cache;       // Folder of the cached truths; NULL or "" for no cache.
-    DipReference *reference; // NULL for scenes of the gallery, and without truths.
+    DipReference *reference; // NULL for scenes of the gallery, and if the context draws no truths.
     DipGallery *gallery;     // NULL for models.
     // Renderer [0] draws the rows with gi=off (without instancing) and keeps the copies of meshes
     // that these rows need. Renderer [1] draws all other rows, so that they all use the same
@@ -88,11 +88,11 @@ bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err
 bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
                            const char *folder, DipError *err);
 
-// Error message of a command that the user interrupted with Ctrl-C.
+// Error message after the user has interrupted a command with Ctrl-C.
 #define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
 
-// Returns true and fills *err if the user has pressed Ctrl-C. The journal keeps the measurements
-// that it has so far (journal.h).
+// Returns true and fills *err if the user has pressed Ctrl-C. The journal, if there is one, keeps
+// the measurements that it has so far (journal.h).
 bool dip_cost_interrupted(DipError *err);
 
 // Copies the time of each pipeline stage of a frame to the parts of a DipTimed (rounds.h).

@@ -265,7 +265,7 @@ static bool judge_viewpoint(Judge *j, DipError *err) {
     return judged;
 }
 
-// Returns the number of bursts whose errors are not known yet.
+// Returns the number of bursts at this run's viewpoints (--part) whose errors are not known yet.
 static int64_t count_bursts(const DipCostReport *report) {
     const DipCostOptions *options = &report->options;
     int64_t count = 0;

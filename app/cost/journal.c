@@ -216,8 +216,8 @@ _Static_assert(offsetof(DipTimed, parts_ms) == offsetof(DipTimed, ms) + 4 * size
                "the times follow one another");
 enum { TIMES_SIZE = (TIMED_VALUES - 6) * sizeof(double) };
 
-// Converts a stored number to an index, or to -1 if it cannot be one. No round accepts a frame with
-// the index -1.
+// Converts a stored number to an index, or to -1 if it cannot be one. The driver refuses a round
+// that has a frame with the index -1 (dip_driver_resume).
 static int read_index(double value) {
     return value >= 0.0 && value <= INT_MAX ? (int)value : -1;
 }

@@ -1,9 +1,10 @@
-// Keeps the journal of an unfinished report: a file in the report's folder with every measurement
-// made so far. The next run continues from the journal. A measurement is either the errors of one
-// burst or the times of one round (app/measure/timing/driver.h). A burst is the successive frames
-// that are drawn at a viewpoint; its errors are measured against truths (converged pictures). Each
-// line of the file is one measurement and its checksum. The program may be ended at any time,
-// because the next run drops a line that was cut short.
+// Keeps the journal of an unfinished report: a file in the report's folder with the errors measured
+// so far, and with the rounds that dip_cost_time_rows (steps.h) has timed so far. The next run
+// continues from the journal. A measurement is either the errors of one burst or the times of one
+// round (app/measure/timing/driver.h). A burst is the successive frames that are drawn at a
+// viewpoint; its errors are measured against truths (converged pictures). Each line of the file is
+// one measurement and its checksum. The program may be ended at any time, because the next run
+// drops a line that was cut short.
 #ifndef DIP_APP_COST_JOURNAL_H
 #define DIP_APP_COST_JOURNAL_H
 
@@ -34,7 +35,8 @@ void dip_cost_journal_close(DipCostJournal **journal, bool finished);
 
 // dip_cost_journal_find looks up the errors of a burst and returns false if the journal did not
 // have them when it was opened. dip_cost_journal_add stores them for the next run. The key is a
-// hash of everything that the errors depend on: pictures, truths and the program's build.
+// hash of everything that the errors depend on: pictures, truths, pixels per degree and the
+// program's build.
 bool dip_cost_journal_find(const DipCostJournal *journal, const char *key,
                            DipCostBurstErrors *errors);
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key,

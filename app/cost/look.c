@@ -1,4 +1,5 @@
-// Finds out early whether other programs keep the machine busy, and warns once if they do.
+// Finds out whether other programs keep the machine busy, before a measurement and after each of
+// its rounds, and warns once if they do.
 #include "app/cost/steps.h"
 
 #include "app/cli/drive.h"
@@ -14,8 +15,8 @@ enum {
     LOOK_COPIES = 3   // Rounds in which each frame of the baseline is drawn.
 };
 
-// Returns the timed frame of path 0 that a turn draws. The driver (driver.h) has two subjects,
-// which both have the baseline's settings.
+// Returns the index of the timed frame of path 0 that a turn draws. The driver (driver.h) has two
+// subjects, which both have the baseline's settings.
 static int frame_of(const DipCostContext *cost, const DipDriverTurn *turn) {
     return turn->frame * dip_cost_frame_count(cost->report) / LOOK_FRAMES;
 }

@@ -85,10 +85,10 @@ void dip_cost_default_budgets(DipCostOptions *options) {
 }
 
 // Reads --viewing, which names a display and a distance. The pixels per degree are the distance
-// times the tangent of a degree, over a pixel's width. A phone has 1170 pixels on 65 mm and is seen
-// from 0.3 m. A monitor has 1920 pixels on 531 mm (24 inches) and is seen from 0.6 m. UHD is 3840
-// pixels on 0.7 m, seen from 0.7 m. For a headset, the value is the one that makers of headsets
-// with 2000 pixels per eye stated in 2023.
+// times one degree in radians, divided by a pixel's width. A phone has 1170 pixels on 65 mm and is
+// seen from 0.3 m. A monitor has 1920 pixels on 531 mm (24 inches) and is seen from 0.6 m. UHD is
+// 3840 pixels on 0.7 m, seen from 0.7 m. For a headset, the value is the one that makers of
+// headsets with 2000 pixels per eye stated in 2023.
 static bool read_viewing(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     static const struct {
         const char *name;

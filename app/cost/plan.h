@@ -1,7 +1,8 @@
-// Plans the rows of a report. A row is one combination of settings on a camera path. There is a
-// row for every step of every setting, on the camera path made for this setting, and a row for
-// every combination that --combine asks for. With --predict, only the steps of the combined
-// settings have rows, all on path 0. Rows for combinations are added later (steps.h).
+// Plans the rows of a report. A row is one combination of settings on a camera path. There is a row
+// for every step of every setting but mip colours, on the camera path made for this setting, and a
+// row for every combination that --combine asks for. Steps and combinations that the renderer
+// refuses have no rows. With --predict, only the steps of the combined settings have rows, all on
+// path 0. Rows for combinations are added later (steps.h).
 #ifndef DIP_APP_COST_PLAN_H
 #define DIP_APP_COST_PLAN_H
 
@@ -10,8 +11,8 @@
 #include "app/session/session.h"
 
 // Fills in the rows and sweeps of a report and allocates its memory. (A sweep is all steps of one
-// setting.) Steps that the renderer refuses are left out; report->refused lists them with the
-// reason. Free the report even after a failure.
+// setting.) Steps that the renderer refuses are left out. report->refused lists them with the
+// reason, except those of adaptive AA. Free the report even after a failure.
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
                    DipError *err);
 
@@ -37,7 +38,8 @@ void dip_cost_hash_path(DipCostReport *report, const DipSession *session, int pa
 
 // Returns the time of a frame at a viewpoint. The path is divided into equal parts, and each
 // viewpoint is the middle of a part. At each viewpoint, a burst of successive frames is drawn.
-// These frames are 1/30 s apart, and `frame` is the index in the burst.
+// These frames are 1/30 s apart, and `frame` is the index in the burst. A negative index is that of
+// a frame before the burst.
 int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession *session, int path,
                                    int viewpoint, int frame);
 

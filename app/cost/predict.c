@@ -1,6 +1,6 @@
-// Finds the best combinations by predictions: measures the steps of the combined settings and the
-// combinations that tell most about all others, predicts these others, and measures those that the
-// predictions put near a budget or on the Pareto front.
+// Finds the best combinations by predictions. First measures the steps of the combined settings and
+// the combinations that tell most about all others. Then predicts these others, and measures those
+// that the predictions put near a budget or on the Pareto front.
 #include "app/cost/steps.h"
 
 #include "app/report/report.h"

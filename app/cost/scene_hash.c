@@ -58,7 +58,7 @@ static void hash_materials(const DipSceneDef *def, DipHash *hash) {
     }
 }
 
-// The fixed light of a scene without lights adds nothing but the fact that there are none.
+// A scene whose `lighting` is NULL has the fixed light (scene.h), which adds only the number -1.
 static void hash_lighting(const DipLightingDef *lighting, DipHash *hash) {
     dip_hash_integer(hash, lighting ? lighting->light_count : -1);
     for (int l = 0; lighting && l < lighting->light_count; l++) {

@@ -7,10 +7,11 @@
 #include "app/cost/context.h"
 #include "app/report/fit.h"
 
-// Looks for about a second how busy other programs keep the machine: times the baseline beside a
-// second copy of itself, and warns if the verdict on these times (verdict.h) is not green. (The
-// report's own verdict comes later, from all of its times.) Sets cost->baseline_ms. There is at
-// most one warning for each context, either from this function or from dip_cost_look_at_times.
+// Finds out with fewer than a hundred frames how busy other programs keep the machine: times the
+// baseline beside a second copy of itself. Warns if the verdict on these times (verdict.h) is red,
+// or if the waiting time of the threads alone is not green. (The report's own verdict comes later,
+// from all of its times.) Sets cost->baseline_ms. There is at most one warning for each context,
+// either from this function or from dip_cost_look_at_times.
 bool dip_cost_look_at_machine(DipCostContext *cost, DipError *err);
 
 // Warns if the threads waited so long for a core while these frames were drawn that a verdict on
@@ -37,8 +38,8 @@ typedef enum DipCostPhase {
 // Begins the forecast, once cost->baseline_ms is known.
 void dip_cost_forecast_begin(DipCostContext *cost);
 
-// Begins a phase: tells the progress display how long this phase and all later ones will take.
-// Returns the time of the later ones in seconds.
+// Begins a phase: tells the progress display how long this phase and all later ones will probably
+// take. Returns the expected time of the later ones in seconds.
 double dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase);
 
 // Makes the truths (converged pictures) that are not in the cache. Fills in the noise floor of each
@@ -60,9 +61,10 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err);
 bool dip_cost_time_smaller(DipCostContext *cost, DipError *err);
 
 // Times rows of path 0 beside the baseline, in as many rounds as dip_cost_time_rows, which must
-// have been called before. Adds the times to the report's log. `times_before` is how often these
-// rows were timed before. If it is 0, the rows are new, and their work is counted, too. The journal
-// does not keep these times. The caller must call dip_cost_estimate_times afterwards.
+// have been called before. Adds the times to the report's log. `times_before` is 0 if the rows are
+// new; their work is then counted, too. If the rows are timed again, it is 1 or more, and each
+// number gives another order of frames. The journal does not keep these times. The caller must call
+// dip_cost_estimate_times afterwards.
 bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int times_before,
                         DipError *err);
 
@@ -74,8 +76,9 @@ bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int ti
 // dip_cost_time_smaller.
 bool dip_cost_predict(DipCostContext *cost, DipError *err);
 
-// Times rows again if they may be clearly better than the row that is advised for a budget, and it
-// is unclear whether they are within the budget. Does nothing if the verdict on the machine is red.
+// Times rows again if it is unclear whether they are within a budget. If a row is advised for this
+// budget, does so only for rows that are clearly better than it. Does nothing if the verdict on the
+// machine is red.
 bool dip_cost_advise(DipCostContext *cost, DipError *err);
 
 // Answers requests for timed frames on standard input until it is closed. dip_cost_time_rows starts
@@ -94,20 +97,21 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
 void dip_cost_drop_idle_settings(DipCostReport *report);
 
 // Lists the combinations of the combined settings in report->predicted, and sets `searched` to
-// their number. If there are more than DIP_COST_MAX_ROWS, lists only the combinations that differ
-// from the baseline in one group of settings, the corners (both: combinations.h), and a sample of
-// the others. Fails with DIP_ERROR_MEMORY.
+// their number. If there are more than DIP_COST_MAX_ROWS, lists only the baseline, the combinations
+// that differ from it in one group of settings, the corners (combinations.h explains both), and a
+// sample of the others. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_list_predictions(DipCostReport *report, DipError *err);
 
 // Fills in the counters of every combination in report->predicted: means over a few frames. Draws
 // every combination if there are at most DIP_COST_MOST_COUNTED. Otherwise draws the corners and
 // those that differ from the baseline in at most one group of settings, and composes the counters
-// of the others from theirs (combinations.h). Shows its progress on standard error.
+// of the others from theirs (combinations.h). Draws those that it cannot compose, too. Shows its
+// progress on standard error.
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
 
 // If report->predicted has only a sample of the combinations, removes the slow ones from it: those
-// that differ from the baseline in several groups of settings and take at least about four times as
-// long. They would tell much about prices, but measuring them would take too long.
+// that differ from the baseline in several groups of settings and take more than about four times
+// the baseline's time. They would tell much about prices, but measuring them would take too long.
 void dip_cost_drop_slow_sample(DipCostReport *report);
 
 // Composes the counters of a combination from those of counted combinations in report->predicted
@@ -182,16 +186,18 @@ void dip_cost_predict_one(const DipCostModels *models, const double *counters,
 bool dip_cost_predict_others(DipCostReport *report, const DipCostModels *models, DipError *err);
 
 // For each budget, there are two limits of the predicted time, up to which combinations may be
-// measured. Let m be the relative miss that nine of ten predictions of times keep so far. Up to
-// budget / (1 + m), a combination nearly surely fits the budget. Up to budget * (1 + m), it may.
+// measured. Let m be the relative miss that nine of ten predictions of times have not exceeded so
+// far, but at least 2 % and at most 25 %. Up to budget / (1 + m), a combination nearly surely fits
+// the budget. Up to budget * (1 + m), it may.
 enum { DIP_COST_LIMIT_SURE, DIP_COST_LIMIT_MAY, DIP_COST_LIMITS };
 double dip_cost_limit_ms(const DipCostReport *report, int budget, int limit);
 
-// Predicts all combinations of the combined settings, and adds the best to report->predicted. These
-// are, for each limit of each budget, the DIP_COST_PER_LIMIT combinations of least FLIP, and those
-// on a Pareto front that has at most one combination for each 2 % of time, and only combinations
-// whose FLIP is at least 1 % below that of the one before. The work of combinations is composed
-// from those of report->predicted that were counted. Fails with DIP_ERROR_MEMORY.
+// Predicts all combinations of the combined settings that are not measured, and adds the best to
+// report->predicted, as far as there is room. These are, for each limit of each budget, the
+// DIP_COST_PER_LIMIT combinations of least FLIP, and those on a Pareto front. This front has at
+// most one combination for each 2 % of time, and the FLIP of each is at least 1 % below that of the
+// one before. The work of combinations is composed from those of report->predicted that were
+// counted. Fails with DIP_ERROR_MEMORY.
 enum { DIP_COST_PER_LIMIT = 8 };
 bool dip_cost_search(DipCostReport *report, DipPool *pool, const DipCostModels *models,
                      DipError *err);
@@ -230,8 +236,8 @@ void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report,
 // Times the combinations of `rows` in the context `there`. Each is timed beside the baseline of the
 // report's path 0, which is drawn in the context `cost`. Fills in their times and counters.
 // `progress` is the text of the progress display, such as "smaller frames timed". Sets *wait to the
-// share of the frames' time for which their threads waited for a core. Fails with MEMORY, as the
-// renderer does, and with RUNTIME after Ctrl-C.
+// share of the threads' time in these frames for which they waited for a core. Fails with MEMORY,
+// as the renderer does, and with RUNTIME after Ctrl-C.
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
                              int count, const char *progress, double *wait, DipError *err);
 

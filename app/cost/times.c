@@ -2,9 +2,9 @@
 // path or with other threads. Counts the work of both. The counters are the same whenever a frame
 // is drawn, so the work of each frame is counted once.
 //
-// Unless --starts is 1, the program starts itself several times with --serve, one process after
-// another, and asks each for the frames to time. Times differ from process to process, since chance
-// decides where a process has its memory and which cores its threads get.
+// To time rows, unless --starts is 1, the program starts itself several times with --serve, one
+// process after another, and asks each for the frames to time. Times differ from process to
+// process, since chance decides where a process has its memory and which cores its threads get.
 #include "app/cli/drive.h"
 #include "app/cli/progress.h"
 #include "app/cost/steps.h"
@@ -29,7 +29,7 @@ enum {
 };
 
 // If the start of the first process takes longer than this share of the time of its rounds, only
-// two processes are started.
+// two processes are started (if the number of all rounds is even, driver.h).
 static const double most_start = 0.1;
 
 // A subject of the driver (driver.h): settings on a camera path of a context's report.
@@ -349,11 +349,12 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
 
 // --- half the size -------------------------------------------------------------------------------
 
-// Fills report->smaller with the baseline, and with three combinations that add work to it: at
-// edges, in textures, and in both.
+// Fills report->smaller with the baseline and with up to three variants of it: with AA 4x, with AF
+// 16x, and with AA 8x, adaptive AA and AF 16x. These have more work at edges, in textures, and in
+// both than the default settings. Variants that the renderer refuses are left out.
 static void list_smaller(DipCostReport *report) {
     static const struct {
-        // Steps. If `aa` is 0, AA and adaptive AA are those of the baseline; so is AF if `af` is 0.
+        // Steps. If `aa` is 0, AA and adaptive AA are those of the baseline. If `af` is 0, AF is.
         uint8_t aa, aaa, af;
     } steps[DIP_COST_MAX_SMALLER] = {{0, 0, 0}, {2, 0, 0}, {0, 0, 4}, {4, DIP_AAA_ON, 4}};
     for (int i = 0; i < DIP_COST_MAX_SMALLER; i++) {

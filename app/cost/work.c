@@ -11,12 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Number of combinations that add_pool draws at random. Some of them are measured, to predict all
+// Number of combinations that add_pool chooses at random. Some of them are measured, to predict all
 // others.
 enum { POOL = 1024 };
 
-// Greatest time of a combination over the baseline's that dip_cost_drop_slow_sample keeps, so that
-// measuring the sample does not take too long.
+// dip_cost_drop_slow_sample keeps combinations whose estimated time is at most this many times the
+// baseline's, so that measuring the sample does not take too long.
 static const double most_ratio = 4.0;
 
 // --- which combinations there are ----------------------------------------------------------------
@@ -82,7 +82,7 @@ static void add_corners(DipCostReport *report) {
 }
 
 // Adds random combinations, most of which differ from the baseline in several groups of settings.
-// Each group has the baseline's settings in about half of them.
+// Each group that has combined settings has the baseline's settings in about half of them.
 static void add_pool(DipCostReport *report, const int end[DIP_WORK_GROUPS]) {
     uint64_t random = 1;
     for (int i = 0; i < POOL; i++) {
@@ -150,8 +150,8 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
     return true;
 }
 
-// Returns whether the work of other combinations is composed of that of this one: it differs from
-// the baseline in at most one group of settings, or is a corner.
+// Returns whether the work of other combinations may be composed of that of this one: it differs
+// from the baseline in at most one group of settings, or is a corner.
 static bool is_part(const DipCostReport *report, const DipQuality *quality) {
     const DipQuality *baseline = &report->options.baseline;
     return dip_work_count_groups(baseline, quality) <= 1 || dip_work_is_corner(baseline, quality);
@@ -200,8 +200,8 @@ bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
         cost->forecast.row_ms =
             1e3 * dip_progress_elapsed_s(&progress) / (double)(done * DIP_COST_COUNTED_FRAMES);
     }
-    // The counters of all other combinations are composed. If a combination that this needs is not
-    // listed, the combination is drawn, too.
+    // The counters of all other combinations are composed. A combination is drawn, too, if one that
+    // it is composed of is not listed.
     for (int i = 0; counted && i < predicted->count; i++) {
         DipCostPrediction *to = &predicted->list[i];
         counted = is_counted(report, &to->quality) || dip_cost_compose_counters(report, to) ||

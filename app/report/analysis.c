@@ -48,7 +48,8 @@ static DipCostInteraction interaction(const DipCostReport *report, DipSetting a,
     return sum;
 }
 
-// Lists the interactions of all pairs of combined settings. Returns their number.
+// Lists the interactions of all pairs of settings for which an interaction was measured
+// (add_context). Returns their number.
 static int list_interactions(const DipCostReport *report,
                              DipCostInteraction list[DIP_COST_MAX_INTERACTIONS]) {
     int count = 0;

@@ -11,9 +11,9 @@
 enum { DIP_COST_MAX_INTERACTIONS = DIP_SETTING_COUNT * (DIP_SETTING_COUNT - 1) / 2 };
 
 // How the last steps of two settings act together. Four rows that differ only in these settings
-// show it: `neither` has both at their first step; `a` and `b` have only one of the settings, the
-// first or the second, at its last step; `both` has both at their last step. `flip` and `time` are
-// means over all combinations of the other settings for which these four rows were measured.
+// show it: `neither` has both at their first step; `a` has only the first setting at its last step,
+// and `b` only the second; `both` has both at their last step. `flip` and `time` are means over all
+// combinations of the other settings for which these four rows were measured.
 typedef struct DipCostInteraction {
     DipSetting a;
     DipSetting b;
@@ -28,8 +28,9 @@ typedef struct DipCostInteraction {
 
 typedef struct DipCostAnalysis {
     DipCostFit fit;
-    // The interactions of all pairs of combined settings. If combinations were predicted, there are
-    // none: only good combinations are then measured, and means over them would mislead.
+    // The interactions of the pairs of settings for which the four rows were measured. If
+    // combinations were predicted, there are none: only good combinations are then measured, and
+    // means over them would mislead.
     DipCostInteraction interactions[DIP_COST_MAX_INTERACTIONS];
     int interaction_count;
 } DipCostAnalysis;
@@ -40,9 +41,10 @@ bool dip_cost_analyse(DipCostReport *report, DipError *err);
 
 // Writes a sentence about a sweep (all steps of one setting). If error and work follow theory, the
 // sentence says what falls or rises from step to step. Otherwise it names the step that departs
-// from theory and gives a likely reason. If all steps draw the same pictures, it says what the path
-// lacks. Times are not checked, because they depend on the machine. Returns false if the sweep has
-// one step, if the steps' errors are unknown, or if theory says nothing about the setting.
+// from theory and gives a likely reason. If all steps draw the same pictures although theory
+// expects a difference, it says what the path lacks. Times are not checked, because they depend on
+// the machine. Returns false if the sweep has one step, if the steps' errors are unknown, or if
+// theory says nothing about the setting.
 bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep, char *text,
                          size_t size_bytes);
 

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Standard error of a time's logarithm between two runs on a quiet machine. It is added to the
-// error of every time.
+// Standard error of a time's logarithm between two runs on a quiet machine. It is combined with the
+// error of every row's time, if that is known.
 static const double least_error = 0.002;
 
 // Returns a row's time of this kind. Its error leaves out time->level_error, which all rows share.

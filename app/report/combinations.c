@@ -99,8 +99,8 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
 
 double dip_cost_pixels_filtered(const DipQuality *quality) {
     const double scale = dip_quality_scale(quality);
-    // A history and antialiasing filter a small picture (scale below 1) before it is enlarged, and
-    // a large one (scale above 1) after it is averaged.
+    // A history and post-process AA filter a small picture (scale below 1) before it is enlarged,
+    // and a large one (scale above 1) after it is averaged.
     const double drawn = fmin(1.0, scale * scale);
     return (dip_quality_has_history(quality) ? drawn : 0.0) +
            (quality->step[DIP_SETTING_POST] ? drawn : 0.0) +
@@ -208,8 +208,8 @@ void dip_work_end(const DipWorkSum *sum, const DipQuality *quality,
     }
 }
 
-// Adds the part of a combination that differs from the base in the settings of a mask. Returns
-// false if it was not counted.
+// Adds a part: the base with the settings of a mask taken from a combination. Returns false if this
+// part was not counted.
 static bool add_part(DipWorkSum *sum, DipWorkFind *find, const void *context,
                      const DipQuality *quality, unsigned settings) {
     const DipQuality part = dip_cost_take_settings(sum->base, quality, settings);
@@ -220,7 +220,8 @@ static bool add_part(DipWorkSum *sum, DipWorkFind *find, const void *context,
     return of_part != NULL;
 }
 
-// Notes the corner of a combination and what it is made of, as far as they were counted.
+// Notes the counters of the base with the combination's AA, with its render scale, and with both,
+// as far as they were counted.
 static void find_corners(DipWorkFind *find, const void *context, const DipQuality *base,
                          const DipQuality *quality, DipWorkCorners *corners) {
     static const unsigned settings[] = {1u << DIP_SETTING_AA, 1u << DIP_SETTING_SCALE,

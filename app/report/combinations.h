@@ -10,8 +10,9 @@
 // Lists every combination of the steps of the settings in the mask `settings` (bit s for setting
 // s). All other settings are those of the baseline. Leaves out combinations that the renderer
 // refuses, and those in which an enabled setting has no effect (dip_quality_effective), since
-// another combination draws the same picture. Advanced AF without AF is an example. Returns the
-// number of combinations; the list has the first `room` of them.
+// another combination draws the same picture. Advanced AF without AF is an example. If asd is among
+// the settings, also leaves out aaa=all with groups of several samples, because frames with aaa=all
+// take long. Returns the number of combinations; the list has the first `room` of them.
 int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, DipQuality *list,
                                int room);
 
@@ -23,23 +24,24 @@ int64_t dip_cost_count_combinations_of(const DipQuality *baseline, unsigned sett
 DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with, unsigned mask);
 
 // Alternating temporal AA does nothing without AA, advanced AF does nothing without AF, and an
-// upscaling filter does nothing without a scale below 1. If AA or AF is off, or the scale is not
-// below 1, reports and prices measure temporal AA together with this step of AA, advanced AF
-// together with this step of AF, and upscaling filters together with this step of scale.
+// upscaling filter does nothing without a scale below 1. Reports and prices therefore measure
+// temporal AA together with this step of AA if AA is off, advanced AF together with this step of AF
+// if AF is off, and upscaling filters together with this step of scale if the scale is not below 1.
 enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE = DIP_SCALE_1_1_5 };
 
 // --- composed work -------------------------------------------------------------------------------
 
 // Groups of settings change the work nearly independently of each other: the settings of samples
 // (antialiasing, temporal AA, adaptive AA and its groups), anisotropic filtering with advanced AF,
-// texture optimisation, mip detail, render scale with its upscaling filter, filters of the finished
-// picture, and instancing. A composed counter is the base combination's counter, times the factors
-// by which each group alone changes it. The pixels that filters write follow from the settings
-// instead, and the work of shadows is added.
+// texture optimisation, mip detail, render scale with its upscaling filter, post-process AA,
+// sharpening, shadows, and instancing. A composed counter is the base combination's counter, times
+// the factors by which each group alone changes it. The pixels that filters write follow from the
+// settings instead, and the work of shadows is added.
 //
-// Antialiasing and render scale depend on each other: which small triangles are drawn follows from
-// the samples on them, and how many pixels show several fragments from both. Their pairs are
-// therefore counted, too (corners), and correct the product of the two.
+// Antialiasing and render scale depend on each other: together they decide how many samples lie on
+// a small triangle, and so whether it is drawn, and how many pixels show several fragments.
+// Combinations that change only these two settings are therefore counted, too (corners). They
+// correct the product of the two factors.
 
 // Returns how many pixels all filters of the finished picture write, per pixel of the frame.
 double dip_cost_pixels_filtered(const DipQuality *quality);
@@ -88,7 +90,7 @@ typedef struct DipWorkSum {
     const double *of_shadows;      // Counters of the base with the combination's shadows, or NULL.
     const DipWorkCorners *corners; // Borrowed; NULL if there are none.
     double counters[DIP_COST_COUNTER_COUNT];
-    double pixels; // Pixels of a frame; 0 if no part filters them.
+    double pixels; // Pixels of a frame; 0 if neither the base nor a part filters them.
 } DipWorkSum;
 
 DipWorkSum dip_work_begin(const DipQuality *base, const double *of_base);

@@ -1,5 +1,5 @@
 // Checks whether error and work follow theory from one step of a sweep to the next. A table holds
-// what theory says about each setting.
+// what theory says about a setting; it lacks the settings about which theory says nothing.
 #include "app/report/analysis.h"
 
 #include <stdio.h>

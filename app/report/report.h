@@ -78,7 +78,8 @@ typedef struct DipCostRow {
     DipMetricSums *viewpoints; // Errors per viewpoint of the path. Owned.
     DipFlipTail *tails;        // [viewpoint]: distribution of FLIP; all 0 if not known. Owned.
     bool *judged;              // [viewpoint]: true if the row's errors there are known. Owned.
-    char (*pictures)[33];      // [viewpoint]: hash of the row's pictures and truths, or "". Owned.
+    char (*pictures)[33]; // [viewpoint]: hash of the row's pictures, their truths and the pixels
+                          // per degree; "" if not known. Owned.
     double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
     DipPathEstimate time;                    // Computed from the log.
     double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of time.mean_ms; they add up to it.
@@ -91,11 +92,13 @@ typedef struct DipCostSame {
     int row; // The row that stands for it.
 } DipCostSame;
 
-// A sweep: all steps of one setting on one path, with every other setting held constant.
+// A sweep: the steps of one setting on one path, with every other setting held constant. A sweep of
+// adaptive AA (aaa) also has steps that differ in the group size (asd).
 typedef struct DipCostSweep {
     DipSetting setting;
     int path;
-    int base; // Index of the row with which all steps are compared. It has the baseline's step.
+    int base; // Index of the row with which all steps are compared. It has the baseline's step, or
+              // aaa=off in a sweep of adaptive AA.
     int rows[DIP_COST_MAX_SWEEP_ROWS];
     DipEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Each row's time divided by the base row's.
     int row_count;
@@ -135,20 +138,22 @@ typedef struct DipCostMisses {
     int rows;         // Number of rows; 0 if there are none to compare.
 } DipCostMisses;
 
-// A combination on path 0 whose time and error are predicted from measured rows
-// (app/cost/predict.c).
+// A combination that --predict lists, on path 0 (app/cost/predict.c). Its time and error are
+// predicted, unless it is one of those that are measured to predict the others (`trained` below).
 typedef struct DipCostPrediction {
     DipQuality quality;
     double counters[DIP_COST_COUNTER_COUNT]; // Means per frame.
-    // These three keep their predicted values when the combination is measured later.
+    // These three are measured values if the combination was measured to predict the others. All
+    // other combinations keep their predicted values, even when they are measured later.
     double ms;     // Mean time of a frame.
     double p95_ms; // 95th percentile of the frames along the path.
     double flip;   // Mean FLIP of the viewpoints.
-    int row;       // The row that measured the combination later; -1 if there is none.
+    int row;       // The row with the combination's measurements; -1 if it was not measured.
 } DipCostPrediction;
 
 // The combinations that --predict lists, and how far the predictions lie from measurements. If
-// there are more than DIP_COST_MAX_ROWS, the list has only those that were measured or looked best.
+// there are more than DIP_COST_MAX_ROWS, the list has only a sample of them, and those that looked
+// best.
 typedef struct DipCostPredictions {
     DipCostPrediction *list; // Owned; NULL if nothing was predicted.
     int count;
@@ -184,7 +189,7 @@ typedef struct DipCostReport {
     int height; // Pixels.
     DipCostOptions options;
     char paths[DIP_COST_MAX_PATHS][DIP_COST_PATH_NAME]; // Names: "DEFAULT", "AA", "FOLIAGE", ...
-    // Hashes of the poses that are drawn on each path, since a path may be edited and keep its
+    // Hashes of the poses at the viewpoints of each path, since a path may be edited and keep its
     // name.
     char path_hashes[DIP_COST_MAX_PATHS][33];
     int path_count;
@@ -207,8 +212,8 @@ typedef struct DipCostReport {
     DipTimed *log; // Every timed frame; its `subject` is the index of its row. Owned; NULL without
                    // times.
     int log_count;
-    int starts;             // Number of processes that timed frames. Each timed the same number of
-                            // rounds.
+    int starts; // Number of processes in which each row was timed, in an equal number of rounds
+                // each.
     DipTimesFit *fit;       // Computed from the log. Owned; NULL without times.
     double doubt;           // Standard error that an amber verdict adds to each time's logarithm;
                             // 0 if the verdict is not amber.
@@ -427,14 +432,14 @@ DipEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 DipCandidate dip_candidate_of_row(const DipCostReport *report, int row, DipTimeKind kind);
 
 // Lists report->predicted as candidates, whose `row` is the index of the prediction. If `measured`
-// is true, combinations that were measured later have their measured times and errors. Otherwise
-// all have the predicted ones. The caller frees the list even after a failure. Fails with
-// DIP_ERROR_MEMORY.
+// is true, combinations that have a row have its time and error. Otherwise all have those of their
+// predictions. A prediction has no time of its slowest frame, so its 95th percentile stands for it.
+// The caller frees the list even after a failure. Fails with DIP_ERROR_MEMORY.
 bool dip_candidates_of_predictions(const DipCostReport *report, DipTimeKind kind, bool measured,
                                    DipCandidates *candidates, DipError *err);
 
 // Lists the predictions that a page shows, in order of predicted time. If there are more than
-// DIP_CANDIDATES_LISTED, lists at most this many of those that were measured later and those on the
+// DIP_CANDIDATES_LISTED, lists at most this many of those that were measured and those on the
 // Pareto front of predicted times and errors. A candidate's `row` is the index of the prediction.
 // The caller frees the list even after a failure. Returns false when memory runs out.
 enum { DIP_CANDIDATES_LISTED = 500 };

@@ -39,8 +39,9 @@ DipCostSigns dip_cost_signs_of(const DipTimesFit *fit, int subjects, const int *
 DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_COST_REASON]);
 
 // Fills in the verdict of a report whose report->fit is made, the reason, and report->doubt. For an
-// amber verdict, the doubt is how far the A/A rows differ from the baseline, on the whole or from
-// round to round, whichever is more. Otherwise it is 0.
+// amber verdict, the doubt is how far the A/A rows differ from the baseline on the whole, or the
+// standard error that follows from their spread over the rounds, whichever is more. Otherwise it is
+// 0.
 void dip_cost_judge_machine(DipCostReport *report);
 
 #endif

@@ -1,4 +1,5 @@
-// Runs the command `diptych cost advise`: chooses one combination of settings for several reports.
+// Runs the command `diptych cost advise`: for each time budget, chooses one combination of settings
+// for all given reports.
 #include "app/cost/advise/common_advice.h"
 #include "app/cost/command.h"
 #include "app/cost/options.h"

@@ -54,8 +54,9 @@ static int count_reports(const DipFieldAt *at) {
 
 // --- what a report says about a choice -----------------------------------------------------------
 
-// The line of a report in the table of one budget. Values that are not known are NAN. The intervals
-// of the times include the error that all times of the report share.
+// The line of a report in the table of one budget. Values that are not known are NAN, except that
+// `alone` is not set if has_alone is false. The intervals of the times include the error that all
+// times of the report share.
 typedef struct Line {
     DipCandidate chosen; // The common choice, with its time and error in this report.
     DipCandidate alone;  // The settings that would be chosen from this report alone.
@@ -145,7 +146,7 @@ DIP_GET_ITEM(get_line, DIP_MADE(Line, (line_of(advised_of(at)->common, at->item,
 
 // --- budgets -------------------------------------------------------------------------------------
 
-// Returns the common choice for the budget whose advice is at->item.
+// Returns the choice from all reports together, for the budget whose advice is at->item.
 static const DipAdvice *all_of(const DipFieldAt *at) {
     return &((const DipCostCommonAdvice *)at->item)->all;
 }

@@ -20,8 +20,8 @@ static int find_row(const DipCostReport *report, const DipQuality *quality) {
     return row >= 0 && dip_cost_is_judged(report, row) ? row : -1;
 }
 
-// Lists the combinations of the first report. The list includes combinations that were not
-// measured because another row draws the same pictures (report->same).
+// Lists the combinations of the first report. The list includes combinations that have no row
+// because another row draws the same pictures (report->same).
 static bool begin_match(DipCostCommon *common, DipError *err) {
     const DipCostReport *report = &common->reports[0];
     const DipCandidates *own = &report->choice.candidates;

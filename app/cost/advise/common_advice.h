@@ -1,6 +1,7 @@
-// Makes common advice: one choice of settings for several reports. Each report may have another
-// scene, camera path, size or machine. Only combinations of settings that every report has measured
-// can be chosen.
+// Makes common advice: for a time budget, one choice of settings for several reports. Each report
+// may have another scene, camera path, size or machine. Only combinations of settings that every
+// report has measured can be chosen; a row that draws the same pictures stands for one that was not
+// timed.
 #ifndef DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 #define DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 

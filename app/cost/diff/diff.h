@@ -142,10 +142,10 @@ const char *dip_cost_diff_title(int quantity);
 // Returns whether a row's quantity is known on both sides and differs.
 bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
 
-// Returns by what share a quantity grew from A to B (0.1 if B's value is 10 % greater), 0 if it
-// does not differ or is not known, or INFINITY if it is 0 in A only. PSNR and SSIM are turned into
-// errors that grow when the picture gets worse: the root mean square difference that PSNR stands
-// for, and 1 - SSIM.
+// Returns by what share a quantity grew from A to B: 0.1 if B's value is 10 % greater. Returns 0 if
+// the quantity does not differ or is not known, and INFINITY if it is 0 in A only. PSNR and SSIM
+// are turned into errors that grow when the picture gets worse: the root mean square difference
+// that PSNR stands for, and 1 - SSIM.
 double dip_cost_diff_growth(const DipCostDiffRow *row, int quantity);
 
 // Leaves out the counters that are 0 in all rows of one side and in no row of the other, and adds a
@@ -154,8 +154,8 @@ void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
 
 // Computes the rows' marks, and the numbers of slower, faster and failed rows. A row is marked as
 // slower if surely_above is greater than the limit, and as faster if surely_below is less than
-// 1 / limit. Marks no row if the times may not be compared, if a machine's verdict is red, or if
-// two reports come from different machines.
+// 1/limit. Marks no baseline of a report, and no row at all if the times may not be compared, if a
+// machine's verdict is red, or if two reports come from different machines.
 void dip_cost_diff_mark(DipCostDiff *diff);
 
 // --- groups of exact differences -----------------------------------------------------------------
@@ -239,10 +239,10 @@ bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *c
                             DipCostDiff *diff, DipError *err);
 
 // Measures rows of a report again with another program: the rows of the report's first path whose
-// settings `arguments` lists. Makes a new report with the baseline and these rows. It has no
-// errors, and each row's ratio is its time / the time of the baseline in the same program. Fails as
-// dip_cost_diff_programs does, and with DIP_ERROR_MISSING if the report has no times or none of the
-// settings. On success the caller frees the new report.
+// settings `arguments` lists, except the baseline. Makes a new report with the baseline and these
+// rows. It has no errors, and each row's ratio is its time / the time of the baseline in the same
+// program. Fails as dip_cost_diff_programs does, and with DIP_ERROR_MISSING if the report has no
+// times or none of these rows. On success the caller frees the new report.
 bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const char *program,
                                   const DipCostReport *report, DipCostReport *measured,
                                   DipError *err);

@@ -22,8 +22,8 @@ static const double least_limit = 1.01;
 
 #define FIELD(name) offsetof(DipCostDiffArguments, name)
 
-// These sets of settings together use each part of the renderer: samples, filters, sample groups
-// and compression.
+// These sets of settings together use several samples per pixel, sample groups, anisotropic
+// filtering and compressed textures.
 static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=on;opt=advanced;"
                                    "aa=8,aaa=on,asd=2,af=16,aaf=on";
 

@@ -381,9 +381,9 @@ static void add_quality(Duel *duel, const DipQuality *quality) {
     add_set(duel, text);
 }
 
-// Returns the options. Those that were not given get the values with which the report was measured.
-// If this machine lacks the report's instruction set, the best one that the machine has takes its
-// place.
+// Returns the options. Those of size, threads, instruction set and camera path that were not given
+// get the values with which the report was measured, the path only if no model was given. If this
+// machine lacks the report's instruction set, the best one that the machine has takes its place.
 static DipCostDiffArguments options_of_report(const DipCostDiffArguments *arguments,
                                               const DipCostReport *report) {
     DipCostDiffArguments all = *arguments;

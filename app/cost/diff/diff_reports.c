@@ -14,11 +14,13 @@ enum { NAMED_ROWS = 4 }; // Greatest number of rows that a note names.
 
 // Says which parts of two reports may be compared.
 typedef struct Comparable {
-    bool pictures; // Scene and size are the same. If not, the next three are false.
-    bool errors;   // Viewpoints and converged pictures are the same.
-    bool counters; // Both reports have times, of equally many frames.
-    bool ratios;   // Both reports have times, and the same baseline.
-    bool poses[DIP_COST_MAX_PATHS];  // [path of A]: B has the same poses.
+    bool pictures; // Size and scene are the same; an unknown scene (of a program) counts as the
+                   // same. If not, the next three are false.
+    bool errors; // The numbers of viewpoints, frames and samples, and the pixels per degree are the
+                 // same.
+    bool counters;                   // Both reports have times, of equally many frames.
+    bool ratios;                     // Both reports have times, and the same baseline.
+    bool poses[DIP_COST_MAX_PATHS];  // [path of A]: B has the same poses (same_poses).
     int path_of[DIP_COST_MAX_PATHS]; // [path of A]: the path of B with this name, or -1.
 } Comparable;
 
@@ -153,8 +155,8 @@ static int find_row(const DipCostRow *wanted, const DipCostReport *b, int path, 
     return row;
 }
 
-// Adds a note that names the rows that only one side has, unless one side is a program that
-// measured only some rows.
+// Adds a note that names the first NAMED_ROWS rows that only this side has, and tells their number
+// if there are more. Adds none if one side is a program that measured only some rows.
 static void note_lonely(DipCostDiff *diff, const DipCostReport *report, const bool *lonely,
                         const char *side) {
     char text[DIP_COST_DIFF_NOTE] = "";

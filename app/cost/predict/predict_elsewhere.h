@@ -59,14 +59,15 @@ typedef struct DipCostElsewherePrediction {
     DipCostMisses timed_left_out;
     DipCostMisses checked_as_is;  // How far as_is_ms misses the times of checked combinations.
     DipCostMisses checked_fitted; // How far ms misses the times of checked combinations.
-    double wait; // Share of the timed frames' time for which their threads waited for a core.
+    double wait; // Share of the threads' time in the timed frames for which they waited for a core.
 } DipCostElsewherePrediction;
 
 // Reads the report, counts the work of its combinations there, times a few there and predicts all.
 // Shows its progress on standard error. Free the prediction even after a failure. Fails as
-// dip_cost_read_report and the renderer do; with CONFLICT if the session shows another scene than
-// the report, or another camera path; with MISSING if the report has no times or no combinations;
-// with UNSUPPORTED if this machine lacks the report's instruction set.
+// dip_cost_read_report and the renderer do. Also fails with CONFLICT if the session's scene is not
+// the report's, or if its camera path with the name of the report's path 0 has other poses, with
+// MISSING if the report has no times or no combinations, and with UNSUPPORTED if this machine lacks
+// the report's instruction set.
 bool dip_cost_predict_there(DipCostElsewherePrediction *prediction, const DipSession *session,
                             const DipCostPredictArguments *arguments, DipError *err);
 void dip_cost_predict_there_free(DipCostElsewherePrediction *prediction);

@@ -1,5 +1,5 @@
-// The fields of what is computed from rows: interactions, fits, advice, and what the timing tells
-// about the machine.
+// Lists the fields of interactions, fits and advice, which are computed from rows, and of what the
+// timing tells about the machine.
 #include "app/report/format/cost_fields_private.h"
 
 #include "app/measure/stats/estimate.h"

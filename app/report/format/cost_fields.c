@@ -1,5 +1,5 @@
-// The fields of a report, in the order in which they are written and read, and what the lists of
-// fields share.
+// Lists the fields of a report, in the order in which they are written and read, and defines what
+// the lists of fields share.
 #include "app/report/format/cost_fields_private.h"
 
 #include <limits.h>

@@ -39,8 +39,8 @@
 #define DIP_DERIVED_LIST(...) DIP_LIST_OF(DIP_FIELD_JSON | DIP_FIELD_DERIVED, __VA_ARGS__)
 #define DIP_ARRAY(OWNER, MEMBER, COUNTED)                                                          \
     .items = offsetof(OWNER, MEMBER), .counted = offsetof(OWNER, COUNTED)
-// Define a function that derives a field (DipFieldDerive), and one that gets an item of a list
-// (DipFieldList.item).
+// DIP_DERIVE defines a function that derives a field (DipFieldDerive). DIP_GET_ITEM defines one
+// that gets an item of a list (DipFieldList.item).
 #define DIP_DERIVE(name, value)                                                                    \
     static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
         (void)at;                                                                                  \

@@ -1,5 +1,5 @@
-// What the lists of the fields of cost.json share (cost_fields.h). Each file has the fields of some
-// items; cost_fields.c has those of the report, which contains them all.
+// Declares what the lists of the fields of cost.json (cost_fields.h) share. Each file has the
+// fields of some items; cost_fields.c has those of the report, which contains them all.
 #ifndef DIP_APP_REPORT_FORMAT_COST_FIELDS_PRIVATE_H
 #define DIP_APP_REPORT_FORMAT_COST_FIELDS_PRIVATE_H
 
@@ -11,14 +11,15 @@ static inline DipCostReport *dip_cost_report_of(const DipFieldAt *at) {
     return at->context;
 }
 
-// Whether the report has a row with this index.
+// Returns whether the report has a row with this index.
 bool dip_cost_is_row(const DipCostReport *report, int row);
 
 // Initialises a DipField that is an object in JSON but no struct in C: its fields are members of
 // the struct that has this field.
 #define PART .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON
 
-// Initialise a DipField that is a list of another file, of facts or of derived values.
+// LIST initialises a DipField whose DipFieldList stands in another file and has facts. DERIVED_LIST
+// does so for a list of derived values.
 #define LIST(LIST_OF) .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON, .list = &(LIST_OF)
 
 #define DERIVED_LIST(LIST_OF)                                                                      \
@@ -49,7 +50,8 @@ extern const char *const dip_cost_setting_keys[DIP_SETTING_COUNT];
             .most = DIP_COST_MOST_MEAN * DIP_COST_MOST_COUNT                                       \
     }
 
-// Whether sums over pixels and bursts (series of successive frames) are possible.
+// Returns whether a file can have these sums over pixels and bursts (series of successive frames):
+// each count is 0 or at least 1, and each mean is within its limit.
 bool dip_cost_are_sums(const DipMetricSums *sums);
 
 #define STAGE_NAMES_FIELD(TYPE, KNOWN)                                                             \
@@ -69,6 +71,7 @@ bool dip_cost_are_sums(const DipMetricSums *sums);
 
 // --- lists and records of the report -------------------------------------------------------------
 
+// The comments name the file that defines each list or record, and the item of each record.
 extern const DipFieldList dip_cost_row_list;         // row_fields.c
 extern const DipFieldList dip_cost_visit_list;       // visit_fields.c
 extern const DipFieldList dip_cost_floor_list;       // path_fields.c

@@ -15,8 +15,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     return dip_fields_write_json(&dip_cost_report_record, report, file, err);
 }
 
-// --- the previous format
-// -----------------------------------------------------------------------------
+// --- the previous format -------------------------------------------------------------------------
 
 static cJSON *add_empty_text(cJSON *const object, const char *const name) {
     return cJSON_AddStringToObject(object, name, "");

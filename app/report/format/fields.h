@@ -132,7 +132,7 @@ enum { DIP_SETTINGS_BYTES = 256 };
 const char *dip_field_as_text(const DipField *field, const void *value,
                               char settings[DIP_SETTINGS_BYTES]);
 
-// Returns whether both ends of an interval are known: they are finite and not the same.
+// Returns whether both ends of an interval are known: they are finite, and low is below high.
 bool dip_field_has_interval(const DipEstimate *estimate);
 
 // A field that was found, and its value.

@@ -228,7 +228,7 @@ static bool read_text(const cJSON *item, const DipField *field, char *to) {
     const bool fits = cJSON_IsString(item) && strlen(item->valuestring) < field->size;
     if (fits) {
         strcpy(to, item->valuestring);
-        dip_put_clean(to); // so that a report is the same when it is written and read again
+        dip_put_clean(to); // A report stays the same when it is written and read again.
     }
     return fits;
 }

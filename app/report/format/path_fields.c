@@ -1,4 +1,4 @@
-// The fields of camera paths, of the truths of their viewpoints, and of sweeps along them.
+// Lists the fields of camera paths, of the truths of their viewpoints, and of sweeps along them.
 #include "app/report/format/cost_fields_private.h"
 
 #include "app/report/words.h"
@@ -99,7 +99,7 @@ static const DipCostSweep *sweep_of(const DipFieldAt *at) {
 DIP_OF_ITEM(bool, is_step_timed,
             dip_cost_is_timed(dip_cost_report_of(at), sweep_of(at)->rows[at->index]))
 
-// Define for each metric a function that derives its change from the base of a sweep to a step.
+// Defines for each metric a function that derives its change from the base of a sweep to a step.
 #define CHANGE_FUNCTION(METRIC, ...)                                                               \
     DIP_DERIVE(derive_change_##METRIC,                                                             \
                DIP_MADE(DipEstimate, dip_cost_metric_change(                                       \

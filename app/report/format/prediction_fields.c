@@ -1,5 +1,5 @@
-// The fields of combinations that draw the same pictures as a row, of predictions, and of
-// combinations that were timed under other conditions.
+// Lists the fields of combinations that draw the same pictures as a row, of predictions, and of
+// combinations that were timed under other conditions than the rows.
 #include "app/report/format/cost_fields_private.h"
 
 #include <float.h>

@@ -1,4 +1,4 @@
-// The fields of rows: settings, metrics of pictures, viewpoints, times.
+// Lists the fields of rows: their settings, metrics of pictures, viewpoints and times.
 #include "app/report/format/cost_fields_private.h"
 
 #include <math.h>
@@ -124,7 +124,7 @@ static const void *derive_over_time(const DipFieldAt *at, DipFieldScratch *scrat
     return sums_of(at, &sums) ? DIP_MADE(DipFlickerMetrics, dip_flicker_metrics_of(&sums)) : NULL;
 }
 
-// Define for each metric a function that derives a row's metric, with its interval over the
+// Defines for each metric a function that derives a row's metric, with its interval over the
 // viewpoints.
 #define METRIC_FUNCTION(METRIC, ...)                                                               \
     DIP_DERIVE(derive_##METRIC,                                                                    \

@@ -1,4 +1,4 @@
-// The fields of visits, which hold every timed frame.
+// Lists the fields of visits, which hold every timed frame.
 #include "app/report/format/cost_fields_private.h"
 
 #include <limits.h>

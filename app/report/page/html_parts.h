@@ -29,10 +29,10 @@ void dip_html_pictures(const DipCostReport *report, const DipCostPictureSet *set
 // writes only the predictions. Returns false when memory runs out.
 bool dip_html_front(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures);
 
-// Writes plots of time and error along the default path, for the baseline and the advised
-// combinations. Without advice, the knee of the front takes their place. Errors at a single
-// viewpoint get no plot. Writes nothing if the report has no times or no combinations. Returns
-// false when memory runs out.
+// Writes plots of time and error along path 0, for the baseline and the advised combinations. If no
+// combination but the baseline is advised, the knee of the front takes their place. Errors at a
+// single viewpoint get no plot. Writes nothing if the report has no times or no combinations.
+// Returns false when memory runs out.
 bool dip_html_path(DipForm *form, const DipCostReport *report);
 
 // Writes each sweep (all steps of one setting): bars of time and error, a table and, if `pictures`

@@ -1,6 +1,6 @@
-// Writes plots of time and error along the default path into the HTML page, for the baseline and
-// the advised combinations (or the knee of the Pareto front). Times are plotted at frames, and
-// errors at viewpoints.
+// Writes plots of time and error along path 0 into the HTML page, for the baseline and the advised
+// combinations (or the knee of the Pareto front). Times are plotted at frames, and errors at
+// viewpoints.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
@@ -43,8 +43,8 @@ static void add_line(Lines *lines, int row, const char *prefix) {
     }
 }
 
-// Lists the baseline and then the advised combinations. Without advice, lists the knee of the
-// Pareto front (app/report/choice.h) instead of them.
+// Lists the baseline and then the advised combinations. If no combination but the baseline is
+// advised, lists the knee of the Pareto front (app/report/choice.h) instead of them.
 static void list_lines(Lines *lines) {
     const DipCostReport *report = lines->report;
     add_line(lines, report->base_rows[0], "baseline: ");

@@ -371,8 +371,8 @@ static void sort_by_time(const DipCostReport *report, DipCostPictureSet *set) {
     }
 }
 
-// Chooses the rows of the set of the Pareto front. Advised rows come first, since a set has room
-// for DIP_COST_SET_ROWS rows only.
+// Chooses the rows of the set of the Pareto front, and sorts them by time. Advised rows are chosen
+// first, since a set has room for DIP_COST_SET_ROWS rows only.
 static void plan_front(const DipCostReport *report, DipCostPictureSet *set) {
     const DipCostChoice *choice = &report->choice;
     for (int i = 0; i < choice->advice_count; i++) {

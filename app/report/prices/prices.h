@@ -3,16 +3,18 @@
 // the report was read from a file or is being filled by the preview (dip_cost_is_view).
 //
 // The base is the combination with the settings of the report's baseline. The price of a step is
-// the difference that the step makes to the base, on a path on which both were measured. A setting
-// that has no effect alone is priced together with its company: the settings that it needs, which
-// are then set both with the step and without it (view.h). AF and advanced AF are also priced
-// together with the antialiasing of the pane (one of the preview's two pictures), so that prices
-// add up. If that price was not measured, the price with the same AA but without adaptive AA stands
-// for it if more is known of it, or else the price without antialiasing.
+// the difference that the step makes to the base. It comes from a path on which rows with and
+// without the step were measured, or from path 0 if one of the two is predicted. A setting that has
+// no effect alone is priced together with its company: the settings that it needs, which are then
+// set both with the step and without it (view.h). AF and advanced AF are also priced together with
+// the antialiasing of the pane (one of the preview's two pictures), so that prices add up. If that
+// price was not measured, the price with the pane's AA but the base's adaptive AA stands for it if
+// more is known of it, or else the price with the base's antialiasing.
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
 // models of times and errors (fit.h) from its composed work (combinations.h). If there are too few
-// rows for the models or for composing the work, its time is the sum of prices.
+// rows for the models or for composing the work, its time is the time of the base, or of a
+// combination nearer to it, plus the prices of the steps that this one lacks.
 #ifndef DIP_APP_REPORT_PRICES_PRICES_H
 #define DIP_APP_REPORT_PRICES_PRICES_H
 
@@ -20,11 +22,12 @@
 #include "app/report/report.h"
 
 typedef enum DipPriceState {
-    DIP_PRICE_UNKNOWN,   // The time was neither measured nor predicted, at least not yet.
-    DIP_PRICE_BASE,      // The step is that of the base: ms and flip are the base's time and error.
+    DIP_PRICE_UNKNOWN, // The time was neither measured nor predicted, at least not yet.
+    DIP_PRICE_BASE,    // The other steps are compared with this one: ms and flip are the whole time
+                       // and error of a combination with this step (DipPriceQuestion.with, view.h).
     DIP_PRICE_MEASURED,  // Measured along a path.
     DIP_PRICE_PREDICTED, // Not timed, but predicted by a report's model (fit.h).
-    DIP_PRICE_ROUGH      // Measured with a few frames of one picture, or the sum of prices.
+    DIP_PRICE_ROUGH      // Measured with a few frames of one picture, or computed by adding prices.
 } DipPriceState;
 
 // How a time may be shown. Every part of the program that shows or uses a price asks
@@ -33,7 +36,8 @@ typedef enum DipPriceState {
 typedef enum DipPriceTrust {
     DIP_PRICE_TRUST_UNKNOWN,  // There is no number.
     DIP_PRICE_TRUST_DOUBTFUL, // The interval is too wide, or the machine was too busy. The time is
-                              // shown with one digit and "?"; it has no bar and enters no sum.
+                              // shown with one digit and "?". It has no bar of its own, and in a
+                              // sum it is part of the rest.
     DIP_PRICE_TRUST_ZERO,     // The time is 0 as far as anyone can tell: "≈ 0".
     DIP_PRICE_TRUST_KNOWN
 } DipPriceTrust;
@@ -42,12 +46,12 @@ typedef enum DipPriceTrust {
 // report can have errors without times, and the other way round. Intervals are 95 % intervals.
 typedef struct DipPrice {
     DipPriceState state;
-    double ms; // Milliseconds that the step adds to the base; for the base itself, its whole time.
+    double ms; // Milliseconds that the step adds. If `state` is BASE, the whole time.
     double ms_low;
     double ms_high;
-    double without_ms;  // The whole time without the step; 0 for the base.
+    double without_ms;  // The whole time without the step; 0 if `state` is BASE.
     bool has_flip;      // The error is known. (The preview has times before it has errors.)
-    double flip;        // What the step adds to the base's FLIP; for the base itself, its FLIP.
+    double flip;        // What the step adds to FLIP. If `state` is BASE, the whole FLIP.
     bool flip_at_floor; // The error with the step cannot be told from the noise of the converged
                         // picture that it is measured against.
     bool needs_company; // The step has no effect with the settings of the pane. `needs` then says
@@ -64,8 +68,8 @@ typedef struct DipPrice {
 // and together_ms is exactly ms.
 typedef struct DipPriceSum {
     // MEASURED if this very combination was timed along a path, and ROUGH if it was timed in one
-    // picture. Otherwise PREDICTED, or ROUGH if ms is the sum of the parts. UNKNOWN if the price of
-    // a part is not known; ms then lacks this part.
+    // picture. Otherwise PREDICTED, or ROUGH if prices of steps were added up. UNKNOWN if one of
+    // these prices is not known; ms then lacks it.
     DipPriceState state;
     double ms;
     double ms_low;
@@ -124,8 +128,9 @@ typedef enum DipPricesKnown {
 
 // Lists the candidates for a choice from a report that has not measured combinations along a path.
 // They are the combinations of aa, aaa, af, aaf, opt and miplod, measured or predicted, with the
-// other settings of the base. The prices of all steps of these settings, for a pane with the
-// settings `like`, must be known first. Until then, the list is NULL and the result is not
+// other settings of the base. The prices of the steps of these settings, for a pane with the
+// settings `like`, must be known first. Excepted are steps without effect there, and steps that
+// reports of earlier versions lack. Until then, the list is NULL and the result is not
 // DIP_PRICES_KNOWN. The caller frees candidates->list. Takes some milliseconds. When memory runs
 // out, the result is DIP_PRICES_NO_TIMES.
 DipPricesKnown dip_price_candidates(const DipPriceView *view, const DipQuality *like,
@@ -135,7 +140,8 @@ DipPricesKnown dip_price_candidates(const DipPriceView *view, const DipQuality *
 // times of both panes and of every combination one step away from the pane `requested` are known.
 // The base and the panes come first, then the combinations for the steps, ordered by their distance
 // from the steps of `requested`, and then those one step away. The combinations for AF and advanced
-// AF without antialiasing come last. Writes at most `room` combinations; returns their number.
+// AF with the base's antialiasing come last. Writes at most `room` combinations; returns their
+// number.
 enum { DIP_PRICE_MAX_WANTED = 96 };
 int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
                           const DipQuality *requested, DipQuality *list, int room);

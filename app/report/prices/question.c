@@ -175,8 +175,8 @@ static void want_steps_of(Wanted *wanted, const DipQuality *pane, DipSetting set
     }
 }
 
-// Adds the combinations for the prices of AF and advanced AF without antialiasing, from which the
-// prices with antialiasing are guessed.
+// Adds the combinations for the prices of AF and advanced AF with the base's antialiasing, which
+// stand for the prices with other antialiasing until these are measured.
 static void want_filtering_alone(Wanted *wanted, const DipQuality *pane) {
     const DipQuality plain = dip_cost_take_settings(pane, wanted->base, DIP_PRICE_ANTIALIASING);
     for (int distance = 0; distance < DIP_MAX_STEPS; distance++) {

@@ -60,8 +60,8 @@ static int find_path(const DipPriceView *view, const DipPriceQuestion *question)
     return -1;
 }
 
-// Finds the path for the base's own step: the path on which the setting's other steps were
-// measured.
+// Finds the path for the step with which the others are compared: the path on which the price of
+// another step was measured, or path 0 if there is none.
 static int find_base_path(const DipPriceView *view, DipSetting setting, const DipQuality *pane) {
     for (int step = 0; step < dip_setting_info(setting)->step_count; step++) {
         const DipPriceQuestion question = dip_price_question(&view->base, setting, step, pane);
@@ -169,8 +169,9 @@ static DipPrice answer(const DipPriceView *view, DipSetting setting, const DipQu
 
 // --- companies -----------------------------------------------------------------------------------
 
-// The settings that are left out of the company. AF and advanced AF are priced with up to three
-// companies in turn: the pane's antialiasing, its AA without adaptive AA, and no antialiasing.
+// The settings that are left out of the company, so they have the base's steps. AF and advanced AF
+// are priced with up to three companies in turn: the pane's antialiasing, its AA with the base's
+// adaptive AA, and the base's antialiasing.
 static const unsigned left_out[] = {0, 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD,
                                     DIP_PRICE_ANTIALIASING};
 enum { COMPANIES = sizeof left_out / sizeof *left_out };

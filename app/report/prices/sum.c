@@ -68,7 +68,8 @@ static DipQuality without_other_paths(const DipPriceView *view, const DipQuality
     return dip_price_normal(&view->base, &rest);
 }
 
-// Finds the whole time of a combination: as measured, as predicted, or as the sum of its parts.
+// Finds the whole time of a combination: as measured, as predicted, or as the time of the base (or
+// of a combination nearer to this one) plus the parts that it lacks.
 static DipPriceWhole whole_of(const DipPriceView *view, const DipQuality *normal,
                               const Parts *parts) {
     const DipPriceEntry *entry = dip_price_find(view, 0, normal);
@@ -131,9 +132,9 @@ static bool is_required(DipSetting setting, int step) {
                                            : true;
 }
 
-// Returns how much is known of the prices of all steps for a pane with the settings `like`. For
-// steps of AF and advanced AF, the price with the base's antialiasing suffices, since it stands for
-// the price with any other antialiasing that was not measured.
+// Returns how much is known of the prices of all required steps (is_required) for a pane with the
+// settings `like`. For steps of AF and advanced AF, the price with the base's AA suffices, since it
+// stands for the price with any other AA that was not measured.
 static DipPricesKnown known_of(const DipPriceView *view, const DipQuality *like) {
     DipQuality plain = *like;
     plain.step[DIP_SETTING_AA] = view->base.step[DIP_SETTING_AA];

@@ -16,7 +16,7 @@ typedef struct DipPriceEntry {
                     // counts.
 } DipPriceEntry;
 
-// Remembers a price that was computed from two rows.
+// A price that was computed from two rows.
 typedef struct DipPriceMemory {
     bool is_known;
     int row;     // Index of the row with the step.
@@ -86,9 +86,10 @@ DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 // 11 % more than that sum.
 typedef struct DipPriceQuestion {
     DipQuality with;    // The base with the company and the step.
-    DipQuality without; // The base with the company.
-    bool is_base;       // The step is that of the base, so both combinations are equal.
-    char needs[24];     // What the pane lacks for the step to do anything: "AF", or "".
+    DipQuality without; // The combination with the company but without the step.
+    bool is_base; // Both combinations are equal: the other steps are compared with this one. It is
+                  // off for taa, aaa and aaf, bilinear for upscale, and otherwise the base's step.
+    char needs[24]; // What the pane lacks for the step to do anything: "AF", or "".
 } DipPriceQuestion;
 
 // The settings of antialiasing, which AF and advanced AF have as company (bit s for setting s).
