@@ -128,7 +128,8 @@ static int block_rows(DipSetting setting, bool has_costs) {
     return is_switch(setting) ? 1 : 2 + step_lines(setting) * (has_costs ? 3 : 1);
 }
 
-// Draws a setting's title, and at its right the values of both panes if they differ.
+// Draws a setting's title, and at the row's right end the requested pane's step (value). If the
+// current pane has another step, it stands before the requested one.
 static void draw_head(DipTextView *view, DipSetting setting, int row, int column, int end) {
     const int from = view->state->quality[DIP_PANE_CURRENT].step[setting];
     const int to = view->state->quality[DIP_PANE_REQUESTED].step[setting];
@@ -195,8 +196,9 @@ static void draw_blocks(DipTextView *view, DipTextArea body) {
     }
 }
 
-// Writes which key gives the current pane the requested settings, and what brackets, colours and
-// figures mean.
+// Writes that both panes are the same, or which key gives the current pane the requested settings.
+// Below, names the source of the figures and the key for advice or, without a cost report, shows
+// what brackets and colours mean.
 static void draw_sum(DipTextView *view, DipTextArea body) {
     const DipPreviewState *state = view->state;
     const int column = body.column + MARGIN + MAX_BLOCK_COLUMNS * BLOCK_COLUMNS;

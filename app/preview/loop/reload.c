@@ -361,7 +361,7 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
     }
 }
 
-// Adds to the notice what became of the file that was dropped together with this one.
+// Adds to the notice what became of the file that was dropped just before this one.
 static void tell_passed(const DipReload *reload, DipReloadNews *news) {
     const char *passed = reload->opening.file ? reload->passed : NULL;
     if (passed && reload->passed_failed) {

@@ -1,4 +1,5 @@
-// Detects changes of files by comparing stamps, which are computed from names, times and sizes.
+// Detects changes of files by comparing stamps, which are computed from names, times, sizes and
+// inodes.
 #include "app/preview/loop/watch.h"
 
 #include "renderer/base/assert.h"

@@ -117,7 +117,7 @@ typedef struct DipPreviewState {
     bool shows_gallery; // The panes show a scene of the gallery.
     int scene_step;     // Scenes to go forward (below 0: back), as the user asked.
     const DipSessionAnimations
-        *animations;         // Those of the models. Borrowed; NULL if there are none.
+        *animations;         // The models' animations. Borrowed; NULL if there are none.
     bool wants_animation;    // The user asked for an animation. Cleared in the next turn.
     int wanted_animation;    // Its index, or -1 for none.
     bool opens_animation;    // An animation is being opened. Until it is open, the previous one
@@ -188,9 +188,9 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
 // Adds `by` to the factor by which controls are enlarged. The factor stays within 0.75 and 4.
 void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 
-// Finds a preset's settings. The presets up to BEST are chosen among the measured settings that
-// keep within the budget. Returns false, and leaves *quality as it is, if nothing was measured or
-// nothing keeps within the budget.
+// Finds a preset's settings. The presets up to BEST are chosen among the settings of state->choice
+// that keep within the budget. If nothing is advised for the budget (dip_preview_advised), returns
+// false for these presets, and leaves *quality as it is.
 bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality);
 
 // Writes four lines that tell how to make a cost report of this scene. The second and the fourth
@@ -229,8 +229,8 @@ const DipCamPath *dip_preview_playing_path(const DipPreviewState *state);
 // Returns whether all poses of the playing path are the same.
 bool dip_preview_path_stands(const DipPreviewState *state);
 
-// Returns whether the picture changes with time: it is not paused, and the camera or the scene
-// moves.
+// Returns whether time runs: the preview is not paused, and the scene moves or the camera moves
+// along its path.
 bool dip_preview_time_runs(const DipPreviewState *state);
 
 // Returns whether camera and scene stand still. `flying` means that the user moves the free camera.
@@ -269,8 +269,8 @@ const char *dip_preview_category_name(int category);
 const char *dip_preview_path_name(const DipPreviewState *state, int category);
 const char *dip_preview_path_title(const DipPreviewState *state, int category);
 
-// Returns the name of a category of paths for display: "Default", or the title of the setting that
-// its path shows best.
+// Returns the name of a category of paths for display: "Default", "Water", or the title of the
+// first setting that its path shows best.
 const char *dip_preview_category_title(int category);
 
 // Returns the category whose path shows a setting best, or -1 if the setting has no such path.
