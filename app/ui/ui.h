@@ -31,7 +31,7 @@ typedef unsigned DipUiId;
 #define DIP_UI_ID(group, index) (((unsigned)(group) + 1) << 16 | (unsigned)(index))
 typedef enum DipUiGroup {
     DIP_UI_PANES,    // The two pictures.
-    DIP_UI_BAR,      // The dock's tabs and its time line.
+    DIP_UI_BAR,      // The dock's bar, and the button that brings it back.
     DIP_UI_SETTINGS, // Settings, presets, Apply.
     DIP_UI_LOUPE,
     DIP_UI_COMPARE,

@@ -9,7 +9,7 @@ enum {
     SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
     ROW_COLUMNS = 60,    // Least width of a row that shows one setting.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
-    BRIEF_COLUMNS = 11,  // The same, if a setting has so many steps that its name must be short.
+    BRIEF_COLUMNS = 11,  // Width of a setting's short name in its row, beside many steps.
     STEP_COLUMNS = 6,    // Least width of a step in its row.
     FIGURE_COLUMNS = 15, // Width of a step's time and change of FLIP at the row's end.
     MAX_BLOCK_COLUMNS = 3,
@@ -267,7 +267,8 @@ void dip_text_draw_settings(DipTextView *view, DipTextArea body) {
     const int column_count = columns_of_rows(body.columns);
     const int columns = (body.columns - MARGIN) / column_count;
     const int rows = (DIP_SETTING_COUNT + column_count - 1) / column_count;
-    // If not all rows fit, those around the focused setting show.
+    // If not all rows fit, those around the focused setting show or, if none has the focus, the
+    // first ones.
     const int focus_row = view->focused ? (int)view->focus % rows : 0;
     const int first = dip_max(0, dip_min(focus_row - body.rows / 2, rows - body.rows));
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {

@@ -165,7 +165,7 @@ static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     }
 }
 
-// Writes the most useful keys, or what just happened.
+// Writes the most useful keys or, while there is a notice, the notice.
 static void draw_keys(DipTextView *view, const DipPreviewState *state, int row) {
     static const char *const keys[] = {
         "↑ ↓ setting   ← → step   Enter apply   Space pause   F1 keys   Esc quit",
@@ -220,7 +220,8 @@ static int edited_pane(const DipPreviewState *state) {
     return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
 }
 
-// Moves the focused setting by one position in the order of dip_setting_step_at.
+// Gives the focused setting its next step (`by` is 1) or the step before (-1), in the order of
+// dip_setting_step_at.
 static void move_step(const DipTextView *view, DipPreviewState *state, int by, int64_t now_ns) {
     const int count = dip_setting_info(view->focus)->step_count;
     const int now = state->quality[edited_pane(state)].step[view->focus];

@@ -59,7 +59,8 @@ typedef struct DipPreviewDef {
     void *context;
 } DipPreviewDef;
 
-// Creates a preview. Fails with MISSING if the display needs a font and there is none.
+// Creates a preview. Fails with MISSING if the display needs a font and there is none, or with
+// MEMORY.
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err);
 void dip_preview_destroy(DipPreview **preview);
 

@@ -278,8 +278,8 @@ static bool is_no_file(const char *file) {
     return file && stat(file, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-// Begins to open the dropped `file`, or the files of the present session again if `file` is NULL,
-// with the animation that waits.
+// Begins to open the dropped `file`. If `file` is NULL, begins to open the files of the present
+// session again, with the animation that waits, if there is one.
 static bool begin(DipReload *reload, const char *file, const char *name, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     opening->options = reload->options;

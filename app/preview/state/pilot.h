@@ -10,8 +10,8 @@
 // its path, only shows a notice.
 void dip_pilot_reset(DipPreviewState *state, int64_t now_ns);
 
-// Makes the camera free or, if it is free, chooses whether dragging turns it about a point or about
-// itself.
+// Makes the camera free. If it is free already, lets dragging turn it about a point instead of
+// about itself, or the other way round.
 void dip_pilot_orbit(DipPreviewState *state, int64_t now_ns);
 
 // Makes the free camera faster by `steps`; dip_flight_speed says what a step is.
