@@ -20,7 +20,7 @@ typedef enum DipDisplayChoice {
 typedef struct DipPreviewOptions {
     DipProgramOptions program;
     DipSessionOptions session;
-    const char *cost_report;  // A cost.json of this scene, borrowed from argv, or NULL.
+    const char *cost_report;  // A cost.json of this scene or its folder, borrowed, or NULL.
     double pixels_per_degree; // For FLIP (a perceptual error); 0 if no option sets it.
     const char *cache;        // Folder of cached truths (truth.h), borrowed from argv, or NULL.
     const char *control;      // "-" or the path of a socket, borrowed from argv, or NULL.
@@ -32,9 +32,9 @@ typedef struct DipPreviewOptions {
     DipTerminalColours terminal_colours;
 } DipPreviewOptions;
 
-// Shows the session until the user quits. Fails if there is no display (RUNTIME) or no font
-// (MISSING), if the cost report, the cache of --cache or the control channel cannot be opened, or
-// if drawing fails.
+// Shows the session until the user or another program ends the preview. Fails if there is no
+// display (RUNTIME) or no font (MISSING), if the cost report, the cache of --cache or the control
+// channel cannot be opened, or if drawing fails.
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err);
 
 #endif

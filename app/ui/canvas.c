@@ -186,7 +186,7 @@ void dip_canvas_round(DipCanvas *canvas, DipRect rect, int radius, int ring, Dip
     radius = dip_min(dip_max(radius, 0), dip_min(rect.width, rect.height) / 2);
     const RoundRect shape = {rect, radius, ring, colour};
     const int right = inside.x + inside.width;
-    const int edge = dip_max(radius, ring); // Width of the columns in which coverage may vary.
+    const int edge = dip_max(radius, ring); // Columns at each side in which coverage may vary.
     const int middle = dip_min(dip_max(rect.x + edge, inside.x), right);
     const int middle_end = dip_max(dip_min(rect.x + rect.width - edge, right), middle);
     for (int y = inside.y; y < inside.y + inside.height; ++y) {

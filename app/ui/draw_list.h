@@ -3,8 +3,8 @@
 //
 // The caller records the whole frame anew each time, from the back to the front. Painting compares
 // the new list with the list that was painted last, and draws only inside the rectangles of
-// commands that differ. Therefore code that draws never has to say what it changed. A frame in
-// which only one number changes costs no more than drawing that number.
+// commands that differ. Therefore code that draws never has to say what it changed. If only one
+// number changes, painting draws only inside the rectangle of that number.
 #ifndef DIP_APP_UI_DRAW_LIST_H
 #define DIP_APP_UI_DRAW_LIST_H
 
@@ -54,8 +54,8 @@ void dip_draw_list_round(DipDrawList *list, DipRect rect, int radius, int ring, 
 void dip_draw_list_picture(DipDrawList *list, DipRect rect, const DipPixels *picture,
                            uint64_t version);
 
-// Shows a line of UTF-8 text with its top at y. A line that is wider than max_width is cut and ends
-// in an ellipsis.
+// Shows a line of UTF-8 text of at most 511 bytes with its top at y. A line that is wider than
+// max_width is shortened as by dip_font_fit.
 void dip_draw_list_text(DipDrawList *list, int size, DipColour colour, DipAlign align, int x, int y,
                         int max_width, const char *line);
 

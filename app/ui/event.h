@@ -7,7 +7,8 @@
 
 // Codes of keys. If a key types a character, its code is that character's Unicode code point, in
 // lower case and without modifiers: 'a', '1', '.'. The other keys have the values below, beyond all
-// code points. The keypad's digits, signs and Enter have the same codes as the main keyboard's.
+// code points. The keypad's digits, plus, minus and Enter have the same codes as the main
+// keyboard's; in a window, its other keys that type characters have none (DIP_KEYCODE_NONE).
 typedef enum DipKeycode {
     DIP_KEYCODE_NONE = 0,
     DIP_KEYCODE_SPACE = ' ',
@@ -113,7 +114,8 @@ typedef struct DipEvent {
 
     // KEY_DOWN and KEY_UP.
     DipKeycode key;      // The key's code in the user's keyboard layout.
-    DipKeycode position; // The code of the key at the same place on a US keyboard.
+    DipKeycode position; // The letter or digit that a US keyboard has at the key's place; for other
+                         // keys and in a terminal, `key`.
     bool repeat;         // KEY_DOWN: the key is held and repeats itself.
 
     // Mouse events: where the pointer is, in pixels of the picture.

@@ -1,7 +1,7 @@
 // Draws text in the system's sans-serif font at any size. fontconfig finds the font, and FreeType
 // draws its glyphs.
 //
-// Each glyph is drawn once per size and kept in a cache, so that a line of text costs one blend per
+// A cache keeps the drawn glyphs of each size, so that a line of text usually costs one blend per
 // letter. Lines are UTF-8; a byte that is not valid UTF-8 shows as U+FFFD. Two threads must not use
 // one font at the same time.
 #ifndef DIP_APP_UI_FONT_H

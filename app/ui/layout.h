@@ -39,7 +39,7 @@ DipRect dip_rect_middle(DipRect room, int width, int height);
 DipRect dip_rect_cell(DipRect room, int columns, int height, int gap_x, int gap_y, int index);
 
 // Shows a line of text in a rectangle, centred vertically. `align` puts it at the left side, at the
-// right side or in the middle. A line that is too wide ends in an ellipsis.
+// right side or in the middle. A line that is too wide is shortened as by dip_font_fit.
 void dip_ui_label(DipUi *ui, int size, DipColour colour, DipAlign align, DipRect rect,
                   const char *text);
 

@@ -31,7 +31,7 @@ typedef unsigned DipUiId;
 #define DIP_UI_ID(group, index) (((unsigned)(group) + 1) << 16 | (unsigned)(index))
 typedef enum DipUiGroup {
     DIP_UI_PANES,    // The two pictures.
-    DIP_UI_BAR,      // The dock's tabs and its time line.
+    DIP_UI_BAR,      // The dock's bar, and the button that brings it back.
     DIP_UI_SETTINGS, // Settings, presets, Apply.
     DIP_UI_LOUPE,
     DIP_UI_COMPARE,
@@ -58,11 +58,11 @@ void dip_ui_destroy(DipUi **ui);
 
 void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
 
-// Ends the pass. After an event pass, returns whether the event was used; then it must not do
-// anything else. A control may have taken it. Tab and Shift+Tab move the focus, and so do arrow
-// keys that the control with the focus does not take. Escape hides a tip. In a drawing pass, draws
-// the tip of the control under the pointer, once it is due, above everything else, and returns
-// false.
+// Ends the pass. In an event pass, uses an event that no control has taken: Tab and Shift+Tab move
+// the focus, and so do arrow keys while the focus shows. Escape hides a tip. Returns whether a
+// control or this function has used the event; if so, the caller must not act on it. In a drawing
+// pass, draws the tip of the control under the pointer, once it is due, above everything else, and
+// returns false.
 bool dip_ui_end(DipUi *ui);
 
 // Returns the time at which a tip is due to appear. The caller must draw the window again at that
@@ -94,7 +94,8 @@ typedef struct DipUiControl {
 
 // What the user did with a control in this event pass, and how to draw it in a drawing pass.
 typedef struct DipUiInput {
-    bool hovered;  // The pointer is over the control.
+    bool hovered;  // The pointer is over the control, and no mouse button is held that was pressed
+                   // over another one.
     bool focused;  // The control has the focus and shows it: draw a ring.
     bool held;     // A mouse button that was pressed over the control is down, or is released now.
     bool pressed;  // The left button went down and up over the control, or Enter or Space was
@@ -136,7 +137,7 @@ DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *
                                const char *tip, double *typed);
 
 // Lets the tips of all controls in a rectangle appear outside the rectangle, so that they cover
-// none of its controls. Holds until the end of the pass.
+// none of its controls, if the window has room for them there. Holds until the end of the pass.
 void dip_ui_keep_tips_off(DipUi *ui, DipRect rect);
 
 // --- drawing -----------------------------------------------------------------------------------
@@ -163,8 +164,8 @@ void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour);
 // Draws the outline of a rectangle with rounded corners, `width` pixels wide, inside the rectangle.
 void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour colour);
 
-// Outlines a rectangle from outside with a colour on a dark border, so that the outline shows over
-// any picture.
+// Outlines a rectangle from outside with a line of a colour and a dark line around it, so that the
+// outline shows over any picture.
 void dip_ui_mark(DipUi *ui, DipRect rect, DipColour colour);
 
 // Draws the ring that shows the keyboard's focus around a rectangle, if the control has the focus.
@@ -174,8 +175,9 @@ void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *in
 void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, int y, int max_width,
                  const char *line);
 
-// Shows a text in lines that are as wide as `room`; '\n' breaks a line, too. Lines that do not fit
-// are left out, and so are lines after the tenth. Returns the height of the lines in pixels.
+// Shows a text in lines that are at most as wide as `room`; '\n' breaks a line, too. Lines that do
+// not fit are left out, and so are lines after the tenth. Returns the height of the lines in
+// pixels.
 int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text);
 
 // Returns the height that dip_ui_text_block needs to show a text at this width. The result is the

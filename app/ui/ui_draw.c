@@ -89,8 +89,7 @@ void dip_ui_picture(DipUi *ui, DipRect rect, const DipPixels *picture, uint64_t 
 // --- the tip -------------------------------------------------------------------------------------
 
 // Breaks a text into lines that are at most `width` pixels wide. A wider word gets a line of its
-// own.
-// '\n' breaks a line, too. Returns the number of lines; what does not fit in TIP_MAX_LINES lines is
+// own. '\n' breaks a line, too. Returns the number of lines; the text after TIP_MAX_LINES lines is
 // left out.
 static int break_lines(const DipUi *ui, int size, const char *text, int width,
                        char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES]) {
@@ -173,7 +172,7 @@ static bool place_beside(const DipUi *ui, DipRect off, DipRect *box) {
 
 // Draws the tip. If the pointer is in the rectangle of dip_ui_keep_tips_off and the window has room
 // beside this rectangle, the tip stands there. Otherwise it stands beside its control, or at the
-// top of the window if there is no room either.
+// top of the window if there is no room beside the control either.
 static void draw_tip(DipUi *ui) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
     const int count = break_lines(

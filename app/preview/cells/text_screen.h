@@ -31,8 +31,8 @@ static const DipTextColours dip_text_dim = {{152, 162, 174, 255}, {10, 11, 14, 2
 static const DipTextColours dip_text_accent = {{255, 190, 92, 255}, {10, 11, 14, 255}};
 static const DipTextColours dip_text_gain = {{95, 214, 189, 255}, {10, 11, 14, 255}};
 static const DipTextColours dip_text_worse = {{255, 154, 139, 255}, {10, 11, 14, 255}};
-// Colours of the requested step (value) of a setting, and of the title of the setting that the
-// arrow keys act on.
+// The first colours are those of the requested step (value) of a setting and of the key that
+// applies it, the second those of the title of the setting that the arrow keys act on.
 static const DipTextColours dip_text_wanted = {{26, 18, 6, 255}, {255, 190, 92, 255}};
 static const DipTextColours dip_text_focused = {{255, 255, 255, 255}, {30, 70, 110, 255}};
 

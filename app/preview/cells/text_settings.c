@@ -9,7 +9,7 @@ enum {
     SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
     ROW_COLUMNS = 60,    // Least width of a row that shows one setting.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
-    BRIEF_COLUMNS = 11,  // The same, if a setting has so many steps that its name must be short.
+    BRIEF_COLUMNS = 11,  // Width of a setting's short name in its row, beside many steps.
     STEP_COLUMNS = 6,    // Least width of a step in its row.
     FIGURE_COLUMNS = 15, // Width of a step's time and change of FLIP at the row's end.
     MAX_BLOCK_COLUMNS = 3,
@@ -128,7 +128,8 @@ static int block_rows(DipSetting setting, bool has_costs) {
     return is_switch(setting) ? 1 : 2 + step_lines(setting) * (has_costs ? 3 : 1);
 }
 
-// Draws a setting's title, and at its right the values of both panes if they differ.
+// Draws a setting's title, and at the row's right end the requested pane's step (value). If the
+// current pane has another step, it stands before the requested one.
 static void draw_head(DipTextView *view, DipSetting setting, int row, int column, int end) {
     const int from = view->state->quality[DIP_PANE_CURRENT].step[setting];
     const int to = view->state->quality[DIP_PANE_REQUESTED].step[setting];
@@ -195,8 +196,9 @@ static void draw_blocks(DipTextView *view, DipTextArea body) {
     }
 }
 
-// Writes which key gives the current pane the requested settings, and what brackets, colours and
-// figures mean.
+// Writes that both panes are the same, or which key gives the current pane the requested settings.
+// Below, names the source of the figures and the key for advice or, without a cost report, shows
+// what brackets and colours mean.
 static void draw_sum(DipTextView *view, DipTextArea body) {
     const DipPreviewState *state = view->state;
     const int column = body.column + MARGIN + MAX_BLOCK_COLUMNS * BLOCK_COLUMNS;
@@ -265,7 +267,8 @@ void dip_text_draw_settings(DipTextView *view, DipTextArea body) {
     const int column_count = columns_of_rows(body.columns);
     const int columns = (body.columns - MARGIN) / column_count;
     const int rows = (DIP_SETTING_COUNT + column_count - 1) / column_count;
-    // If not all rows fit, those around the focused setting show.
+    // If not all rows fit, those around the focused setting show or, if none has the focus, the
+    // first ones.
     const int focus_row = view->focused ? (int)view->focus % rows : 0;
     const int first = dip_max(0, dip_min(focus_row - body.rows / 2, rows - body.rows));
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {

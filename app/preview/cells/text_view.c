@@ -8,7 +8,8 @@ enum {
     // If what the user opened (settings, times or costs) would leave the panes fewer rows than
     // this, it gets at most half of the rows.
     MIN_PANE_ROWS = 8,
-    // Settings that the user has not opened show only if they leave the panes as many rows.
+    // Settings that the user has not opened show only if they leave the panes at least this many
+    // rows.
     ROOMY_PANE_ROWS = 14,
     LEAST_ROWS = 6 // A screen with fewer rows shows the panes and their labels only.
 };
@@ -137,8 +138,8 @@ static void format_place(const DipPreviewState *state, char *text, size_t size_b
     }
 }
 
-// Writes on the left the names of what can show and, on the right, the path or the scene with its
-// time, or that the camera is free.
+// Writes on the left the names of the parts that can show and their keys and, on the right, the
+// path or the scene with its time, or that the camera is free.
 static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     const int columns = view->screen.columns;
     const bool settings = !state->panel && !state->show_costs;
@@ -164,7 +165,7 @@ static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     }
 }
 
-// Writes the most useful keys, or what just happened.
+// Writes the most useful keys or, while there is a notice, the notice.
 static void draw_keys(DipTextView *view, const DipPreviewState *state, int row) {
     static const char *const keys[] = {
         "↑ ↓ setting   ← → step   Enter apply   Space pause   F1 keys   Esc quit",
@@ -219,7 +220,8 @@ static int edited_pane(const DipPreviewState *state) {
     return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
 }
 
-// Moves the focused setting by one position in the order of dip_setting_step_at.
+// Gives the focused setting its next step (`by` is 1) or the step before (-1), in the order of
+// dip_setting_step_at.
 static void move_step(const DipTextView *view, DipPreviewState *state, int by, int64_t now_ns) {
     const int count = dip_setting_info(view->focus)->step_count;
     const int now = state->quality[edited_pane(state)].step[view->focus];

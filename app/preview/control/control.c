@@ -408,7 +408,8 @@ static void send_events(DipRemote *remote) {
     }
 }
 
-// Sends the colours of the pixel under the mouse after the user has pressed a mouse button.
+// If a program has subscribed to picks, sends it the colours of the pixel on which the user has
+// pressed a mouse button.
 static void press(void *context, const DipPreviewMoment *moment, const DipEvent *event) {
     static const char *const buttons[] = {
         [DIP_MOUSE_LEFT] = "left",
@@ -430,8 +431,8 @@ static void press(void *context, const DipPreviewMoment *moment, const DipEvent 
         cJSON *fields = cJSON_CreateObject();
         cJSON_AddStringToObject(fields, "pane", dip_pane_names[p]);
         cJSON_AddStringToObject(fields, "button", buttons[event->button]);
-        // If memory ran out for frames of the panes' size, the window shows smaller frames
-        // enlarged.
+        // If memory ran out for frames of the panes' size, or this size is too large for frames,
+        // the window shows frames of another size, scaled to the panes.
         dip_reply_pick(fields, moment,
                        (int)((int64_t)(event->x - pane->x) * frame->width / pane->width),
                        (int)((int64_t)(event->y - pane->y) * frame->height / pane->height));

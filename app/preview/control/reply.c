@@ -20,7 +20,8 @@ static void append(cJSON *array, cJSON *item) {
 
 // --- state and settings --------------------------------------------------------------------------
 
-// Returns the time on the camera path, from 0 to the path's duration.
+// Returns the time on the camera path, from 0 to the path's duration. Without a path, returns the
+// time since track->start_ns, which may be longer.
 static double path_time_s(const DipPreviewState *state) {
     const DipCamTrack *track = state->track;
     const bool has_path = track->categories[track->active].path || track->categories[0].path;

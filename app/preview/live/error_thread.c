@@ -17,9 +17,9 @@
 #include <unistd.h>
 
 // The thread's nice value, by which its priority is lower than that of other threads. If all
-// threads compete for a processor, this thread gets 0.8 of the time of another thread. With 4, it
-// got 0.4, and beside many other programs errors took minutes; with an idle priority it would get
-// none.
+// threads compete for a processor, this thread gets 0.8 of the time of another thread. With a nice
+// value of 4, it got 0.4, and measuring errors took minutes beside many other programs; with an
+// idle priority it would get none.
 enum { NICE = 1 };
 
 // A still that owns its pictures.
@@ -39,7 +39,7 @@ typedef struct Pictures {
     unsigned number;      // The number of this still; 0 if there are no pictures.
     uint8_t *truth_rgba8; // Owned.
     float *flip;          // Owned; the FLIP maps of both panes.
-    size_t pixels;        // Size of the arrays.
+    size_t pixels;        // Number of pixels of a picture, for which the arrays have room.
 } Pictures;
 
 struct DipErrorThread {

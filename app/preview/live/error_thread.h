@@ -2,8 +2,8 @@
 //
 // The thread has a slightly lower priority than the threads that draw frames. It gets a share of
 // the processors even if other programs keep all of them busy. It runs a DipErrorJob in steps of a
-// few milliseconds. When the pictures change, the thread drops the work after the current
-// step.
+// few milliseconds. When it gets new pictures, it first ends the current step. It keeps what it has
+// drawn of the truth (the converged picture) if the new pictures have the same truth.
 #ifndef DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
 #define DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
 
@@ -32,7 +32,8 @@ void dip_error_thread_measure(DipErrorThread *thread, const DipStill *still,
 // measuring of errors against a truth that is drawn already. At first there is no limit.
 void dip_error_thread_limit(DipErrorThread *thread, int samples);
 
-// Stops measuring and forgets all results. Call it while the camera moves.
+// Stops measuring and forgets the errors. A truth that is drawn already is used again if the next
+// still has the same truth. Call it while the camera moves.
 void dip_error_thread_pause(DipErrorThread *thread);
 
 typedef enum DipErrorStatus {

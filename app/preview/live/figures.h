@@ -37,28 +37,28 @@ int dip_timing_recent(const DipTiming *timing, int64_t now_ns, int64_t span_ns,
 
 // --- the pace of temporal antialiasing -----------------------------------------------------------
 
-// Temporal antialiasing draws each frame with another sample pattern, and the eye averages the
-// frames. It can do so only if the frames follow each other at the display's refresh rate: at least
-// this share of the refreshes of the last second must show a new frame.
+// Temporal antialiasing by two alternating sample patterns (taa=alternate) relies on the eye, which
+// averages the frames. The eye can do so only if the frames follow each other at the display's
+// refresh rate: at least this share of the refreshes of the last second must show a new frame.
 static const double dip_taa_pace_share = 0.9;
 
 // Zero-initialise.
 typedef struct DipTaaPace {
-    bool on;          // A pane used temporal antialiasing in the last frame.
-    int64_t since_ns; // If `on`, when temporal antialiasing was turned on.
+    bool on;          // A pane's sample patterns alternated in the last turn.
+    int64_t since_ns; // If `on`, when a pane's patterns began to alternate.
 } DipTaaPace;
 
-// Says whether frames come fast enough for temporal antialiasing. All members are 0 while no pane
-// uses it.
+// Says whether frames come fast enough for alternating patterns. All members are 0 while no pane's
+// patterns alternate.
 typedef struct DipTaaSpeed {
     bool too_slow;
     int shown;  // Frames presented in the last second.
     int wanted; // Refreshes of the display in a second.
 } DipTaaSpeed;
 
-// Notes in each turn of the loop whether a pane uses temporal antialiasing, and returns its speed.
-// `presented` holds the moments at which frames were presented. No speed counts as too slow in the
-// first second after temporal antialiasing was turned on.
+// Notes in each turn of the loop whether a pane's patterns alternate (`on`), and returns the speed
+// of the frames. `presented` holds the moments at which frames were presented. No speed counts as
+// too slow in the first second after the patterns began to alternate.
 DipTaaSpeed dip_taa_pace_update(DipTaaPace *pace, bool on, const DipTiming *presented,
                                 int64_t refresh_ns, int64_t now_ns);
 
@@ -90,7 +90,7 @@ typedef struct DipPaneFigures {
     const DipTiming *times; // The newest frames' times; NULL if there are none. Borrowed.
     int dropped; // Refreshes of the last 5 seconds that showed no new picture although the picture
                  // moved.
-    DipTaaSpeed taa_speed; // `too_slow` is true only if the pane uses temporal antialiasing.
+    DipTaaSpeed taa_speed; // `too_slow` is true only if the pane's patterns alternate.
     bool mip_colours;      // The pane shows mip colours, which have no error.
     bool no_errors;        // The scene has no reference pictures, so the panel leaves errors out.
 } DipPaneFigures;

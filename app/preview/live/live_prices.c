@@ -154,8 +154,8 @@ static bool has_same_base(const DipLivePrices *live) {
     return dip_quality_equal(&base, &dip_prices_live(live->prices)->options.baseline);
 }
 
-// Forgets the prices if the picture has changed. Destroys a painter that cannot be resized; the
-// next frame then makes a new one or fails with the reason.
+// Forgets the prices if the picture or the base of the prices has changed. Destroys a painter that
+// cannot be resized; the next frame then makes a new one or fails with the reason.
 static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
     if (live->has_picture && is_same_picture(&live->picture, picture) && has_same_base(live)) {
         return;
@@ -250,8 +250,8 @@ static bool show_errors(const DipLivePrices *live) {
     return dip_prices_update_live(live->prices, false, NULL);
 }
 
-// Draws the picture of a combination whose error is not known, or compares a part of this picture.
-// Returns whether an error has become known.
+// Draws the picture of a combination whose error is not known, or compares a part of this picture
+// with the truth. Returns whether new errors show (show_errors).
 static bool step_errors(DipLivePrices *live) {
     if (!live->measures_errors) {
         begin_errors(live);

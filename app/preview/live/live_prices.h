@@ -63,8 +63,8 @@ bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
 // another picture.
 void dip_live_prices_pause(DipLivePrices *live);
 
-// Returns whether all times of the last picture are known at least roughly. Its truth may then be
-// drawn by another thread without disturbing them.
+// Returns whether all times of the last picture are known at least roughly, or cannot be measured.
+// Another thread may then draw the picture's truth without disturbing rough times.
 bool dip_live_prices_have_times(const DipLivePrices *live);
 
 // Returns whether all times of the last picture are known as well as they ever will be.

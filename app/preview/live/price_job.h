@@ -6,8 +6,9 @@
 // anew. In a round, each combination draws one frame untimed, because the previous combination has
 // used the caches, and times the next frame. All times enter the log of the live report, from which
 // the times and prices are computed anew after each block. At first every combination gets three
-// rounds, so that all prices are soon known roughly; then each gets five more. The combinations
-// nearest to the requested settings come first.
+// rounds, so that all prices are soon known roughly; then each gets five more. The panes' own
+// settings come first, then most combinations by their distance from the requested settings
+// (dip_price_list_wanted).
 //
 // The caller supplies the functions that draw and that tell the time, so that tests can replace
 // them.

@@ -449,7 +449,7 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
     }
     take_control(preview);
     if (preview->state.quit) {
-        return true; // The user has quit, so no further frame is drawn.
+        return true; // The user or another program has quit, so no further frame is drawn.
     }
     if (is_hidden(preview)) {
         rest_hidden(preview);

@@ -53,20 +53,21 @@ typedef struct DipPreviewDef {
     bool hides_panel;            // The window shows nothing but the panes at first.
     const char *notice;          // Shown at first for a few seconds; may be NULL. Copied.
 
-    // Loads session->scene_def, which is needed to measure errors. Called when the user first asks
-    // for errors, since the load takes time and memory.
+    // Loads session->scene_def, which is needed to measure errors. Called when the window, another
+    // program or prices first need errors, since the load takes time and memory.
     bool (*load_scene_def)(void *context, DipError *err);
     void *context;
 } DipPreviewDef;
 
-// Creates a preview. Fails with MISSING if the display needs a font and there is none.
+// Creates a preview. Fails with MISSING if the display needs a font and there is none, or with
+// MEMORY.
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err);
 void dip_preview_destroy(DipPreview **preview);
 
 // Runs one turn. Fails if drawing or presenting fails.
 bool dip_preview_turn(DipPreview *preview, DipError *err);
 
-// Returns whether the user has left the preview.
+// Returns whether the user or another program has ended the preview.
 bool dip_preview_has_quit(const DipPreview *preview);
 
 const DipPreviewState *dip_preview_state(const DipPreview *preview);

@@ -164,8 +164,8 @@ bool dip_loop_draw_panes(DipPreview *preview, DipError *err) {
     return true;
 }
 
-// Returns whether temporal antialiasing changes a pane's picture from frame to frame even if
-// nothing moves.
+// Returns whether a pane's sample patterns alternate (taa=alternate), so that its picture changes
+// from frame to frame even if nothing moves.
 static bool pane_alternates(const DipPreview *preview, int pane) {
     const DipQuality *quality = &preview->state.quality[pane];
     return dip_quality_alternates(quality) && dip_quality_sample_count(quality) > 1;
@@ -176,8 +176,8 @@ bool dip_loop_alternates(const DipPreview *preview) {
            pane_alternates(preview, DIP_PANE_REQUESTED);
 }
 
-// Writes into the figures of each pane with temporal antialiasing whether frames come fast enough.
-// This entry changes only as often as the other figures.
+// Writes into the figures of each pane with alternating sample patterns whether frames come fast
+// enough for them. This entry changes only as often as the other figures.
 static void judge_taa(DipPreview *preview, int64_t now_ns) {
     const DipTaaSpeed speed =
         dip_taa_pace_update(&preview->taa_pace, dip_loop_alternates(preview),

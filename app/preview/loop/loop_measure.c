@@ -15,8 +15,8 @@ void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
                         preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
 }
 
-// Returns whether rough prices are measured: the dock or another program shows them, and nothing
-// moves.
+// Returns whether rough prices are measured: no report is used instead, the dock is open or another
+// program has subscribed to prices, and nothing moves.
 static bool wants_prices(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     const bool shown = (state->tools.open && !state->tools.bare) || state->wants_prices;

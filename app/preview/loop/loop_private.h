@@ -58,7 +58,7 @@ struct DipPreview {
     DipControllers controllers;
     int64_t turn_ns; // When the last turn began.
     int64_t refresh_ns;
-    int64_t due_ns; // When the last presented frame was due.
+    int64_t due_ns; // When the next frame is due.
     DipTaaPace taa_pace;
     bool full_screen;
     bool resized;   // The panes' size may have changed.
@@ -94,7 +94,8 @@ enum { DIP_LOOP_LONGEST_STEP_NS = 250000000 };
 // Draws the frames of both panes. If memory runs out for a new size or for new settings, a notice
 // says so, and the panes keep the old size or settings.
 bool dip_loop_draw_panes(DipPreview *preview, DipError *err);
-// Returns whether temporal antialiasing changes a pane's picture from frame to frame.
+// Returns whether a pane's sample patterns alternate (taa=alternate), so that its picture changes
+// from frame to frame even at rest.
 bool dip_loop_alternates(const DipPreview *preview);
 // Returns whether frames at rest are still being added to a pane's history.
 bool dip_loop_settles(const DipPreview *preview);
@@ -120,10 +121,11 @@ void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns);
 // Gives the maps (app/preview/tools/maps.h) a reading of the error thread and its newest pictures.
 void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading);
 // Measures errors while the window, another program or the prices need them, and camera and scene
-// rest. Returns whether there are new errors to show.
+// rest. Returns whether the errors or their status are new.
 bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns);
-// Measures rough prices (live_prices.h) while the camera rests and the open dock (the panel with
-// the controls) or another program shows prices. Returns whether the dock must be drawn again.
+// Measures rough prices (live_prices.h) while camera and scene rest, and the dock (the panel with
+// the controls) is open or another program has subscribed to prices. Returns whether the dock must
+// be drawn again.
 bool dip_loop_measure_prices(DipPreview *preview);
 
 // --- loop.c --------------------------------------------------------------------------------------

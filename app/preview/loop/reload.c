@@ -278,8 +278,8 @@ static bool is_no_file(const char *file) {
     return file && stat(file, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-// Begins to open the dropped `file`, or the files of the present session again if `file` is NULL,
-// with the animation that waits.
+// Begins to open the dropped `file`. If `file` is NULL, begins to open the files of the present
+// session again, with the animation that waits, if there is one.
 static bool begin(DipReload *reload, const char *file, const char *name, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     opening->options = reload->options;
@@ -361,7 +361,7 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
     }
 }
 
-// Adds to the notice what became of the file that was dropped together with this one.
+// Adds to the notice what became of the file that was dropped just before this one.
 static void tell_passed(const DipReload *reload, DipReloadNews *news) {
     const char *passed = reload->opening.file ? reload->passed : NULL;
     if (passed && reload->passed_failed) {

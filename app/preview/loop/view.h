@@ -11,7 +11,7 @@ typedef struct DipView DipView;
 
 // If `text` is not NULL, it draws all texts as character cells (text_view.h), and the picture holds
 // the panes only. Otherwise all texts are drawn into the picture. `text` is borrowed. Fails with
-// MISSING if the picture needs a font and there is none.
+// MISSING if the picture needs a font and there is none, or with MEMORY.
 DipView *dip_view_create(DipTextView *text, DipError *err);
 void dip_view_destroy(DipView **view);
 

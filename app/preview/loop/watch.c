@@ -1,4 +1,5 @@
-// Detects changes of files by comparing stamps, which are computed from names, times and sizes.
+// Detects changes of files by comparing stamps, which are computed from names, times, sizes and
+// inodes.
 #include "app/preview/loop/watch.h"
 
 #include "renderer/base/assert.h"
@@ -40,7 +41,7 @@ struct DipWatch {
     int64_t next_ns;                // When to look again.
     bool changed;                   // Something has changed and was not reported yet.
     int resting;                    // Polls since the last change.
-    char name[DIP_WATCH_NAME_SIZE]; // Name of a file that has changed.
+    char name[DIP_WATCH_NAME_SIZE]; // The name that dip_watch_poll reports.
 };
 
 DipWatch *dip_watch_create(void) {

@@ -1,5 +1,5 @@
-// Watches files for changes, by looking at their times and sizes four times a second. This works on
-// every file system.
+// Watches files for changes, by looking at their times, sizes and inodes four times a second. This
+// works on every file system.
 //
 // A change is reported when the files have stopped changing for half a second, so that a file is
 // not read while another program still writes it.
@@ -30,9 +30,9 @@ void dip_watch_file(DipWatch *watch, const char *file);
 void dip_watch_folder(DipWatch *watch, const char *file);
 
 // Looks at the files if a quarter of a second has passed since the last look. Returns true once
-// after files have changed and come to rest. Then sets `name` to the name, without its folder, of a
-// file that has changed, or to "" if files have only disappeared. `now_ns` is the time on any clock
-// that does not go backwards.
+// after files have changed and come to rest. Then sets `name` to the name, without its folder, of
+// the file that was written last where the last change was seen, or to "" if files have only
+// disappeared there. `now_ns` is the time on any clock that does not go backwards.
 bool dip_watch_poll(DipWatch *watch, int64_t now_ns, char name[DIP_WATCH_NAME_SIZE]);
 
 #endif

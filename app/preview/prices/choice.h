@@ -39,8 +39,9 @@ typedef struct DipPreviewChoice {
     DipCandidate *own_list; // The candidates' list if the choice owns it; otherwise NULL.
 } DipPreviewChoice;
 
-// Computes the choice again if prices, settings or the budget have changed. prices may be NULL.
-// like: the settings of the requested pane. Returns whether the choice was computed.
+// Computes the choice again if the prices or the budget have changed, or if the candidates depend
+// on `like` and it has changed. prices may be NULL. like: the settings of the requested pane.
+// Returns whether the choice was computed.
 bool dip_preview_choose(DipPreviewChoice *choice, const DipPrices *prices, const DipQuality *like,
                         double budget_ms);
 

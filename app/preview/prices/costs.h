@@ -37,7 +37,9 @@ void dip_costs_heading(const DipCostReport *report, char text[DIP_COSTS_HEADING]
 DipCostsRow dip_costs_row(const DipCostReport *report, const DipCostSweep *sweep);
 void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 
-// Returns whether a pane's settings include the given step of the row's setting.
+// Returns whether a pane's settings include the given step of the row's setting. In a row of
+// adaptive AA, they must also have the step's number of samples and, while adaptive AA is on, its
+// group size.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality);
 
 // Reads a cost report that `diptych cost` wrote. `file` is the JSON file, or the folder that has it

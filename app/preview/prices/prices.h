@@ -75,7 +75,7 @@ void dip_prices_forget_live(DipPrices *prices);
 // Returns a number that grows whenever a price may have changed.
 unsigned dip_prices_changes(const DipPrices *prices);
 
-// Sets the text that tells the user what is being measured: "3 of 8 frames, 4 s left", or "" if
+// Sets the text that tells the user what is being measured: "times: 12 steps left, 4 s", or "" if
 // nothing is. The text is copied and cut to DIP_PRICE_PROGRESS bytes. Returns whether it is new.
 enum { DIP_PRICE_PROGRESS = 96 };
 bool dip_prices_set_progress(DipPrices *prices, const char *text);
@@ -91,8 +91,8 @@ bool dip_prices_are_doubtful(const DipPrices *prices);
 
 // Says where the prices come from and for what they hold: "Prices: report of this scene, path
 // DEFAULT, 640x480, 2 threads. The panes are 320x240." width and height: size of a pane in pixels.
-// Returns whether the prices are stale: the size, scene, threads, machine or viewing distance
-// differ from those of the panes.
+// Returns whether the prices are stale: the size, scene, threads, machine, instruction set or
+// viewing distance differ from those of the panes. Live prices are never stale.
 bool dip_prices_source(const DipPrices *prices, int width, int height, char *text,
                        size_t size_bytes);
 

@@ -247,8 +247,8 @@ static void next_map(const Act *act) {
     }
 }
 
-// Changes what shows: doubles or halves the brightness of a map or the gain of the difference, or
-// moves the wipe's divider by 5 %.
+// Doubles or halves the brightness if a map is chosen, or the gain if the difference is chosen.
+// Otherwise moves the wipe's divider by 5 %.
 static void adjust(const Act *act) {
     enum { MAX_GAIN = 64 };
     DipToolState *tools = &act->state->tools;

@@ -70,8 +70,8 @@ bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_pe
 
 // --- mouse ---------------------------------------------------------------------------------------
 
-// Returns the angle of the line of sight above the horizon. It lies beyond 90 or -90 degrees if the
-// camera is upside down.
+// Returns the angle of the line of sight above the horizon, if the camera is not rolled about its
+// line of sight. The angle lies beyond 90 or -90 degrees if the camera is upside down.
 static double elevation_deg(const DipPose *pose) {
     static const double ahead[3] = {0.0, 0.0, -1.0};
     static const double up[3] = {0.0, 1.0, 0.0};
@@ -81,8 +81,8 @@ static double elevation_deg(const DipPose *pose) {
     return degrees_per_rad * atan2(ahead_world[1], up_world[1]);
 }
 
-// Limits a turn up or down, so that the camera does not tip over. A camera that has tipped over can
-// only turn back.
+// Limits a turn up or down, so that the camera does not tip over. A camera that is at or beyond the
+// limit can only turn back.
 static double limit_up_deg(const DipPose *pose, double up_deg) {
     const double from_deg = elevation_deg(pose);
     const double to_deg = from_deg + up_deg;

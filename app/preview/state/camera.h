@@ -16,8 +16,8 @@ typedef struct DipCameraKeys {
 
 // Moves the camera along its own axes by speed_m_per_s * seconds, or turns the camera if `turn` is
 // set. Left and right turn the camera about the world's vertical axis. Forward and back turn the
-// camera about its right axis, and up and down about its line of sight. Returns whether the pose
-// changed.
+// camera about its right axis, and up and down about its line of sight. Returns whether `keys`
+// steers in any direction.
 bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_per_s,
                      double seconds);
 
@@ -26,11 +26,13 @@ bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_pe
 void dip_camera_look(DipPose *pose, double right_deg, double up_deg);
 
 // Turns the camera about a point by angles in degrees, so that the point keeps its place in the
-// picture: to the right about the vertical axis through the point, and upwards about the camera's
-// right axis. Stops 1 degree before the camera looks straight up or down.
+// picture: to the right about the vertical axis through the point, and upwards about the axis
+// through the point that is parallel to the camera's right axis. Stops 1 degree before the camera
+// looks straight up or down.
 void dip_camera_orbit(DipPose *pose, const double centre_world[3], double right_deg, double up_deg);
 
-// Moves the camera to `factor` times its distance from a point. The factor must be above 0.
+// Moves the camera to `factor` times its distance from a point. The factor must be above 0. Does
+// nothing if the camera would come closer than 0.1 mm.
 void dip_camera_zoom(DipPose *pose, const double centre_world[3], double factor);
 
 // Writes the point on the camera's line of sight that is nearest to a given point, but at least

@@ -11,7 +11,8 @@
 
 enum { DIP_MAX_CONTROLLERS = 4 };
 
-// The controllers that are connected. Each of them steers the camera. Zero-initialise.
+// The connected controllers whose sticks and triggers steer the camera. Of further controllers,
+// only the buttons act. Zero-initialise.
 typedef struct DipControllers {
     struct {
         bool used;
@@ -31,7 +32,7 @@ bool dip_controllers_handle(DipControllers *controllers, DipPreviewState *state,
                             const DipEvent *event, int64_t now_ns, DipEvent *key);
 
 // Moves the camera as the left sticks and the triggers say, then turns it as the right sticks say.
-// A fully tilted stick is as fast as a key. Returns whether the pose changed.
+// A fully tilted stick is as fast as a key. Returns whether a stick or trigger steers the camera.
 bool dip_controllers_fly(const DipControllers *controllers, DipPose *pose, double speed_m_per_s,
                          double seconds);
 

@@ -155,7 +155,8 @@ static bool press_with_modifier(DipPreviewState *state, const DipEvent *event, i
     return press_row(state, event, true, now_ns);
 }
 
-// Leaves the tool that shows, as Escape does. Returns false if no tool shows.
+// Leaves all tools that show, and shows everything again if only the panes show, as Escape does.
+// Returns false if there was nothing to leave.
 static bool leave_tool(DipPreviewState *state) {
     DipToolState *tools = &state->tools;
     const bool shows = tools->bare || tools->loupe || tools->map != DIP_MAP_NONE ||
@@ -199,8 +200,8 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
     if (type_words(state, event)) {
         return true;
     }
-    // Each Escape closes one thing: the help and the cost table, then a tool, then full screen, and
-    // finally the program.
+    // Each Escape goes one step: it closes the help and the cost table, then leaves all tools, then
+    // full screen, and finally the program.
     if (event->key == DIP_KEYCODE_ESCAPE && (state->help || state->show_costs)) {
         state->help = state->show_costs = false;
         return true;

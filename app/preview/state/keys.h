@@ -1,4 +1,5 @@
-// Carries out what keys do. One table defines both what a key does and what the help says.
+// Carries out what keys do. One table defines what most keys do, and what the window's help says
+// about all keys.
 #ifndef DIP_APP_PREVIEW_STATE_KEYS_H
 #define DIP_APP_PREVIEW_STATE_KEYS_H
 
@@ -21,7 +22,7 @@ typedef struct DipKeyRow {
 extern const DipKeyRow dip_key_rows[];
 extern const int dip_key_row_count;
 
-// Carries out the action of the key in a KEY_DOWN event. Returns whether the key has an action.
+// Carries out what the key of a KEY_DOWN event does. Returns whether the preview uses this key.
 bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_ns);
 
 // The letters and modifiers that are held. They fly the camera. Zero-initialise.

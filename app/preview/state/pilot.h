@@ -6,11 +6,12 @@
 #include "app/preview/state/controller.h"
 #include "app/preview/state/state.h"
 
-// Gives the free camera the pose of its path.
+// Lets the next turn of the loop give the free camera the pose of its path. If the camera follows
+// its path, only shows a notice.
 void dip_pilot_reset(DipPreviewState *state, int64_t now_ns);
 
-// Makes the camera free or, if it is free, chooses whether dragging turns it about a point or about
-// itself.
+// Makes the camera free. If it is free already, lets dragging turn it about a point instead of
+// about itself, or the other way round.
 void dip_pilot_orbit(DipPreviewState *state, int64_t now_ns);
 
 // Makes the free camera faster by `steps`; dip_flight_speed says what a step is.
@@ -32,7 +33,8 @@ void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_
 // Makes the camera free if it follows the path, and shows a notice about this.
 void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns);
 
-// Returns the speed of the free camera in metres per second. Four steps of the wheel double it.
+// Returns the speed of the free camera in metres per second. Four of the steps that
+// flight->speed_steps counts double it.
 double dip_flight_speed(const DipFlight *flight);
 
 // Returns the speed in metres per second that suits what the session shows. If the user gave
@@ -62,7 +64,7 @@ typedef struct DipPilotTurn {
 
 // Carries out what mouse, keys, controllers and the path editor have asked of the free camera since
 // the last turn. The path editor stops flying its path when the user moves the camera. Returns
-// whether the pose changed.
+// whether something moved the camera.
 bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose);
 
 #endif

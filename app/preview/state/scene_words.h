@@ -6,10 +6,10 @@
 
 enum { DIP_SCENE_WORDS_BYTES = 1024 };
 
-// Writes the options that name the scene, its variant and its size, with a blank before each, as in
-// " --model a.glb --size 640x480". Values that a shell would split or change stand in quotes.
-// `text` is empty if the command line named nothing or `options` is NULL. " ..." stands for options
-// that do not fit.
+// Writes the options --config, --model, --animation, --scene and --size as the command line gave
+// them, with a blank before each, as in " --model a.glb --size 640x480". Values that a shell would
+// split or change stand in quotes. `text` is empty if the command line had none of these options or
+// `options` is NULL. " ..." stands for options that do not fit.
 void dip_scene_words(const DipSessionOptions *options, char text[DIP_SCENE_WORDS_BYTES]);
 
 #endif

@@ -33,10 +33,10 @@ typedef enum DipAction {
     DIP_ACTION_LOOK,
     DIP_ACTION_CAMERA,
     DIP_ACTION_CAMERA_BACK, // Gives the free camera the pose of the path.
-    DIP_ACTION_ORBIT,    // Chooses whether dragging turns the camera about a point or about itself.
-    DIP_ACTION_SPEED,    // Makes the free camera faster by `argument` steps.
-    DIP_ACTION_PATH_END, // Chooses what paths do at their end: the next DipCamPathEnd.
-    DIP_ACTION_PATH_EDIT, // Edits a path; the argument is a DipPathEdit.
+    DIP_ACTION_ORBIT,       // Frees the camera, or changes about what dragging turns a free camera.
+    DIP_ACTION_SPEED,       // Makes the free camera faster by `argument` steps.
+    DIP_ACTION_PATH_END,    // Goes on by `argument` in the ring of what paths do at their end.
+    DIP_ACTION_PATH_EDIT,   // Edits a path; the argument is a DipPathEdit.
     DIP_ACTION_HELP,
     DIP_ACTION_PANEL,
     DIP_ACTION_COSTS,
@@ -53,7 +53,7 @@ typedef enum DipAction {
     DIP_ACTION_MAP,        // Chooses the next map.
     DIP_ACTION_ADJUST, // Changes the map's brightness, the difference's gain or the wipe's divider.
     DIP_ACTION_BLINK,
-    DIP_ACTION_SCREENSHOT,
+    DIP_ACTION_SCREENSHOT, // Saves what shows or, reversed, the panes without overlays.
     DIP_ACTION_SAVE_POSE,
     DIP_ACTION_FULL_SCREEN,
     DIP_ACTION_QUIT,
@@ -117,7 +117,7 @@ typedef struct DipPreviewState {
     bool shows_gallery; // The panes show a scene of the gallery.
     int scene_step;     // Scenes to go forward (below 0: back), as the user asked.
     const DipSessionAnimations
-        *animations;         // Those of the models. Borrowed; NULL if there are none.
+        *animations;         // The models' animations. Borrowed; NULL if there are none.
     bool wants_animation;    // The user asked for an animation. Cleared in the next turn.
     int wanted_animation;    // Its index, or -1 for none.
     bool opens_animation;    // An animation is being opened. Until it is open, the previous one
@@ -172,8 +172,9 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
 // Returns whether the action needs a window, because a terminal cannot show what it does.
 bool dip_preview_needs_window(DipAction action);
 
-// Carries out an action. `reverse` means that Shift is held, so that steps and paths go backwards.
-// In a terminal, an action that needs a window only shows a notice.
+// Carries out an action. `reverse`, which Shift sets, lets steps and paths go backwards; some
+// actions do something else instead (DipAction). In a terminal, an action that needs a window only
+// shows a notice.
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
 
@@ -188,9 +189,9 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
 // Adds `by` to the factor by which controls are enlarged. The factor stays within 0.75 and 4.
 void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 
-// Finds a preset's settings. The presets up to BEST are chosen among the measured settings that
-// keep within the budget. Returns false, and leaves *quality as it is, if nothing was measured or
-// nothing keeps within the budget.
+// Finds a preset's settings. The presets up to BEST are chosen among the settings of state->choice
+// that keep within the budget. If nothing is advised for the budget (dip_preview_advised), returns
+// false for these presets, and leaves *quality as it is.
 bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality);
 
 // Writes four lines that tell how to make a cost report of this scene. The second and the fourth
@@ -229,8 +230,8 @@ const DipCamPath *dip_preview_playing_path(const DipPreviewState *state);
 // Returns whether all poses of the playing path are the same.
 bool dip_preview_path_stands(const DipPreviewState *state);
 
-// Returns whether the picture changes with time: it is not paused, and the camera or the scene
-// moves.
+// Returns whether time runs: the preview is not paused, and the scene moves or the camera moves
+// along its path.
 bool dip_preview_time_runs(const DipPreviewState *state);
 
 // Returns whether camera and scene stand still. `flying` means that the user moves the free camera.
@@ -253,7 +254,8 @@ void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns);
 void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// Writes an error for a notice: what is wrong, then the name of the file without its folder.
+// Writes an error for a notice: "[key] message (file:line)". The file's name has no folder. Leaves
+// out the parts that the error does not have, and cuts long parts.
 void dip_preview_error_text(const DipError *err, char text[DIP_NOTICE_SIZE]);
 
 // Lets the notice that shows stay for 10 seconds, or until the next one. For errors and warnings,
@@ -269,14 +271,14 @@ const char *dip_preview_category_name(int category);
 const char *dip_preview_path_name(const DipPreviewState *state, int category);
 const char *dip_preview_path_title(const DipPreviewState *state, int category);
 
-// Returns the name of a category of paths for display: "Default", or the title of the setting that
-// its path shows best.
+// Returns the name of a category of paths for display: "Default", "Water", or the title of the
+// first setting that its path shows best.
 const char *dip_preview_category_title(int category);
 
 // Returns the category whose path shows a setting best, or -1 if the setting has no such path.
 int dip_preview_category_of(DipSetting setting);
 
-// Writes the names of the settings that differ from their defaults, in full ("Antialiasing 4x,
+// Writes the settings that differ from their defaults, with their steps, in full ("Antialiasing 4x,
 // Adaptive AA") or briefly ("AA 4x, adaptive AA"). Writes "Default settings" if there are none. The
 // text is cut if it does not fit.
 void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes);

@@ -11,7 +11,8 @@ static const int64_t dip_state_notice_ns = 2500000000; // How long a notice show
 void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns);
 // Gives the requested pane the settings of a preset.
 void dip_state_choose_preset(DipPreviewState *state, DipPreset preset, int64_t now_ns);
-// Gives a setting its next valid step (value) in the panes that the keys change.
+// Gives a setting its next valid step (value) or, if `reverse`, the valid step before, in the panes
+// that the keys change.
 void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool reverse,
                               int64_t now_ns);
 // Chooses the panes that the keys change. The order is the requested pane, the current pane, both,

@@ -61,7 +61,7 @@ typedef struct DipToolState {
     bool blinked;       // BLINK: shows the requested pane.
     bool blinks;        // BLINK: changes between the panes by itself, twice a second.
     DipMap map;
-    double brightness; // Divides the value at which a map's colour scale ends.
+    double brightness; // Divides the end of a map's colour scale. Below 1 counts as 1.
 } DipToolState;
 
 #endif

@@ -13,7 +13,7 @@
 enum {
     SMALL = 11,
     TINY = 10,
-    STRIP_LEAST = 44, // Least height of the room below the buttons that shows thumbnails.
+    STRIP_LEAST = 44, // From this height on, the room below the buttons shows thumbnails.
     STRIP_MOST = 96,  // Greatest height of a thumbnail.
 };
 

@@ -228,7 +228,7 @@ static void show_brief(Part *part, DipRect rect) {
              c->green, c->blue);
     if (dip_ui_text_width(ui, SMALL, pixel) + dip_ui_text_width(ui, SMALL, rgb) + 2 * gap >
         rect.width) {
-        rgb[7] = '\0'; // The hexadecimal code alone.
+        rgb[7] = '\0'; // Keeps only the hexadecimal code.
     }
     dip_ui_text(ui, SMALL, dip_style_white, DIP_ALIGN_RIGHT, dip_rect_right(rect) - gap, rect.y,
                 rect.width, rgb);
@@ -255,8 +255,9 @@ static int brief_height(const Part *part, DipRect rect) {
 
 // --- crops ---------------------------------------------------------------------------------------
 
-// Declares the crop as a control. A click moves the loupe to the pixel under the pointer, the wheel
-// zooms, and the left and right arrow keys move the loupe by one pixel.
+// Declares the crop as a control. A click moves the loupe to the pixel under the pointer, and the
+// wheel zooms. The left and right arrow keys move the loupe by one pixel; while the pointer is over
+// the crop, they zoom.
 static void handle_crop(Part *part, const DipLoupeCrop *crop) {
     DipToolState *tools = &part->window->state->tools;
     const DipPixels *frame = &part->window->frames[part->pane];

@@ -102,7 +102,7 @@ void dip_tab_maps(DipUi *ui, DipWindow *window, DipRect body) {
                   {TABLE_WIDTH, 152, dip_maps_frame_block}};
     const Tab tab = {ui, window, &window->tools->maps, &window->state->tools};
     const int margin = px(&tab, MARGIN);
-    DipRect rest = dip_rect_inset(body, margin, margin); // Room below the rows of blocks so far.
+    DipRect rest = dip_rect_inset(body, margin, margin); // Room from the present row downwards.
     rest.height += margin;
     DipRect row = rest;
     int row_height = 0;
@@ -234,7 +234,8 @@ static void draw_described(const Tab *tab, int pane) {
     dip_ui_outline(tab->ui, inner, 0, px(tab, 3), dip_style_of_pane(pane));
 }
 
-// Says at the foot of a pane which map was chosen, and what the map still waits for.
+// If a map is missing or not final, says at the foot of the pane which map was chosen, and why it
+// is missing or what it still waits for.
 static void draw_words(const Tab *tab, int pane) {
     const DipRect *rect = &tab->window->layout->panes[pane];
     char room[80], text[120];
@@ -277,7 +278,7 @@ static void draw_pane(const Tab *tab, int pane) {
     draw_words(tab, pane);
 }
 
-// Notes which pixel the pointer is over. Only an event pass (ui.h) knows where the pointer is.
+// Notes which pixel of the panes' pictures the pointer is over, if any.
 static void follow_pointer(const Tab *tab, const DipUiInput panes[DIP_PANE_COUNT]) {
     DipMapView *view = &tab->maps->view;
     view->pointed = false;

@@ -10,7 +10,7 @@
 // Letter sizes and lengths, at scale 1.
 enum {
     MARGIN = 10,
-    GAP = 22, // Between the tab's blocks.
+    GAP = 22, // Gap between the tab's blocks.
     TEXT = 13,
     NOTE = 11,
     ROW = 21,

@@ -72,8 +72,8 @@ typedef struct Choices {
 // What was pressed, if it is not the index of an alternative.
 enum { PRESSED_NOTHING = -1, PRESSED_BEFORE = -2, PRESSED_NEXT = -3 };
 
-// Returns the index of the first alternative that shows in a row of the given width. The one that
-// plays must be among those that show.
+// Returns the index of the first alternative to show in a row of the given width, so that the one
+// that plays shows, too.
 static int first_choice(const DipFlow *flow, const Choices *choices, int width) {
     int first = dip_max(choices->playing, 0);
     int used = dip_flow_button_width(flow, choices->texts[first]);

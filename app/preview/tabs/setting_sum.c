@@ -348,9 +348,9 @@ static bool end_button(DipUi *ui, int id, DipRect *line, const char *text, const
 }
 
 // Declares a button that gets prices for this view, if one is needed. While live prices (prices.h)
-// are not known and time runs, the button pauses, since live prices are measured at rest. If
-// the report's prices do not hold for the panes, the button changes between the report and live
-// prices.
+// are not known and time runs, the button pauses, since live prices are measured at rest. If the
+// report's prices do not hold for the panes, the button changes between the report and live prices.
+// A report of another scene needs no button, since live prices take its place by themselves.
 static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect *line) {
     DipPreviewState *state = window->state;
     const DipPrices *prices = window->prices;

@@ -1,5 +1,5 @@
 // Declares the settings tab: a list of all settings and an editor for the open one. If there is
-// little room, the tab is a drawer with a line for each setting.
+// little room, the tab has one line for each setting or, in their place, the presets.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"

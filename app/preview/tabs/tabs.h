@@ -3,8 +3,8 @@
 //
 // Each tab has a source file. Its function declares the tab's controls (ui.h) and draws the tab's
 // contents, in event passes as well as in drawing passes. A tab changes only the preview's state
-// (state.h) and the memory of its own tool (tools.h). Where a DipAction exists for a change of the
-// state, the tab calls dip_preview_act.
+// (state.h) and the memory of its own tool (tools.h). For most changes of the state for which a
+// DipAction exists, a tab calls dip_preview_act.
 #ifndef DIP_APP_PREVIEW_TABS_TABS_H
 #define DIP_APP_PREVIEW_TABS_TABS_H
 
@@ -56,7 +56,7 @@ void dip_flow_next_row(DipFlow *flow);
 // Begins a new row for the next group of controls, unless the flow is narrow.
 void dip_flow_next_group(DipFlow *flow);
 // Returns a rectangle of the given width for the next control, in this row or, if it does not fit,
-// in the next one. The rectangle is empty if the tab is full.
+// in the next one. The rectangle is empty if the tab is full or narrower than `width`.
 DipRect dip_flow_next(DipFlow *flow, int width);
 int dip_flow_button_width(const DipFlow *flow, const char *text);
 // Declares a button. Returns whether it was pressed.
@@ -68,8 +68,9 @@ void dip_flow_text(DipFlow *flow, DipColour colour, const char *text);
 
 // --- labels and the bar ---------------------------------------------------------------------
 
-// Draws a label over each pane, unless the difference of the panes shows: the pane's name, its time
-// and its settings. The label has one line if that fits.
+// Draws a label over each pane that shows: the pane's name, its time and its settings, or the
+// truth's name and samples. The difference of the panes has a label of its own instead. The label
+// has one line if that fits.
 void dip_labels_draw(DipUi *ui, DipWindow *window);
 
 // Draws the notice, which says what just happened, over the lower edge of the panes.

@@ -72,9 +72,9 @@ DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int
 // Puts the divider at a share of the picture's width; below 0 counts as 0, above 1 as 1.
 void dip_compare_divide(DipToolState *tools, double at);
 
-// Carries out the keys `[` (steps below 0) and `]`. A step moves the divider by 1/64 of the
-// picture, or changes the gain by a factor of 2. Returns false if the comparison has neither
-// divider nor gain.
+// Carries out steps of the slider in the comparisons' tab; steps below 0 go back. A step moves the
+// divider by 1/64 of the picture, or changes the gain by a factor of 2. Returns false if the
+// comparison has neither divider nor gain.
 bool dip_compare_adjust(DipToolState *tools, int steps);
 
 // Returns the pane that the comparison BLINK or ALONE shows at the time `now_ns`.

@@ -80,7 +80,7 @@ typedef struct DipKeptPicture {
 // by byte, so a key is set to 0 before its members are set.
 typedef struct DipCropKey {
     uint64_t frame_version;
-    unsigned generation; // DipLoupe.generation when they were drawn.
+    unsigned generation; // DipLoupe.generation when the crop was drawn.
     DipLoupeCrop crop;
 } DipCropKey;
 
@@ -112,7 +112,7 @@ typedef struct DipLoupe {
     DipTargetRegion wanted;
     bool is_wanted;
     uint64_t frame_index; // Number of the panes' newest frame.
-    unsigned generation;  // Grows whenever samples are read.
+    unsigned generation;  // Grows whenever reading samples is tried.
     uint64_t version;     // Version of the loupe's newest picture (a crop or a box).
     DipPaneSamples panes[DIP_PANE_COUNT];
 } DipLoupe;
@@ -163,8 +163,9 @@ typedef struct DipBoxContent {
 } DipBoxContent;
 
 // Draws the box: the pixel's colour, a grid, and a disc with the sample's colour at each sample's
-// position. Samples of the nearest patch have a solid ring, other samples a dashed ring. Returns
-// false if memory runs out. *picture is valid until the next call for the pane.
+// position. Samples of the nearest patch have a solid ring, other samples a dashed ring. If the
+// samples are not known, all discs have the pixel's colour and a solid ring. Returns false if
+// memory runs out. *picture is valid until the next call for the pane.
 bool dip_loupe_box_picture(DipLoupe *loupe, int pane, const DipBoxContent *content,
                            DipPixels *picture, uint64_t *version);
 

@@ -11,8 +11,8 @@
 
 enum { TINY = 10 }; // Size of letters.
 
-// Outlines the part of a pane that the loupe shows enlarged. Takes the crop to have its usual size,
-// 368 x 176 pixels at scale 1.
+// Outlines the part of a pane that the loupe shows enlarged. Assumes that the crop has its usual
+// size, 368 x 176 pixels at scale 1.
 static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
     const DipToolState *tools = &window->state->tools;
     const DipPixels *frame = &window->frames[pane];

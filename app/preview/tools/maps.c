@@ -197,7 +197,7 @@ static bool draw(DipMaps *maps, const DipToolsInput *input, int pane) {
 }
 
 // Returns how often a pane must still be drawn to have `wanted_draws` draws for the wanted map; 0
-// or less if it has them. The map of mip levels needs one draw.
+// or less if it has them or needs none. The map of mip levels needs one draw.
 static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
     const DipMapWork *work = &maps->panes[pane];
     if (pane == DIP_PANE_REQUESTED && maps->key.copied) {

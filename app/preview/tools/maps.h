@@ -79,7 +79,7 @@ typedef struct DipMapPicture {
 // The tab reads `reading` and `errors`, and keeps its choices in `view`.
 typedef struct DipMaps {
     DipMap wanted;       // The map that the window showed last.
-    DipPainter *painter; // Draws what the panes show, with records; NULL until a map needs it.
+    DipPainter *painter; // Draws the panes' frames again; NULL until a map needs it.
     DipMapKey key;
     bool failed;         // The frames that `key` describes could not be drawn.
     uint64_t generation; // Grows whenever a measurement of work is added or dropped.

@@ -21,9 +21,11 @@ DipTools *dip_tools_create(DipError *err);
 void dip_tools_destroy(DipTools **tools);
 
 // Does the tools' work that needs renderers: reads the samples that the loupe shows, draws one
-// thumbnail of the path, and draws one frame for a map. Each of these happens only if its tool
-// shows and the pictures are still. The loop calls this function after each window that it draws,
-// on the thread that draws frames. Returns whether the window must be drawn again.
+// thumbnail of the path, and draws one frame for a map. Each of these happens only while the
+// pictures are still: a thumbnail is drawn while the strip shows, and a frame while a map shows.
+// The samples that the loupe showed last are read for new pictures even after its tab was closed.
+// The loop calls this function after each window that it draws, on the thread that draws frames.
+// Returns whether the window must be drawn again.
 bool dip_tools_update(DipTools *tools, const DipToolsInput *input);
 
 #endif
