@@ -31,60 +31,83 @@ static int representative(const DipCostReport *report, int row) {
     return best;
 }
 
-// Changes the indices of rows in the predictions and in the log to the new ones. A prediction gets
-// the row that stands for its old row. The frames of rows that are gone are taken out of the log.
-// stands[i] is the row that stands for row combined_first + i, and now[i] is this row's new index.
-static void renumber(DipCostReport *report, const int *stands, const int *now) {
-    const int first = report->combined_first;
-    for (int i = 0; i < report->predicted.count; i++) {
-        int *row = &report->predicted.list[i].row;
-        *row = *row < first ? *row : now[stands[*row - first] - first];
-    }
+// Where the rows of a report go. stands[i] is the row that stands for row combined_first + i, and
+// now[i] is this row's new index.
+typedef struct Joined {
+    int first; // combined_first; the rows before it stay where they are.
+    int *stands;
+    int *now;
+} Joined;
+
+// Returns the new index of the row that stands for a row. A negative number stays as it is.
+static int joined_row(const Joined *joined, int row) {
+    return row < joined->first ? row
+                               : joined->now[joined->stands[row - joined->first] - joined->first];
+}
+
+// Takes the frames of rows that are gone out of the log, and gives the others the new indices of
+// their rows.
+static void renumber_log(DipCostReport *report, const Joined *joined) {
+    const int first = joined->first;
     size_t kept = 0;
     for (size_t i = 0; i < (size_t)report->log_count; i++) {
         DipTimed timed = report->log[i];
-        const bool stays = timed.subject < first || stands[timed.subject - first] == timed.subject;
-        if (stays) {
-            timed.subject = timed.subject < first ? timed.subject : now[timed.subject - first];
+        if (timed.subject < first || joined->stands[timed.subject - first] == timed.subject) {
+            timed.subject = joined_row(joined, timed.subject);
             report->log[kept++] = timed;
         }
     }
     report->log_count = (int)kept;
 }
 
+// Changes all indices of rows in the report to the new ones.
+static void renumber(DipCostReport *report, const Joined *joined) {
+    for (int i = 0; i < report->same_count; i++) {
+        report->same[i].row = joined_row(joined, report->same[i].row);
+    }
+    for (int i = 0; i < report->predicted.count; i++) {
+        int *row = &report->predicted.list[i].row;
+        *row = joined_row(joined, *row);
+    }
+    for (int s = 0; s < report->sweep_count; s++) {
+        DipCostSweep *sweep = &report->sweeps[s];
+        sweep->base = joined_row(joined, sweep->base);
+        for (int i = 0; i < sweep->row_count; i++) {
+            sweep->rows[i] = joined_row(joined, sweep->rows[i]);
+        }
+    }
+    renumber_log(report, joined);
+}
+
 bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
     const int first = report->combined_first;
     const int count = report->row_count - first;
-    // renumber explains the two arrays.
-    int *stands = malloc(((size_t)count + 1) * sizeof *stands);
-    int *now = malloc(((size_t)count + 1) * sizeof *now);
-    free(report->same);
-    report->same = calloc((size_t)count + 1, sizeof *report->same);
-    report->same_count = 0;
-    if (!stands || !now || !report->same) {
-        free(stands);
-        free(now);
+    const size_t room = (size_t)count + 1;
+    const Joined joined = {first, malloc(room * sizeof(int)), malloc(room * sizeof(int))};
+    DipCostSame *same =
+        realloc(report->same, (room + (size_t)report->same_count) * sizeof *report->same);
+    report->same = same ? same : report->same;
+    if (!joined.stands || !joined.now || !same) {
+        free(joined.stands);
+        free(joined.now);
         return dip_cost_out_of_memory(err);
     }
     for (int i = 0; i < count; i++) {
-        stands[i] = representative(report, first + i);
+        joined.stands[i] = representative(report, first + i);
     }
     report->row_count = first;
     for (int i = 0; i < count; i++) {
         DipCostRow *row = &report->rows[first + i];
-        if (stands[i] == first + i) {
-            now[i] = report->row_count;
+        if (joined.stands[i] == first + i) {
+            joined.now[i] = report->row_count;
             report->rows[report->row_count++] = *row;
         } else {
-            report->same[report->same_count++] = (DipCostSame){row->quality, stands[i]};
+            report->same[report->same_count++] = (DipCostSame){row->quality, joined.stands[i]};
             dip_cost_row_free(row);
         }
     }
-    for (int i = 0; i < report->same_count; i++) {
-        report->same[i].row = now[report->same[i].row - first];
-    }
-    renumber(report, stands, now);
-    free(stands);
-    free(now);
+    renumber(report, &joined);
+    free(joined.stands);
+    free(joined.now);
     return true;
 }
