@@ -23,8 +23,8 @@ typedef struct DipBenchPlan {
     // [combination][axis]: the index of the combination's value on the axis.
     int at[DIP_BENCH_MAX_COMBINATIONS][DIP_BENCH_AXIS_COUNT];
     int count; // Number of combinations.
-    // The combination with which all others are compared: it has the first value of each list, but
-    // the greatest render scale.
+    // The combination with which all others are compared, unless --vs is given. It has the first
+    // value of each list, but the greatest render scale.
     int base;
 } DipBenchPlan;
 

@@ -6,7 +6,7 @@
 // once or several times (a start); each start has the same number of rounds, and a round draws some
 // or all frames of the path with every subject (app/measure/timing/driver.h). A visit draws a few
 // frames of one subject, one after another. A block consists of one visit of each of a few subjects
-// and one visit of their base; all of them draw the same frames.
+// and one visit of their base. All of them draw the same frames; the base may draw others besides.
 //
 // What slows down one frame of a visit slows down the visit's other frames, too, and what slows
 // down one round slows down the other rounds of the same start. Confidence intervals are therefore
@@ -49,8 +49,9 @@ DIP_API bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, 
 
 // --- the log -------------------------------------------------------------------------------------
 
-// One timed frame. Frames with the same start, round and block are compared with each other. The
-// blocks of a round have different numbers. A frame that was drawn again has another block.
+// One timed frame. A subject's time of a frame is compared with its base's time of the same frame
+// in the same start, round and block. The blocks of a round have different numbers. A frame that
+// was drawn again has another block.
 typedef struct DipTimed {
     int subject;
     int start;
