@@ -62,8 +62,8 @@ typedef struct DipDriverDef {
     // for each frame. Each frame then follows a frame of another subject, so that none finds warm
     // caches. A visit then has one frame, and no frame is drawn untimed before it.
     bool in_turn;
-    int64_t
-        rest_ns; // Pause before each timed frame, so that threads of other processes fall asleep.
+    // Pause before each timed frame, so that threads of other processes fall asleep.
+    int64_t rest_ns;
     // A frame is disturbed if its threads together waited for a core for more than this share of
     // the frame's time, or if this holds for the base's frame beside it. If most_wait is 0, no
     // frame counts as disturbed.
