@@ -1,6 +1,6 @@
 // Makes the ground below a model, and a texture of the shade that the model leaves on the ground.
-// The model's lowest surfaces are drawn into a grid of heights. The heights tell how much light
-// from above the model keeps from each texel. Computes with + - * / and square roots alone, so that
+// The model's lowest surfaces are drawn into a grid of heights. The heights determine how much of
+// the light from above reaches each texel. Computes with + - * / and square roots alone, so that
 // the texture has the same bits on every machine.
 #include "app/session/ground.h"
 

@@ -1,6 +1,6 @@
 // Adds a ground to models that stand in empty space. It is a plain square below the model, in the
-// colour of the background, with the soft shade that the model would leave where it touches the
-// ground.
+// colour of the background. A soft shade on it shows where the model touches the ground or is near
+// it.
 #ifndef DIP_APP_SESSION_GROUND_H
 #define DIP_APP_SESSION_GROUND_H
 

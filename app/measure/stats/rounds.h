@@ -43,7 +43,8 @@ enum { DIP_TIMED_PARTS = 4, DIP_TIMED_MOST_STARTS = 64 };
 // In the round of copy 0, every subject and its base draw the frame. In the rounds of the other
 // copies, only the base draws the frame, once more. The copies of a frame are in different rounds.
 // In each copy, a round has frames / rounds frames, rounded down or up: one of each stretch of
-// `rounds` successive frames. Diptych uses 3 copies. Fails with DIP_ERROR_MEMORY.
+// `rounds` successive frames. Diptych uses 3 copies, or fewer if there are fewer rounds. Fails with
+// DIP_ERROR_MEMORY.
 DIP_API bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *round_of,
                              DipError *err);
 
@@ -58,7 +59,7 @@ typedef struct DipTimed {
     int round; // Index of the round within its start, 0 to rounds - 1.
     int block;
     int frame;        // Index of the frame on the path.
-    int64_t begin_ns; // Time from the beginning of the measurement to that of the frame's visit.
+    int64_t begin_ns; // When the frame's visit began, from the beginning of the measurement on.
     double ms;        // Time that the frame took.
     double wait;      // Time that all threads together waited for a core, divided by `ms`.
     double cpu_ms;    // Processor time of all threads.
@@ -99,9 +100,9 @@ DIP_API DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipErro
 DIP_API void dip_times_fit_free(DipTimesFit **fit);
 
 // Returns the mean time of a subject's frames divided by the mean time of its base's frames. The
-// ratio is NAN if no block has times of both. It has no interval if there is only one start with
-// one round, or if a unit that the error needs (a start, or a round of the only start) has no
-// times. The ratio of a base is 1, without an interval.
+// ratio is NAN if no block has times of both. It has an interval only if at least two starts have
+// times of both, or two rounds if there is only one start. The ratio of a base is 1, without an
+// interval.
 DIP_API DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject);
 
 // Returns the mean time of a subject's frames divided by that of another subject with the same

@@ -108,7 +108,7 @@ typedef struct DipTimesWork {
     double doubt;    // As in DipTimesSubject.
     DipTimesMoment *moments; // [count]
     int moment_count, base_visits;
-    double *speed;                           // [count]: log speed of each moment.
+    double *speed;                           // [count]: speed of each moment (rounds_levels.c).
     double *weights;                         // [the greater of count and frames]: scratch.
     int *visits, *pair_frames;               // [count]: visits and frames of the pairs in use.
     double *logs, *smooth, *rest, *of_visit; // [the greater of count and frames]: scratch.

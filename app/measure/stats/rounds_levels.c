@@ -1,5 +1,7 @@
 // Fits the levels of a base. The level of a frame is the logarithm of the time that the frame takes
-// at the machine's usual speed. Units, moments and cells are explained in rounds_fit_private.h.
+// at the machine's usual speed. The speed of a moment, of a visit or of a round is here the
+// logarithm of the factor by which its frames take longer than their levels say.
+// rounds_fit_private.h explains units, moments and cells.
 #include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/estimate.h"

@@ -115,7 +115,8 @@ typedef struct DipDriverCalls {
     void *context;                             // Passed to the functions.
 } DipDriverCalls;
 
-// Not thread-safe. Two drivers may work at the same time, but they disturb each other's times.
+// A driver is not thread-safe. Two drivers may work at the same time, but they disturb each other's
+// times.
 typedef struct DipDriver DipDriver;
 
 typedef enum DipDriverStep {
