@@ -42,7 +42,7 @@ int dip_bench_same_pictures(const DipBenchPlan *plan, int combination);
 
 // The values of a combination.
 typedef struct DipBenchValues {
-    int triangles; // Number of triangles of the grid; 0 for the session's scene.
+    int triangles; // Number of triangles given to --grid; 0 for the session's scene.
     DipOptionSize size;
     double scale;
     DipOptionSize drawn; // The size at which the picture is drawn, before it is enlarged to `size`.

@@ -18,9 +18,10 @@
 int dip_terminal_keys_read(const uint8_t *bytes, int count, bool ended, DipEvent *event);
 
 // --- terminal_mode.c -----------------------------------------------------------------------------
-// A process has one mode: all these functions concern the same terminal. The terminal gets back
-// its settings, its screen and its cursor when the process exits, crashes or is ended by a
-// signal that the mode takes over (terminal_mode.c), but not by SIGKILL, for example.
+// A process has one mode: all these functions concern the same terminal. The terminal gets back its
+// settings, its screen and its cursor when the process exits, crashes or is ended by a signal that
+// the mode takes over (terminal_mode.c), but not by SIGKILL, for example. It gets nothing back
+// while another process group, such as the shell's, has the terminal.
 
 // What signals have asked for, as bits.
 enum {
