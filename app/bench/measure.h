@@ -50,7 +50,7 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 
 // A program that is measured: this process or a child process. draw() draws a frame of a
 // combination and stores its times and counters in *sample. If `hash` is true, draw() also stores
-// the hash of the pixels.
+// the hash of the picture.
 typedef struct DipBenchSource {
     bool (*draw)(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
                  DipError *err);
