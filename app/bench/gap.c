@@ -1,5 +1,5 @@
-// Prints the cycles that each stage takes per unit of its work, and these cycles divided by the
-// unit's floor: the fewest cycles in which a core can do a unit of this work (gap.h).
+// Prints the cycles that stages take per unit of their work, and these cycles divided by the unit's
+// floor: the fewest cycles in which a core can do a unit of this work (gap.h).
 #include "app/bench/gap.h"
 
 #include "renderer/base/assert.h"
@@ -29,7 +29,8 @@ static const Unit units[] = {
     {"probe", DIP_BENCH_STAGE_shading, DIP_COUNTER_texture_probes, {DIP_BENCH_FLOOR_PROBE}},
 };
 
-// Returns the mean over the frames of each frame's fastest round, which has the least noise.
+// Returns the mean over the frames of the stage's shortest time in any round, which has the least
+// noise.
 static double fastest_ms(const DipBenchResult *result, int combination, DipBenchStage stage) {
     const DipBenchOptions *options = &result->plan->options;
     const double *ms = dip_bench_result_ms(result, combination, stage);

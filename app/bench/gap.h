@@ -1,5 +1,6 @@
-// Shows how far a frame is from what the machine can do. Prints the cycles that each stage takes
-// per unit of its work, beside a floor: the fewest cycles in which a core can do this work.
+// Shows how far a frame is from what the machine can do. Prints the cycles that the stages
+// geometry, raster and shading take per unit of their work, beside a floor: the fewest cycles in
+// which a core can do this work.
 #ifndef DIP_APP_BENCH_GAP_H
 #define DIP_APP_BENCH_GAP_H
 
@@ -24,9 +25,9 @@
 #define DIP_BENCH_FLOOR_PROBE         (106.0 / 16)
 
 // Prints for each combination the cycles per triangle, tile triangle, sub-block, fragment and
-// probe, and how many times the floor they are. A stage's cycles are those of all threads: the mean
-// of its times in each frame's fastest round, multiplied by the number of threads and divided by
-// the length of a cycle.
+// probe, and how many times the floor they are. A stage's cycles are those of all threads: its time
+// in a frame, multiplied by the number of threads and divided by the length of a cycle. The time is
+// the mean over the frames of the stage's shortest time in any round.
 void dip_bench_print_gap(const DipBenchResult *result, double ns_per_cycle, FILE *out);
 
 #endif

@@ -81,7 +81,9 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 
 // --- measuring -----------------------------------------------------------------------------------
 
-enum { BLOCK_SUBJECTS = 4 }; // Subjects per block (driver.h), as in app/cost/times.c.
+// Most subjects of a block besides the base (driver.h) if there is one source, as in
+// app/cost/times.c.
+enum { BLOCK_SUBJECTS = 4 };
 
 // The driver's subject i (driver.h) is combination i / source_count of source i % source_count. If
 // there are two sources, each combination of the second is compared with the same combination of

@@ -1,8 +1,8 @@
 // Measures every combination of a plan (plan.h) in interleaved rounds
-// (app/measure/timing/driver.h). Each round draws every frame of every combination. It
-// draws them in groups of a few combinations, and each group also draws the base with which they
-// are compared. The results are the times of every frame in every round, and the work of every
-// frame.
+// (app/measure/timing/driver.h). Each round draws every frame of every combination. It draws them
+// in groups of at most four combinations (of one combination if there are two programs), and each
+// group also draws the base with which they are compared. The results are the times of every frame
+// in every round, and the work of every frame.
 #ifndef DIP_APP_BENCH_MEASURE_H
 #define DIP_APP_BENCH_MEASURE_H
 
@@ -50,7 +50,7 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 
 // A program that is measured: this process or a child process. draw() draws a frame of a
 // combination and stores its times and counters in *sample. If `hash` is true, draw() also stores
-// the hash of the pixels.
+// the hash of the picture.
 typedef struct DipBenchSource {
     bool (*draw)(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
                  DipError *err);

@@ -25,10 +25,10 @@ typedef struct DipBenchSet {
     DipQuality quality;
 } DipBenchSet;
 
-// What to measure. Texts are borrowed from argv. A grid is a test scene of a given number of
-// triangles; without grids, the bench draws the session's scene. An empty list of scales stands
-// for 1. An empty list of threads, instruction sets or sizes stands for one value, which comes
-// from the ini or the machine.
+// What to measure. Texts are borrowed from argv. A grid is a test scene of about a given number of
+// triangles; without grids, the bench draws the session's scene. An empty list of scales stands for
+// 1. An empty list of threads, instruction sets or sizes stands for one value, which comes from the
+// ini or the machine.
 typedef struct DipBenchOptions {
     DipBenchSet sets[DIP_BENCH_MAX_VALUES];
     int set_count;

@@ -23,8 +23,8 @@ typedef struct DipBenchPlan {
     // [combination][axis]: the index of the combination's value on the axis.
     int at[DIP_BENCH_MAX_COMBINATIONS][DIP_BENCH_AXIS_COUNT];
     int count; // Number of combinations.
-    // The combination with which all others are compared: it has the first value of each list, but
-    // the greatest render scale.
+    // The combination with which all others are compared, unless --vs is given. It has the first
+    // value of each list, but the greatest render scale.
     int base;
 } DipBenchPlan;
 
@@ -42,7 +42,7 @@ int dip_bench_same_pictures(const DipBenchPlan *plan, int combination);
 
 // The values of a combination.
 typedef struct DipBenchValues {
-    int triangles; // Number of triangles of the grid; 0 for the session's scene.
+    int triangles; // Number of triangles given to --grid; 0 for the session's scene.
     DipOptionSize size;
     double scale;
     DipOptionSize drawn; // The size at which the picture is drawn, before it is enlarged to `size`.

@@ -30,10 +30,10 @@ typedef struct DipSynthetic {
 DipSynthetic *dip_synthetic_create(uint32_t vertex_count, uint32_t index_count, DipError *err);
 
 // Makes a relief: a wavy surface in the renderer's fixed light. It has about triangle_count
-// (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles of equal size. It nearly fills a picture of this
-// vertical field of view and aspect ratio, and stays wholly in view while the camera sways a
-// little. turn_deg turns the camera to the left about the vertical, so that less of the relief is
-// in view.
+// (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles, which are about equally large in the picture. It
+// nearly fills a picture of this vertical field of view and aspect ratio, and stays wholly in view
+// while the camera sways a little. turn_deg turns the camera to the left about the vertical, so
+// that less of the relief is in view.
 DipSynthetic *dip_synthetic_relief(int triangle_count, double fov_y_deg, double aspect,
                                    double turn_deg, DipError *err);
 

@@ -15,11 +15,14 @@ void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session
 // the plan's base and, if the number of threads varies, its speed-up over the fewest threads.
 void dip_bench_print_times(const DipBenchResult *result, FILE *out);
 
-// Prints the means of the work counters over the frames.
+// Prints the means of the work counters over the frames, for each combination with the first
+// instruction set and number of threads. Combinations that differ only in these do the same work.
 void dip_bench_print_work(const DipBenchResult *result, FILE *out);
 
-// Prints for each combination the ratio of the mean time of the program of --vs to the mean time of
-// this program, the 95 % interval of this ratio, and whether the pictures are the same.
+// Prints for each combination the median times of both programs, the ratio of the mean time of the
+// program of --vs to the mean time of this program, the 95 % interval of this ratio, and whether
+// the pictures are the same. Also prints the ratio of the sums of the frames' fastest times, and
+// the ratios of the stages' medians.
 void dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out);
 
 // Writes a CSV line for each program, combination, round and frame. `count` is the number of

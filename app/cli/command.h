@@ -1,4 +1,4 @@
-// Describes a command of the program. To add a command, make a folder that defines one DipCommand,
+// Describes a command of the program. To add a command, make a folder that defines its DipCommand,
 // and add that DipCommand to the list in command_list.c.
 #ifndef DIP_APP_CLI_COMMAND_H
 #define DIP_APP_CLI_COMMAND_H
@@ -68,8 +68,8 @@ typedef struct DipMovedCommand {
 } DipMovedCommand;
 
 // The commands of a program. The first one runs if the command line names none. Hidden commands run
-// when they are named, but neither the help nor the manual page shows them, because the program
-// itself starts them. Their names are single words.
+// when they are named, but neither the list of commands in the help nor the manual page shows them,
+// because the program itself starts them. Their names are single words.
 typedef struct DipCommandList {
     const DipCommand *const *commands;
     size_t count;

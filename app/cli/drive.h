@@ -5,9 +5,10 @@
 
 #include "app/measure/timing/driver.h"
 
-// Steps the driver until it is done, and shows on standard error how many frames have been drawn.
-// `things` is the word for them in the line that shows the progress, such as "frames". Fails as the
-// driver does. Once the user has pressed Ctrl-C (progress.h), fails with DIP_ERROR_RUNTIME, the key
+// Steps the driver until it is done. Shows on standard error how many frames have been drawn, and
+// then how many rounds have been searched for disturbed frames, if there are any. `things` is the
+// word for the frames in the line that shows the progress, such as "frames". Fails as the driver
+// does. Once the user has pressed Ctrl-C (progress.h), fails with DIP_ERROR_RUNTIME, the key
 // `command` and the message `interrupted`.
 bool dip_drive(DipDriver *driver, const char *things, const char *command, const char *interrupted,
                DipError *err);

@@ -13,7 +13,9 @@
 bool dip_log_open(const char *file, DipError *err);
 void dip_log_close(void);
 
-// Prints one line "diptych: file:line: [key] message" for each error.
+// Prints one line "diptych: file:line: [key] message" for each error, and "diptych: file:line:
+// warning: [key] message" for each warning. Leaves out the file, the line and the key if there are
+// none.
 void dip_log_error(const DipError *err);
 void dip_log_errors(const DipErrorList *list);
 

@@ -7,8 +7,8 @@
 // Copies the name of the processor, as Linux gives it, or "unknown processor".
 void dip_machine_processor(char *name, size_t size_bytes);
 
-// Writes a hash of this program's file, or "" if the file cannot be read. Files that differ have
-// different hashes.
+// Writes a hash of this program's file, or "" if the file cannot be read. The hash has 128 bits, so
+// two files that differ practically never have the same hash.
 void dip_machine_build(char hex[33]);
 
 // Returns the number of processors that are online, at least 1.

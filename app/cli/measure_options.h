@@ -8,7 +8,7 @@ enum { DIP_MEASURE_MOST_ROUNDS = 10000, DIP_MEASURE_MOST_STARTS = 100 };
 
 typedef struct DipMeasureOptions {
     int rounds; // Number of rounds of each start (driver.h); 0 if the command chooses.
-    int starts; // How often the programs that draw are started.
+    int starts; // Number of starts (driver.h). With 1, cost draws in its own process.
     bool has_seed;
     int seed;
 } DipMeasureOptions;

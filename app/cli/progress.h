@@ -17,10 +17,10 @@ typedef struct DipProgress {
 
 DipProgress dip_progress_begin(const char *things, int64_t total);
 
-// Sets how long the work that begins next is expected to take, and how long all later parts of
-// the command are; a time is 0 if it is not known. The time left that is shown includes the
-// later parts from now on. At first it follows the expectation, and then what the work really
-// takes.
+// Sets how long the work that begins next is expected to take, and how long all later parts of the
+// command together are expected to take; a time is 0 if it is not known. The time left that is
+// shown includes the later parts from now on. At first it follows the expectation, and then what
+// the work really takes.
 void dip_progress_expect(double own_s, double later_s);
 
 // Shows "7 of 12 frames, 3 s left", or "7 of 12 frames, about 4 min left in all". On a terminal,

@@ -1,5 +1,5 @@
 // Implements the command `diptych compare`: reads two pictures, applies a filter to the first one
-// if the command names one, and prints how much both differ.
+// if the command names one, and prints how much the pictures differ.
 #include "app/compare/compare.h"
 
 #include "app/cost/options.h"

@@ -128,7 +128,7 @@ static bool send_line(Client *client, const char *line, size_t length) {
     return true;
 }
 
-// Writes as much output as fits now.
+// Writes as much output as the connection takes now.
 static void write_output(Client *client) {
     while (client->out_bytes > 0 && !client->broken) {
         const ptrdiff_t count = dip_wire_write(&client->wire, client->out, client->out_bytes);

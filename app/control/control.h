@@ -34,7 +34,7 @@ typedef struct DipControlDef {
 typedef struct DipControl DipControl;
 
 // Opens the channel. Only the user who runs the program can connect to a socket. Fails with
-// CONFLICT (the path is in use), OVERSIZED (the path is too long), IO or MEMORY.
+// CONFLICT (the path is in use), OVERSIZED (the path is empty or too long), IO or MEMORY.
 DipControl *dip_control_open(const DipControlDef *def, DipError *err);
 
 // Closes all connections and removes the socket. *control may be NULL and becomes NULL.

@@ -68,7 +68,8 @@ void dip_wire_close(DipWire *wire) {
 
 // Opens standard output once more so that writing to it never waits. The flag O_NONBLOCK belongs to
 // an open file; setting it on the descriptor that Diptych was given would also change the file of
-// the parent process. Sockets cannot be opened again, so they are only duplicated.
+// the parent process. Sockets cannot be opened again, and ordinary files need not be, so these are
+// only duplicated.
 static int open_output(void) {
     struct stat status;
     int output = -1;
@@ -111,7 +112,7 @@ static bool refuse_path(DipErrorCode code, const char *path, const char *why, Di
     return dip_error_set(err, code, path, 0, "--control", "%s", why);
 }
 
-// Returns whether a program listens on the socket.
+// Returns whether a program listens on the socket, or true if this cannot be found out.
 static bool is_in_use(const struct sockaddr_un *address) {
     const int probe = socket(AF_UNIX, SOCK_STREAM, 0);
     const bool refused = probe >= 0 &&

@@ -20,7 +20,8 @@ typedef struct DipWire {
 // the input or after an error.
 ptrdiff_t dip_wire_read(const DipWire *wire, void *bytes, size_t size);
 
-// Writes as many bytes as fit now. Returns their number, or -1 if nobody reads any more.
+// Writes as many bytes as the connection takes now. Returns their number, or -1 if nobody reads any
+// more.
 ptrdiff_t dip_wire_write(const DipWire *wire, const void *bytes, size_t size);
 
 // Returns whether nothing can reach the other side any more: it has closed a socket in both
@@ -48,7 +49,7 @@ bool dip_endpoint_listen(DipEndpoint *endpoint, const char *path, DipError *err)
 // Accepts a client. Returns false if no client waits.
 bool dip_endpoint_accept(const DipEndpoint *endpoint, DipWire *wire);
 
-// Removes the socket's file, or restores the process's standard output.
+// Closes the listening socket and removes its file, or restores the process's standard output.
 void dip_endpoint_close(DipEndpoint *endpoint);
 
 #endif

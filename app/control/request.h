@@ -124,11 +124,13 @@ typedef struct DipControlRequest {
     unsigned notices; // SET: with DIP_CONTROL_OFF, the status line says nothing
                       // about the change.
     unsigned show;    // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF. With both, OFF counts.
-    char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
-    char name[DIP_CONTROL_NAME_SIZE];     // SCENE, ANIMATION: name of a scene or animation.
-    char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT: file to write.
-    double time_s;                        // SEEK: time on the path, 0..86400.
-    int width;                            // SIZE: size of a pane, in pixels.
+    // PATH: a category of camera paths, or the name of a camera of the models.
+    char category[DIP_CONTROL_NAME_SIZE];
+    // SCENE: name of a scene, or "models". ANIMATION: name of an animation, or "none".
+    char name[DIP_CONTROL_NAME_SIZE];
+    char file[DIP_CONTROL_FILE_SIZE]; // SCREENSHOT: file to write.
+    double time_s;                    // SEEK: time on the path, 0..86400.
+    int width;                        // SIZE: size of a pane, in pixels.
     int height;
     int x; // PICK: position of a pixel in a pane.
     int y;

@@ -43,8 +43,8 @@ typedef struct DipStream DipStream;
 DipStream *dip_stream_open(const DipStreamDef *def, DipError *err);
 
 // Writes a frame of both panes (current and requested), which have the same size. All frames of a
-// stream have the size of the first one. Fails with IO if the file cannot be written, or if the
-// program that reads the pipe has ended.
+// stream have the size of the first one. Fails with IO if the file cannot be written, or if no
+// program reads the pipe any more. The first frame can also fail with MEMORY.
 bool dip_stream_add(DipStream *stream, const DipFrame panes[2], DipError *err);
 
 // Writes the bytes that are still buffered, closes the file and frees the stream. *stream may be

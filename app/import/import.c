@@ -1,5 +1,6 @@
 // Implements the hidden command `diptych import`, which hands its arguments to the importer
-// (assets/importer.h) and ends the process with the importer's exit code.
+// (assets/importer.h). If the importer accepts them, the command ends the process with the
+// importer's exit code.
 #include "app/import/import.h"
 
 #include "assets/importer.h"
@@ -16,8 +17,8 @@ typedef struct ImportOptions {
 static const DipOptionPart parts[] = {{&dip_program_option_table, 0}};
 static const DipOptionParts all_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
-// Runs the importer. Ends the process with _exit instead of exit, because the handlers of exit only
-// free memory that the system frees anyway.
+// Runs the importer. Unless the importer refuses the arguments, ends the process, with _exit
+// instead of exit, because the handlers of exit only free memory that the system frees anyway.
 static bool run(DipSession *session, const void *all, DipError *err) {
     const ImportOptions *options = all;
     (void)session;

@@ -1,6 +1,6 @@
 // Makes the ground below a model, and a texture of the shade that the model leaves on the ground.
-// The model's lowest surfaces are drawn into a grid of heights. The heights tell how much light
-// from above the model keeps from each texel. Computes with + - * / and square roots alone, so that
+// The model's lowest surfaces are drawn into a grid of heights. The heights determine how much of
+// the light from above reaches each texel. Computes with + - * / and square roots alone, so that
 // the texture has the same bits on every machine.
 #include "app/session/ground.h"
 
@@ -193,7 +193,7 @@ typedef struct Grid {
     double cell;               // Size of a cell.
     double floor;              // The height that counts as 0.
     double most;               // Surfaces that lie higher do not count.
-    bool facing_up;            // Leaves out surfaces whose winding faces down.
+    bool facing_up;            // True to leave out surfaces that do not face up.
     float height[GRID * GRID]; // Height of each cell's lowest surface; more than `most` if none.
 } Grid;
 
@@ -303,8 +303,8 @@ bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent) {
             return false;
         }
     }
-    // A flat scene is a ground itself. Far from the origin, floats are too coarse for the gap
-    // between the scene and the ground.
+    // A flat scene is a ground itself. Far above or below the origin, floats are too coarse for the
+    // gap between the scene and the ground.
     const double size = size_of(extent);
     const double far = fmax(fabs(extent->low[1]), fabs(extent->high[1]));
     return width_of(extent) > 0.0 && height_of(extent) > 0.05 * width_of(extent) &&

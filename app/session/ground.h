@@ -1,6 +1,6 @@
 // Adds a ground to models that stand in empty space. It is a plain square below the model, in the
-// colour of the background, with the soft shade that the model would leave where it touches the
-// ground.
+// colour of the background. A soft shade on it shows where the model touches the ground or is near
+// it.
 #ifndef DIP_APP_SESSION_GROUND_H
 #define DIP_APP_SESSION_GROUND_H
 
@@ -10,7 +10,8 @@
 #include <stdbool.h>
 
 // The extent of a scene's objects that are not sky, over DIP_MOTION_MOMENTS moments of the clips
-// (animations) that play.
+// (animations) that play. If the boxes of all moving meshes are known, each moving mesh counts as
+// its box, which holds the mesh at all moments, so the extent may be larger than needed.
 typedef struct DipExtent {
     double low[3]; // All 0 if the scene has no such object with a triangle.
     double high[3];
@@ -29,10 +30,10 @@ typedef struct DipSilhouette {
 
 DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent);
 
-// Returns whether the scene needs a ground. It needs none if it has no size, if it has a sky or
+// Returns whether the scene needs a ground. It needs none if it has no width, if it has a sky or
 // water, if it is flat itself, or if surfaces of its own near its lowest point face up and cover
-// most of the rectangle below it. It also gets none if it lies very far from the origin or if
-// memory runs out.
+// most of the rectangle below it. It also gets none if it lies very far above or below the origin,
+// or if memory runs out.
 bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent);
 
 // A scene with a ground. Owns the ground and the arrays of `def`. Everything else that these arrays

@@ -43,7 +43,8 @@ typedef struct DipStartTimes {
 #undef DIP_START_TIME_FIELD
     int64_t begin_ns;  // When the program started.
     int64_t opened_ns; // When everything was loaded.
-    int64_t ended_ns;  // When the command had done its work and began to free its memory.
+    int64_t ended_ns;  // When the command had done its work and began to free its memory; 0 if it
+                       // does not say.
 } DipStartTimes;
 
 // Returns the milliseconds that have passed since begin_ns, which is a time by dip_clock_ns.
@@ -99,8 +100,9 @@ typedef struct DipSession {
     DipGround *ground;              // The ground below that model; NULL if it has none.
     DipBackdrop *backdrop;          // The environment behind it; NULL if it is not shown.
     DipEnvironmentDef *environment; // What the models reflect, from the ini; NULL if it has none.
-    DipSceneDef scene_def; // The model's scene with its background and sky, and with the ground or
-                           // the backdrop. Points into `model`, into these and `environment`.
+    // The model's scene with its background and sky, and with the ground or the backdrop. Points
+    // into `model`, `ground`, `backdrop` and `environment`.
+    DipSceneDef scene_def;
     DipSessionAnimations animations;
     // The extent and the silhouette of the models, without the ground. The silhouette is known only
     // if the camera orbits the models.
@@ -153,7 +155,8 @@ DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, D
 
 // Shows the next scene in a ring of all scenes of the gallery and, if they are loaded, the models.
 // `step` is 1 for the next scene and -1 for the one before. The session must have renderers. The
-// settings and the size of the panes stay. If opening the scene fails, nothing changes.
+// panes keep their settings. The new renderers have the size `pane_size`, so a caller that has
+// resized the old ones must resize these, too. If opening the scene fails, nothing changes.
 bool dip_session_step_scene(DipSession *session, int step, DipError *err);
 
 // Returns the title of the gallery scene that the session shows at the time play_ns, such as "Blend
@@ -177,8 +180,8 @@ const char *dip_session_category(int category);
 // One frame of both panes.
 typedef struct DipSessionFrame {
     DipFrame panes[DIP_PANE_COUNT];
-    // Wall-clock time to draw both panes. It is less than the sum of the panes' times if they share
-    // work.
+    // Wall-clock time to draw both panes. It can be less than the sum of the panes' times, because
+    // the panes share work.
     double ms;
     // True if the requested pane is a copy of the current one, because both have the same settings.
     // The copy shares the pixels, and its counters and stage times are 0. With --force-all-effects,

@@ -295,7 +295,7 @@ static bool present(void *context, const DipPixels *picture, const DipRect *dama
     const size_t byte_count = dip_terminal_writer_encode(
         &terminal->writer, picture, terminal->text, terminal->text_columns, terminal->text_rows);
     if (byte_count > 0 && !dip_terminal_mode_write(terminal->writer.bytes, byte_count)) {
-        terminal->gone = true; // The next event is QUIT.
+        terminal->gone = true; // next_event then queues QUIT.
     }
     return true;
 }

@@ -18,9 +18,10 @@
 int dip_terminal_keys_read(const uint8_t *bytes, int count, bool ended, DipEvent *event);
 
 // --- terminal_mode.c -----------------------------------------------------------------------------
-// A process has one mode: all these functions concern the same terminal. The terminal gets back
-// its settings, its screen and its cursor when the process exits, crashes or is ended by a
-// signal that the mode takes over (terminal_mode.c), but not by SIGKILL, for example.
+// A process has one mode: all these functions concern the same terminal. The terminal gets back its
+// settings, its screen and its cursor when the process exits, crashes or is ended by a signal that
+// the mode takes over (terminal_mode.c), but not by SIGKILL, for example. It gets nothing back
+// while another process group, such as the shell's, has the terminal.
 
 // What signals have asked for, as bits.
 enum {
@@ -57,10 +58,10 @@ bool dip_terminal_mode_write(const char *bytes, size_t count);
 
 // --- terminal_writer.c ---------------------------------------------------------------------------
 // The writer remembers what the terminal shows and encodes only the cells that differ. A cell shows
-// two pixels of the picture, one above the other, as a half block (U+2580) if the terminal has
-// colours and UTF-8, otherwise as their mean. Colours are rounded to the terminal's palette, or
-// in true colour to 64 steps per channel, before cells are compared, so a change that is hard to
-// see costs nothing.
+// two pixels of the picture, one above the other, as a half block (U+2580 or U+2584, or a space if
+// both have the same colour) if the terminal has colours and UTF-8, otherwise as their mean.
+// Colours are rounded to the terminal's palette, or in true colour to 64 values per channel, before
+// cells are compared, so a change that is hard to see costs nothing.
 
 // The environment variables that describe a terminal. A variable that is not set is NULL.
 typedef struct DipTerminalEnvironment {

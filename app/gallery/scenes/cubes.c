@@ -246,8 +246,8 @@ static int list_objects(const DipGalleryView *view, const DipKitCamera *seen,
     DipMesh *const *meshes = view->stock->meshes;
     int count = 0;
     bool long_cube_seen = true;
-    for (int i = OBJECTS - 1; i >= 0;
-         i--) { // Cube 0 comes last, since its mesh depends on whether cube 1 is in view.
+    // Cube 0 comes last, since its mesh depends on whether cube 1 is in view.
+    for (int i = OBJECTS - 1; i >= 0; i--) {
         const DipMatrix to_clip = dip_kit_chain(seen->to_clip, place(i, view->turn));
         const int mesh = i == 2 ? TEXTURED : i == 1 || long_cube_seen ? CUBE : GEM;
         if (!in_view(meshes[mesh], &to_clip)) {

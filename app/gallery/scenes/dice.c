@@ -14,7 +14,7 @@ enum { DICE = 9, RINGS = 3 };
 typedef struct Uniforms {
     DipKitObject object;
     float colour[3];
-    float height; // Height of the die above the table. Used for shadows.
+    float height; // Height of the die's middle above the table. Used for shadows.
 } Uniforms;
 
 // --- shaders -------------------------------------------------------------------------------------

@@ -310,8 +310,8 @@ static DipDraw *add_copy(int copy, DipKitList *list) {
     draw->vertex_shader = look->gouraud ? gouraud_vertex : phong_vertex;
     draw->varying_count = look->gouraud ? LIT_VARYINGS : DIP_KIT_VARYINGS;
     draw->value_only_varying_count = look->gouraud ? 3 : DIP_KIT_VALUES_ONLY;
-    draw->bounds_to_clip = NULL; // The mesh's box holds only the first key frame, so the draw is
-                                 // not culled by it.
+    draw->bounds_to_clip = NULL; // The mesh's box holds only the first of its two key frames, so
+                                 // the draw is not culled by it.
     return draw;
 }
 

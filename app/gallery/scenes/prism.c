@@ -2,10 +2,10 @@
 // gallery.h says what a seed is.
 //
 // The triangles of a plain prism are patches. Tessellation divides them, and the domain function
-// turns each new vertex about the axis by an angle that grows with the vertex's height. The factor
-// of the tessellation rises and falls with time. With fractional partitioning, new vertices then
-// slide apart instead of appearing suddenly. A lit wireframe of the same mesh lies over the
-// surface.
+// turns each new vertex about the axis by an angle that grows with the vertex's height. In three of
+// the five looks (the scene's variants), the factor of the tessellation rises and falls with time.
+// With fractional partitioning, new vertices then slide apart instead of appearing suddenly. A lit
+// wireframe of the same mesh lies over the surface.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "renderer/shapes/tessellate.h"
@@ -65,7 +65,8 @@ static void twist(const DipDomainBatch *batch) {
     }
 }
 
-// Makes the prism's mesh, unless the other pane has made the same one already.
+// Makes the prism's mesh, unless the last one was made for the same time and look, for example by
+// the other pane.
 static bool prepare_mesh(const DipGalleryView *view, DipError *err) {
     Content *content = view->content;
     DipMesh **mesh = &view->stock->meshes[PRISM];

@@ -4,8 +4,9 @@
 //
 // The first quad shows rings that move outwards. The second shows a flame, whose light is summed
 // along rays. The third shows a wobbling sphere over a fluid, which are found by marching along
-// rays. Multisampling does not help here, since each pixel is shaded once. Instead, derivatives
-// tell where rings are narrower than about two pixels, and the rings fade out there.
+// rays. Multisampling alone does not help here, since it shades each pixel once. Instead,
+// derivatives tell how many pixels wide the rings are. Rings narrower than five pixels begin to
+// fade out, and rings of two pixels have vanished.
 #include "app/gallery/kit/kit.h"
 
 enum { RINGS, FLAME, BOWL, QUADS, FLAME_STEPS = 20, BOWL_STEPS = 36, SHADOW_STEPS = 8 };

@@ -2,11 +2,11 @@
 // the filtering settings; gallery.h says what a seed is.
 //
 // The camera flies through a long tube of stone. The wall appears in the picture at every angle,
-// and far away its texels look very long and narrow. The colours show which mip level each pixel
-// reads: dark red is the sharpest, then red, orange, yellow, green, blue and purple. With
-// anisotropic filtering, the sharp levels reach farther. Without advanced filtering (aaf=off), they
-// reach less far at the diagonals, because the level then depends on the angle. With advanced
-// filtering, every ring has one colour.
+// and far away its texels look very long and narrow. In two of the three looks (the scene's
+// variants), the colours show which mip level each pixel reads: dark red is the sharpest, then red,
+// orange, yellow, green, blue and purple. With anisotropic filtering, the sharp levels reach
+// farther. Without advanced filtering (aaf=off), they reach less far at the diagonals, because the
+// level then depends on the angle. With advanced filtering, every ring has one colour.
 #include "app/gallery/kit/kit.h"
 
 enum { SIDES = 96, ROUND = 6 };

@@ -19,8 +19,8 @@ enum { DIP_FLIP_TAIL_BLOCK = 32 };
 // The result for a burst. Holds doubles only, so that it can be written and read as an array of
 // DIP_FLIP_TAIL_COUNT numbers.
 typedef struct DipFlipTail {
-    // Percentiles: at least 50, 95 and 99 % of all pixels of all frames have at most this FLIP.
-    // They are exact to 1 / 65536.
+    // Percentiles: 50, 95 and 99 % of all pixels of all frames have at most this FLIP. The values
+    // are exact to 1 / 65536.
     double p50;
     double p95;
     double p99;

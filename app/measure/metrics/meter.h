@@ -71,6 +71,7 @@ DIP_API bool dip_meter_init(DipMeter *meter, DipMeterKind kind, int width, int h
 DIP_API void dip_meter_free(DipMeter *meter);
 
 // Begins a burst, a series of successive frames (flicker.h). dip_meter_init begins the first one.
+// The meter must have the kind PICTURES or BURSTS.
 DIP_API void dip_meter_begin_burst(DipMeter *meter);
 
 // Sets the standard with which the next pictures are compared. If the standard has no analysis, the

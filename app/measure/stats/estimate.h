@@ -12,7 +12,7 @@ extern "C" {
 #endif
 
 // The interval from `low` to `high` holds the true value with a probability of 95 %. If the error
-// of a value is not known, all fields but `value` are NAN. No interval has the length 0.
+// of a value is not known, all fields but `value` are NAN. An error of 0 counts as not known.
 typedef struct DipEstimate {
     double value;
     double low;
@@ -56,8 +56,8 @@ static inline double dip_percentile_of(const double *values, int count, double s
     return dip_percentile(scratch, count, share);
 }
 
-// Returns the median of count >= 1 values. Reorders the values. Takes linear time (Hoare's
-// selection).
+// Returns the median of count >= 1 values. Reorders the values. Takes linear time on average
+// (Hoare's selection).
 DIP_API double dip_median(double *values, int count);
 
 #ifdef __cplusplus

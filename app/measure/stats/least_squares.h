@@ -4,7 +4,7 @@
 // A row is one measurement: the amounts of several kinds of work, which are called terms, and the
 // time that they took together. A price is the time for one unit of a kind of work. Amounts and
 // times may have any unit. All functions are thread-safe. They allocate no memory and use less than
-// 64 KiB of stack. Equal input gives equal output to the bit.
+// 128 KiB of stack. Equal input gives equal output to the bit.
 #ifndef DIP_APP_MEASURE_STATS_LEAST_SQUARES_H
 #define DIP_APP_MEASURE_STATS_LEAST_SQUARES_H
 
@@ -31,7 +31,8 @@ DIP_API void dip_normal_equations_begin(DipNormalEquations *equations, int terms
                                         const double *scale);
 
 // Adds a row: `terms` amounts and the measured value. The row's squared error is multiplied by
-// `weight`. A negative weight removes a row that was added with the same amounts and value.
+// `weight`. A negative weight removes a row that was added with the same amounts and value and the
+// opposite weight.
 DIP_API void dip_normal_equations_add(DipNormalEquations *equations, const double *amounts,
                                       double value, double weight);
 

@@ -31,7 +31,7 @@ bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *rou
             steps[i] = i;
         }
         dip_random_shuffle(&random, order, rounds);
-        dip_random_shuffle(&random, steps + 1, rounds - 1); // Copy 0 takes no step.
+        dip_random_shuffle(&random, steps + 1, rounds - 1); // Copy 0 is not shifted.
         for (int copy = 0; copy < copies; copy++) {
             for (int i = 0; i < rounds && first + i < frames; i++) {
                 round_of[copy * frames + first + i] = order[(i + steps[copy]) % rounds];

@@ -6,7 +6,7 @@
 // once or several times (a start); each start has the same number of rounds, and a round draws some
 // or all frames of the path with every subject (app/measure/timing/driver.h). A visit draws a few
 // frames of one subject, one after another. A block consists of one visit of each of a few subjects
-// and one visit of their base; all of them draw the same frames.
+// and one visit of their base. All of them draw the same frames; the base may draw others besides.
 //
 // What slows down one frame of a visit slows down the visit's other frames, too, and what slows
 // down one round slows down the other rounds of the same start. Confidence intervals are therefore
@@ -43,21 +43,23 @@ enum { DIP_TIMED_PARTS = 4, DIP_TIMED_MOST_STARTS = 64 };
 // In the round of copy 0, every subject and its base draw the frame. In the rounds of the other
 // copies, only the base draws the frame, once more. The copies of a frame are in different rounds.
 // In each copy, a round has frames / rounds frames, rounded down or up: one of each stretch of
-// `rounds` successive frames. Diptych uses 3 copies. Fails with DIP_ERROR_MEMORY.
+// `rounds` successive frames. Diptych uses 3 copies, or fewer if there are fewer rounds. Fails with
+// DIP_ERROR_MEMORY.
 DIP_API bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *round_of,
                              DipError *err);
 
 // --- the log -------------------------------------------------------------------------------------
 
-// One timed frame. Frames with the same start, round and block are compared with each other. The
-// blocks of a round have different numbers. A frame that was drawn again has another block.
+// One timed frame. A subject's time of a frame is compared with its base's time of the same frame
+// in the same start, round and block. The blocks of a round have different numbers. A frame that
+// was drawn again has another block.
 typedef struct DipTimed {
     int subject;
     int start;
     int round; // Index of the round within its start, 0 to rounds - 1.
     int block;
     int frame;        // Index of the frame on the path.
-    int64_t begin_ns; // Time from the beginning of the measurement to that of the frame's visit.
+    int64_t begin_ns; // When the frame's visit began, from the beginning of the measurement on.
     double ms;        // Time that the frame took.
     double wait;      // Time that all threads together waited for a core, divided by `ms`.
     double cpu_ms;    // Processor time of all threads.
@@ -98,9 +100,9 @@ DIP_API DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipErro
 DIP_API void dip_times_fit_free(DipTimesFit **fit);
 
 // Returns the mean time of a subject's frames divided by the mean time of its base's frames. The
-// ratio is NAN if no block has times of both. It has no interval if there is only one start with
-// one round, or if a unit that the error needs (a start, or a round of the only start) has no
-// times. The ratio of a base is 1, without an interval.
+// ratio is NAN if no block has times of both. It has an interval only if at least two starts have
+// times of both, or two rounds if there is only one start. The ratio of a base is 1, without an
+// interval.
 DIP_API DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject);
 
 // Returns the mean time of a subject's frames divided by that of another subject with the same

@@ -151,8 +151,8 @@ static double median_of_sorted(const double *sorted, int count, int without) {
     return 0.5 * (sorted[below + (below >= without)] + sorted[above + (above >= without)]);
 }
 
-// Writes for each value the median of its neighbours, up to window / 2 on either side. `without`
-// leaves out the value itself.
+// Writes for each value the median of the value and its neighbours, up to window / 2 of them on
+// either side. If `without` is true, leaves out the value itself.
 static void running_median(const double *values, int count, int window, bool without, double *to,
                            double *sorted) {
     const int side = window / 2 < count ? window / 2 : count;
@@ -176,8 +176,8 @@ static void running_median(const double *values, int count, int window, bool wit
 }
 
 // Returns the window with which the running median best predicts each value from its neighbours,
-// which were timed in other rounds. A shorter window must be 3 % better than a longer one, since
-// the relative cost of most settings is the same along the whole path.
+// most of which were timed in other rounds. A shorter window must be 3 % better than a longer one,
+// since the relative cost of most settings is the same along the whole path.
 static int choose_window(DipTimesWork *w, const double *values, int count) {
     const int windows[] = {2 * count + 1, 31, 15, 7};
     int best = windows[0];

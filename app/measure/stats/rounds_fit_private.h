@@ -41,10 +41,11 @@ typedef struct DipTimesCell {
     double trust;  // Further weight, 0 to 1, by how well the time agrees with the fit.
 } DipTimesCell;
 
-// A moment is the set of all visits of the base in one round that draw the same frames.
+// A moment is the set of all visits of the base in one round whose first frame on the path is the
+// same.
 typedef struct DipTimesMoment {
     int round;       // Index of the round among those of all starts.
-    int first_frame; // The first frame that the visits draw.
+    int first_frame; // The visits' first frame on the path.
 } DipTimesMoment;
 
 // What the fit finds for a base. `variance` and `pooled` say how much the logarithm of each
@@ -97,7 +98,8 @@ typedef struct DipTimesWork {
     DipTimesPair *pairs;
     int pair_count, visit_count;
     int window;    // Number of log ratios in the subject's running median; 0 if `repeats` is true.
-    bool repeats;  // True if most frames were timed several times.
+    bool repeats;  // True if every round draws all frames, or if there are at least 3 pairs per
+                   // frame.
     bool is_base;  // True if the subject is the base itself, which has no pairs.
     double *level; // [(1 + units) * frames]: levels from all units, then with each left out.
     double *missing; // [1 + units]: variance of the true levels along the path, minus that of the
@@ -106,7 +108,7 @@ typedef struct DipTimesWork {
     double doubt;    // As in DipTimesSubject.
     DipTimesMoment *moments; // [count]
     int moment_count, base_visits;
-    double *speed;                           // [count]: log speed of each moment.
+    double *speed;                           // [count]: speed of each moment (rounds_levels.c).
     double *weights;                         // [the greater of count and frames]: scratch.
     int *visits, *pair_frames;               // [count]: visits and frames of the pairs in use.
     double *logs, *smooth, *rest, *of_visit; // [the greater of count and frames]: scratch.

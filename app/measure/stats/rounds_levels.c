@@ -1,5 +1,7 @@
 // Fits the levels of a base. The level of a frame is the logarithm of the time that the frame takes
-// at the machine's usual speed. Units, moments and cells are explained in rounds_fit_private.h.
+// at the machine's usual speed. The speed of a moment, of a visit or of a round is here the
+// logarithm of the factor by which its frames take longer than their levels say.
+// rounds_fit_private.h explains units, moments and cells.
 #include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/estimate.h"
@@ -69,8 +71,8 @@ static int end_of_cell(const DipTimesWork *w, int first, int count) {
     return end;
 }
 
-// Joins all times of one frame in one moment to one cell. Its time is the median over the visits,
-// from which the speed of each visit was subtracted before.
+// Joins all times of one frame in one moment to one cell. Its time is the median of these times,
+// after the speed of each time's visit was subtracted from it.
 static void join_cells(DipTimesWork *w, int count) {
     double *speed = w->rest;   // [visit]
     double *sum = w->of_visit; // [visit]
@@ -247,7 +249,7 @@ static int choose_reach(DipTimesWork *w, const double *level) {
 // Returns by how much the variance of the true levels exceeds that of the new levels.
 static double join_neighbours(DipTimesWork *w, int reach, double noise, double *level) {
     const int frames = w->times->frames;
-    if (frames < 3 || !(noise > 0.0)) { // It is not known how noisy the levels are.
+    if (frames < 3 || !(noise > 0.0)) { // Too few neighbours, or the noise is not known.
         return 0.0;
     }
     const double squares = predict_levels(level, frames, reach, w->time);
@@ -283,9 +285,9 @@ static double speed_of_round(DipTimesWork *w, int base, int round, const double 
     return count > 0 ? dip_median(w->logs, count) : NAN;
 }
 
-// Computes the speeds of the rounds. Adds their median, the usual speed, to all levels. Computes
-// the error of the levels' mean from how much the speeds differ between the starts, or between
-// groups of successive rounds if there is only one start.
+// Computes the speeds of the rounds. Adds their median, the usual speed, to the levels that were
+// fitted from all units. Computes the error of the levels' mean from how much the speeds differ
+// between the starts, or between groups of successive rounds if there is only one start.
 static void judge_speeds(DipTimesWork *w, int b) {
     const DipTimes *times = w->times;
     DipTimesBase *base = &w->fit->bases[b];

@@ -4,8 +4,8 @@
 // The protocol consists of lines of text. The child first sends the greeting "diptych-WHAT 1
 // COMBINATIONS FRAMES": the command that it runs, the version of the protocol, the number of
 // combinations of settings and the number of frames. It answers each request for a frame with
-// "total_ms=1.5 geometry_ms=... hash=...", or writes an error to standard error and ends. Unknown
-// names are ignored, so that builds with different stages can be compared.
+// "geometry_ms=0.3 ... total_ms=1.5 ... hash=...", or writes an error to standard error and ends.
+// Unknown names are ignored, so that builds with different stages can be compared.
 #ifndef DIP_APP_MEASURE_TIMING_CHILD_H
 #define DIP_APP_MEASURE_TIMING_CHILD_H
 
@@ -34,7 +34,8 @@ typedef struct DipChildDef {
 // started or does not send the expected greeting. Ignores the signal SIGPIPE from now on.
 DIP_API DipChild *dip_child_start(const DipChildDef *def, DipError *err);
 
-// Returns the number of the child's threads; 0 if the system does not tell it.
+// Returns the number of the child's threads that are watched (thread_use.h); 0 if the system does
+// not tell their times.
 DIP_API int dip_child_thread_count(const DipChild *child);
 
 // Closes the child's standard input and waits until the child has ended. If at_once is true, first
@@ -42,9 +43,10 @@ DIP_API int dip_child_thread_count(const DipChild *child);
 // answer.
 DIP_API void dip_child_stop(DipChild **child, bool at_once);
 
-// Asks the child for a frame with a line of text and reads the answer. Writes the frame's time, the
-// times of its stages, and how long the child's threads waited (NAN if the system does not tell).
-// Fails if the child has ended or answers without a time.
+// Asks the child for a frame with a line of text and reads the answer. Fills in *sample, and in
+// *timed the frame's time, the times of its stages, and how long the child's threads waited,
+// divided by the frame's time (NAN if the system does not tell). Fails if the child has ended or
+// answers without a time.
 DIP_API bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample,
                             DipTimed *timed, DipError *err);
 

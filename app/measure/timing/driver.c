@@ -1,5 +1,5 @@
-// Measures step by step: each step plans a start or a round (driver_plan.c), or draws the next
-// frame of the plan.
+// Measures step by step: each step draws the next frame of the plan. If the plan is done, the step
+// first plans the next start or round (driver_plan.c).
 #include "app/measure/timing/driver_private.h"
 
 #include "app/measure/stats/estimate.h"
@@ -122,7 +122,8 @@ static bool draw_frame(DipDriver *d, const DipDriverDraw *draw, DipTimed *timed,
     const DipThreadUse before = thread_use(d);
     const int64_t begin_ns = now_ns(d);
     if (!d->has_begun) {
-        d->origin_ns += begin_ns; // It was 0, or minus the duration of the resumed rounds.
+        // It was 0, or minus the time at which the last visit of the resumed rounds began.
+        d->origin_ns += begin_ns;
         d->has_begun = true;
     }
     d->visit_ns = draw->begins_visit ? begin_ns : d->visit_ns;

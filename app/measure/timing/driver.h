@@ -16,7 +16,8 @@
 //      subjects and the base, in random order. A visit draws the round's frames of one subject and
 //      times each: first the frames that all subjects draw, in path order, and then, for a base, a
 //      share of those that only the base draws. Before them, it draws the first frame untimed,
-//      because the previous subject has used the caches. A block visits each of its subjects once.
+//      because the previous subject has used the caches. A block visits each of its subjects once
+//      (but see in_turn).
 //   4. Repetition. A frame is disturbed if its threads, or those that drew the same frame of the
 //      base, waited too long for a core. The driver repeats rounds that have disturbed frames, each
 //      at most once. A repetition draws a subject, next to its base, if one of the subject's frames
@@ -61,14 +62,16 @@ typedef struct DipDriverDef {
     // for each frame. Each frame then follows a frame of another subject, so that none finds warm
     // caches. A visit then has one frame, and no frame is drawn untimed before it.
     bool in_turn;
-    int64_t
-        rest_ns; // Pause before each timed frame, so that threads of other processes fall asleep.
+    // Pause before each timed frame, so that threads of other processes fall asleep.
+    int64_t rest_ns;
     // A frame is disturbed if its threads together waited for a core for more than this share of
-    // the frame's time. If it is 0, no frame counts as disturbed.
+    // the frame's time, or if this holds for the base's frame beside it. If most_wait is 0, no
+    // frame counts as disturbed.
     double most_wait;
-    // If the first start takes more than this share of the time of its rounds (estimated from the
-    // first round), there are only 2 starts with the same total number of rounds, if that number is
-    // even. If most_start is 0, the number of starts is always `starts`.
+    // If the first of more than 2 starts takes more than this share of the time of its rounds
+    // (estimated from the first round), the driver makes only 2 starts with the same total number
+    // of rounds, provided that this number is even. If most_start is 0, the number of starts is
+    // always `starts`.
     double most_start;
 } DipDriverDef;
 
@@ -90,10 +93,10 @@ typedef struct DipDriverTurn {
 
 // Functions of the caller. Those that return false, with *err filled, end the measurement.
 typedef struct DipDriverCalls {
-    // Draws a frame. Writes timed->parts_ms if the times of the parts are known. If another process
-    // draws the frame, the function also writes ms, wait, cpu_ms and switches; wait is NAN if the
-    // machine does not tell it. If this process draws the frame, the function leaves ms NAN, and
-    // the driver takes the time itself.
+    // Draws a frame. Writes timed->parts_ms if the times of the parts are known. If the function
+    // knows the frame's time, for example from another process that draws the frame, it also writes
+    // ms, wait, cpu_ms and switches; wait is NAN if it is not known. Otherwise it leaves ms NAN,
+    // and the driver measures these four itself.
     bool (*draw)(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err);
 
     // Does what must come before a frame and is not timed, such as drawing the frame before it. May
@@ -112,7 +115,8 @@ typedef struct DipDriverCalls {
     void *context;                             // Passed to the functions.
 } DipDriverCalls;
 
-// Not thread-safe. Two drivers may work at the same time, but they disturb each other's times.
+// A driver is not thread-safe. Two drivers may work at the same time, but they disturb each other's
+// times.
 typedef struct DipDriver DipDriver;
 
 typedef enum DipDriverStep {

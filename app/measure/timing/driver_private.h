@@ -56,13 +56,13 @@ struct DipDriver {
     int plan_count, plan_room;
     bool plan_failed;       // Memory ran out.
     int next;               // Index in `plan` of the frame that the next step draws.
-    int *members;           // Subjects of the round, grouped by base.
+    int *members;           // Subjects that the round draws besides the bases, grouped by base.
     DipDriverBlock *blocks; // Blocks of the round, in the order in which they are drawn.
     int *order;             // Scratch for shuffling.
     int *frames; // First the frames that all subjects draw, then those that only bases draw.
     // Number of the frames that all subjects draw, and number of all elements of `frames`.
     int frame_count, all_frame_count;
-    int *is_needed; // [subject]: 1 if the round draws the subject.
+    int *is_needed; // [subject]: 1 if the round draws the subject. Not used for bases.
     int *score;     // [subject]: number of undisturbed frames minus three times that of disturbed
                     // ones.
 

@@ -35,7 +35,7 @@ extern DIP_API const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
 typedef struct DipBenchSample {
     double ms[DIP_BENCH_STAGE_COUNT]; // [DipBenchStage]
     DipCounters counters;
-    char hash[33]; // Hash of the pixels, or "" if no hash was requested.
+    char hash[33]; // Hash of the picture (dip_frame_hash), or "" if none was requested.
 } DipBenchSample;
 
 // Fills in the sample of a frame that was just drawn. `hash` says whether to compute the hash.
