@@ -3,8 +3,9 @@
 #define DIP_APP_CLI_MEASURE_OPTIONS_H
 
 #include "app/cli/options.h"
+#include "app/measure/stats/rounds.h"
 
-enum { DIP_MEASURE_MOST_ROUNDS = 10000, DIP_MEASURE_MOST_STARTS = 100 };
+enum { DIP_MEASURE_MOST_ROUNDS = 10000, DIP_MEASURE_MOST_STARTS = DIP_TIMED_MOST_STARTS };
 
 typedef struct DipMeasureOptions {
     int rounds; // Number of rounds of each start (driver.h); 0 if the command chooses.

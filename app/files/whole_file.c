@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,12 +22,13 @@ static bool write_all(const char *name, const void *bytes, size_t size_bytes) {
 }
 
 bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes, DipError *err) {
-    const size_t room = strlen(file) + 32;
+    static atomic_uint serial; // Two threads may write the same file at once.
+    const size_t room = strlen(file) + 48;
     char *temporary = malloc(room);
     if (!temporary) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
-    snprintf(temporary, room, "%s.%ld.tmp", file, (long)getpid());
+    snprintf(temporary, room, "%s.%ld.%u.tmp", file, (long)getpid(), atomic_fetch_add(&serial, 1));
     bool written = write_all(temporary, bytes, size_bytes) && rename(temporary, file) == 0;
     if (!written) {
         const int reason = errno;

@@ -85,9 +85,9 @@ void dip_budget_text(double budget_ms, char text[DIP_BUDGET_BYTES]) {
 void dip_fits_text(double fits, char text[DIP_NUMBER_BYTES]) {
     if (isnan(fits)) {
         snprintf(text, DIP_NUMBER_BYTES, "unknown");
-    } else if (fits > 0.995 && fits < 0.9995) {
+    } else if (fits >= 0.995 && fits < 0.9995) {
         snprintf(text, DIP_NUMBER_BYTES, "99 %%");
-    } else if (fits < 0.005 && fits > 0.0005) {
+    } else if (fits <= 0.005 && fits > 0.0005) {
         snprintf(text, DIP_NUMBER_BYTES, "1 %%");
     } else {
         snprintf(text, DIP_NUMBER_BYTES, "%.0f %%", 100.0 * fits);

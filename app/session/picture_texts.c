@@ -42,14 +42,14 @@ static const char *path_name(const DipSession *session, bool free_camera) {
     if (free_camera) {
         return "free camera";
     }
+    if (session->shows_gallery && session->gallery_path) {
+        return "scene"; // A scene's own path, also where --path or --pose began with another.
+    }
     if (options && options->has_pose) {
         return "pose";
     }
     if (options && options->path) {
         return options->path;
-    }
-    if (session->shows_gallery) {
-        return "scene";
     }
     // A category without a path of its own plays the path of category 0.
     const DipCamTrack *track = &session->track;

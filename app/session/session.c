@@ -164,11 +164,8 @@ bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
     return made;
 }
 
-// Reads the pictures that stand for mip levels in mip debugging, and gives them to the painters.
-// The ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... name the files of these pictures. A level
-// without a picture keeps its debug colour. If a picture cannot be read, the error has the line of
-// the ini that names this picture.
-static bool load_mip_pictures(DipSession *session, DipErrorList *faults) {
+bool dip_session_load_mip_pictures(DipSession *session, DipPainter *const painters[DIP_PANE_COUNT],
+                                   DipErrorList *faults) {
     DipPicture pictures[DIP_MIP_LEVEL_COUNT] = {{0}};
     DipTextureDef defs[DIP_MIP_LEVEL_COUNT];
     const DipTextureDef *given[DIP_MIP_LEVEL_COUNT] = {NULL};
@@ -191,7 +188,7 @@ static bool load_mip_pictures(DipSession *session, DipErrorList *faults) {
         }
     }
     for (int p = 0; loaded && any && p < DIP_PANE_COUNT; p++) {
-        loaded = dip_painter_set_mip_pictures(session->renderers[p], given, &err) ||
+        loaded = dip_painter_set_mip_pictures(painters[p], given, &err) ||
                  dip_session_add_fault(faults, &err);
     }
     for (int level = 0; level < DIP_MIP_LEVEL_COUNT; level++) {
@@ -212,7 +209,7 @@ static bool make_renderers(DipSession *session, DipErrorList *faults) {
                                    &err)) {
         return dip_session_add_fault(faults, &err);
     }
-    return load_mip_pictures(session, faults);
+    return dip_session_load_mip_pictures(session, session->renderers, faults);
 }
 
 static bool make_pool(DipSession *session, DipErrorList *faults) {

@@ -103,6 +103,18 @@ bool dip_session_load_gallery_path(DipSession *session, DipErrorList *faults) {
 
 // --- going to another scene ----------------------------------------------------------------------
 
+// Gives the painters the ini's pictures of mip levels. On failure, *err is the first fault.
+static bool load_mip_pictures(DipSession *session, DipPainter *const painters[DIP_PANE_COUNT],
+                              DipError *err) {
+    DipErrorList faults = {0};
+    const bool loaded = dip_session_load_mip_pictures(session, painters, &faults);
+    if (!loaded && err) {
+        *err = faults.items[0];
+    }
+    dip_error_list_free(&faults);
+    return loaded;
+}
+
 // Shows a scene of the gallery, or the models if scene is the number of scenes.
 static bool show_scene(DipSession *session, int scene, DipError *err) {
     const bool models = scene == dip_gallery_scene_count();
@@ -121,8 +133,10 @@ static bool show_scene(DipSession *session, int scene, DipError *err) {
         dip_gallery_set_look(gallery, 0); // --look is for the first scene only.
     }
     if ((!models && !path) ||
-        !dip_session_make_painters(session, gallery, qualities, painters, err)) {
+        !dip_session_make_painters(session, gallery, qualities, painters, err) ||
+        (models && !load_mip_pictures(session, painters, err))) {
         dip_painter_destroy(&painters[0]);
+        dip_painter_destroy(&painters[1]);
         dip_campath_destroy(&path);
         dip_gallery_destroy(&gallery);
         return false;

@@ -27,6 +27,13 @@ bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
                                const DipQuality qualities[DIP_PANE_COUNT],
                                DipPainter *painters[DIP_PANE_COUNT], DipError *err);
 
+// Reads the pictures that stand for mip levels in mip debugging, and gives them to the painters.
+// The ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... name the files of these pictures. A level
+// without a picture keeps its debug colour. If a picture cannot be read, the error has the line of
+// the ini that names this picture. In session.c.
+bool dip_session_load_mip_pictures(DipSession *session, DipPainter *const painters[DIP_PANE_COUNT],
+                                   DipErrorList *faults);
+
 // Lists the models' files, from the command line or the ini, and returns their number. In
 // session_scene.c.
 int dip_session_model_files(const DipSession *session, const char *files[DIP_MAX_MODELS]);

@@ -36,6 +36,9 @@ static const struct {
     {SDLK_KP_0, '0'},
     {SDLK_KP_PLUS, '+'},
     {SDLK_KP_MINUS, '-'},
+    {SDLK_KP_MULTIPLY, '*'},
+    {SDLK_KP_DIVIDE, '/'},
+    {SDLK_KP_PERIOD, '.'},
 };
 
 // If a key outside the keypad types a character, SDL's code of the key is that character's code

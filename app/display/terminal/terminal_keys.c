@@ -229,7 +229,8 @@ static int read_control(const uint8_t *bytes, int count, DipEvent *event) {
     return sequence.length;
 }
 
-// Reads a character beyond ASCII. A byte that is not valid UTF-8 is skipped.
+// Reads a character beyond ASCII. A byte that is not valid UTF-8 is skipped, and so is a character
+// that has more bytes than it needs.
 static int read_utf8(const uint8_t *bytes, int count, DipEvent *event) {
     const int length = bytes[0] >= 0xf0 ? 4 : bytes[0] >= 0xe0 ? 3 : bytes[0] >= 0xc2 ? 2 : 1;
     int code = length == 1 ? 0 : bytes[0] & (0x7f >> length);
@@ -242,7 +243,8 @@ static int read_utf8(const uint8_t *bytes, int count, DipEvent *event) {
         }
         code = code << 6 | (bytes[i] & 0x3f);
     }
-    if (code <= 0x10ffff) {
+    static const int least[] = {0, 0, 0x80, 0x800, 0x10000}; // [length]
+    if (code >= least[length] && code > 0 && code <= 0x10ffff) {
         *event = key_event(code, 0);
     }
     return length;

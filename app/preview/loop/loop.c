@@ -38,7 +38,6 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->state.costs = def->costs;
     preview->state.choice = &preview->choice;
     preview->state.in_terminal = def->display.set_text != NULL;
-    dip_scene_words(def->session->options, preview->state.scene_words);
     preview->state.animations = &def->session->animations;
     preview->state.shows_gallery = def->session->shows_gallery;
     dip_pilot_enter(&preview->state.flight, def->session);

@@ -151,7 +151,8 @@ bool dip_loop_draw_panes(DipPreview *preview, DipError *err) {
     const bool changed = preview->state.scene_changes != preview->drawn_changes || preview->resized;
     preview->settling = changed ? DIP_FRAMES_BEFORE : preview->settling - (preview->settling > 0);
     number_picture(preview);
-    dip_scene_words(preview->def.session->options, preview->state.scene_words);
+    dip_scene_words(session->options, session->shows_gallery ? preview->state.look : 0,
+                    preview->state.scene_words);
     preview->state.pane_width = preview->frame.panes[0].width;
     preview->state.pane_height = preview->frame.panes[0].height;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -332,6 +333,7 @@ static void update_tools(DipPreview *preview) {
         .height = frame->height,
         .copied = preview->frame.copied,
         .still = dip_preview_rests(&preview->state, preview->flying),
+        .loupe = dip_loupe_is_on(&preview->state.tools),
     };
     preview->redraw |= dip_tools_update(preview->tools, &input);
 }

@@ -254,7 +254,7 @@ static void adjust(const Act *act) {
     DipToolState *tools = &act->state->tools;
     if (tools->map != DIP_MAP_NONE) {
         const double brightness = tools->brightness * (act->reverse ? 0.5 : 2.0);
-        tools->brightness = brightness < 0.125 ? 0.125 : brightness > 64.0 ? 64.0 : brightness;
+        tools->brightness = brightness < 1.0 ? 1.0 : brightness > 64.0 ? 64.0 : brightness;
     } else if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
         const int gain = act->reverse ? tools->gain / 2 : tools->gain * 2;
         tools->gain = gain < 1 ? 1 : gain > MAX_GAIN ? MAX_GAIN : gain;

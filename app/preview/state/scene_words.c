@@ -28,10 +28,13 @@ static bool quote(const char *value, char word[DIP_SCENE_WORDS_BYTES]) {
     return true;
 }
 
-// Appends an option and its value, or " ..." if they do not fit.
+// Appends an option and its value, or " ..." if they do not fit. A NULL value appends nothing.
 static void add_option(char text[DIP_SCENE_WORDS_BYTES], const char *option, const char *value) {
     static const char cut[] = " ...";
     char word[DIP_SCENE_WORDS_BYTES];
+    if (!value) {
+        return;
+    }
     const size_t start = strlen(text), room = DIP_SCENE_WORDS_BYTES - start;
     const bool quoted = quote(value, word);
     const int length = quoted ? snprintf(text + start, room, " %s %s", option, word) : 0;
@@ -40,26 +43,34 @@ static void add_option(char text[DIP_SCENE_WORDS_BYTES], const char *option, con
     }
 }
 
-void dip_scene_words(const DipSessionOptions *options, char text[DIP_SCENE_WORDS_BYTES]) {
+static void add_models(const DipSessionOptions *options, char text[DIP_SCENE_WORDS_BYTES]) {
+    char time_s[32];
+    for (int i = 0; i < options->model_count; ++i) {
+        add_option(text, "--model", options->models[i]);
+    }
+    add_option(text, "--up", options->up ? dip_up_axis_names[options->up] : NULL);
+    add_option(text, "--shading",
+               options->has_shading ? dip_model_shading_names[options->shading] : NULL);
+    if (options->no_ground) {
+        strncat(text, " --no-ground", DIP_SCENE_WORDS_BYTES - strlen(text) - 1);
+    }
+    add_option(text, "--animation", options->animation);
+    snprintf(time_s, sizeof time_s, "%.17g", options->animation_time_s);
+    add_option(text, "--animation-time", options->has_animation_time ? time_s : NULL);
+}
+
+void dip_scene_words(const DipSessionOptions *options, int look, char text[DIP_SCENE_WORDS_BYTES]) {
+    char number[32], size[32];
     text[0] = '\0';
     if (!options) {
         return;
     }
-    if (options->config) {
-        add_option(text, "--config", options->config);
-    }
-    for (int i = 0; i < options->model_count; ++i) {
-        add_option(text, "--model", options->models[i]);
-    }
-    if (options->animation) {
-        add_option(text, "--animation", options->animation);
-    }
-    if (options->scene) {
-        add_option(text, "--scene", options->scene);
-    }
-    if (options->has_size) {
-        char size[32];
-        snprintf(size, sizeof size, "%dx%d", options->size.width, options->size.height);
-        add_option(text, "--size", size);
-    }
+    add_option(text, "--config", options->config);
+    add_models(options, text);
+    add_option(text, "--scene", options->scene);
+    snprintf(number, sizeof number, "%d", look + 1);
+    add_option(text, "--look", look > 0 ? number : NULL);
+    add_option(text, "--path", options->path);
+    snprintf(size, sizeof size, "%dx%d", options->size.width, options->size.height);
+    add_option(text, "--size", options->has_size ? size : NULL);
 }

@@ -180,7 +180,7 @@ static bool read_pane(DipLoupe *loupe, int pane, const DipToolsInput *input) {
 bool dip_loupe_update(DipLoupe *loupe, const DipToolsInput *input) {
     loupe->frame_index = input->frame_index;
     const DipTargetRegion *wanted = &loupe->wanted;
-    if (!loupe->is_wanted || !input->still || wanted->x0 < 0 || wanted->y0 < 0 ||
+    if (!loupe->is_wanted || !input->loupe || !input->still || wanted->x0 < 0 || wanted->y0 < 0 ||
         wanted->x1 > input->width || wanted->y1 > input->height) {
         return false;
     }

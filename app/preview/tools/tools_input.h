@@ -16,6 +16,7 @@ typedef struct DipToolsInput {
     int height;                        // Height of the panes' pictures, in pixels.
     bool copied; // The requested pane shows a copy of the current one (DipSessionFrame).
     bool still;  // Camera and scene stand still.
+    bool loupe;  // The loupe shows (dip_loupe_is_on).
 } DipToolsInput;
 
 // The versions of the tools' pictures begin at these numbers. Equal versions mean equal pixels

@@ -319,7 +319,8 @@ void dip_table_print_html(const DipTable *table, FILE *out) {
                  "<div class=\"table\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
                  "aria-labelledby=\"%s-caption\">\n<table id=\"%s\" data-set=\"%s\">\n"
                  "<caption id=\"%s-caption\"><span>%s</span></caption>\n<thead><tr>",
-                 table->id, table->id, table->set ? table->set : "", table->id, table->caption);
+                 table->id, table->id, table->set ? table->set : "", table->id,
+                 table->caption ? table->caption : "");
     write_head(&layout, out);
     dip_put_html(out, "</tr></thead>\n<tbody>\n");
     for (int i = 0; i < table->count; i++) {

@@ -418,9 +418,43 @@ static void words_are_searched_in_the_help(void **unused) {
     assert_true(!state.help && !state.quit);
 }
 
+// The command lines that the window shows must lead to the scene that it shows.
+static void the_words_of_a_scene_name_all_that_changes_it(void **state) {
+    (void)state;
+    char text[DIP_SCENE_WORDS_BYTES];
+    dip_scene_words(NULL, 0, text);
+    assert_string_equal(text, "");
+    dip_scene_words(&(DipSessionOptions){.config = NULL}, 0, text);
+    assert_string_equal(text, "");
+    const DipSessionOptions models = {.models = {"my car.glb", "b.obj"},
+                                      .model_count = 2,
+                                      .up = DIP_UP_z,
+                                      .no_ground = true,
+                                      .has_shading = true,
+                                      .shading = DIP_MODEL_SHADING_flat,
+                                      .animation = "it's on",
+                                      .has_animation_time = true,
+                                      .animation_time_s = 0.25,
+                                      .path = "a.pth",
+                                      .has_size = true,
+                                      .size = {640, 480}};
+    dip_scene_words(&models, 0, text);
+    assert_string_equal(text, " --model 'my car.glb' --model b.obj --up z --shading flat "
+                              "--no-ground --animation 'it'\\''s on' --animation-time 0.25 "
+                              "--path a.pth --size 640x480");
+    dip_scene_words(&(DipSessionOptions){.config = "a.ini", .scene = "blend"}, 2, text);
+    assert_string_equal(text, " --config a.ini --scene blend --look 3");
+    char longest[DIP_SCENE_WORDS_BYTES];
+    memset(longest, 'a', sizeof longest - 1);
+    longest[sizeof longest - 1] = '\0';
+    dip_scene_words(&(DipSessionOptions){.config = "a.ini", .scene = longest}, 0, text);
+    assert_string_equal(text, " --config a.ini ...");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_are_searched_in_the_help),
+        cmocka_unit_test(the_words_of_a_scene_name_all_that_changes_it),
         cmocka_unit_test(slow_temporal_antialiasing_is_named),
         cmocka_unit_test(frames_are_due_in_steps_of_the_refresh),
         cmocka_unit_test(refreshes_without_a_picture_count_for_five_seconds),
