@@ -10,6 +10,13 @@ static float choose_amount(SearchMaker *maker) {
     return (float)choices_draw(maker->choices, 9) / 8.0f;
 }
 
+// Returns a number from 0 to 1, and most often 0 or 1, so that what glass lets through is seen. The
+// number 0 means 0.
+static float choose_extreme(SearchMaker *maker) {
+    static const float amounts[] = {0.0f, 0.0f, 0.0f, 0.0f, 0.125f, 0.5f, 0.875f, 1.0f, 1.0f};
+    return amounts[choices_draw(maker->choices, sizeof amounts / sizeof *amounts)];
+}
+
 // Returns a number from 1 to 0. The number 0 means 1.
 static float choose_share(SearchMaker *maker) {
     return 1.0f - choose_amount(maker);
@@ -55,14 +62,14 @@ static void choose_layers(SearchMaker *maker, DipPbrDef *pbr) {
         choose_colour(maker, pbr->sheen_lin);
         pbr->sheen_roughness = choose_amount(maker);
     }
-    if (choices_rarely(maker->choices, 2)) {
-        pbr->transmission = choose_share(maker);
+    if (choices_draw(maker->choices, 4)) {
+        pbr->transmission = 1.0f - choose_extreme(maker);
     }
 }
 
 static void choose_gloss(SearchMaker *maker, int material) {
     Choices *choices = maker->choices;
-    const float metallic = choose_amount(maker);
+    const float metallic = choose_extreme(maker);
     DipPbrDef *pbr =
         dip_test_scene_add_pbr(&maker->made->scene, material, metallic, choose_share(maker));
     if (choices_rarely(choices, 3)) {
@@ -88,10 +95,10 @@ static void finish_material(SearchMaker *maker, int index, bool clear_water) {
     if (!is_plain(material)) {
         return;
     }
-    if (material->surface == DIP_SURFACE_OPAQUE && choices_rarely(maker->choices, 2) &&
+    if (material->surface == DIP_SURFACE_OPAQUE && choices_draw(maker->choices, 4) &&
         !clear_water) {
         material->surface = DIP_SURFACE_BLENDED;
-        material->opacity = choose_share(maker);
+        material->opacity = 1.0f - 0.75f * choose_extreme(maker);
     }
     if (choices_draw(maker->choices, 4)) {
         choose_gloss(maker, index);
