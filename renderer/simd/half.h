@@ -5,6 +5,15 @@
 
 #include "renderer/simd/vec.h"
 
+// clang's memory sanitizer takes a lane of _mm512_permutex2var_* as unwritten if any operand has an
+// unwritten lane at the same place, wherever the lane's value comes from. With the sanitizer, plain
+// code does the same.
+#if defined(__has_feature)
+#if __has_feature(memory_sanitizer)
+#define VEC_NO_PERMUTE2 1
+#endif
+#endif
+
 // --- half vectors ------------------------------------------------------------------------------
 
 // The number of lanes of a half vector is the number of doubles that fit into a vector of vec.h. Vd
@@ -225,7 +234,7 @@ VEC_INLINE void hi_store_packed(int32_t *out, Hi v, unsigned bits) {
 
 // Joins each pair of 32-bit lanes into one 64-bit lane, with `low` in the lower half.
 VEC_INLINE Vl vl_pair(Hi low, Hi high) {
-#if VEC_AVX512
+#if VEC_AVX512 && !VEC_NO_PERMUTE2
     const __m512i order = _mm512_set_epi32(23, 7, 22, 6, 21, 5, 20, 4, 19, 3, 18, 2, 17, 1, 16, 0);
     return (Vl)_mm512_permutex2var_epi32(_mm512_castsi256_si512((__m256i)low), order,
                                          _mm512_castsi256_si512((__m256i)high));
@@ -246,7 +255,7 @@ VEC_INLINE Vl vl_pair(Hi low, Hi high) {
 // Stores four 64-bit words per lane: lane i of row[0..3] goes to out + i * stride_bytes.
 VEC_INLINE void vl_store_rows(void *out, size_t stride_bytes, const Vl row[4]) {
     char *at = out;
-#if VEC_AVX512
+#if VEC_AVX512 && !VEC_NO_PERMUTE2
     const __m512i first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
     const __m512i second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
     const __m512i even[2] = {_mm512_unpacklo_epi64((__m512i)row[0], (__m512i)row[1]),

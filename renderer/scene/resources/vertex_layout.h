@@ -4,11 +4,14 @@
 
 #include "renderer/scene/resources/scene_layout.h"
 
+// Positions, both sets of texture coordinates, alphas, normals and colours.
+enum { DIP_MAX_VERTEX_ARRAYS = 6 };
+
 // The arrays whose elements make up a vertex, in order; see DipSurfaceUniforms.
 typedef struct DipVertexLayout {
-    const float *source[5];
-    int size[5]; // floats per vertex of each array
-    int count;   // number of arrays
+    const float *source[DIP_MAX_VERTEX_ARRAYS];
+    int size[DIP_MAX_VERTEX_ARRAYS]; // floats per vertex of each array
+    int count;                       // number of arrays
     int attribute_count;
 } DipVertexLayout;
 

@@ -286,6 +286,29 @@ static void scenes_equal_the_reference(void **state) {
     author_free(&scene);
 }
 
+// A vertex with everything that a file can give it: both sets of texture coordinates, an alpha, a
+// normal and a colour.
+static void a_vertex_may_have_all_arrays(void **state) {
+    (void)state;
+    static float colours[3 * sizeof alphas[0] / sizeof alphas[0][0]];
+    author_begin(&scene);
+    const int material = author_add_pbr(&scene, 0.5f, 0.6f);
+    scene.materials[material].surface = DIP_SURFACE_BLENDED;
+    scene.materials[material].opacity = 0.9f;
+    scene.materials[material].colour_texture = author_add_texture(&scene, 4, DIP_ENCODING_SRGB);
+    scene.pbrs[material].occlusion_map = author_add_texture(&scene, 4, DIP_ENCODING_LINEAR);
+    scene.pbrs[material].occlusion_at_uv1 = true;
+    author_add_quad(&scene, material, (const float[]){-2.0f, -2.0f, 0.0f},
+                    (const float[]){4.0f, 0.0f, 0.0f}, (const float[]){0.0f, 4.0f, 0.0f});
+    set_alphas(0, 0.0f, (const float[]){0.2f, 0.1f, 0.0f});
+    for (uint32_t i = 0; i < 3 * scene.meshes[0].vertex_count; i++) {
+        colours[i] = 0.2f * (float)(i % 5 + 1);
+    }
+    scene.meshes[0].colours_lin = colours;
+    compare("all_arrays", "aa=4");
+    author_free(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_alpha_of_the_vertices_blends),
@@ -293,6 +316,7 @@ int main(void) {
         cmocka_unit_test(an_opaque_surface_ignores_it),
         cmocka_unit_test(numbers_out_of_range_are_refused),
         cmocka_unit_test(scenes_equal_the_reference),
+        cmocka_unit_test(a_vertex_may_have_all_arrays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -117,11 +117,22 @@ static bool all_identity(const SearchScene *made) {
     return true;
 }
 
+// Other lights would have to be scaled or moved with the world.
+static bool all_lights_are_directional(const SearchScene *made) {
+    for (int i = 0; i < made->scene.lighting.light_count; i++) {
+        if (made->scene.lights[i].kind != DIP_LIGHT_DIRECTIONAL) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool scale_world(SearchScene *made) {
     const double factor = 0x1p-9;
     const double *eye = made->scene.pose.position_world;
     bool possible = made->scene.def.near_m > 1e-9f && all_identity(made) &&
-                    all_vertices(made, is_close) && is_close(made, eye);
+                    all_lights_are_directional(made) && all_vertices(made, is_close) &&
+                    is_close(made, eye);
     for (int m = 0; m < made->scene.def.mesh_count; m++) {
         float *positions = (float *)(uintptr_t)made->scene.meshes[m].positions;
         for (uint32_t i = 0; i < 3 * made->scene.meshes[m].vertex_count; i++) {
@@ -147,7 +158,7 @@ static bool add_exactly(float *value, double number) {
 
 static bool move_all(SearchScene *made) {
     static const double move[3] = {3072.0, -1024.0, 5120.0};
-    bool exact = all_identity(made);
+    bool exact = all_identity(made) && all_lights_are_directional(made);
     for (int m = 0; m < made->scene.def.mesh_count; m++) {
         float *positions = (float *)(uintptr_t)made->scene.meshes[m].positions;
         for (uint32_t i = 0; i < 3 * made->scene.meshes[m].vertex_count; i++) {

@@ -35,11 +35,47 @@ static void describe_texture(const SearchScene *made, const char *use, int index
     }
 }
 
+static void describe_pbr(const SearchScene *made, const DipPbrDef *pbr, FILE *out) {
+    const float *f0 = pbr->f0_lin;
+    fprintf(out, "  metal %g, roughness %g, f0 (%g, %g, %g), f90 %g, normal scale %g",
+            (double)pbr->metallic, (double)pbr->roughness, (double)f0[0], (double)f0[1],
+            (double)f0[2], (double)pbr->f90, (double)pbr->normal_scale);
+    describe_texture(made, "metal-rough map", pbr->metal_rough_map, out);
+    describe_texture(made, "occlusion map", pbr->occlusion_map, out);
+    describe_texture(made, "emission map", pbr->emission_map, out);
+    fprintf(out,
+            "\n  occlusion %g, emission (%g, %g, %g), coat %g of roughness %g, "
+            "sheen (%g, %g, %g) of roughness %g, transmission %g\n",
+            (double)pbr->occlusion_strength, (double)pbr->emission_lin[0],
+            (double)pbr->emission_lin[1], (double)pbr->emission_lin[2], (double)pbr->coat,
+            (double)pbr->coat_roughness, (double)pbr->sheen_lin[0], (double)pbr->sheen_lin[1],
+            (double)pbr->sheen_lin[2], (double)pbr->sheen_roughness, (double)pbr->transmission);
+}
+
+static void describe_lights(const DipLightingDef *lighting, FILE *out) {
+    fprintf(out, "lights: ambient %g, %s\n", (double)lighting->ambient_lin[0],
+            lighting->shading == DIP_SHADING_PHONG ? "Phong" : "Gouraud");
+    for (int i = 0; i < lighting->light_count; i++) {
+        const DipLightDef *light = &lighting->lights[i];
+        const bool far = light->kind == DIP_LIGHT_DIRECTIONAL;
+        const float *at = far ? light->direction_world : light->position_world;
+        fprintf(out, "  %s (%.9g, %.9g, %.9g), colour (%g, %g, %g)\n", far ? "towards" : "at",
+                (double)at[0], (double)at[1], (double)at[2], (double)light->colour_lin[0],
+                (double)light->colour_lin[1], (double)light->colour_lin[2]);
+    }
+}
+
 static void describe_material(const SearchScene *made, const DipMaterialDef *material, FILE *out) {
-    static const char *const surfaces[] = {"opaque", "clipped", "water", "sky"};
+    static const char *const surfaces[] = {"opaque", "clipped", "blended", "water", "sky"};
     fprintf(out, "  material: %s", surfaces[material->surface]);
     if (material->surface == DIP_SURFACE_CLIPPED) {
         fprintf(out, " at %g", (double)material->alpha_cutoff);
+    }
+    if (material->surface == DIP_SURFACE_BLENDED) {
+        fprintf(out, " with opacity %g", (double)material->opacity);
+    }
+    if (material->surface == DIP_SURFACE_WATER) {
+        fprintf(out, " with transmission %g", (double)material->transmission);
     }
     fprintf(out, "%s%s, base colour (%g, %g, %g)", material->double_sided ? ", double-sided" : "",
             material->lit ? ", lit" : "", (double)material->base_colour_lin[0],
@@ -48,6 +84,9 @@ static void describe_material(const SearchScene *made, const DipMaterialDef *mat
     describe_texture(made, "light map", material->light_map, out);
     describe_texture(made, "normal map", material->normal_map, out);
     fprintf(out, "\n");
+    if (material->pbr) {
+        describe_pbr(made, material->pbr, out);
+    }
 }
 
 static void describe_vertices(const DipMeshDef *mesh, FILE *out) {
@@ -63,6 +102,9 @@ static void describe_vertices(const DipMeshDef *mesh, FILE *out) {
         if (mesh->uv1) {
             fprintf(out, ", uv1 (%.9g, %.9g)", (double)mesh->uv1[2 * v],
                     (double)mesh->uv1[2 * v + 1]);
+        }
+        if (mesh->alphas) {
+            fprintf(out, ", alpha %g", (double)mesh->alphas[v]);
         }
         fprintf(out, "\n");
     }
@@ -89,6 +131,9 @@ void search_scene_describe(const SearchScene *made, FILE *out) {
     if (reflection->width) {
         fprintf(out, "reflection: %dx%d pixels, level %.9g m%s\n", reflection->width,
                 reflection->height, reflection->level_m, reflection->schlick ? ", Schlick" : "");
+    }
+    if (made->scene.def.lighting) {
+        describe_lights(made->scene.def.lighting, out);
     }
     for (int i = 0; i < made->scene.def.object_count; i++) {
         describe_object(made, i, out);

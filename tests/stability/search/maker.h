@@ -32,6 +32,10 @@ void search_make_shape(SearchMaker *maker);
 // Makes a material and its textures. Returns its index.
 int search_make_material(SearchMaker *maker);
 
+// Draws the choices that come after all others of a scene: metal and gloss, blending, alphas of
+// vertices, and lights (finish.c).
+void search_finish_materials(SearchMaker *maker);
+
 // Adds the shape to the scene as a mesh and an object with a transform.
 void search_add_mesh(SearchMaker *maker, int material);
 

@@ -167,6 +167,7 @@ void search_scene_make(SearchScene *made, Choices *choices) {
         choices_end_part(choices, part);
     }
     choose_reflection(&maker);
+    search_finish_materials(&maker);
 }
 
 StabilityShot search_scene_shot(const SearchScene *made) {

@@ -129,12 +129,18 @@ static void shake_mesh(SearchScene *made, const DipObjectDef *object, uint64_t s
     }
 }
 
-// Returns true if an object has the same vertices as the object before it.
+static bool is_sky(const SearchScene *made, const DipMeshDef *mesh) {
+    return made->scene.materials[mesh->material].surface == DIP_SURFACE_SKY;
+}
+
+// Returns true if an object has the same vertices as the object before it, and the renderer
+// computes them alike: those of a sky that are cut at the near plane are computed in floats only.
 static bool has_same_vertices(const SearchScene *made, int index) {
     const DipObjectDef *object = &made->scene.objects[index];
     const DipMeshDef *mesh = &made->scene.meshes[object->mesh];
     const DipMeshDef *other = &made->scene.meshes[object[-1].mesh];
-    return memcmp(object->transform, object[-1].transform, sizeof object->transform) == 0 &&
+    return is_sky(made, mesh) == is_sky(made, other) &&
+           memcmp(object->transform, object[-1].transform, sizeof object->transform) == 0 &&
            mesh->vertex_count == other->vertex_count && mesh->index_count == other->index_count &&
            memcmp(mesh->positions, other->positions, size_of_positions(mesh)) == 0;
 }
